@@ -185,7 +185,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, Cli::command(), out),
         Command::Materials(args) => materials::run(&args, out),
-        Command::Prt(args) => prt::run(&args, out),
+        Command::Prt(args) => prt::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

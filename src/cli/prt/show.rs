@@ -94,10 +94,11 @@ fn all(file: &PrtFile, out: &mut Out) -> miette::Result<()> {
             let rows = exit_functions.len();
             let what = if exit_functions[..] == [0] { "diffuse" } else { "glossy" };
             let columns = light_order * light_order;
-            out.line(format_args!("transfer  {what}, {rows} x {columns}, {channels} channel(s)"))?;
+            out.line(format_args!("transfer  {what}, {rows} x {columns}"))?;
             let functions: Vec<String> = exit_functions.iter().map(u16::to_string).collect();
             out.sentence(format_args!("rows      functions {} of exit radiance", functions.join(", ")))?;
             out.line(format_args!("columns   light of order {light_order}"))?;
+            out.line(format_args!("channels  {channels}"))?;
             out.line(format_args!("albedo    {}", if *includes_albedo { "included" } else { "to be multiplied" }))?;
         }
     }
