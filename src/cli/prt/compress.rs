@@ -162,7 +162,10 @@ fn table(steps: &[CpcaStep], energy: f64) -> Table {
 }
 
 fn document(args: &Args, signal: &Signal, steps: &[CpcaStep], error: &CompressionError, stored: usize) -> Value {
-    let step = |step: &CpcaStep| json!({ "vectors": step.vectors, "step": word(step.kind), "moved": step.moved, "squared_error": step.squared_error });
+    let step = |step: &CpcaStep| {
+        let &CpcaStep { vectors, kind, moved, squared_error } = step;
+        json!({ "vectors": vectors, "step": word(kind), "moved": moved, "squared_error": squared_error })
+    };
     json!({
         "out": args.out,
         "points": signal.points(),

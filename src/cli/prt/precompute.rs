@@ -36,8 +36,8 @@ const SOLID_ANGLE: f64 = 0.05;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of the
-    /// paper: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons
+    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
+    /// the paper: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons
     #[arg(value_name = "MODEL")]
     model: PathBuf,
 
@@ -66,8 +66,9 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
     incident_order: u8,
 
-    /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0, ward:A,S,X,Y
-    /// or ashikhmin-shirley:A,S,U,V with albedo A and specular reflectance S [default: the model's materials]
+    /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
+    /// ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular reflectance S [default: the model's
+    /// materials]
     #[arg(long, value_name = "BRDF")]
     brdf: Option<BrdfArg>,
 
@@ -83,8 +84,8 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "C", default_value = "scalar")]
     channels: ChannelsArg,
 
-    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an axis
-    /// X,Y,Z
+    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// axis X,Y,Z
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 

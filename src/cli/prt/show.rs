@@ -189,8 +189,9 @@ fn header_document(file: &PrtFile) -> Value {
         }),
     };
     let mesh = file.mesh.map(|mesh| {
+        let [vertex_crc, triangle_crc] = [mesh.vertex_crc, mesh.triangle_crc].map(|crc| format!("{crc:08x}"));
         json!({ "vertices": mesh.vertices, "triangles": mesh.triangles,
-                "vertex_crc": format!("{:08x}", mesh.vertex_crc), "triangle_crc": format!("{:08x}", mesh.triangle_crc) })
+                "vertex_crc": vertex_crc, "triangle_crc": triangle_crc })
     });
     json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some() })
 }
@@ -198,7 +199,9 @@ fn header_document(file: &PrtFile) -> Value {
 fn clusters_document(clustering: &Clustering) -> Value {
     let clusters = clustering.subspaces().iter().zip(sizes(clustering));
     let clusters: Vec<Value> = clusters
-        .map(|(subspace, points)| json!({ "points": points, "vectors": subspace.len(), "eigenvalues": subspace.eigenvalues }))
+        .map(|(subspace, points)| {
+            json!({ "points": points, "vectors": subspace.len(), "eigenvalues": subspace.eigenvalues })
+        })
         .collect();
     json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
 }
@@ -208,5 +211,6 @@ fn vertex_document(file: &PrtFile, vertex: usize) -> Value {
         json!({ "cluster": clustering.of_point()[vertex], "weights": clustering.weights(vertex),
                 "approximation": approximation(clustering, vertex) })
     });
-    json!({ "number": vertex, "transfer": file.transfer.as_ref().map(|signal| signal.point(vertex)), "clustered": clustered })
+    let transfer = file.transfer.as_ref().map(|signal| signal.point(vertex));
+    json!({ "number": vertex, "transfer": transfer, "clustered": clustered })
 }
