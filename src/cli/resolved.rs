@@ -9,8 +9,8 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 const WITHOUT_EFFECT: [&str; 8] =
     ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help"];
 
-/// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. A default
-/// that a given option replaces is left out.
+/// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. A
+/// default that a given option replaces is left out.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
     let (mut text, mut command, mut matches) = (program.get_name().to_owned(), program, matches);
     while let Some((name, inner)) = matches.subcommand() {
