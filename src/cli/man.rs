@@ -15,7 +15,7 @@ Examples:
   crossbar man --out ~/.local/share/man/man1
       where `man crossbar-alu` finds it";
 
-/// Write the manual pages: one of the program, one of each command
+/// Write the manual pages: one of the program, one of each command and of each of its verbs
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
@@ -41,7 +41,9 @@ pub(super) fn run(args: &Args, program: clap::Command, out: &mut Out) -> miette:
 fn pages(program: clap::Command) -> Vec<(String, Vec<u8>)> {
     let mut program = program.disable_help_subcommand(true);
     program.build();
-    let commands: Vec<clap::Command> = program.get_subcommands().cloned().collect();
+    let of = |command: &clap::Command| command.get_subcommands().cloned().collect::<Vec<_>>();
+    let commands: Vec<clap::Command> =
+        of(&program).into_iter().flat_map(|command| [of(&command), vec![command]].concat()).collect();
     let page = |command| {
         let page = Man::new(command).source(concat!("crossbar ", env!("CARGO_PKG_VERSION"))).manual("Crossbar");
         let mut text = Vec::new();

@@ -26,6 +26,7 @@ mod number;
 mod out;
 mod pixel;
 mod progress;
+mod prt;
 mod radiosity;
 mod render;
 mod reproduce;
@@ -114,6 +115,7 @@ enum Command {
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
     Materials(materials::Args),
+    Prt(prt::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -183,6 +185,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, Cli::command(), out),
         Command::Materials(args) => materials::run(&args, out),
+        Command::Prt(args) => prt::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

@@ -1,4 +1,4 @@
-//! A mesh by name or from a file.
+//! A model by name or from a file.
 
 use std::path::Path;
 
@@ -6,29 +6,62 @@ use super::{Problem, scene_name, view};
 use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::names::did_you_mean;
-use crate::scene::built::{self, stand_ins};
+use crate::scene::built::{self, stand_ins, transfer_models};
+use crate::scene::{Material, Scene};
 
-/// The path, unless it is the name of a stand-in or of a scene of the project.
-pub(super) fn named_file(path: &Path) -> Vec<&Path> {
-    if stand_ins::names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
+/// The material of models that have none: reflectance a half.
+const PLAIN: [f32; 3] = [0.5; 3];
+
+/// A mesh with the normals that it has, and a material per triangle.
+pub(super) struct Model {
+    pub(super) mesh: Mesh,
+    pub(super) materials: Vec<Material>,
+    pub(super) material_of: Vec<u32>,
 }
 
-/// The mesh of a stand-in, of a scene by its name, or of a file, with the normals that it has.
+impl Model {
+    /// A mesh of one plain material.
+    pub(super) fn plain(mesh: Mesh) -> Self {
+        Self { material_of: vec![0; mesh.len()], materials: vec![Material::diffuse("plain", PLAIN)], mesh }
+    }
+
+    fn of(scene: &Scene) -> Self {
+        let (materials, material_of) = (scene.materials().to_vec(), scene.material_of().to_vec());
+        Self { mesh: scene.mesh_with_normals(), materials, material_of }
+    }
+}
+
+/// The names of meshes that the project builds, which are no scenes.
+fn mesh_names() -> impl Iterator<Item = &'static str> {
+    stand_ins::names().chain(transfer_models::names())
+}
+
+/// The path, unless it is the name of a mesh or of a scene of the project.
+pub(super) fn named_file(path: &Path) -> Vec<&Path> {
+    if mesh_names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
+}
+
+/// The mesh of the project by its name, of a scene by its name, or of a file, with the normals that it has.
 pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
+    Ok(model(path)?.mesh)
+}
+
+/// The same with materials.
+pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
-    if let Some(mesh) = stand_ins::build(name) {
-        return Ok(mesh);
+    if let Some(mesh) = stand_ins::build(name).or_else(|| transfer_models::build(name)) {
+        return Ok(Model::plain(mesh));
     }
     if let Some(scene) = built::build(name) {
-        return Ok(scene.mesh_with_normals());
+        return Ok(Model::of(&scene));
     }
     // A word without a dot or a folder is a name, not a file.
     if !path.exists() && path.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = stand_ins::names().chain(built::names()).collect();
+        let names: Vec<&str> = mesh_names().chain(built::names()).collect();
         let meant = did_you_mean(name, names.iter().copied());
         let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
         return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
     }
     view::require_mesh(path)?;
-    Ok(load(path)?.mesh_with_normals())
+    Ok(Model::of(&load(path)?))
 }

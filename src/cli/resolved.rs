@@ -9,12 +9,19 @@ use clap::{Arg, ArgAction, ArgMatches, Command};
 const WITHOUT_EFFECT: [&str; 8] =
     ["out", "executor", "adapter", "json", "threads", "all_errors", "memory_limit", "help"];
 
-/// `crossbar NAME` with positional arguments, then options in the order of the help. A default that a given option
-/// replaces is left out.
+/// `crossbar NAME`, or `crossbar NAME VERB`, with positional arguments, then options in the order of the help. A
+/// default that a given option replaces is left out.
 pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
-    let Some((name, matches)) = matches.subcommand() else { return program.get_name().to_owned() };
-    let mut text = format!("{} {name}", program.get_name());
-    let Some(command) = program.find_subcommand(name) else { return text };
+    let (mut text, mut command, mut matches) = (program.get_name().to_owned(), program, matches);
+    while let Some((name, inner)) = matches.subcommand() {
+        // Writing to a string cannot fail.
+        let _ = write!(text, " {name}");
+        let Some(found) = command.find_subcommand(name) else { return text };
+        (command, matches) = (found, inner);
+    }
+    if std::ptr::eq(command, program) {
+        return text;
+    }
     let (positional, options): (Vec<&Arg>, Vec<&Arg>) = command.get_arguments().partition(|arg| arg.is_positional());
     for arg in positional.into_iter().chain(options) {
         if WITHOUT_EFFECT.contains(&arg.get_id().as_str()) || replaced(command, arg, matches) {
@@ -76,6 +83,10 @@ mod tests {
         assert_eq!(
             resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),
             "crossbar reproduce figure-7 equation-11"
+        );
+        assert_eq!(
+            resolved(&["crossbar", "prt", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
+            "crossbar prt error a.prt b.prt --csv c.csv"
         );
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::file::{self, PrtFileError, parse_prt};
+use super::file::{self, MeshDigest, PrtFile, PrtFileError, PrtMeaning, parse_prt};
 use super::{Signal, SignalError};
 use crate::io::{
     NpyError, NumberTableError, ReadError, npy, number_table, parse_npy, parse_number_table, read_limited,
@@ -47,15 +47,27 @@ pub enum SignalFileError {
 /// # Errors
 /// [`SignalFileError`].
 pub fn load_signal(path: &Path) -> Result<Signal, SignalFileError> {
+    load_signal_and_meaning(path).map(|(_, _, signal)| signal)
+}
+
+/// The same with what its numbers are, and the mesh whose vertices its points are.
+///
+/// # Errors
+/// [`SignalFileError`].
+pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDigest>, Signal), SignalFileError> {
     let limit = file::MAX_BYTES.max(number_table::MAX_BYTES);
     let unreadable = |source| ReadError::Unreadable { what: "signal", path: path.into(), source };
     let bytes = read_limited(path, limit).map_err(unreadable)?;
     let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: "signal", path: path.into(), limit })?;
     if bytes.starts_with(file::MAGIC) {
-        let transfer = parse_prt(&bytes, path)?.transfer;
-        return transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() });
+        let PrtFile { meaning, mesh, transfer, .. } = parse_prt(&bytes, path)?;
+        let signal = transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() })?;
+        return Ok((meaning, mesh, signal));
     }
     let table =
         if bytes.starts_with(npy::MAGIC) { parse_npy(&bytes, path)? } else { parse_number_table(&bytes, path)? };
-    Signal::new(table.columns, table.values).map_err(|reason| SignalFileError::Signal { path: path.into(), reason })
+    let meaning = PrtMeaning::Numbers { dimension: u32::try_from(table.columns).unwrap_or(u32::MAX) };
+    let signal = Signal::new(table.columns, table.values);
+    let signal = signal.map_err(|reason| SignalFileError::Signal { path: path.into(), reason })?;
+    Ok((meaning, None, signal))
 }

@@ -18,5 +18,5 @@ pub mod signal;
 pub mod synthetic;
 pub mod transfer;
 
-pub use load::{SignalFileError, load_signal};
+pub use load::{SignalFileError, load_signal, load_signal_and_meaning};
 pub use signal::{Signal, SignalError};

@@ -6,6 +6,7 @@ pub mod atlas;
 pub mod configuration;
 pub mod leaky_teapot;
 pub mod picture_difference;
+pub mod prt;
 pub mod radiosity;
 pub mod reproduce;
 pub mod shade;

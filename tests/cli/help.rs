@@ -4,7 +4,10 @@ use crate::crossbar;
 
 /// All commands, in the order of the help.
 pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices diff intersect leaky-teapot man materials \
-                        radiosity render reproduce run scene subsurface timeline";
+                        prt radiosity render reproduce run scene subsurface timeline";
+
+/// The verbs of the commands that have some.
+pub(crate) const VERBS: &[&str] = &["prt compress", "prt error", "prt precompute", "prt render", "prt show"];
 
 #[test]
 fn program() {
@@ -15,6 +18,14 @@ fn program() {
 fn commands() {
     for command in COMMANDS.split(' ') {
         insta::assert_snapshot!(command, crossbar(&[command, "--help"], "").transcript());
+    }
+}
+
+#[test]
+fn verbs() {
+    for verb in VERBS {
+        let arguments: Vec<&str> = verb.split(' ').chain(["--help"]).collect();
+        insta::assert_snapshot!(verb.replace(' ', "_"), crossbar(&arguments, "").transcript());
     }
 }
 
@@ -36,8 +47,8 @@ fn every_command_is_listed_here() {
 
 #[test]
 fn every_command_has_an_example_and_speaks_json() {
-    for command in COMMANDS.split(' ') {
-        let help = crossbar(&[command, "--help"], "").stdout;
+    for command in COMMANDS.split(' ').chain(VERBS.iter().copied()) {
+        let help = crossbar(&command.split(' ').chain(["--help"]).collect::<Vec<_>>(), "").stdout;
         assert!(help.contains("Example"), "{command} shows an example");
         assert!(help.contains(&format!("crossbar {command}")), "{command}'s example can be copied");
         assert!(help.contains("--json"), "{command} speaks JSON");
@@ -94,7 +105,9 @@ fn every_command_has_a_manual_page() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crate::crossbar_in(folder.path(), &["man", "--out", "pages"], "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    for command in std::iter::once("crossbar".to_owned()).chain(COMMANDS.split(' ').map(|c| format!("crossbar-{c}"))) {
+    let commands =
+        COMMANDS.split(' ').chain(VERBS.iter().copied()).map(|c| format!("crossbar-{}", c.replace(' ', "-")));
+    for command in std::iter::once("crossbar".to_owned()).chain(commands) {
         let path = folder.path().join(format!("pages/{command}.1"));
         let page = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{command}: {e}"));
         assert!(page.contains(&format!(".TH {command} 1")), "{command}: {page}");

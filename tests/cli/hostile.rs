@@ -45,6 +45,18 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     ("man nowhere", "--out"),
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
+    ("prt compress nowhere.prt --out y.prt", "--clusters --vectors --method --iterations --seed --start --out"),
+    ("prt error nowhere.prt nowhere.prt", "--csv"),
+    (
+        "prt precompute nowhere.obj --out x.prt",
+        "--kind --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
+         --degree --bounces --bounce-tolerance --out",
+    ),
+    (
+        "prt render nowhere.prt --model nowhere.obj",
+        "--model --tangents --original --light --frames --size --eye --target --up --tan-half-height --exposure --out",
+    ),
+    ("prt show nowhere.prt", "--vertex --at --model --tangents"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
@@ -134,10 +146,10 @@ fn all_options() -> Vec<(Vec<&'static str>, &'static str)> {
 
 #[test]
 fn every_option_with_a_value_is_here() {
-    let commands = COMMANDS.iter().map(|(base, options)| (base.split(' ').next().expect("a name"), *options));
-    for name in crate::help::COMMANDS.split(' ') {
-        let options = commands.clone().find(|(known, _)| *known == name).map_or("", |(_, options)| options);
-        let help = crate::crossbar(&[name, "--help"], "").stdout;
+    for name in crate::help::COMMANDS.split(' ').chain(crate::help::VERBS.iter().copied()) {
+        let of = |base: &str| base.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
+        let options = COMMANDS.iter().find(|(base, _)| of(base)).map_or("", |(_, options)| options);
+        let help = crate::crossbar(&name.split(' ').chain(["--help"]).collect::<Vec<_>>(), "").stdout;
         for line in help.lines().filter(|line| line.trim_start().starts_with("--")) {
             let mut words = line.split_whitespace();
             let (option, value) = (words.next().expect("an option"), words.next());
@@ -147,7 +159,8 @@ fn every_option_with_a_value_is_here() {
         }
     }
     let help = crate::crossbar(&["--help"], "").stdout;
-    assert!(commands.clone().all(|(name, _)| help.contains(name)), "{:?}", commands.collect::<Vec<_>>());
+    let names = COMMANDS.iter().map(|(base, _)| base.split(' ').next().expect("a name"));
+    assert!(names.clone().all(|name| help.contains(name)), "{:?}", names.collect::<Vec<_>>());
 }
 
 #[test]
@@ -203,6 +216,16 @@ fn what_is_wrong_is_said() {
         ("radiosity white-box --paint red=1,2", "expected three numbers R,G,B, found `1,2`"),
         ("radiosity white-box --tolerance -1", "expected a number not below 0, found `-1`"),
         ("radiosity white-box --frames -1,2", "-1 is not in 1..=100000"),
+        ("prt precompute transfer-smoth --out x.prt", "did you mean `transfer-smooth`?"),
+        ("prt precompute white-box --rows 24 --out x.prt", "`--rows` is for glossy transfer"),
+        ("prt precompute white-box --kind glossy --rows 10 --out x.prt", "expected a square from 1 to 100"),
+        ("prt precompute white-box --brdf mirror:1 --out x.prt", "phong:ALBEDO,SPECULAR,EXPONENT"),
+        ("prt precompute white-box --brdf lambert:2 --out x.prt", "expected a number from 0 to 1 for the albedo"),
+        ("prt precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
+        ("prt precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
+        ("prt precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
+        ("prt render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
+        ("prt show x.prt --at 0,0,0", "--model <MODEL>"),
         ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),
         ("subsurface stand-in-head --mm-per-unit 1", "add `--material NAME` (see `crossbar materials`)"),
         ("subsurface stand-in-head --mm-per-unit 0 --material marble", "expected a number above 0, found `0`"),
@@ -238,7 +261,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 12] = [
+    let commands: [&[&str]; 16] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -247,6 +270,10 @@ fn hostile_files() {
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
+        &["prt", "compress", "IN", "--out", "y.prt"],
+        &["prt", "error", "IN", "IN"],
+        &["prt", "precompute", "IN", "--out", "x.prt"],
+        &["prt", "show", "IN"],
         &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
         &[
             "subsurface",

@@ -16,6 +16,7 @@ mod interrupted;
 mod materials;
 mod memory;
 mod program;
+mod prt;
 mod radiosity;
 mod render;
 mod reproduce;

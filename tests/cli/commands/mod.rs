@@ -45,6 +45,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
     ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
+    ("prt precompute transfer-smooth", "takes minutes; the other examples compute the same of a small model"),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
 ];
 

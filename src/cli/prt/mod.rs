@@ -1,0 +1,55 @@
+//! `crossbar prt`: precomputed radiance transfer, one file a verb.
+
+mod compress;
+mod error;
+mod light;
+mod model;
+mod precompute;
+mod render;
+mod show;
+mod values;
+
+use super::{Out, Verdict, study};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar prt precompute docs/examples/step.obj --out step.prt
+      transfer of every vertex
+  crossbar prt compress docs/examples/step.prt --clusters 8 --vectors 3 --out small.prt
+      the same by 8 clusters of 3 vectors
+  crossbar prt error docs/examples/step.prt docs/examples/step_small.prt
+      what compression costs
+  crossbar prt show docs/examples/step_small.prt --vertex 12
+      what is in a file
+  crossbar prt render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      pictures of it
+
+docs/prt-format.md specifies the files, docs/papers/cpca.md what is computed.";
+
+/// Precomputed radiance transfer: compute it, compress it by clustered principal components, draw it
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Verb {
+    Compress(compress::Args),
+    Error(error::Args),
+    Precompute(precompute::Args),
+    Render(render::Args),
+    Show(show::Args),
+}
+
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.verb {
+        Verb::Compress(args) => compress::run(args, out)?,
+        Verb::Error(args) => error::run(args, out)?,
+        Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Render(args) => return study::run(args, command_line, out),
+        Verb::Show(args) => show::run(args, out)?,
+    }
+    Ok(Verdict::Done)
+}

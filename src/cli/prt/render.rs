@@ -1,0 +1,136 @@
+//! `crossbar prt render`: pictures of a model from its transfer.
+
+use std::path::{Path, PathBuf};
+
+use super::light::LightArg;
+use super::model::{load, vertices};
+use super::values::TangentsArg;
+use crate::cli::memory::{self, MemoryNeed};
+use crate::cli::scene_name::EyeArgs;
+use crate::cli::size::Size;
+use crate::cli::study::StudyArgs;
+use crate::cli::{Problem, model_name, number};
+use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+use crate::study::prt::Rendering;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar prt render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      under a clear sky with a sun: picture, clusters, a page
+  crossbar prt render docs/examples/step_small.prt --model docs/examples/step.obj --original docs/examples/step.prt --light disk:1,0,2:20 --size 64x48
+      beside the uncompressed transfer: differences, and the error of every vertex
+  crossbar prt render docs/examples/step.prt --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
+      uncompressed, the light turned around z in eight steps
+
+Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
+
+/// Draw a model under distant light from its transfer, compressed or not
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(in crate::cli) struct Args {
+    /// Transfer or clusters; clusters are drawn where there are both
+    #[arg(value_name = "FILE.prt")]
+    file: PathBuf,
+
+    /// The model that the file was made from, as given to `crossbar prt precompute`
+    #[arg(long, value_name = "MODEL")]
+    model: PathBuf,
+
+    /// As given to `crossbar prt precompute`
+    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
+    tangents: TangentsArg,
+
+    /// Uncompressed transfer of the same model, to compare with
+    #[arg(long, value_name = "X.prt")]
+    original: Option<PathBuf>,
+
+    /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
+    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
+    #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
+    light: LightArg,
+
+    /// Pictures with the light turned around z in so many steps
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
+    frames: u32,
+
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    size: Size,
+
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    exposure: Option<f64>,
+
+    /// Where to write pictures and the page
+    #[arg(long, value_name = "DIR", default_value = "out/prt")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Args {
+    type Study = Rendering;
+    const COMMAND: &'static str = "prt render";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        let picture = if let LightArg::Picture(path) = &self.light { Some(path.as_path()) } else { None };
+        let files = [Some(self.file.as_path()), self.original.as_deref(), picture];
+        files.into_iter().flatten().chain(model_name::named_file(&self.model)).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        const PER_PIXEL: u64 = 320;
+        const PER_PIXEL_AND_FRAME: u64 = 16;
+        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(self.frames);
+        Ok(Some(MemoryNeed {
+            what: format!("{} pictures of {} pixels", 1 + self.frames, self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, per_pixel, 0),
+            help: "ask for a smaller `--size` or fewer `--frames`",
+        }))
+    }
+
+    fn study(&self) -> miette::Result<Rendering> {
+        let model = load(&self.model, self.tangents)?;
+        let digest = MeshDigest::new(&model.mesh);
+        let file = load_prt(&self.file, Some(&digest))?;
+        let vertices = vertices(&model, self.tangents)?;
+        if vertices.len() != file.points() {
+            let what = format!("expected transfer of {} vertices, found that of {}", vertices.len(), file.points());
+            return Err(Problem::usage(what, "give `--tangents` as to `crossbar prt precompute`").into());
+        }
+        let PrtMeaning::Transfer { light_order, .. } = file.meaning else {
+            let help = "compress a file that `crossbar prt precompute` wrote";
+            return Err(Problem::usage("expected transfer, found numbers without a meaning", help).into());
+        };
+        let original = match &self.original {
+            None => None,
+            Some(path) => {
+                let PrtFile { meaning, transfer, .. } = load_prt(path, Some(&digest))?;
+                let fits = transfer.filter(|_| meaning == file.meaning);
+                Some(fits.ok_or_else(|| {
+                    let what =
+                        format!("{}: expected uncompressed transfer of the same kind, found other", path.display());
+                    Problem::usage(what, "name the file that was compressed")
+                })?)
+            }
+        };
+        Ok(Rendering {
+            model: self.model.display().to_string(),
+            camera: self.eye.framing(&model.mesh, self.size)?,
+            light: self.light.of_order(light_order as usize)?,
+            light_name: self.light.name(),
+            exposure: self.exposure,
+            frames: self.frames,
+            mesh: model.mesh,
+            vertices,
+            file,
+            original,
+        })
+    }
+}

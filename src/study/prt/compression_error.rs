@@ -1,0 +1,91 @@
+//! How far a compressed signal is from the original.
+
+use crate::prt::Signal;
+use crate::prt::cpca::Clustering;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Table};
+
+/// Powers of ten that the histogram tells apart, as shares of a point's mean square.
+const DECADES: std::ops::RangeInclusive<i32> = -10..=-1;
+
+/// The squared error of every point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompressionError {
+    /// Per point.
+    pub squared: Vec<f64>,
+    /// The sum.
+    pub total: f64,
+    /// The sum of squares of the signal.
+    pub energy: f64,
+    /// Numbers per point.
+    dimension: usize,
+}
+
+impl CompressionError {
+    /// Of a signal in clusters of as many points and numbers each.
+    pub fn new(signal: &Signal, clustering: &Clustering) -> Self {
+        let squared: Vec<f64> = (0..signal.points()).map(|point| clustering.squared_error_of(point, signal)).collect();
+        let square = |&value: &f32| f64::from(value) * f64::from(value);
+        let energy = signal.sum(|point| signal.point(point).iter().map(square).sum());
+        let total = signal.sum(|point| squared[point]);
+        Self { squared, total, energy, dimension: signal.dimension() }
+    }
+
+    /// The sum as a share of the signal's sum of squares; 0 for a signal of zeros that is met.
+    pub fn relative(&self) -> f64 {
+        if self.total > 0.0 { self.total / self.energy } else { 0.0 }
+    }
+
+    /// Root mean square over all numbers.
+    pub fn root_mean_square(&self) -> f64 {
+        (self.total / (self.squared.len() * self.dimension) as f64).sqrt()
+    }
+
+    /// The point of the largest error, of equals the first.
+    pub fn largest(&self) -> usize {
+        let larger = |best: usize, point: usize| if self.squared[point] > self.squared[best] { point } else { best };
+        (0..self.squared.len()).fold(0, larger)
+    }
+
+    /// Points by their squared error, in powers of ten of a point's mean square.
+    pub fn histogram(&self) -> Table {
+        let mean = self.energy / self.squared.len() as f64;
+        let edge = |decade: i32| format!("1e{decade}").parse().unwrap_or(0.0);
+        let edges: Vec<f64> = DECADES.map(edge).collect();
+        let mut counts = vec![0_usize; edges.len() + 1];
+        for &squared in &self.squared {
+            counts[edges.partition_point(|edge| edge * mean <= squared)] += 1;
+        }
+        let mut table = Table::new(
+            "Points by squared error, in means of a point's squares",
+            &["from", "below", "points", "share (%)"],
+        );
+        let share = |count: usize| Cell::percent(100.0 * count as f64 / self.squared.len() as f64);
+        for (bin, &count) in counts.iter().enumerate() {
+            let at = |edge: Option<&f64>| edge.map_or(Cell::Empty, |&edge| shown(edge, Quantity::Exact).into());
+            let from = bin.checked_sub(1).and_then(|below| edges.get(below));
+            table.push([at(from), at(edges.get(bin)), count.into(), share(count)]);
+        }
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::prt::cpca::AffineSubspace;
+
+    #[test]
+    fn errors_are_those_of_the_means() {
+        let signal = Signal::new(2, vec![3.0, 4.0, 1.0, 0.0, 0.0, 0.0]).expect("a signal");
+        let mean = AffineSubspace { mean: vec![0.0, 0.0], vectors: Vec::new(), eigenvalues: Vec::new() };
+        let clustering = Clustering::new(vec![mean], vec![0; 3], Vec::new()).expect("one cluster");
+        let error = CompressionError::new(&signal, &clustering);
+        assert_eq!((&error.squared[..], error.total, error.energy), (&[25.0, 1.0, 0.0][..], 26.0, 26.0));
+        assert_eq!((error.relative(), error.largest()), (1.0, 0));
+        assert_eq!(error.root_mean_square(), (26.0_f64 / 6.0).sqrt());
+        // The mean is 26 / 3: 25 is above a tenth of it, 1 too, 0 below all.
+        let counts: Vec<String> = error.histogram().rows().iter().map(|row| row[2].text()).collect();
+        assert_eq!((counts[0].as_str(), counts[10].as_str(), counts.len()), ("1", "2", 11));
+    }
+}

@@ -1,0 +1,82 @@
+//! Pictures of vertex colors, interpolated over triangles.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::geom::exact::Sides;
+use crate::geom::vector::wide;
+use crate::geom::{Hit, Mesh, Ray};
+use crate::prt::transfer::Vertices;
+use crate::scene::Camera;
+use crate::tracer::HostTracer;
+
+/// What each pixel shows: the corners of a triangle with weights that sum to 1, or nothing.
+pub(super) struct Seen {
+    pixels: Vec<Option<([u32; 3], DVec3)>>,
+}
+
+impl Seen {
+    /// From a camera, front faces only.
+    pub(super) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
+        let rays = camera.rays();
+        let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
+        let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
+            let hit = hit.as_ref()?;
+            let corners = vertices.triangles()[hit.triangle as usize];
+            let places = corners.map(|corner| wide(vertices.positions()[corner as usize]));
+            Some((corners, weights(wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction()), places)))
+        };
+        Self { pixels: rays.par_iter().zip(&hits).map(pixel).collect() }
+    }
+
+    /// Pixels that show the model.
+    pub(super) fn count(&self) -> usize {
+        self.pixels.iter().flatten().count()
+    }
+
+    /// Colors of vertices, interpolated; `background` where nothing is.
+    pub(super) fn colors(&self, of_vertex: &[[f64; 3]], background: [f64; 3]) -> Vec<[f64; 3]> {
+        let color = |pixel: &Option<([u32; 3], DVec3)>| {
+            let Some((corners, weights)) = pixel else { return background };
+            let mix = |channel: usize| (0..3).map(|i| weights[i] * of_vertex[corners[i] as usize][channel]).sum();
+            [0, 1, 2].map(mix)
+        };
+        self.pixels.par_iter().map(color).collect()
+    }
+
+    /// The vertex that weighs most at each pixel.
+    pub(super) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
+        let nearest = |weights: DVec3| {
+            if weights.x >= weights.max_element() {
+                0
+            } else if weights.y >= weights.z {
+                1
+            } else {
+                2
+            }
+        };
+        self.pixels.iter().map(move |pixel| pixel.map(|(corners, weights)| corners[nearest(weights)]))
+    }
+}
+
+/// Weights of a triangle's corners at a point of its plane; of one beside it by rounding, at its rim.
+fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+    let normal = (b - a).cross(c - a);
+    let opposite = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
+    let areas = DVec3::new(opposite(b, c), opposite(c, a), opposite(a, b));
+    let sum = areas.element_sum();
+    if sum > 0.0 { areas / sum } else { DVec3::splat(1.0 / 3.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_barycentric_and_stay_inside() {
+        let corners = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.0, 4.0, 0.0)];
+        assert_eq!(weights(DVec3::new(1.0, 1.0, 0.0), corners), DVec3::new(0.25, 0.5, 0.25));
+        assert_eq!(weights(corners[2], corners), DVec3::Z);
+        assert_eq!(weights(DVec3::new(1.0, -1e-9, 0.0), corners).z, 0.0);
+    }
+}

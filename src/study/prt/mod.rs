@@ -1,0 +1,12 @@
+//! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
+//! ([`CompressionError`]), and pictures ([`Rendering`]).
+
+mod compression_error;
+mod exit_radiance;
+mod interpolate;
+mod precompute;
+mod render;
+
+pub use compression_error::CompressionError;
+pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
+pub use render::{RenderError, Rendering};

@@ -1,0 +1,227 @@
+//! Pictures of a model under distant light, from its transfer.
+
+use glam::{DMat3, DVec3};
+use miette::Diagnostic;
+use serde_json::json;
+use thiserror::Error;
+
+use super::compression_error::CompressionError;
+use super::exit_radiance::Lit;
+use super::interpolate::Seen;
+use crate::elementary::on_circle;
+use crate::geom::Mesh;
+use crate::geom::random::CounterRng;
+use crate::geom::vector::wide;
+use crate::picture::{Picture, PictureError, rgb8};
+use crate::prt::Signal;
+use crate::prt::file::PrtFile;
+use crate::prt::transfer::Vertices;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::scene::Camera;
+use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError};
+use crate::study::{ProgressFn, Study};
+
+/// Linear light seen as halfway between black and white.
+const MIDDLE_GREY: f64 = 0.18;
+
+/// A model with its transfer, a light and a camera.
+#[derive(Debug)]
+pub struct Rendering {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices, the points of the file.
+    pub vertices: Vertices,
+    /// Transfer, clusters or both: clusters are drawn.
+    pub file: PrtFile,
+    /// The uncompressed transfer to compare with, if there is one.
+    pub original: Option<Signal>,
+    /// The light's name.
+    pub light_name: String,
+    /// The light, of the order of the transfer.
+    pub light: HarmonicLight,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
+    pub exposure: Option<f64>,
+    /// Pictures with the light turned all the way round z in so many steps.
+    pub frames: u32,
+}
+
+/// Why there are no pictures.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum RenderError {
+    /// A signal that is no transfer.
+    #[error("expected transfer, found numbers without a meaning")]
+    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar prt precompute` wrote"))]
+    NoTransfer,
+    /// The light cannot be turned.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::turn))]
+    Rotation(#[from] RotationError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+}
+
+impl Study for Rendering {
+    type Error = RenderError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, RenderError> {
+        let steps = 2 + u64::from(self.frames);
+        progress("rays", 0, steps);
+        let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
+        progress("radiance", 1, steps);
+        let drawn = self.colors(&seen, &self.light, None)?;
+        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
+        let mut found = Findings::new("Precomputed radiance transfer");
+        found.taken_from(self.camera.world_to_camera());
+        let picture = self.picture(&drawn);
+        found.pictures(vec![NamedPicture::new(
+            "picture",
+            picture.display(exposure)?,
+            format!("{} under {}", self.model, self.light_name),
+        )]);
+        found.keep_layers("picture", picture);
+        self.conclude(&seen, &mut found);
+        if let Some(original) = &self.original {
+            self.compare(&seen, original, &drawn, exposure, &mut found)?;
+        }
+        self.clusters(&seen, &mut found);
+        let mut frames = Vec::new();
+        for frame in 0..self.frames {
+            progress("frames", 2 + u64::from(frame), steps);
+            let turns = f64::from(frame) / f64::from(self.frames);
+            let [c, s] = on_circle(turns);
+            let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+            let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
+            let image = self.picture(&self.colors(&seen, &light, None)?).display(exposure)?;
+            let caption = format!("light turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
+            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
+        }
+        if !frames.is_empty() {
+            found.heading("The light turned around z");
+            found.pictures(frames);
+        }
+        found.field("exposure", json!(exposure));
+        Ok(found)
+    }
+
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        provenance
+    }
+}
+
+impl Rendering {
+    /// Linear radiance of all pixels, from the clusters, else the transfer; of `original`, if given.
+    fn colors(
+        &self,
+        seen: &Seen,
+        light: &HarmonicLight,
+        original: Option<&Signal>,
+    ) -> Result<Vec<[f64; 3]>, RenderError> {
+        let lit = Lit::new(&self.file.meaning, light).ok_or(RenderError::NoTransfer)?;
+        let exit = match (original, &self.file.clustering, &self.file.transfer) {
+            (Some(signal), ..) | (None, None, Some(signal)) => lit.of_signal(signal),
+            (None, Some(clustering), _) => lit.of_clusters(clustering),
+            (None, None, None) => return Err(RenderError::NoTransfer),
+        };
+        Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(self.camera.eye())), [0.0; 3]))
+    }
+
+    fn picture(&self, colors: &[[f64; 3]]) -> Picture {
+        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+        Picture::rgb(self.camera.width(), self.camera.height(), &single)
+    }
+
+    fn conclude(&self, seen: &Seen, found: &mut Findings) {
+        let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
+        found.conclusion(format!("{} of {pixels} pixels show {} under {}.", seen.count(), self.model, self.light_name));
+        let least = self.light.extremes().map(|channel| channel.least);
+        if least.iter().any(|&radiance| radiance < 0.0) {
+            let [red, green, blue] = least.map(|radiance| shown(radiance, Quantity::Measured));
+            let order = self.light.order();
+            found.conclusion(format!(
+                "At order {order} the light rings: its least radiance is {red}, {green}, {blue} (red, green, blue)."
+            ));
+        }
+    }
+
+    /// The original beside the clusters, and where they differ.
+    fn compare(
+        &self,
+        seen: &Seen,
+        original: &Signal,
+        drawn: &[[f64; 3]],
+        exposure: f64,
+        found: &mut Findings,
+    ) -> Result<(), RenderError> {
+        let whole = self.colors(seen, &self.light, Some(original))?;
+        let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
+        let difference: Vec<f64> = drawn.iter().zip(&whole).map(|(a, b)| mean(a) - mean(b)).collect();
+        let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>();
+        let ratio = (squares(&mut difference.iter().copied()) / squares(&mut whole.iter().map(mean))).sqrt();
+        let mut table = Table::new("Compressed against original", &["figure", "value"]);
+        table.push([
+            "root mean square difference, of the picture's root mean square (%)".into(),
+            Cell::measured(100.0 * ratio),
+        ]);
+        table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
+        let mut pictures =
+            vec![NamedPicture::new("original", self.picture(&whole).display(exposure)?, "without compression")];
+        let width = self.camera.width();
+        if largest > 0.0 {
+            let caption =
+                format!("compressed less original: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
+            pictures.push(NamedPicture::new("difference", false_color::signed(width, &difference, largest), caption));
+        }
+        if let Some(clustering) = &self.file.clustering {
+            let error = CompressionError::new(original, clustering);
+            table.push([
+                "squared error of transfer, of its squares (%)".into(),
+                Cell::measured(100.0 * error.relative()),
+            ]);
+            let most = error.squared[error.largest()];
+            if most > 0.0 {
+                let of_vertex: Vec<[f64; 3]> =
+                    error.squared.iter().map(|squared| [(squared / most).sqrt(); 3]).collect();
+                let map: Vec<f64> =
+                    seen.colors(&of_vertex, [f64::NAN; 3]).into_iter().map(|[value, ..]| value).collect();
+                let caption = "error of each vertex's transfer, of the largest; pale is large";
+                pictures.push(NamedPicture::new("error", false_color::magnitude(width, &map), caption));
+            }
+        }
+        found.heading("Against the original");
+        found.pictures(pictures);
+        found.table(FoundTable::from(table).csv("comparison").field("comparison"));
+        Ok(())
+    }
+
+    /// The cluster of each pixel's nearest vertex.
+    fn clusters(&self, seen: &Seen, found: &mut Findings) {
+        let Some(clustering) = &self.file.clustering else { return };
+        let random = CounterRng::new(0);
+        let color = |vertex: Option<u32>| {
+            let Some(vertex) = vertex else { return [0; 3] };
+            let cluster = u64::from(clustering.of_point()[vertex as usize]);
+            [0, 1, 2].map(|channel| 64 + (random.bits(cluster, 0, channel) >> 56) as u8 / 4 * 3)
+        };
+        let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
+        found.heading("Clusters");
+        let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());
+        found.pictures(vec![NamedPicture::new("clusters", image, caption)]);
+    }
+}
+
+/// Pixels that show something at 18 % grey on average.
+fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
+    let lit: Vec<f64> =
+        colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();
+    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
+    if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 }
+}

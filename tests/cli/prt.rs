@@ -1,0 +1,117 @@
+//! `crossbar prt`: transfer, compression, errors and pictures from the command line.
+
+use std::fs;
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use serde_json::Value;
+
+use crate::{crossbar, crossbar_in};
+
+const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.prt", "docs/examples/step_small.prt"];
+
+fn document(arguments: &[&str]) -> Value {
+    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+}
+
+/// A place for a file in a folder, as an argument.
+fn place(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
+}
+
+/// The files of the examples are what the commands write, whatever the number of threads.
+#[test]
+fn the_examples_are_made_by_the_commands() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, small] = STEP;
+    for threads in ["1", "3"] {
+        let out = place(folder.path(), "out.prt");
+        document(&["prt", "precompute", model, "--order", "3", "--out", &out, "--threads", threads]);
+        assert_eq!(fs::read(&out).expect("written"), fs::read(transfer).expect("an example"), "{threads} threads");
+        let options = ["--clusters", "8", "--vectors", "3", "--out", &out, "--threads", threads];
+        document(&[&["prt", "compress", transfer][..], &options].concat());
+        assert_eq!(fs::read(&out).expect("written"), fs::read(small).expect("an example"), "{threads} threads");
+    }
+}
+
+/// Closed forms: a white wall under the whole sky, and under light that grows with z.
+#[test]
+fn a_square_sees_the_whole_sky() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "out.prt");
+    let brdf = ["--brdf", "lambert:0.5", "--out", &out];
+    let made = document(&[&["prt", "precompute", "fixtures/models/square.obj"][..], &brdf].concat());
+    assert_eq!((&made["rays_blocked"], &made["numbers_per_vertex"]), (&Value::from(0), &Value::from(25)));
+    let shown = document(&["prt", "show", &out, "--vertex", "0"]);
+    let transfer = &shown["vertex"]["transfer"];
+    let pi = std::f64::consts::PI;
+    assert_relative_eq!(number(&transfer[0]), 0.5 / (4.0 * pi).sqrt(), max_relative = 1e-6);
+    assert_relative_eq!(number(&transfer[2]).abs(), 0.5 * 2.0 / 3.0 * (3.0 / (4.0 * pi)).sqrt(), max_relative = 1e-6);
+    let page = place(folder.path(), "page");
+    let options = ["--light", "constant:2,2,2", "--size", "16x16", "--out", &page];
+    let drawn = document(&[&["prt", "render", &out, "--model", "fixtures/models/square.obj"][..], &options].concat());
+    // Every lit pixel has radiance 0.5 x 2, which the exposure takes to 18 % grey.
+    assert_relative_eq!(number(&drawn["exposure"]), 0.18, max_relative = 1e-6);
+    assert!(folder.path().join("page/index.html").is_file() && folder.path().join("page/picture.png").is_file());
+}
+
+/// While the number of vectors stays the error does not grow, and `error` finds what `compress` says.
+#[test]
+fn errors_fall_and_are_found_again() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let (out, [_, transfer, _]) = (place(folder.path(), "out.prt"), STEP);
+    for method in ["static", "iterative", "adaptive"] {
+        let options = ["--clusters", "6", "--vectors", "2", "--method", method, "--out", &out];
+        let made = document(&[&["prt", "compress", transfer][..], &options].concat());
+        let steps = made["steps"].as_array().expect("steps");
+        assert!(steps.len() > 3, "{method}");
+        for pair in steps.windows(2).filter(|pair| pair[0]["vectors"] == pair[1]["vectors"]) {
+            let [before, after] = [0, 1].map(|i| number(&pair[i]["squared_error"]));
+            let is_fixed = method != "adaptive" || pair[1]["step"] != "redistributed";
+            assert!(!is_fixed || after <= before * (1.0 + 1e-12), "{method}: {pair:?}");
+        }
+        let found = document(&["prt", "error", transfer, &out]);
+        assert_eq!(found["squared_error"], made["squared_error"], "{method}");
+        let points: u64 = (found["histogram"].as_array().expect("bins").iter())
+            .map(|bin| bin["points"].as_u64().expect("a count"))
+            .sum();
+        assert_eq!(points, made["points"].as_u64().expect("a count"), "{method}: every point is in one bin");
+    }
+    let options = ["--clusters", "1", "--vectors", "9", "--out", &out];
+    let whole = document(&[&["prt", "compress", transfer][..], &options].concat());
+    assert!(number(&whole["relative_error"]) < 1e-20, "as many vectors as numbers lose nothing: {whole}");
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let root = |path: &str| place(Path::new(env!("CARGO_MANIFEST_DIR")), path);
+    let [model, transfer, small] = STEP.map(root);
+    let (square, signal) = (root("fixtures/models/square.obj"), root("docs/examples/signal.csv"));
+    for (arguments, words) in [
+        (&["render", &transfer, "--model", &square][..], "expected transfer of a mesh with"),
+        (&["compress", &small, "--out", "y.prt"], "expected transfer, found clusters alone"),
+        (&["compress", &transfer, "--clusters", "1000", "--out", "y.prt"], "expected 1 to"),
+        (
+            &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.prt"],
+            "expected at most 9 vectors",
+        ),
+        (&["compress", &transfer, "--start", &signal, "--out", "y.prt"], "expected the number of a point in line 1"),
+        (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
+        (&["error", &signal, &small], "expected 24 points of 3 numbers"),
+        (&["show", &small, "--vertex", "1000"], "expected a vertex below"),
+        (&["show", &model], "expected a .prt file, found another beginning"),
+    ] {
+        let ran = crossbar_in(folder.path(), &[&["prt"], arguments].concat(), "");
+        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(flat.contains(words), "{arguments:?}: {}", ran.stderr);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
+    }
+}
