@@ -6,7 +6,7 @@ use super::{Problem, scene_name, view};
 use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::names::did_you_mean;
-use crate::scene::built::{self, stand_ins, transfer_models};
+use crate::scene::built::{self, meshes};
 use crate::scene::{Material, Scene};
 
 /// The material of models that have none: reflectance a half.
@@ -31,14 +31,9 @@ impl Model {
     }
 }
 
-/// The names of meshes that the project builds, which are no scenes.
-fn mesh_names() -> impl Iterator<Item = &'static str> {
-    stand_ins::names().chain(transfer_models::names())
-}
-
 /// The path, unless it is the name of a mesh or of a scene of the project.
 pub(super) fn named_file(path: &Path) -> Vec<&Path> {
-    if mesh_names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
+    if meshes::names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
 }
 
 /// The mesh of the project by its name, of a scene by its name, or of a file, with the normals that it has.
@@ -49,7 +44,7 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 /// The same with materials.
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
-    if let Some(mesh) = stand_ins::build(name).or_else(|| transfer_models::build(name)) {
+    if let Some(mesh) = meshes::build(name) {
         return Ok(Model::plain(mesh));
     }
     if let Some(scene) = built::build(name) {
@@ -57,7 +52,7 @@ pub(super) fn model(path: &Path) -> miette::Result<Model> {
     }
     // A word without a dot or a folder is a name, not a file.
     if !path.exists() && path.components().count() == 1 && !name.contains('.') {
-        let names: Vec<&str> = mesh_names().chain(built::names()).collect();
+        let names: Vec<&str> = meshes::names().chain(built::names()).collect();
         let meant = did_you_mean(name, names.iter().copied());
         let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
         return Err(Problem::usage(format!("there is no model `{name}`"), help).into());

@@ -7,13 +7,15 @@
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
-//! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates.
+//! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates;
+//! - [`meshes`]: both of these by name.
 
 mod chance;
 mod cornell_box;
 mod desktop;
 mod furniture;
 mod geodesic;
+pub mod meshes;
 mod office;
 mod office_floor;
 mod palette;

@@ -9,34 +9,6 @@ use glam::DVec3;
 use super::geodesic::{Lobe, bumped, mesh_of};
 use crate::geom::Mesh;
 
-/// A stand-in that can be asked for by name.
-struct StandIn {
-    name: &'static str,
-    what: &'static str,
-    build: fn() -> Mesh,
-}
-
-const STAND_INS: &[StandIn] = &[
-    StandIn { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: bunny },
-    StandIn { name: "stand-in-dolphin", what: "21,952 faces, closed, long and thin in places", build: dolphin },
-    StandIn { name: "stand-in-head", what: "7,232 faces, closed", build: head },
-];
-
-/// The names of all stand-ins, in alphabetical order.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    STAND_INS.iter().map(|entry| entry.name)
-}
-
-/// What a stand-in is, in one line.
-pub fn description(name: &str) -> Option<&'static str> {
-    STAND_INS.iter().find(|entry| entry.name == name).map(|entry| entry.what)
-}
-
-/// The stand-in of a name.
-pub fn build(name: &str) -> Option<Mesh> {
-    STAND_INS.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
-}
-
 /// A stand-in for the paper's head: 7,232 faces, closed, about 2.3 units high.
 pub fn head() -> Mesh {
     let lobes = [

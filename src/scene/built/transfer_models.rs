@@ -19,35 +19,6 @@ const SMOOTH_PARTS: u32 = 69;
 const BUMPY_PARTS: u32 = 70;
 const HEAD_PARTS: u32 = 70;
 
-/// A model that can be asked for by name.
-struct TransferModel {
-    name: &'static str,
-    what: &'static str,
-    build: fn() -> Mesh,
-}
-
-const MODELS: &[TransferModel] = &[
-    TransferModel { name: "transfer-bumpy", what: "49,990 vertices, closed, with many bumps", build: bumpy },
-    TransferModel { name: "transfer-head", what: "50,060 vertices, closed, a head", build: head },
-    TransferModel { name: "transfer-polygons", what: "58,624 vertices, a ground and a blocker", build: polygons },
-    TransferModel { name: "transfer-smooth", what: "48,688 vertices, closed, smooth with a neck", build: smooth },
-];
-
-/// The names of all models, in alphabetical order.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    MODELS.iter().map(|entry| entry.name)
-}
-
-/// What a model is, in one line.
-pub fn description(name: &str) -> Option<&'static str> {
-    MODELS.iter().find(|entry| entry.name == name).map(|entry| entry.what)
-}
-
-/// The model of a name.
-pub fn build(name: &str) -> Option<Mesh> {
-    MODELS.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
-}
-
 /// A smooth closed body with a neck that shadows its breast: 48,688 vertices, about 2.5 units high. Stands for the
 /// paper's bird.
 pub fn smooth() -> Mesh {

@@ -200,10 +200,8 @@ impl<const N: usize> DistanceTable<N> {
             let covariance = one.covariance.plus(&other.covariance);
             let across = covariance.trace() * self.per_unit;
             let along = 2.0 * covariance.along(apart) * self.per_unit * self.per_unit;
-            return Some(interval.cubic.map(|[c0, c1, c2, c3]| {
-                let value = c0 + t * (c1 + t * (c2 + t * c3));
-                let first = c1 + t * (2.0 * c2 + 3.0 * t * c3);
-                let second = 2.0 * c2 + 6.0 * t * c3;
+            return Some(interval.cubic.map(|cubic| {
+                let [value, first, second] = derivatives_at(cubic, t);
                 value + first * across + second * along
             }));
         }
@@ -219,10 +217,8 @@ impl<const N: usize> DistanceTable<N> {
         if SPREAD * receivers.size_squared + cluster.size_squared <= interval.reach {
             let across = cluster.covariance.trace() * self.per_unit;
             let along = 2.0 * cluster.covariance.along(apart) * self.per_unit * self.per_unit;
-            let channels = interval.cubic.map(|[c0, c1, c2, c3]| {
-                let value = c0 + t * (c1 + t * (c2 + t * c3));
-                let first = c1 + t * (2.0 * c2 + 3.0 * t * c3);
-                let second = 2.0 * c2 + 6.0 * t * c3;
+            let channels = interval.cubic.map(|cubic| {
+                let [value, first, second] = derivatives_at(cubic, t);
                 // Of g(|apart - offset|^2) by the offset: -2 g' apart, and 2 g' 1 + 4 g'' apart apart^T.
                 let slope = 2.0 * cluster.area * first * self.per_unit;
                 let bend = 4.0 * cluster.area * second * self.per_unit * self.per_unit;
@@ -265,6 +261,11 @@ impl<const N: usize> DistanceTable<N> {
         }
         count
     }
+}
+
+/// A cubic polynomial, its derivative and its second derivative at t.
+fn derivatives_at([c0, c1, c2, c3]: [f64; 4], t: f64) -> [f64; 3] {
+    [c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2.0 * c2 + 3.0 * t * c3), 2.0 * c2 + 6.0 * t * c3]
 }
 
 /// Adds terms channel by channel.

@@ -3,7 +3,7 @@
 use crossbar::atlas::{Atlas, AtlasError, AtlasQuality, Census, MAX_SIDE};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
-use crossbar::scene::built::stand_ins;
+use crossbar::scene::built::meshes;
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -114,7 +114,7 @@ fn repeated_vertices_are_one_place() {
 #[test]
 fn stand_ins_have_the_papers_counts() {
     let counts = ["stand-in-head", "stand-in-dolphin", "stand-in-bunny"].map(|name| {
-        let mesh = stand_ins::build(name).expect("a stand-in");
+        let mesh = meshes::build(name).expect("a stand-in");
         assert_eq!((mesh.degenerate_count(), mesh.orientation_conflicts()), (0, 0), "{name}");
         // Fronts look outwards: six times the enclosed volume, from a point inside.
         let volume: f64 = mesh

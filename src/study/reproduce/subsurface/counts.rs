@@ -7,7 +7,7 @@ use super::{
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
-use crate::scene::built::stand_ins;
+use crate::scene::built::meshes;
 
 /// Table 1's models: their names, faces, and our stand-ins.
 pub(super) const MODELS: [(&str, u32, &str); 3] =
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 /// Nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, faces: u32, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
     let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
-    let mesh = stand_ins::build(stand_in).ok_or_else(missing)?;
+    let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
     let target = PaperFigure {
         origin: Origin::Implied(format!("2 T - 1 for {faces} faces")),

@@ -1,0 +1,52 @@
+//! The meshes that the project builds itself and that are no scenes, by name.
+
+use super::{stand_ins, transfer_models};
+use crate::geom::Mesh;
+
+/// A mesh that can be asked for by name.
+struct BuiltMesh {
+    name: &'static str,
+    what: &'static str,
+    build: fn() -> Mesh,
+}
+
+const MESHES: &[BuiltMesh] = &[
+    BuiltMesh { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: stand_ins::bunny },
+    BuiltMesh {
+        name: "stand-in-dolphin",
+        what: "21,952 faces, closed, long and thin in places",
+        build: stand_ins::dolphin,
+    },
+    BuiltMesh { name: "stand-in-head", what: "7,232 faces, closed", build: stand_ins::head },
+    BuiltMesh {
+        name: "transfer-bumpy",
+        what: "49,990 vertices, closed, with many bumps",
+        build: transfer_models::bumpy,
+    },
+    BuiltMesh { name: "transfer-head", what: "50,060 vertices, closed, a head", build: transfer_models::head },
+    BuiltMesh {
+        name: "transfer-polygons",
+        what: "58,624 vertices, a ground and a blocker",
+        build: transfer_models::polygons,
+    },
+    BuiltMesh {
+        name: "transfer-smooth",
+        what: "48,688 vertices, closed, smooth with a neck",
+        build: transfer_models::smooth,
+    },
+];
+
+/// The names of all meshes, in alphabetical order.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    MESHES.iter().map(|entry| entry.name)
+}
+
+/// What a mesh is, in one line.
+pub fn description(name: &str) -> Option<&'static str> {
+    MESHES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
+}
+
+/// The mesh of a name.
+pub fn build(name: &str) -> Option<Mesh> {
+    MESHES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
+}
