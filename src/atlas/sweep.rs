@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::graph::{FaceGraph, UNREACHED};
 use super::measures::{FaceMeasures, SplitLimits};
 use crate::elementary::on_circle;
-use crate::geom::vector::unit;
+use crate::geom::vector::{least_axis, unit};
 
 /// The share of the demand by which two halves may differ so that a part of the mesh stays whole.
 const WHOLE_PARTS: f64 = 1.0 / 32.0;
@@ -79,15 +79,7 @@ fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) ->
 
 /// Two directions at right angles to each other and to a normal.
 fn plane(normal: DVec3) -> [DVec3; 2] {
-    let size = normal.abs();
-    let axis = if size.x <= size.y && size.x <= size.z {
-        DVec3::X
-    } else if size.y <= size.z {
-        DVec3::Y
-    } else {
-        DVec3::Z
-    };
-    let right = unit(axis.cross(normal)).unwrap_or(DVec3::X);
+    let right = unit(least_axis(normal).cross(normal)).unwrap_or(DVec3::X);
     [right, normal.cross(right)]
 }
 

@@ -18,3 +18,15 @@ pub fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length();
     (length > 0.0 && length.is_finite()).then(|| vector / length)
 }
+
+/// The coordinate axis that a direction follows least, the first of equals: far from parallel to it.
+pub fn least_axis(direction: DVec3) -> DVec3 {
+    let size = direction.abs();
+    if size.x <= size.y && size.x <= size.z {
+        DVec3::X
+    } else if size.y <= size.z {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    }
+}

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::geom::vector::least_axis;
+
 /// The mean of a color's channels, by which lobes and lights are chosen. Any positive weight would be unbiased.
 pub(super) fn mean(color: DVec3) -> f64 {
     color.element_sum() / 3.0
@@ -9,9 +11,7 @@ pub(super) fn mean(color: DVec3) -> f64 {
 
 /// Two directions that make a right-handed frame with a unit vector.
 pub(super) fn frame(normal: DVec3) -> [DVec3; 2] {
-    // The axis that the normal follows least keeps the product far from zero.
-    let least = (0..3).fold(0, |least, axis| if normal[axis].abs() < normal[least].abs() { axis } else { least });
-    let tangent = DVec3::AXES[least].cross(normal);
+    let tangent = least_axis(normal).cross(normal);
     let tangent = 1.0 / tangent.length() * tangent;
     [tangent, normal.cross(tangent)]
 }

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geom::vector::unit;
+use crate::geom::vector::{least_axis, unit};
 
 /// Tangents whose part across the normal is shorter than this, relative to their length, have no direction.
 const LEAST_ACROSS: f64 = 1e-6;
@@ -29,15 +29,7 @@ impl LocalFrame {
 
     /// A frame of a unit normal with any tangent: across the coordinate axis that is least along the normal.
     pub fn of_normal(normal: DVec3) -> Self {
-        let along = normal.abs();
-        let axis = if along.x <= along.y && along.x <= along.z {
-            DVec3::X
-        } else if along.y <= along.z {
-            DVec3::Y
-        } else {
-            DVec3::Z
-        };
-        Self::new(normal, axis).unwrap_or(Self { axes: DVec3::AXES })
+        Self::new(normal, least_axis(normal)).unwrap_or(Self { axes: DVec3::AXES })
     }
 
     /// The normal.
