@@ -91,5 +91,6 @@ fn glossy_pictures_are_the_same_everywhere() {
     let hills = Hills::new(ExitBasis::of_order(3), 6, 4);
     let in_vs_1_1 = PrtCardOptions { vertex_version: Some(Version::Vs1_1), map_side: 16, ..options };
     agrees(&hills, "r350", TexelFormat::Rgba16, &in_vs_1_1);
-    agrees(&hills, "nv35", TexelFormat::Bgra8, &options);
+    let in_8_bits = PrtCardOptions { map_format: TexelFormat::Rgba8Snorm, ..options };
+    agrees(&hills, "nv35", TexelFormat::Bgra8, &in_8_bits);
 }

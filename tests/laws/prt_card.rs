@@ -105,7 +105,7 @@ impl Hills {
                 }
             }
         }
-        assert!(compared > 700, "{compared} pixels");
+        assert!(compared > 500, "{compared} pixels");
         worst / largest
     }
 }
