@@ -17,7 +17,7 @@ mod transfer;
 use std::sync::Arc;
 
 use refsim::device::Profile;
-use refsim::machine::{AttributeStream, DrawCall, Executor, Machine, StepRate, TextureId, VertexSource, VertexStreams};
+use refsim::machine::{AttributeStream, DrawCall, Executor, Machine, StepRate, VertexSource, VertexStreams};
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::TexelFormat;

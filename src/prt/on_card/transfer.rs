@@ -44,7 +44,7 @@ impl CompressedTransfer<'_> {
     pub(super) fn shape(&self) -> Result<TransferShape, PrtCardError> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
         let size = channels * rows;
-        let columns = if size == 0 { 0 } else { found / size };
+        let columns = found.checked_div(size).unwrap_or(0);
         let square = (1..=MAX_ORDER).any(|order| order * order == columns);
         if ![1, 3].contains(&channels) || size * columns != found || !square {
             return Err(PrtCardError::Shape { channels, rows, found });
