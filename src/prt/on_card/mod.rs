@@ -1,7 +1,7 @@
 //! Compressed transfer on an emulated card (section 6 of the paper).
 //!
-//! A [`PrtCard`] holds the mesh in chunks, one per supercluster. For each frame the host multiplies the means and vectors
-//! of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up the chunks,
+//! A [`PrtCard`] holds the mesh in chunks, one per supercluster. For each frame the host multiplies the means and
+//! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up the chunks,
 //! glossy transfer in one pass per color channel.
 
 mod chunks;
@@ -78,8 +78,8 @@ impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
     ///
     /// # Errors
-    /// [`PrtCardError`] if the device has no such programs, the number of vectors or functions exceeds a limit, clusters
-    /// have more vectors than `transfer` says, or its parts do not go together.
+    /// [`PrtCardError`] if the device has no such programs, the number of vectors or functions exceeds a limit,
+    /// clusters have more vectors than `transfer` says, or its parts do not go together.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -138,8 +138,8 @@ impl<'a> PrtCard<'a> {
     /// A frame. Pixels that show nothing are 0.
     ///
     /// # Errors
-    /// [`PrtCardError`] for light of too low an order, an exposure out of range, products that are not finite, and draws
-    /// that the card refuses.
+    /// [`PrtCardError`] for light of too low an order, an exposure out of range, products that are not finite, and
+    /// draws that the card refuses.
     pub fn view(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<Picture, PrtCardError> {
         let Texels { width, height, texels } = self.view_texels(light, view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();

@@ -10,8 +10,8 @@ use super::error::PrtCardError;
 pub struct PrtCardOptions {
     /// Clusters are drawn together as far as the constant registers hold; otherwise each alone.
     pub superclusters: bool,
-    /// The language of vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the device has
-    /// it.
+    /// The language of vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the device
+    /// has it.
     pub vertex_version: Option<Version>,
     /// Texels along an edge of the maps of y; the paper has 32.
     pub map_side: usize,
