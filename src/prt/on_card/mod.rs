@@ -1,8 +1,8 @@
 //! Compressed transfer on an emulated card (section 6 of the paper).
 //!
 //! A [`PrtCard`] holds the mesh in chunks, one per supercluster. For each frame the host multiplies the means and
-//! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up the chunks,
-//! glossy transfer in one pass per color channel.
+//! vectors of all clusters by the light ([`Products`]); the card draws the mesh into the depth buffer, then adds up
+//! the chunks, glossy transfer in one pass per color channel.
 
 mod chunks;
 mod error;
