@@ -1,12 +1,12 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
-//! - [`transfer`]: what each vertex makes of distant light; [`reference`] by plain loops;
+//! - [`transfer`]: what each vertex makes of distant light; [`mod@reference`] by plain loops;
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
 //! - [`cpca`]: clustered principal components of any signal;
 //! - [`coherence`]: clusters that are cheaper to draw;
 //! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs;
-//! - [`file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
+//! - [`mod@file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
 pub mod brdf;

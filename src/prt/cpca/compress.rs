@@ -177,7 +177,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         };
         let clusters = self.clusters.par_iter_mut().zip(&mut self.changed).enumerate().with_max_len(1);
         let failed = clusters.map(fit_one).filter_map(Result::err).min_by_key(|&(cluster, _)| cluster);
-        failed.map_or(Ok(()), |(cluster, source)| Err(CpcaError::Factor { cluster, source }))
+        failed.map_or(Ok(()), |(cluster, reason)| Err(CpcaError::Factor { cluster, reason }))
     }
 
     fn fitted(&mut self, kind: CpcaStepKind) {
@@ -213,7 +213,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
 
     fn fit_one(&self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, CpcaError> {
         let fitted = fit(self.signal, members.of(cluster), count, self.level);
-        fitted.map_err(|source| CpcaError::Factor { cluster, source })
+        fitted.map_err(|reason| CpcaError::Factor { cluster, reason })
     }
 }
 

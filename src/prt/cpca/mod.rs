@@ -4,7 +4,7 @@
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
 //! - [`refit`]: principal components anew, for points that were moved;
-//! - [`reference`](self::reference): the same by plain loops, for tests.
+//! - [`mod@reference`]: the same by plain loops, for tests.
 //!
 //! What the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error from a
 //! cluster that has others; of each vector the component of largest magnitude is positive; loops end when no point

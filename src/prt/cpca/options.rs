@@ -72,8 +72,8 @@ pub enum CpcaError {
     #[error("expected the number of a point in line {line} of the start points, found another text")]
     StartText { line: usize },
     /// The principal components of a cluster cannot be found.
-    #[error("the principal components of cluster {cluster} cannot be found: {source}")]
-    Factor { cluster: usize, source: FactorError },
+    #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
+    Factor { cluster: usize, reason: FactorError },
 }
 
 impl StartPoints {

@@ -29,6 +29,6 @@ pub fn refit(signal: &Signal, clustering: &Clustering) -> Result<Clustering, Cpc
     let fitted: Vec<_> = (0..subspaces.len()).into_par_iter().with_max_len(1).map(one).collect();
     let fitted = fitted.into_iter().map(|fitted| fitted.map(|fitted| fitted.subspace));
     let fitted = fitted.collect::<Result<_, _>>();
-    let fitted = fitted.map_err(|(cluster, source)| CpcaError::Factor { cluster, source })?;
+    let fitted = fitted.map_err(|(cluster, reason)| CpcaError::Factor { cluster, reason })?;
     Ok(Clustering::project(signal, fitted, of_point.to_vec()))
 }

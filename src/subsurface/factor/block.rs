@@ -1,9 +1,9 @@
 //! Factors of all texels of a square of an atlas together.
 //!
-//! What a far cluster sends to near texels varies smoothly among them. So a square of texels has one expansion to second
-//! order of the light of all clusters that are far from it; its four quarters do the same for those that were too near,
-//! and so on; each texel gathers by itself from what is left. The nodes of the tree of clusters keep these parts apart,
-//! so that a texel has the factor of any of them: sums of parts are sums over its children.
+//! What a far cluster sends to near texels varies smoothly among them. So a square of texels has one expansion to
+//! second order of the light of all clusters that are far from it; its four quarters do the same for those that were
+//! too near, and so on; each texel gathers by itself from what is left. The nodes of the tree of clusters keep these
+//! parts apart, so that a texel has the factor of any of them: sums of parts are sums over its children.
 
 use super::expansion::Expansion;
 use super::integrate::Receiver;
@@ -85,8 +85,8 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         Self { receiver, nodes: Vec::new(), stamp: NEVER, present, divided: Vec::new() }
     }
 
-    /// Visits each texel of a square of level [`BLOCK_LEVEL`] at most, with the factors of the given clusters, which are
-    /// the first nodes of its tree.
+    /// Visits each texel of a square of level [`BLOCK_LEVEL`] at most, with the factors of the given clusters, which
+    /// are the first nodes of its tree.
     pub(in crate::subsurface) fn visit(
         &mut self,
         square: ClusterId,

@@ -25,8 +25,8 @@ const SLOPE: f64 = 3.0;
 /// Two pieces are far at a tolerance of 1 % if the root of the sum of their squared sizes, times the logarithmic
 /// derivative, is at most this. Measured, see tests/laws/subsurface/links_factors.rs.
 const FAR: f64 = 0.5;
-/// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third order do
-/// not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
+/// By how much the squared size of a group of receivers counts more: a receiver at its rim, where terms of third
+/// order do not cancel, is to keep the tolerance too. Measured, see tests/laws/subsurface/links_blocks.rs.
 pub(super) const SPREAD: f64 = 6.0;
 /// The sum of both squared sizes, in squared mean free paths, beyond which dividing texels is of no use: texels of
 /// about 10 mean free paths.
@@ -210,8 +210,8 @@ impl<const N: usize> DistanceTable<N> {
         (size_squared <= interval.negligible).then(|| self.at(squared))
     }
 
-    /// What receivers in a group, whose moments are given, get of a cluster: R_d times its area, by their offset from the
-    /// group's mean point. `None` if the two are too near.
+    /// What receivers in a group, whose moments are given, get of a cluster: R_d times its area, by their offset from
+    /// the group's mean point. `None` if the two are too near.
     pub(super) fn expansion(&self, receivers: &Moments, cluster: &Moments) -> Option<Expansion<N>> {
         let apart = cluster.point - receivers.point;
         let squared = apart.length_squared();

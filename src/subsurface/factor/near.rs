@@ -129,8 +129,8 @@ impl<const N: usize> Pair<'_, N> {
         sum.map(|sum| 0.25 * sum)
     }
 
-    /// The mean over two pieces that are not divided any more. Light that does not leave a piece is that within a disc of
-    /// its area; what does comes from its middle. So light that one piece loses by this the next one gets.
+    /// The mean over two pieces that are not divided any more. Light that does not leave a piece is that within a
+    /// disc of its area; what does comes from its middle. So light that one piece loses by this the next one gets.
     fn mean_of_last(&self, from: Piece, to: Piece) -> [f64; N] {
         let (p, q) = (&self.from[from.halvings][from.index], &self.to[to.halvings][to.index]);
         match self.kernel.mean_of_last(p, q) {
