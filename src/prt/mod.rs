@@ -5,6 +5,7 @@
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
 //! - [`cpca`]: clustered principal components of any signal;
 //! - [`coherence`]: clusters that are cheaper to draw;
+//! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs;
 //! - [`mod@file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
@@ -12,7 +13,9 @@ pub mod brdf;
 pub mod coherence;
 pub mod cpca;
 pub mod file;
+pub mod kernels;
 mod load;
+pub mod on_card;
 pub mod reference;
 pub mod signal;
 pub mod synthetic;

@@ -1,9 +1,10 @@
-//! Signals made by a formula, for tests and measurements.
+//! Signals and a mesh made by formulas, for tests and measurements.
 
 use rayon::prelude::*;
 
 use super::Signal;
 use crate::elementary::{on_circle, sin_cos};
+use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 
 /// The torus's larger radius; the smaller is 1 less.
@@ -15,14 +16,35 @@ const RADIUS: f64 = 1.5;
 /// Points wind around the torus so that any number of them is spread evenly; neighbours in number are no neighbours in
 /// place.
 pub fn torus_signal(points: usize, dimension: usize, seed: u64) -> Signal {
+    signal_at(points, dimension, seed, |at| place(at, points))
+}
+
+/// The waves of [`torus_signal`] at other places, of finite coordinates up to about 2.
+pub fn signal_at(points: usize, dimension: usize, seed: u64, place: impl Fn(usize) -> [f64; 3] + Sync) -> Signal {
     let random = CounterRng::new(seed);
     let waves: Vec<Wave> = (0..dimension.max(1) as u64).map(|j| Wave::new(random, j, dimension)).collect();
     let mut values = vec![0.0; points.max(1) * waves.len()];
     values.par_chunks_mut(waves.len()).enumerate().for_each(|(at, into)| {
-        let place = place(at, points);
+        let place = place(at);
         into.iter_mut().zip(&waves).for_each(|(value, wave)| *value = wave.at(place) as f32);
     });
     Signal::new(waves.len(), values).expect("sines, at least one")
+}
+
+/// Hills over the square [-1, 1]^2: `2 * parts * parts` triangles, fronts upwards, two at least.
+pub fn hills(parts: u32) -> Mesh {
+    let parts = parts.max(1);
+    let along = |at: u32| 2.0 * f64::from(at) / f64::from(parts) - 1.0;
+    let height = |x: f64, y: f64| 0.3 * sin_cos(3.0 * x + 1.0).0 * sin_cos(2.5 * y).1;
+    let grid = (0..=parts).flat_map(|row| (0..=parts).map(move |column| (column, row)));
+    let positions = grid.map(|(column, row)| [along(column), along(row), height(along(column), along(row))]);
+    let positions = positions.map(|position| position.map(|value| value as f32)).collect();
+    let squares = (0..parts).flat_map(|row| (0..parts).map(move |column| row * (parts + 1) + column));
+    let triangles = squares.flat_map(|a| {
+        let [b, c, d] = [a + 1, a + parts + 1, a + parts + 2];
+        [[a, b, d], [a, d, c]]
+    });
+    Mesh::new(positions, triangles.collect()).expect("indices of a grid, and finite heights")
 }
 
 /// A point of the torus.

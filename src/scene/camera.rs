@@ -3,14 +3,17 @@
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::geom::Ray;
 use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::{Ray, UnitFrame};
 
 /// Widest field of view, as the tangent of its half.
 const MAX_TANGENT: f32 = 1e6;
 
 /// Sine of the least angle between `up` and the view.
 const MIN_SINE: f64 = 1e-6;
+
+/// The nearest that a body is drawn, in units of its frame.
+const NEAREST: f64 = 1e-3;
 
 /// A pinhole camera: one ray through the centre of each pixel, pixel (0, 0) at the upper left.
 ///
@@ -162,6 +165,28 @@ impl Camera {
         [a, b, c, 0.0, d, e, f, 0.0, g, h, i, 0.0, moved_x, moved_y, moved_z, 1.0]
     }
 
+    /// Rows that take points in a body's frame, with w = 1, to clip space: x to the right, y up, z from 0 at the body's
+    /// near side to w at its far one, w the distance along the view. A body that the camera stands in is cut
+    /// 0.001 units in front of the eye.
+    pub fn clip_rows(&self, frame: &UnitFrame) -> [[f32; 4]; 4] {
+        let eye = frame.of_scene(wide(self.eye));
+        let per_square = |v: DVec3| v / v.dot(v);
+        let row = |axis: DVec3, scale: f64, offset: f64| {
+            let [x, y, z] = (axis * scale).to_array();
+            [x, y, z, offset - scale * axis.dot(eye)].map(|value| value as f32)
+        };
+        let along = -self.forward.dot(eye);
+        let near = (along - 1.0).max(NEAREST);
+        let far = (along + 1.0).max(2.0 * NEAREST);
+        let depth = far / (far - near);
+        [
+            row(per_square(self.right), 1.0, 0.0),
+            row(per_square(self.up), 1.0, 0.0),
+            row(self.forward, depth, -near * depth),
+            row(self.forward, 1.0, 0.0),
+        ]
+    }
+
     fn exact_direction(&self, x: u32, y: u32) -> DVec3 {
         self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
@@ -199,6 +224,21 @@ mod tests {
         };
         assert_eq!(seen([1.0, 2.0, 3.0]), [0.0; 3]);
         assert_eq!(seen([3.0, 6.0, 3.5]), [2.0, 0.5, 4.0], "right, up, along the view");
+    }
+
+    #[test]
+    fn clip_rows_put_points_at_their_pixels() {
+        let camera = Camera::new([5.0, -4.0, 3.0], [1.0, 2.0, 0.5], [0.0, 0.0, 1.0], 0.5, 64, 48).expect("a camera");
+        let frame = UnitFrame::new([DVec3::splat(-1.0), DVec3::splat(3.0)]);
+        let rows = camera.clip_rows(&frame).map(|row| row.map(f64::from));
+        for [x, y] in [[0.5, 0.5], [63.5, 20.25], [32.0, 24.0]] {
+            let point = frame.of_scene(wide(camera.eye()) + 7.0 * camera.direction_at(x, y));
+            let [cx, cy, cz, cw] = rows.map(|[a, b, c, d]| a * point.x + b * point.y + c * point.z + d);
+            assert_abs_diff_eq!(cw * frame.unit(), 7.0, epsilon = 1e-5);
+            assert_abs_diff_eq!((cx / cw + 1.0) * 32.0, x, epsilon = 1e-4);
+            assert_abs_diff_eq!((1.0 - cy / cw) * 24.0, y, epsilon = 1e-4);
+            assert!((0.0..=cw).contains(&cz), "{cz} of {cw}");
+        }
     }
 
     #[test]

@@ -37,8 +37,9 @@ pub(crate) struct Programs(pub(crate) Vec<Program>);
 pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let rooms = walk(&root().join("src"), &["psa", "vsa", "fp"]);
     let mut all = Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))));
-    let written = crossbar::subsurface::kernels::programs();
-    all.0.extend(written.into_iter().filter_map(|(name, text)| Program::new(name, &text)));
+    let written = crossbar::subsurface::kernels::programs().into_iter();
+    let written = written.chain(crossbar::prt::kernels::programs());
+    all.0.extend(written.filter_map(|(name, text)| Program::new(name, &text)));
     all
 });
 

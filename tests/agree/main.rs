@@ -17,6 +17,7 @@ mod fuzz;
 mod generate;
 mod mipmaps;
 mod planted;
+mod prt;
 mod radiosity;
 mod random;
 mod rules;

@@ -24,6 +24,7 @@ mod outputs;
 mod pages;
 mod pictures;
 mod ply;
+mod prt_card;
 mod prt_cpca;
 mod prt_transfer;
 mod radiosity;

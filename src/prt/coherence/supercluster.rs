@@ -50,10 +50,7 @@ impl Superclusters {
         registers: ConstantRegisters,
     ) -> Result<Self, CoherenceError> {
         check_triangles(triangles, clustering.points())?;
-        let mut needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
-        if let Some(cluster) = needed.iter().position(|&needed| needed > registers.limit) {
-            return Err(CoherenceError::Registers { cluster, needed: needed[cluster], limit: registers.limit });
-        }
+        let mut needed = needed(clustering, registers)?;
         let mut of_cluster: Vec<u32> = (0..needed.len() as u32).collect();
         let mut corners = mixed_triangles(triangles, clustering.of_point());
         while let Some((a, b)) = best_pair(&corners, &needed, registers.limit) {
@@ -62,6 +59,15 @@ impl Superclusters {
             corners = renamed(corners, a, b);
         }
         Ok(Self::numbered(of_cluster))
+    }
+
+    /// A supercluster per cluster.
+    ///
+    /// # Errors
+    /// [`CoherenceError::Registers`] if a cluster exceeds the registers.
+    pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, CoherenceError> {
+        let count = needed(clustering, registers)?.len();
+        Ok(Self { of_cluster: (0..count as u32).collect(), count })
     }
 
     /// Numbers superclusters in the order of their lowest clusters.
@@ -91,6 +97,15 @@ impl Superclusters {
     pub fn overdraw(&self, clustering: &Clustering, triangles: &[[u32; 3]]) -> u64 {
         let of_point: Vec<u32> = clustering.of_point().iter().map(|&k| self.of_cluster[k as usize]).collect();
         overdraw(triangles, &of_point)
+    }
+}
+
+/// The registers that each cluster needs, none more than there are.
+fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<usize>, CoherenceError> {
+    let needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
+    match needed.iter().position(|&needed| needed > registers.limit) {
+        Some(cluster) => Err(CoherenceError::Registers { cluster, needed: needed[cluster], limit: registers.limit }),
+        None => Ok(needed),
     }
 }
 

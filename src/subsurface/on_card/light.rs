@@ -76,13 +76,14 @@ impl CardLights {
                     all.list.push(CardLight { place: [x, y, z, 0.0], color: irradiance, attenuation });
                 }
                 Light::Point { position, intensity, attenuation } => {
-                    let place = model.to_card(DVec3::from(position));
+                    let place = model.frame().of_scene(DVec3::from(position));
                     if !(0.0..=FARTHEST).contains(&place.length()) {
                         return wrong("a point light within 1e15 radii of the model; a directional one is farther");
                     }
                     let [x, y, z] = place.to_array().map(|value| value as f32);
                     let [k0, k1, k2] = attenuation;
-                    let factors = [k0, k1 * model.unit(), k2 * model.unit() * model.unit()];
+                    let unit = model.frame().unit();
+                    let factors = [k0, k1 * unit, k2 * unit * unit];
                     let largest = factors.into_iter().fold(0.0, f64::max);
                     let fine = attenuation.iter().all(|k| *k >= 0.0) && largest > 0.0 && largest.is_finite();
                     let color = intensity.map(|value| value / largest);

@@ -4,14 +4,13 @@ use glam::DVec3;
 
 use crate::atlas::{Atlas, DrawnFace, FacePlace};
 use crate::card::Texels;
+use crate::geom::UnitFrame;
 
-/// A model with its atlas. Positions are relative to the middle of its bounds, in units of a power of two that is
-/// larger than its radius.
+/// A model with its atlas, in a frame of its own size.
 #[derive(Clone, Debug)]
 pub struct CardModel {
     side: u32,
-    center: DVec3,
-    unit: f64,
+    frame: UnitFrame,
     pub(super) positions: Texels,
     pub(super) normals: Texels,
     pub(super) faces: Vec<CardFace>,
@@ -49,24 +48,21 @@ impl CardModel {
     pub fn new(atlas: &Atlas) -> Self {
         let drawn: Vec<DrawnFace> = (0..atlas.places().len() as u32).map(|face| atlas.drawn(face)).collect();
         let corners = drawn.iter().flat_map(|face| face.triangles.iter().flatten().map(|vertex| vertex.position));
-        let (low, high) =
-            corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
-        let center = low / 2.0 + high / 2.0;
-        let unit = power_of_two_above((high / 2.0 - low / 2.0).length());
+        let frame = UnitFrame::new(corners);
         let side = atlas.side();
         let mean = atlas.mean_texel_area();
         let factor = |area: f64| if mean > 0.0 { (area / mean) as f32 } else { 0.0 };
         let size = [side as usize; 2];
         let texel = |x: usize, y: usize| &atlas.texels()[y * side as usize + x];
         let positions = Texels::from_fn(size, |x, y| {
-            let [px, py, pz] = narrowed((texel(x, y).point - center) / unit);
+            let [px, py, pz] = narrowed(frame.of_scene(texel(x, y).point));
             [px, py, pz, factor(texel(x, y).area)]
         });
         let normals = Texels::from_fn(size, |x, y| {
             let [nx, ny, nz] = narrowed(texel(x, y).normal);
             [nx, ny, nz, 0.0]
         });
-        let vertex = |position: DVec3, normal: DVec3| (narrowed((position - center) / unit), narrowed(normal));
+        let vertex = |position: DVec3, normal: DVec3| (narrowed(frame.of_scene(position)), narrowed(normal));
         let face = |(face, (drawn, place)): (u32, (&DrawnFace, &FacePlace))| {
             let [[a, b, m], [_, _, c]] = drawn.triangles;
             let rectangle = [a, b, c, m].map(|corner| {
@@ -83,7 +79,7 @@ impl CardModel {
             CardFace { rectangle, whole, bounds, area }
         };
         let faces = (0..).zip(drawn.iter().zip(atlas.places())).map(face).collect();
-        Self { side, center, unit, positions, normals, faces }
+        Self { side, frame, positions, normals, faces }
     }
 
     /// Texels along a side of the atlas.
@@ -96,14 +92,9 @@ impl CardModel {
         self.faces.len()
     }
 
-    /// A point of the scene in the card's units.
-    pub(super) fn to_card(&self, point: DVec3) -> DVec3 {
-        (point - self.center) / self.unit
-    }
-
-    /// The length of the card's unit.
-    pub(super) fn unit(&self) -> f64 {
-        self.unit
+    /// The frame of positions on the card.
+    pub(super) fn frame(&self) -> &UnitFrame {
+        &self.frame
     }
 }
 
@@ -114,19 +105,4 @@ impl CardFace {
 
 fn narrowed(vector: DVec3) -> [f32; 3] {
     vector.to_array().map(|value| value as f32)
-}
-
-/// The power of two above a length; 1 for 0.
-fn power_of_two_above(length: f64) -> f64 {
-    if length.is_normal() { f64::from_bits(((length.to_bits() >> 52) + 1) << 52) } else { 1.0 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_unit_is_a_power_of_two_above() {
-        assert_eq!([0.0, 1.0, 1.5, 2.0, 0.3].map(power_of_two_above), [1.0, 2.0, 2.0, 4.0, 0.5]);
-    }
 }

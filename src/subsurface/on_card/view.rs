@@ -19,8 +19,6 @@ use crate::subsurface::kernels::{self, Combine, DirectLight, EyeTransmittance, V
 
 /// Texels of the table of transmittances.
 const TABLE: u32 = 256;
-/// The nearest that anything is drawn, in units of the model.
-const NEAR: f64 = 1e-3;
 
 /// How the model is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -209,30 +207,8 @@ struct ViewConstants<'a> {
 
 impl ViewConstants<'_> {
     fn eye(&self, w: f32) -> [f32; 4] {
-        let [x, y, z] = self.model.to_card(wide(self.view.camera.eye())).to_array().map(|value| value as f32);
+        let [x, y, z] = self.model.frame().of_scene(wide(self.view.camera.eye())).to_array().map(|value| value as f32);
         [x, y, z, w]
-    }
-
-    /// Rows that take a position to clip space, z from near to far.
-    fn projection(&self) -> [[f32; 4]; 4] {
-        let camera = &self.view.camera;
-        let eye = self.model.to_card(wide(camera.eye()));
-        let per_square = |v: glam::DVec3| v / v.dot(v);
-        let row = |axis: glam::DVec3, scale: f64, offset: f64| {
-            let [x, y, z] = (axis * scale).to_array();
-            [x, y, z, offset - scale * axis.dot(eye)].map(|value| value as f32)
-        };
-        let along = -camera.forward().dot(eye);
-        let near = (along - 1.0).max(NEAR);
-        let far = (along + 1.0).max(2.0 * NEAR);
-        let depth = far / (far - near);
-        let forward = camera.forward();
-        [
-            row(per_square(camera.right()), 1.0, 0.0),
-            row(per_square(camera.up()), 1.0, 0.0),
-            row(forward, depth, -near * depth),
-            row(forward, 1.0, 0.0),
-        ]
     }
 
     /// The factor of direct light: in a product the exposure is in the scattered light already.
@@ -256,7 +232,7 @@ impl ViewConstants<'_> {
     }
 
     fn of_vertices(&self) -> Vec<[f32; 4]> {
-        let mut all = self.projection().to_vec();
+        let mut all = self.view.camera.clip_rows(self.model.frame()).to_vec();
         all.extend([[0.0, 1.0, LEAST_LENGTH, self.view.shininess as f32], self.eye(LEAST_SQUARE), self.ambient()]);
         for light in self.direct {
             let [diffuse, specular] = self.colors(light);

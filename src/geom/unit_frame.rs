@@ -1,0 +1,50 @@
+//! Coordinates in units of a body's own size, so that the unit of length does not matter to single precision.
+
+use glam::DVec3;
+
+/// Coordinates relative to the middle of a body's bounds, in units of a power of two that is larger than half their
+/// diagonal: the body lies within 1 of the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitFrame {
+    center: DVec3,
+    unit: f64,
+}
+
+impl UnitFrame {
+    /// Of a body's points; of none, that of the scene.
+    pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let bounds = points.into_iter().fold(None, |bounds: Option<[DVec3; 2]>, p| {
+            Some(bounds.map_or([p, p], |[low, high]| [low.min(p), high.max(p)]))
+        });
+        let [low, high] = bounds.unwrap_or_default();
+        Self { center: low / 2.0 + high / 2.0, unit: power_of_two_above((high / 2.0 - low / 2.0).length()) }
+    }
+
+    /// A point of the scene in these coordinates.
+    pub fn of_scene(&self, point: DVec3) -> DVec3 {
+        (point - self.center) / self.unit
+    }
+
+    /// The length of the unit.
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+}
+
+/// The power of two above a length; 1 for 0.
+fn power_of_two_above(length: f64) -> f64 {
+    if length.is_normal() { f64::from_bits(((length.to_bits() >> 52) + 1) << 52) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_unit_is_a_power_of_two_above() {
+        assert_eq!([0.0, 1.0, 1.5, 2.0, 0.3].map(power_of_two_above), [1.0, 2.0, 2.0, 4.0, 0.5]);
+        let frame = UnitFrame::new([DVec3::ZERO, DVec3::new(6.0, 0.0, 0.0), DVec3::new(3.0, 1.0, 8.0)]);
+        assert_eq!((frame.unit(), frame.of_scene(DVec3::new(3.0, 0.5, 12.0))), (8.0, DVec3::Z));
+        assert_eq!(UnitFrame::new([]).of_scene(DVec3::X), DVec3::X);
+    }
+}

@@ -1,0 +1,90 @@
+//! The programs that draw compressed transfer: files where a program is one text, and text written here where the
+//! number of vectors and of functions decides.
+
+mod exit;
+mod vertex;
+
+use crate::card::kernels;
+pub use exit::ExitKernel;
+use refsim::isa::Version;
+pub use vertex::{VertexKernel, VertexShading};
+
+kernels! {
+    /// Every file of this folder.
+    FILES:
+    DEPTH "depth.vsa"
+    SHADE "shade.psa"
+    SHADE_COLOR "shade_color.psa"
+}
+
+/// Every program that there is, by name: files, and those written here for a few numbers of vectors.
+pub fn programs() -> Vec<(String, String)> {
+    let mut all: Vec<_> = FILES.iter().map(|file| (file.name.to_owned(), file.text.to_owned())).collect();
+    let shadings = [1, 4, 6, 7].map(|registers| VertexShading::Glossy { registers });
+    for shading in [VertexShading::Diffuse, VertexShading::DiffuseColor].into_iter().chain(shadings) {
+        for (vectors, version) in [(0, Version::Vs1_1), (5, Version::Vs1_1), (8, Version::Vs2_0), (20, Version::Vs2_0)]
+        {
+            let kernel = VertexKernel { shading, vectors, version };
+            all.push((kernel.name(), kernel.text()));
+        }
+    }
+    all.extend([1, 4, 6, 7].map(|registers| ExitKernel { registers }).map(|kernel| (kernel.name(), kernel.text())));
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use refsim::device::Profile;
+
+    fn device(name: &str) -> Profile {
+        Profile::named(name).expect("a device")
+    }
+
+    #[test]
+    fn every_program_runs_on_the_radeons() {
+        for name in ["r300", "r350", "nv35", "gt200", "ideal-fp32"] {
+            let profile = device(name);
+            for (name, text) in programs() {
+                crate::card::checked(&profile, name, &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+            }
+        }
+        for name in ["nv20", "nv25", "r200"] {
+            let kernel = VertexKernel { shading: VertexShading::DiffuseColor, vectors: 8, version: Version::Vs1_1 };
+            kernel.checked(&device(name)).unwrap_or_else(|e| panic!("{e}"));
+            SHADE_COLOR.checked(&device(name)).unwrap_or_else(|e| panic!("{e}"));
+        }
+    }
+
+    #[test]
+    fn slots_are_counted_as_the_device_counts_them() {
+        for registers in 1..=7 {
+            let shading = VertexShading::Glossy { registers };
+            for version in [Version::Vs1_1, Version::Vs2_0] {
+                let (slots, constants) = if version == Version::Vs1_1 { (128, 96) } else { (256, 256) };
+                let kernel = |vectors| VertexKernel { shading, vectors, version };
+                let fits = |&vectors: &usize| {
+                    let (kernel, needed) = (kernel(vectors), registers * (vectors + 1));
+                    kernel.slots() <= slots && kernel.first() + needed <= constants && vectors <= kernel.most_vectors()
+                };
+                let most = (0..64).filter(fits).max().expect("at least one");
+                kernel(most).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
+                let refused = kernel(most + 1).checked(&device("r300"));
+                assert!(refused.is_err(), "{}: {most} vectors are not the most", kernel(most).name());
+            }
+        }
+    }
+
+    /// Figure 10's pure principal components: 20 vectors of 24 functions exceed vs_1_1 in slots and in constants.
+    #[test]
+    fn twenty_vectors_need_vs_2_0() {
+        let shading = VertexShading::Glossy { registers: 6 };
+        let kernel = |version| VertexKernel { shading, vectors: 20, version };
+        kernel(Version::Vs2_0).checked(&device("r300")).unwrap_or_else(|e| panic!("{e}"));
+        let program = refsim::asm::assemble(&kernel(Version::Vs1_1).text()).expect("a program");
+        let report = refsim::check::check(program, &device("r300")).expect_err("refused");
+        let named = |what: &str| report.violations.iter().any(|violation| violation.message.contains(what));
+        assert!(named("138") && named("128"), "slots: {report:?}");
+        assert!(named("`c0` to `c95`"), "constants: {report:?}");
+    }
+}

@@ -1,0 +1,36 @@
+//! Variants of drawing compressed transfer.
+
+use refsim::isa::Version;
+use refsim::texture::TexelFormat;
+
+use super::error::PrtCardError;
+
+/// How compressed transfer is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrtCardOptions {
+    /// Clusters are drawn together as far as the constant registers hold; otherwise each alone.
+    pub superclusters: bool,
+    /// The language of vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the device
+    /// has it.
+    pub vertex_version: Option<Version>,
+    /// Texels along an edge of the maps of y; the paper has 32.
+    pub map_side: usize,
+    /// Their format.
+    pub map_format: TexelFormat,
+}
+
+impl Default for PrtCardOptions {
+    fn default() -> Self {
+        Self { superclusters: true, vertex_version: None, map_side: 32, map_format: TexelFormat::Rgba16Snorm }
+    }
+}
+
+impl PrtCardOptions {
+    /// Checks the ranges.
+    pub(super) fn check(&self) -> Result<(), PrtCardError> {
+        if (1..=4096).contains(&self.map_side) {
+            return Ok(());
+        }
+        Err(PrtCardError::Figure { what: "1 to 4096 texels along an edge of a map", found: self.map_side as f64 })
+    }
+}

@@ -1,0 +1,63 @@
+//! The host's share of a frame (section 6): the mean and vectors of every cluster times the light, M_i l or t_i . l.
+
+use rayon::prelude::*;
+
+use super::error::PrtCardError;
+use super::transfer::{CompressedTransfer, TransferShape};
+use crate::linalg::dot;
+use crate::sphere::HarmonicLight;
+
+/// The products of all clusters, in single precision as the card takes them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Products {
+    rows: usize,
+    /// Per cluster: vector by vector, the mean first, three channels of as many numbers as there are rows.
+    clusters: Vec<Vec<f32>>,
+}
+
+impl Products {
+    /// Products in double precision, times a factor, rounded once. Coefficients of the light beyond the matrices'
+    /// columns are left out.
+    ///
+    /// # Errors
+    /// [`PrtCardError`] for parts that do not go together, light of too low an order, and products beyond single
+    /// precision.
+    pub fn new(transfer: &CompressedTransfer<'_>, light: &HarmonicLight, factor: f64) -> Result<Self, PrtCardError> {
+        let shape = transfer.shape()?;
+        let expected = shape.columns.isqrt();
+        if light.order() < expected {
+            return Err(PrtCardError::LightOrder { expected, found: light.order() });
+        }
+        let of_cluster = |cluster: usize| {
+            let subspace = &transfer.clustering.subspaces()[cluster];
+            let vectors = std::iter::once(&subspace.mean[..]).chain(subspace.vectors());
+            vectors.flat_map(|vector| of_vector(vector, light, shape, factor)).collect()
+        };
+        let clusters: Vec<Vec<f32>> =
+            (0..transfer.clustering.subspaces().len()).into_par_iter().map(of_cluster).collect();
+        match clusters.iter().flatten().find(|value| !value.is_finite()) {
+            Some(&found) => Err(PrtCardError::Figure { what: "products of finite size", found: found.into() }),
+            None => Ok(Self { rows: shape.rows, clusters }),
+        }
+    }
+
+    /// The vectors of a cluster, the mean first: rows of the three channels each.
+    ///
+    /// # Panics
+    /// If there is no such cluster.
+    pub fn vectors(&self, cluster: usize) -> impl ExactSizeIterator<Item = [&[f32]; 3]> {
+        let vectors = self.clusters[cluster].chunks_exact(3 * self.rows);
+        vectors.map(|vector| [0, 1, 2].map(|channel| &vector[channel * self.rows..(channel + 1) * self.rows]))
+    }
+}
+
+/// The product of each channel's matrix, row by row.
+fn of_vector(vector: &[f64], light: &HarmonicLight, shape: TransferShape, factor: f64) -> Vec<f32> {
+    let size = shape.rows * shape.columns;
+    let channels = light.channels().iter().enumerate();
+    let rows = channels.flat_map(|(channel, light)| {
+        let matrix = &vector[if shape.channels == 3 { channel * size } else { 0 }..][..size];
+        matrix.chunks_exact(shape.columns).map(|row| (factor * dot(row, &light[..shape.columns])) as f32)
+    });
+    rows.collect()
+}

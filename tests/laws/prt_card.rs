@@ -1,0 +1,164 @@
+//! Compressed transfer drawn on a card against an image that the host interpolates in f64, ray by ray.
+
+use crossbar::card::Texels;
+use crossbar::prt::brdf::ExitBasis;
+use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
+use crossbar::prt::synthetic::{hills, signal_at};
+use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::scene::Camera;
+use crossbar::sphere::HarmonicLight;
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+use refsim::texture::TexelFormat;
+
+const SIZE: [u32; 2] = [44, 36];
+
+struct Hills {
+    vertices: Vertices,
+    clustering: Clustering,
+    basis: ExitBasis,
+    light: HarmonicLight,
+}
+
+impl Hills {
+    fn new(basis: ExitBasis, clusters: usize, vectors: usize) -> Self {
+        let vertices = Vertices::new(&hills(8), Tangents::Any).expect("vertices");
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), basis.len() * 9, 3, place);
+        let (method, start) = (CpcaMethod::Iterative, StartPoints::Seed(4));
+        let options = CpcaOptions { clusters, vectors, iterations: 5, method, start };
+        let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
+        let light = HarmonicLight::red_and_blue(3);
+        Self { vertices, clustering, basis, light }
+    }
+
+    fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
+        let Self { vertices, clustering, basis, .. } = self;
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
+    }
+
+    fn draw(&self, device: &str, format: TexelFormat, options: &PrtCardOptions) -> Texels {
+        let vectors = self.clustering.subspaces().iter().map(|s| s.len()).max().expect("a cluster");
+        let profile = Profile::named(device).expect("a device");
+        let mut card = PrtCard::new(profile, ExecutorKind::Batch, self.transfer(vectors), options).expect("a card");
+        let view = PrtView { camera: camera(), exposure: 0.5, format };
+        card.view_texels(&self.light, &view).expect("a picture")
+    }
+
+    /// Exit radiance of a vertex: rows of red, green and blue.
+    fn exit(&self, vertex: usize) -> [Vec<f64>; 3] {
+        let mut matrix = vec![0.0; self.clustering.dimension()];
+        self.clustering.approximation(vertex, &mut matrix);
+        let product = |row: &[f64], light: &[f64]| row.iter().zip(light).map(|(m, l)| m * l).sum::<f64>();
+        self.light.channels().each_ref().map(|light| matrix.chunks(9).map(|row| 0.5 * product(row, light)).collect())
+    }
+
+    /// What a ray from the eye sees: exit radiance and the view vector are interpolated between the corners of the
+    /// first triangle. `None`: nothing.
+    fn seen(&self, exits: &[[Vec<f64>; 3]], direction: DVec3) -> Option<[f64; 3]> {
+        let eye = DVec3::from(camera().eye().map(f64::from));
+        let mut nearest: Option<(f64, [f64; 3], [u32; 3])> = None;
+        for corners in self.vertices.triangles() {
+            let [a, b, c] = corners.map(|v| DVec3::from(self.vertices.positions()[v as usize].map(f64::from)));
+            let normal = (b - a).cross(c - a);
+            let t = (a - eye).dot(normal) / direction.dot(normal);
+            let point = eye + t * direction;
+            let part = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.dot(normal);
+            let weights = [part(b, c), part(c, a), part(a, b)];
+            if weights.iter().all(|&w| w >= 0.0) && nearest.is_none_or(|(best, ..)| t < best) {
+                nearest = Some((t, weights, *corners));
+            }
+        }
+        let (_, weights, corners) = nearest?;
+        let mix = |of: &dyn Fn(usize) -> f64| weights.iter().zip(corners).map(|(w, v)| w * of(v as usize)).sum::<f64>();
+        let to_eye = |v: usize| {
+            self.vertices.frames()[v].to_local(eye - DVec3::from(self.vertices.positions()[v].map(f64::from)))
+        };
+        let view = DVec3::from([0, 1, 2].map(|axis| mix(&|v| to_eye(v)[axis]))).normalize();
+        let mut y = vec![0.0; self.basis.len()];
+        self.basis.values(view, &mut y);
+        let radiance = |channel: usize| (0..y.len()).map(|row| y[row] * mix(&|v| exits[v][channel][row])).sum();
+        Some([0, 1, 2].map(radiance))
+    }
+
+    /// The largest difference of a picture from what the host interpolates, over pixels whose neighbours show the hills
+    /// as well, as a share of the largest value.
+    fn error(&self, picture: &Texels) -> f64 {
+        let exits: Vec<_> = (0..self.vertices.len()).map(|vertex| self.exit(vertex)).collect();
+        let at = |x: f64, y: f64| self.seen(&exits, camera().direction_at(x, y));
+        let (mut worst, mut largest, mut compared) = (0.0_f64, 0.0_f64, 0);
+        for y in 0..SIZE[1] {
+            for x in 0..SIZE[0] {
+                let [u, v] = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+                let around = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+                if around.iter().any(|[du, dv]| at(u + du, v + dv).is_none()) {
+                    continue;
+                }
+                let Some(expected) = at(u, v) else { continue };
+                compared += 1;
+                let found = picture.row(y as usize)[x as usize];
+                for (found, expected) in found.iter().zip(expected) {
+                    worst = worst.max((f64::from(*found) - expected).abs());
+                    largest = largest.max(expected.abs());
+                }
+            }
+        }
+        assert!(compared > 500, "{compared} pixels");
+        worst / largest
+    }
+}
+
+/// From above, so that the hills hide nothing of each other.
+fn camera() -> Camera {
+    Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
+}
+
+const FLOATS: TexelFormat = TexelFormat::Rgba32f;
+
+#[test]
+fn diffuse_pictures_are_the_interpolated_sums() {
+    let hills = Hills::new(ExitBasis::Radiance, 9, 3);
+    for superclusters in [false, true] {
+        let options = PrtCardOptions { superclusters, ..PrtCardOptions::default() };
+        let error = hills.error(&hills.draw("ideal-fp32", FLOATS, &options));
+        assert!(error < 2e-3, "{error}");
+    }
+}
+
+/// What is left is the linear filter between the texels of the maps: a quarter for twice the texels.
+#[test]
+fn glossy_pictures_converge_with_the_maps() {
+    for basis in [ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("order 5"), ExitBasis::of_order(5)] {
+        let hills = Hills::new(basis, 6, 4);
+        let error = |map_side, map_format| {
+            let options = PrtCardOptions { map_side, map_format, ..PrtCardOptions::default() };
+            hills.error(&hills.draw("ideal-fp32", FLOATS, &options))
+        };
+        let [coarse, fine] = [16, 64].map(|side| error(side, FLOATS));
+        assert!(coarse / fine > 8.0, "{coarse} {fine}");
+        assert!(error(256, FLOATS) < 3e-3);
+        let sixteen_bits = error(64, TexelFormat::Rgba16Snorm);
+        assert!((sixteen_bits - fine).abs() < 2e-4, "{sixteen_bits} {fine}");
+    }
+}
+
+#[test]
+fn passes_add_up_to_one_picture() {
+    for basis in [ExitBasis::Radiance, ExitBasis::of_order(4)] {
+        let hills = Hills::new(basis, 12, 3);
+        let draw = |superclusters| {
+            hills.draw("ideal-fp32", FLOATS, &PrtCardOptions { superclusters, ..PrtCardOptions::default() })
+        };
+        let (apart, together) = (draw(false), draw(true));
+        let differences = apart
+            .texels
+            .iter()
+            .zip(&together.texels)
+            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max));
+        let largest = together.texels.iter().flatten().fold(0.0, |most: f32, value| most.max(value.abs()));
+        let worst = differences.fold(0.0, f32::max);
+        assert!(worst > 0.0 && worst < 4e-6 * largest, "{worst} of {largest}");
+    }
+}
