@@ -87,8 +87,8 @@ fn everything_is_written_down_in_order() {
             Event::Clear { resource: depth, bytes: 512 },
             Event::Host(HostWork { kind: "ray".into(), operations: 64 }),
             // Everything is new to the first draw; the second changes nothing; the third alpha test and masks.
-            Event::StateChange { changes: 29 },
-            Event::StateChange { changes: 2 },
+            Event::StateChange { changes: 29, constants: 0 },
+            Event::StateChange { changes: 2, constants: 0 },
             upload,
             Event::ReadBack { resource: target, bytes: 1024, mode, fence: Some(FenceId(1)) },
             Event::SetFence(FenceId(2)),

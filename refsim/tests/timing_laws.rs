@@ -68,6 +68,7 @@ fn record(work: &Work) -> DrawRecord {
     };
     DrawRecord {
         counts,
+        vertices_run: [vertices; 3],
         quads,
         pixel: program(&work.lines),
         vertex: None,
@@ -126,7 +127,8 @@ proptest! {
             prop_assert!(model.upload(larger) >= model.upload(bytes));
             prop_assert!(model.read_back(larger) >= model.read_back(bytes));
             prop_assert!(model.clear(larger) >= model.clear(bytes));
-            prop_assert!(model.state_change(3) >= model.state_change(2));
+            prop_assert!(model.state_change(3, 5) >= model.state_change(2, 5));
+            prop_assert!(model.state_change(2, 6) >= model.state_change(2, 5));
         }
     }
 }

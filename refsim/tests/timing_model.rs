@@ -7,7 +7,7 @@ use refsim::asm::assemble;
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event, FlowConstants, ProgramWork};
 use refsim::exec::Constants;
-use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::machine::{AttributeStream, DrawCall, ExecutorKind, Machine, StepRate, VertexSource, VertexStreams};
 use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
@@ -200,4 +200,67 @@ fn mip_levels_are_drawn_one_after_the_other() {
     assert_eq!(pipeline.core_clocks, Clocks(10 * 300 + moved + 2 * 4));
     assert_eq!(pipeline.bottleneck, Bottleneck::Memory);
     assert_eq!(pipeline.memory.0 / 1_000_000, 257, "microseconds");
+}
+
+const TRANSFORM: &str = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmul r0, v0, c1\nmov oD0, c2";
+
+/// A row of triangles by index, each vertex used three times in a row or far apart; constants c0 to c2.
+fn indexed(order: &[u32], constants: &[[f32; 4]]) -> Vec<Event> {
+    let profile = Profile::named("r300").unwrap();
+    let (vertex, pixel) = (checked(TRANSFORM, &profile), checked("ps_2_0\ndcl v0\nmov oC0, v0", &profile));
+    let mut machine = Machine::new(profile, ExecutorKind::Scalar);
+    let target = machine.create_target(TexelFormat::Bgra8, 8, 8).unwrap();
+    let positions: Vec<[u32; 4]> = (0..40).map(|n| bits([n as f32, 2.0, 0.5, 1.0])).collect();
+    let stream = AttributeStream { register: 0, step: StepRate::Vertex, data: &positions };
+    let streams = VertexStreams { vertex_count: positions.len(), instance_count: 1, streams: vec![stream] };
+    let host = Constants { float: constants.iter().copied().map(bits).collect(), ..Constants::default() };
+    let none = Constants::default();
+    let source = VertexSource::Program { program: &vertex, constants: &host, streams };
+    let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &none, target);
+    call.indices = Some(order);
+    machine.record(true);
+    machine.draw(&call).unwrap();
+    machine.take_log()
+}
+
+fn only_draw(log: &[Event]) -> &DrawRecord {
+    log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
+}
+
+/// Three instructions and 16 bytes a vertex that is run: once each along a strip, again wherever 16 others came between.
+#[test]
+fn vertices_that_left_the_cache_are_run_again() {
+    let strip: Vec<u32> = (0..38).flat_map(|n| [n, n + 1, n + 2]).collect();
+    let around: Vec<u32> = (0..3).flat_map(|_| 0..39).collect();
+    let model = Model::new(Level::Pipeline, &Profile::named("r300").unwrap()).unwrap();
+    for (order, run) in [(&strip, [40; 3]), (&around, [117; 3]), (&[0, 1, 2, 2, 1, 3].to_vec(), [4; 3])] {
+        let log = indexed(order, &[]);
+        let record = only_draw(&log);
+        assert_eq!(record.vertices_run, run);
+        let clocks = model.clocks(record);
+        assert_eq!(clocks.vertices, Clocks((3 * run[1]).div_ceil(4)), "four vertex units");
+        assert_eq!(clocks.traffic.vertices, 16 * run[1]);
+    }
+    // Twelve vertices around and around: too many for half the cache of 16, and not for all of it.
+    let twelve: Vec<u32> = (0..4).flat_map(|_| 0..12).collect();
+    let log = indexed(&twelve, &[]);
+    assert_eq!(only_draw(&log).vertices_run, [48, 12, 12]);
+    let half = model.with_scaled("rates.vertex_cache_entries", 1, 2).unwrap();
+    assert_eq!(half.clocks(only_draw(&log)).vertices, Clocks(36));
+    assert_eq!(model.clocks(only_draw(&log)).vertices, Clocks(9));
+}
+
+/// Constants that differ: from 0 at first. Four clocks each, or their bytes over the bus.
+#[test]
+fn constants_are_sent_where_they_differ() {
+    let changed = |constants: &[[f32; 4]]| match indexed(&[0, 1, 2], constants).first() {
+        Some(Event::StateChange { constants, .. }) => *constants,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(changed(&[[0.0; 4], [1.0; 4], [0.0, 0.0, 0.0, 2.0]]), 2);
+    assert_eq!(changed(&[]), 0);
+    let model = Model::new(Level::Pipeline, &Profile::named("r300").unwrap()).unwrap();
+    // 325 MHz: 100 constants are 400 clocks, 1.23 us; their 1,600 bytes at 2.112 GB/s take 0.76 us.
+    assert_eq!(model.state_change(0, 100), Picoseconds((400_u64 * 1_000_000).div_ceil(325)));
+    assert_eq!(model.state_change(0, 0), Picoseconds::ZERO);
 }

@@ -90,7 +90,7 @@ fn play(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> (Vec
         match command {
             Command::Host(time) => queue.host(Picoseconds(*time), "work"),
             Command::Upload(resource, time) => queue.upload(ResourceId(*resource), Picoseconds(*time), "upload"),
-            Command::State(time) => queue.state(Picoseconds(*time), "state"),
+            Command::State(time) => queue.state(Picoseconds(*time), 0, "state"),
             Command::Clear(resource, time) => queue.clear(ResourceId(*resource), Picoseconds(*time), "clear"),
             Command::Draw { reads, writes, cost: [front_end, shader, memory, fill] } => {
                 queue.draw(&ids(reads), &ids(writes), cost(*front_end, *shader, *memory, *fill), "draw");

@@ -77,7 +77,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
     let model = Model::new(Level::Pipeline, profile)?;
     let log = iteration_log(profile, timing)?;
     let state = log.iter().fold(Picoseconds::ZERO, |sum, event| match event {
-        Event::StateChange { changes } => sum + model.state_change(*changes),
+        Event::StateChange { changes, constants } => sum + model.state_change(*changes, *constants),
         _ => sum,
     });
     let draws: Vec<&DrawRecord> =

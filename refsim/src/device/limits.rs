@@ -202,6 +202,10 @@ figures! {
         draw_clocks,
         /// Clocks of the command processor for one piece of state.
         state_clocks,
+        /// Clocks of the command processor for one constant register of four numbers.
+        constant_clocks,
+        /// Vertices that stay finished for the triangles that follow: the first in goes out first.
+        vertex_cache_entries,
         /// Share of the peak memory bandwidth that is reached, in percent.
         memory_efficiency_percent,
         /// Size of the texture cache, in bytes.

@@ -52,6 +52,8 @@ pub enum Event {
         /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth
         /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
         changes: u32,
+        /// How many float constants of four numbers differ, in both programs: what goes to the card.
+        constants: u32,
     },
     /// A target or depth buffer was filled with one value.
     Clear {
@@ -200,6 +202,10 @@ impl MipmapRecord {
 pub struct DrawRecord {
     /// What happened.
     pub counts: DrawEvents,
+    /// Vertices that the card processes: an indexed vertex once more each time that it has left the cache of finished
+    /// vertices. By size of that cache: half of what the profile states, that, twice that. All vertices once where
+    /// there are no indices or no such cache is stated.
+    pub vertices_run: [u64; 3],
     /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades
     /// whole quads: the lanes outside the triangle cost what the others do.
     pub quads: u64,

@@ -27,6 +27,7 @@ mod state;
 mod tiles;
 mod trace;
 mod validate;
+mod vertex_cache;
 mod vertices;
 mod walk;
 

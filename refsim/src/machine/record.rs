@@ -5,6 +5,7 @@
 
 use super::state::DrawState;
 use super::validate::Plan;
+use super::vertex_cache::vertices_run;
 use super::vertices::{VertexStage, set_up};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
@@ -114,9 +115,9 @@ impl Machine {
         }
         let record = self.draw_record(call, plan, counts, traffic);
         self.recorder.with(|log| {
-            let changes = DrawState::update(&mut log.state, call);
+            let (changes, constants) = DrawState::update(&mut log.state, call);
             if changes > 0 {
-                log.events.push(Event::StateChange { changes });
+                log.events.push(Event::StateChange { changes, constants });
             }
             log.events.push(Event::Draw(Box::new(record)));
         });
@@ -135,6 +136,7 @@ impl Machine {
         };
         DrawRecord {
             counts: *counts,
+            vertices_run: vertices_run(call, counts, self.profile.rates.vertex_cache_entries),
             quads: self.quads(call, plan),
             pixel: Arc::new(work(call.pixel_program, call.pixel_constants)),
             vertex,

@@ -40,15 +40,29 @@ struct FixedState {
 }
 
 impl DrawState {
-    /// Takes over the state that a call brings; gives how many pieces differ. Before the first draw no piece is set.
-    pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> u32 {
+    /// Takes over the state that a call brings; gives how many pieces differ, and how many float constants. Before the
+    /// first draw no piece is set and constants are 0.
+    pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> (u32, u32) {
         match state {
-            Some(state) => state.take(call),
+            Some(state) => {
+                let constants = state.new_constants(call);
+                (state.take(call), constants)
+            }
             None => {
                 *state = Some(Self::of(call));
-                PIECES
+                let (_, vertex_constants, _) = vertex_stage(call);
+                let all = [Some(call.pixel_constants), vertex_constants].into_iter().flatten();
+                (PIECES, all.map(|new| differing(&Constants::default(), new)).sum())
             }
         }
+    }
+
+    /// Float constants of a call that differ from those set.
+    fn new_constants(&self, call: &DrawCall<'_>) -> u32 {
+        let none = Constants::default();
+        let (_, vertex_constants, _) = vertex_stage(call);
+        let kept = self.vertex_constants.as_ref().unwrap_or(&none);
+        differing(&self.pixel_constants, call.pixel_constants) + vertex_constants.map_or(0, |new| differing(kept, new))
     }
 
     fn of(call: &DrawCall<'_>) -> Self {
@@ -112,6 +126,14 @@ fn vertex_stage<'a>(call: &DrawCall<'a>) -> (Option<&'a Program>, Option<&'a Con
             (Some(program(vertex)), Some(*constants), Some(layout))
         }
     }
+}
+
+/// Float constants, by register and by name, that are set to something else; those not set are 0.
+fn differing(kept: &Constants, new: &Constants) -> u32 {
+    let before = kept.float.iter().copied().chain(std::iter::repeat([0; 4]));
+    let numbered = new.float.iter().zip(before).filter(|&(new, before)| *new != before).count();
+    let named = new.named.iter().filter(|&(name, value)| kept.named.get(name) != Some(value)).count();
+    (numbered + named) as u32
 }
 
 /// Replaces a piece where it differs; gives whether it did, as a count. A piece that stays is not copied.

@@ -24,7 +24,7 @@ const SPENT: [&str; 5] = [
 ];
 
 /// What the pipeline level must be told.
-const PIPELINE_FIGURES: [&str; 14] = [
+const PIPELINE_FIGURES: [&str; 15] = [
     "core_clock_hz",
     "memory_bytes_per_s",
     "pixel_pipes",
@@ -36,10 +36,14 @@ const PIPELINE_FIGURES: [&str; 14] = [
     "pipeline_clocks",
     "draw_clocks",
     "state_clocks",
+    "constant_clocks",
     "memory_efficiency_percent",
     "texture_cache_bytes",
     "texture_cache_line_bytes",
 ];
+
+/// Bytes of a constant register.
+const CONSTANT_BYTES: u64 = 16;
 
 /// What both levels must be told about the bus.
 const BUS_FIGURES: [&str; 2] = ["upload_bytes_per_s", "readback_bytes_per_s"];
@@ -53,6 +57,7 @@ pub struct Model {
     bus: Bus,
     figures: Vec<FigureRow>,
     cache: CacheSize,
+    vertex_cache: CacheSize,
 }
 
 impl Model {
@@ -69,6 +74,7 @@ impl Model {
             bus: profile.bus.clone(),
             figures: profile.figures().into_iter().filter(timed).collect(),
             cache: CacheSize::Stated,
+            vertex_cache: CacheSize::Stated,
         };
         match level {
             Level::Rates if model.rates.measured_fill_pixels_per_s.is_none() => model.need("fill_pixels_per_s")?,
@@ -111,7 +117,7 @@ impl Model {
 
     /// What a draw costs each unit, in clocks of the core; the pipeline's view, whatever the level.
     pub fn clocks(&self, draw: &DrawRecord) -> PipelineClocks {
-        pipeline_clocks(draw, &self.rates, self.cache)
+        pipeline_clocks(draw, &self.rates, (self.cache, self.vertex_cache))
     }
 
     /// What one fragment of a program costs a pixel pipeline that reads plain 32-bit texels.
@@ -134,13 +140,17 @@ impl Model {
         rate(self.bus.readback_bytes_per_s).time_of(bytes) + self.latency(self.bus.readback_latency_ns)
     }
 
-    /// How long the card takes to change so many pieces of state.
-    pub fn state_change(&self, changes: u32) -> Picoseconds {
+    /// How long the card takes to change so many pieces of state, with so many constants: its command processor works
+    /// while the constants cross the bus.
+    pub fn state_change(&self, changes: u32, constants: u32) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
             Level::Pipeline => {
-                let clocks = u64::from(changes).saturating_mul(self.rates.state_clocks.unwrap_or_default());
-                rate(self.rates.core_clock_hz).time_of(clocks)
+                let clocks = |count: u32, each: Option<u64>| u64::from(count).saturating_mul(each.unwrap_or_default());
+                let pieces = clocks(changes, self.rates.state_clocks);
+                let all = pieces.saturating_add(clocks(constants, self.rates.constant_clocks));
+                let sent = rate(self.bus.upload_bytes_per_s).time_of(u64::from(constants) * CONSTANT_BYTES);
+                rate(self.rates.core_clock_hz).time_of(all).max(sent)
             }
         }
     }
@@ -173,8 +183,8 @@ impl Model {
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// The model with one guess scaled, rounded down but not to 0. Draws that were observed know their misses at half
-    /// and at twice the cache's size; between those the nearest is taken.
+    /// The model with one guess scaled, rounded down but not to 0. Draws know their misses at half and at twice the size
+    /// of a cache (of textures, if they were observed); between those the nearest is taken.
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.
@@ -192,12 +202,15 @@ impl Model {
         let before = *slot;
         let wide = u128::from(before) * u128::from(numerator) / u128::from(denominator);
         *slot = u64::try_from(wide).unwrap_or(u64::MAX).max(before.min(1));
-        if key == "rates.texture_cache_bytes" {
-            scaled.cache = match () {
-                () if numerator >= denominator.saturating_mul(2) => CacheSize::Double,
-                () if numerator.saturating_mul(2) <= denominator => CacheSize::Half,
-                () => CacheSize::Stated,
-            };
+        let size = match () {
+            () if numerator >= denominator.saturating_mul(2) => CacheSize::Double,
+            () if numerator.saturating_mul(2) <= denominator => CacheSize::Half,
+            () => CacheSize::Stated,
+        };
+        match key {
+            "rates.texture_cache_bytes" => scaled.cache = size,
+            "rates.vertex_cache_entries" => scaled.vertex_cache = size,
+            _ => {}
         }
         Ok(scaled)
     }

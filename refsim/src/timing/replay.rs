@@ -20,8 +20,8 @@ pub trait Costs {
     fn read_back(&self, bytes: u64) -> Picoseconds;
     /// Bytes filled with one value.
     fn clear(&self, bytes: u64) -> Picoseconds;
-    /// Pieces of state changed.
-    fn state(&self, changes: u32) -> Picoseconds;
+    /// Pieces of state changed, and constants among them.
+    fn state(&self, changes: u32, constants: u32) -> Picoseconds;
 }
 
 /// How a log is replayed.
@@ -69,8 +69,8 @@ impl Costs for Model {
         self.clear(bytes)
     }
 
-    fn state(&self, changes: u32) -> Picoseconds {
-        self.state_change(changes)
+    fn state(&self, changes: u32, constants: u32) -> Picoseconds {
+        self.state_change(changes, constants)
     }
 }
 
@@ -156,8 +156,9 @@ impl Player<'_> {
                 let copy = self.overwritten(*resource);
                 self.queue.upload(copy, costs.upload(*bytes), format!("upload {}", name(*resource)));
             }
-            Event::StateChange { changes } => {
-                self.queue.state(costs.state(*changes), format!("{changes} state changes"))
+            Event::StateChange { changes, constants } => {
+                let (time, label) = (costs.state(*changes, *constants), format!("{changes} state changes"));
+                self.queue.state(time, *constants, label);
             }
             Event::Clear { resource, bytes } => {
                 let copy = self.overwritten(*resource);

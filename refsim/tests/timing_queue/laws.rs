@@ -42,6 +42,7 @@ fn figures() -> impl Strategy<Value = QueueFigures> {
     (submit(), submit(), submit(), 1..8_u64, 0..4_u64).prop_map(|(a, b, c, commands, draws_ahead)| QueueFigures {
         upload_ps: a,
         state_ps: b,
+        constant_ps: b / 2,
         clear_ps: c,
         draw_ps: a,
         read_back_ps: b,

@@ -39,8 +39,8 @@ impl Costs for Simple {
         Picoseconds(1)
     }
 
-    fn state(&self, changes: u32) -> Picoseconds {
-        Picoseconds(changes.into())
+    fn state(&self, changes: u32, constants: u32) -> Picoseconds {
+        Picoseconds(u64::from(changes) + u64::from(constants))
     }
 }
 
@@ -61,6 +61,7 @@ fn draw(time: u64) -> Event {
     };
     Event::Draw(Box::new(DrawRecord {
         counts: DrawEvents { vertices: time, ..DrawEvents::default() },
+        vertices_run: [0; 3],
         quads: 0,
         pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())),
         vertex: None,
@@ -167,7 +168,7 @@ fn event() -> impl Strategy<Value = Event> {
         (resource(), 0..50_u64).prop_map(|(resource, bytes)| Event::Clear { resource, bytes }),
         (0..50_u64).prop_map(draw),
         (0..50_u64).prop_map(|bytes| read_back(bytes, ReadBackMode::Asynchronous, Some(1))),
-        (0..50_u32).prop_map(|changes| Event::StateChange { changes }),
+        (0..50_u32, 0..9_u32).prop_map(|(changes, constants)| Event::StateChange { changes, constants }),
         (0..50_u64).prop_map(|operations| Event::Host(HostWork { kind: "ray-generated".into(), operations })),
         Just(Event::SetFence(FenceId(1))),
     ]

@@ -78,7 +78,7 @@ pub fn pass_times(profile: &Profile, log: &[PassEvent]) -> Result<[PassTime; 4],
                     }
                 }
                 Event::GenerateMipmaps(record) => time.time += model.mipmaps(record).total,
-                Event::StateChange { changes } => time.time += model.state_change(*changes),
+                Event::StateChange { changes, constants } => time.time += model.state_change(*changes, *constants),
                 Event::Clear { bytes, .. } => time.time += model.clear(*bytes),
                 _ => {}
             }

@@ -87,8 +87,12 @@ impl PipelineClocks {
     }
 }
 
-/// The clocks of a draw.
-pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> PipelineClocks {
+/// The clocks of a draw, with its texture cache and its cache of finished vertices.
+pub(super) fn pipeline_clocks(
+    draw: &DrawRecord,
+    rates: &Rates,
+    (cache, vertex_cache): (CacheSize, CacheSize),
+) -> PipelineClocks {
     let counts = &draw.counts;
     let fragment = fragment_clocks(&draw.pixel, &draw.samplers, rates);
     let lanes = wide(draw.quads) * wide(QUAD);
@@ -96,9 +100,9 @@ pub(super) fn pipeline_clocks(draw: &DrawRecord, rates: &Rates, cache: CacheSize
     let shaders = Shaders::of(rates);
     let texture_units = rates.texture_units.map_or(pipes, wide);
     let triangles = counts.primitives.assembled.max(counts.primitives.rasterised);
-    let traffic = traffic(draw, rates, cache);
+    let traffic = traffic(draw, rates, (cache, vertex_cache));
     PipelineClocks {
-        vertices: vertices(draw, rates, &shaders),
+        vertices: vertices(draw, rates, (vertex_cache, &shaders)),
         setup: clocks(wide(triangles) * wide(rates.setup_clocks_per_triangle.unwrap_or_default()), 1),
         arithmetic: clocks(lanes * wide(fragment.arithmetic.0) * shaders.numerator, pipes * shaders.denominator),
         textures: clocks(lanes * wide(fragment.textures.0), texture_units),
@@ -129,16 +133,18 @@ impl Shaders {
     }
 }
 
-/// The instructions executed, over the units; at least what the stated vertex rate takes.
-fn vertices(draw: &DrawRecord, rates: &Rates, shaders: &Shaders) -> Clocks {
-    let slots = wide(draw.counts.vertex_instructions) * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
+/// The instructions of the vertices that are run, over the units; at least what the stated vertex rate takes.
+fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Shaders)) -> Clocks {
+    let (run, each) = (wide(cache.vertices_run(draw)), wide(draw.counts.vertices).max(1));
+    let instructions = (wide(draw.counts.vertex_instructions) * run).div_ceil(each);
+    let slots = instructions * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
     let executed = match rates.vertex_units {
         Some(units) => clocks(slots, wide(units)),
         // One pool of processors for vertices and pixels.
         None => clocks(slots * shaders.numerator, wide(rates.pixel_pipes.unwrap_or(1)) * shaders.denominator),
     };
     let fetched = match (rates.vertices_per_s, rates.core_clock_hz) {
-        (Some(rate), Some(core)) => clocks(wide(draw.counts.vertices) * wide(core), wide(rate)),
+        (Some(rate), Some(core)) => clocks(run * wide(core), wide(rate)),
         _ => Clocks(0),
     };
     executed.max(fetched)

@@ -3,7 +3,7 @@
 use crate::device::Rates;
 use crate::event::{DrawRecord, SamplerRecord, SamplerTraffic};
 
-/// Which texture cache a model takes: the record of an observed draw knows them all.
+/// Which size of a cache a model takes: the record of a draw knows them all, those of textures if it was observed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CacheSize {
     /// Of half the size that the profile states.
@@ -26,6 +26,16 @@ impl CacheSize {
             Self::Stated => stated,
             Self::Double => double,
             Self::None => seen.requests,
+        }
+    }
+
+    /// Vertices that are processed.
+    pub(super) fn vertices_run(self, draw: &DrawRecord) -> u64 {
+        let [half, stated, double] = draw.vertices_run;
+        match self {
+            Self::Half => half,
+            Self::Stated | Self::None => stated,
+            Self::Double => double,
         }
     }
 }
@@ -52,10 +62,11 @@ impl Traffic {
     }
 }
 
-/// The traffic of a draw. Depth, colour and vertices move once an access: these cards' compression and early rejection
+/// The traffic of a draw, with its texture cache and its cache of finished vertices. Depth and colour move once an
+/// access, vertices each time that they are processed: these cards' compression and early rejection
 /// are not modelled. Textures move by cache lines that the simulated cache missed; of a draw that was not observed an
 /// estimate is taken: compulsory misses.
-pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> Traffic {
+pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSize, CacheSize)) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
     let misses = |s: &SamplerRecord| s.traffic.map(|seen| cache.misses(&seen));
@@ -66,8 +77,14 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> Traffic {
         misses: missed,
         depth: bytes.depth_read.saturating_add(bytes.depth_written),
         color: bytes.color_read.saturating_add(bytes.color_written),
-        vertices: bytes.vertices,
+        vertices: fetched(draw, vertex_cache),
     }
+}
+
+/// Bytes of the vertices that are processed: those not kept are fetched again.
+fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
+    let (bytes, run) = (u128::from(draw.counts.bytes.vertices), u128::from(cache.vertices_run(draw)));
+    u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 
 /// Without a cache each read fetches a line. With one there are compulsory misses: if all textures that the draw reads

@@ -39,6 +39,8 @@ queue_figures! {
     upload_ps = 2_000_000 "ps" "no source was found; a driver call with an address check on a processor of 2002";
     /// Host time to change state, in picoseconds.
     state_ps = 200_000 "ps" "no source was found; a few hundred clocks of a processor of 2002";
+    /// Host time to hand over a constant of four numbers, in picoseconds.
+    constant_ps = 20_000 "ps" "no source was found; 16 bytes written to a command buffer, with the driver's share";
     /// Host time to ask for a clear, in picoseconds.
     clear_ps = 500_000 "ps" "no source was found";
     /// Host time to ask for a draw, in picoseconds.
@@ -64,6 +66,7 @@ impl QueueFigures {
         Self {
             upload_ps: 0,
             state_ps: 0,
+            constant_ps: 0,
             clear_ps: 0,
             draw_ps: 0,
             read_back_ps: 0,

@@ -107,9 +107,10 @@ impl Queue {
         self.done = self.done.or_later(sent);
     }
 
-    /// The card changes its state.
-    pub fn state(&mut self, duration: Picoseconds, label: impl Into<Label>) {
-        let given = self.give(self.figures.state_ps, label.into());
+    /// The card changes its state, so many constants among it.
+    pub fn state(&mut self, duration: Picoseconds, constants: u32, label: impl Into<Label>) {
+        let handed = self.figures.constant_ps.saturating_mul(constants.into());
+        let given = self.give(self.figures.state_ps.saturating_add(handed), label.into());
         let end = self.front_end(&given, duration, SpanKind::State).1;
         self.done = self.done.or_later(end);
     }

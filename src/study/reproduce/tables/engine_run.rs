@@ -80,8 +80,8 @@ impl Costs for GeForce4 {
         self.rates.clear(bytes)
     }
 
-    fn state(&self, changes: u32) -> Picoseconds {
-        self.rates.state_change(changes)
+    fn state(&self, changes: u32, constants: u32) -> Picoseconds {
+        self.rates.state_change(changes, constants)
     }
 }
 
