@@ -9,9 +9,9 @@ use super::switch;
 /// The card of a study.
 #[derive(Debug, clap::Args)]
 pub(super) struct CardArgs {
-    /// The card
-    #[arg(long, value_name = "D", default_value = "nv35")]
-    device: String,
+    /// The card [default: that of the paper]
+    #[arg(long, value_name = "D")]
+    device: Option<String>,
 
     /// A switch of the device; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
@@ -26,9 +26,9 @@ pub(super) struct CardArgs {
 }
 
 impl CardArgs {
-    /// The device with its switches set.
-    pub(super) fn profile(&self) -> Result<Profile, DeviceError> {
-        switch::device(&self.device, &self.switch)
+    /// The device with its switches set; `of_paper` if none was named.
+    pub(super) fn profile(&self, of_paper: &str) -> Result<Profile, DeviceError> {
+        switch::device(self.device.as_deref().unwrap_or(of_paper), &self.switch)
     }
 
     /// The switches that were given.

@@ -1,6 +1,6 @@
 //! A pinhole camera.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 use crate::geom::vector::{narrow, unit, wide};
@@ -97,6 +97,14 @@ impl Camera {
     /// [`CameraError::Size`] for a picture without pixels or beyond 2^30.
     pub fn teapot(width: u32, height: u32) -> Result<Self, CameraError> {
         Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
+    }
+
+    /// The camera carried round a point by a rotation, and turned with it.
+    #[must_use]
+    pub fn carried(&self, about: DVec3, turn: &DMat3) -> Self {
+        let eye = narrow(about + *turn * (wide(self.eye) - about));
+        let [forward, right, up] = [self.forward, self.right, self.up].map(|axis| *turn * axis);
+        Self { eye, forward, right, up, ..*self }
     }
 
     /// Where all rays start.

@@ -7,7 +7,8 @@ pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices d
                         prt radiosity render reproduce run scene subsurface timeline";
 
 /// The verbs of the commands that have some.
-pub(crate) const VERBS: &[&str] = &["prt compress", "prt error", "prt precompute", "prt render", "prt show"];
+pub(crate) const VERBS: &[&str] =
+    &["prt card", "prt compress", "prt error", "prt precompute", "prt render", "prt show"];
 
 #[test]
 fn program() {

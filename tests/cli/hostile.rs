@@ -45,6 +45,11 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     ("man nowhere", "--out"),
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
+    (
+        "prt card nowhere.prt --model nowhere.obj",
+        "--model --tangents --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
+         --switch --executor --adapter --size --eye --target --up --tan-half-height --exposure --out",
+    ),
     ("prt compress nowhere.prt --out y.prt", "--clusters --vectors --method --iterations --seed --start --out"),
     ("prt error nowhere.prt nowhere.prt", "--csv"),
     (
@@ -54,7 +59,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --tangents --original --light --frames --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --tangents --original --light --window --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
     ("prt show nowhere.prt", "--vertex --at --model --tangents"),
     (

@@ -115,3 +115,57 @@ fn what_does_not_go_together_is_refused() {
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
     }
 }
+
+/// The card's picture is the host's but for its rounding: next to nothing without it, more on real cards.
+#[test]
+fn a_card_draws_what_the_host_draws() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, ..] = STEP;
+    let [transfer, small, out] = ["x.prt", "y.prt", "out"].map(|name| place(folder.path(), name));
+    let glossy = ["--kind", "glossy", "--order", "3", "--brdf", "phong:0.4,0.4,8", "--out", &transfer];
+    document(&[&["prt", "precompute", model][..], &glossy].concat());
+    document(&["prt", "compress", &transfer, "--clusters", "6", "--vectors", "3", "--out", &small]);
+    let card = |options: &[&str]| {
+        let fixed = ["prt", "card", &small, "--model", model, "--size", "48x36", "--out", &out];
+        document(&[&fixed[..], options].concat())
+    };
+    let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
+    let ideal =
+        card(&["--device", "ideal-fp32", "--target-format", "rgba32f", "--map-format", "rgba32f", "--map", "256"]);
+    let radeon = card(&[]);
+    assert!(ideal["time"].is_null() && rms(&ideal) < 0.1 * rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
+    let time = radeon["time"].as_array().expect("times");
+    assert_eq!(time.len(), 5);
+    let sweep = card(&["--sweep"]);
+    let rows = sweep["precision"].as_array().expect("a sweep");
+    assert_eq!(rows.len(), 18);
+    let of = |what: &str, choice: &str| {
+        let row = rows.iter().find(|row| row["what"] == what && row["choice"] == choice);
+        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms 255ths"])
+    };
+    assert!(of("weights", "unorm16") < of("weights", "unorm8"));
+    assert!(of("map texels", "64 x 64") < of("map texels", "16 x 16"));
+    assert!(of("target", "16 bits, alone") < of("target", "8 bits, alone"));
+    assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
+}
+
+/// What a card does not take is refused with what to do, and nothing is written.
+#[test]
+fn cards_refuse_what_they_have_no_programs_for() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, whole, small] = STEP;
+    let refused = |arguments: &[&str]| {
+        let out = place(folder.path(), "out");
+        let ran = crossbar(&[&["prt", "card"], arguments, &["--size", "8x8", "--out", &out]].concat(), "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{arguments:?}");
+        ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let adaptive = place(folder.path(), "adaptive.prt");
+    let options = ["--method", "adaptive", "--clusters", "8", "--vectors", "3", "--out", &adaptive];
+    document(&[&["prt", "compress", whole][..], &options].concat());
+    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer alone"));
+    assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
+    let floats = refused(&[small, "--model", model, "--target-format", "rgba32f"]);
+    assert!(floats.contains("rgba32f") && floats.contains("r300"), "{floats}");
+}

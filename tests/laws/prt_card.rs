@@ -1,9 +1,12 @@
 //! Compressed transfer drawn on a card against an image that the host interpolates in f64, ray by ray.
 
+use approx::assert_relative_eq;
 use crossbar::card::Texels;
 use crossbar::prt::brdf::ExitBasis;
 use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
+use crossbar::prt::on_card::model::TransferSize;
+use crossbar::prt::on_card::time::{frame_time, host_of_section_7};
+use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView, WeightFormat};
 use crossbar::prt::synthetic::{hills, signal_at};
 use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::Camera;
@@ -12,6 +15,7 @@ use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
+use refsim::timing::host::HostOperation;
 
 const SIZE: [u32; 2] = [44, 36];
 
@@ -161,4 +165,60 @@ fn passes_add_up_to_one_picture() {
         let worst = differences.fold(0.0, f32::max);
         assert!(worst > 0.0 && worst < 4e-6 * largest, "{worst} of {largest}");
     }
+}
+
+/// What a frame asks for follows from its sizes, and its time from that.
+#[test]
+fn a_frame_is_counted_and_timed() {
+    let host = host_of_section_7().expect("a host");
+    let work = HostOperation::MultiplyAdd;
+    let head = TransferSize { vertices: 50_060, rows: 25, columns: 25, clusters: 0, vectors: 0 };
+    let uncompressed = host.time_of(work, head.uncompressed_multiply_adds() as u64).seconds();
+    assert_relative_eq!(1.0 / uncompressed, 2.9, max_relative = 1e-9);
+    let r300 = Profile::named("r300").expect("a card");
+    let frame = |vectors: usize| {
+        let hills = Hills::new(ExitBasis::without_1_0(5).expect("order 5"), 9, vectors);
+        let options = PrtCardOptions::default();
+        let transfer = hills.transfer(vectors);
+        let mut card = PrtCard::new(r300.clone(), ExecutorKind::Batch, transfer, &options).expect("a card");
+        let view = PrtView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let log = card.frame_log(&hills.light, &view).expect("a frame");
+        let time = frame_time(&r300, &log, &host).expect("a time");
+        let (size, groups) = (card.size().expect("sizes"), card.superclusters().count());
+        let triangles = hills.vertices.triangles();
+        let drawn = card.superclusters().overdraw(&hills.clustering, triangles);
+        assert_eq!(time.calls, 1 + 3 * groups);
+        assert_eq!(time.triangles, triangles.len() as u64 + 3 * drawn);
+        assert_eq!(time.products, host.time_of(work, size.host_multiply_adds() as u64));
+        let most = (size.uploaded_registers() + 5 + 5) as u64;
+        assert!((most / 2..=most).contains(&time.constants), "{} of {most} constants", time.constants);
+        let vertices = hills.vertices.len() as u64;
+        assert!((4 * vertices..=9 * drawn + 3 * triangles.len() as u64).contains(&time.vertices_run));
+        assert!(time.frame >= time.host.max(time.draws) && time.host >= time.products, "{time:?}");
+        assert!(time.frame <= time.host + time.draws + time.state + time.draws, "{time:?}");
+        time
+    };
+    let [few, many] = [2, 8].map(frame);
+    // Rounded up to picoseconds, each.
+    assert!((3 * few.products.0).abs_diff(many.products.0) <= 3, "3 parts of a cluster, 9: {few:?} {many:?}");
+    assert!(many.frame > few.frame && many.vertices_run >= few.vertices_run);
+}
+
+/// Fewer bits for weights change a picture, and by how much is in order.
+#[test]
+fn weights_of_fewer_bits_are_farther_off() {
+    let hills = Hills::new(ExitBasis::of_order(4), 6, 6);
+    let picture = |weights| {
+        let options = PrtCardOptions { map_side: 64, map_format: FLOATS, weights, ..PrtCardOptions::default() };
+        hills.draw("ideal-fp32", FLOATS, &options)
+    };
+    let expected = picture(WeightFormat::Fp32);
+    let off = |weights| {
+        let texels = picture(weights).texels;
+        let pairs = texels.iter().flatten().zip(expected.texels.iter().flatten());
+        pairs.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max)
+    };
+    let [fp16, unorm16, unorm8] = [WeightFormat::Fp16, WeightFormat::Unorm16, WeightFormat::Unorm8].map(off);
+    assert!(0.0 < unorm16 && 4.0 * unorm16 < fp16 && 4.0 * fp16 < unorm8, "{unorm16} {fp16} {unorm8}");
+    assert!(unorm8 < 0.02, "{unorm8}");
 }

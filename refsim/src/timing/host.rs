@@ -67,6 +67,8 @@ operations! {
     VertexSent = "vertex-sent", 20, "some twenty numbers copied; no source was found";
     /// A triangle taken from the scene for the card.
     TriangleSent = "triangle-sent", 20, "nine numbers gathered; no source was found";
+    /// A product added to a sum, of matrices and vectors.
+    MultiplyAdd = "multiply-add", 2, "a product and an addition; no source was found";
     /// A hit shaded.
     Shade = "shade", 100, "a normal, a light, a material; no source was found";
 }
@@ -206,7 +208,8 @@ pub struct HostModel {
 }
 
 impl HostModel {
-    /// The scale at which a run of these counts, casting so many rays, casts `rays_per_second`; weights as guessed.
+    /// The scale at which a run of these counts, casting so many rays (or drawing frames), casts `rays_per_second`;
+    /// weights as guessed.
     ///
     /// # Errors
     /// [`HostError`] where one of them is 0.

@@ -3,11 +3,12 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use clap::ValueEnum;
 use glam::DVec3;
 
 use crate::cli::{Problem, number};
 use crate::io::load_picture;
-use crate::sphere::{ClearSky, HarmonicLight};
+use crate::sphere::{BandWindow, ClearSky, HarmonicLight};
 
 const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
      (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture (EXR, HDR, PNG)";
@@ -48,6 +49,48 @@ impl FromStr for LightArg {
     }
 }
 
+/// A window over the light's bands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WindowArg {
+    /// Half a cosine wave
+    Hann,
+    /// sin(x) / x
+    Lanczos,
+}
+
+/// A light with its window.
+#[derive(Debug, clap::Args)]
+pub(super) struct LightArgs {
+    /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
+    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
+    #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
+    pub(super) light: LightArg,
+
+    /// Damp the light's higher bands, so that it rings less
+    #[arg(long, value_enum, value_name = "W")]
+    window: Option<WindowArg>,
+}
+
+impl LightArgs {
+    /// What it is, in a few words.
+    pub(super) fn name(&self) -> String {
+        self.light.name()
+    }
+
+    /// The light at an order, its window as wide as the first band that is left out.
+    pub(super) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
+        let light = self.light.of_order(order)?;
+        let window = self.window.map(|window| match window {
+            WindowArg::Hann => BandWindow::Hann,
+            WindowArg::Lanczos => BandWindow::Lanczos,
+        });
+        Ok(match window {
+            Some(window) => light.windowed(window, order as f64),
+            None => light,
+        })
+    }
+}
+
 impl LightArg {
     fn disk(towards: DVec3, degrees: &str, radiance: [f64; 3]) -> Result<Self, String> {
         let degrees = number::positive(degrees)?;
@@ -58,7 +101,7 @@ impl LightArg {
     }
 
     /// What it is, in a few words.
-    pub(super) fn name(&self) -> String {
+    fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),
             Self::Disk { degrees, .. } => format!("a disk of {degrees} degrees"),
@@ -69,7 +112,7 @@ impl LightArg {
     }
 
     /// The light at an order.
-    pub(super) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
+    fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let made = match self {
             Self::Constant(radiance) => HarmonicLight::constant(order, *radiance),
             Self::Disk { towards, degrees, radiance } => {

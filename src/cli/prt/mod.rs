@@ -1,5 +1,6 @@
 //! `crossbar prt`: precomputed radiance transfer, one file a verb.
 
+mod card;
 mod compress;
 mod error;
 mod light;
@@ -23,6 +24,8 @@ Examples:
       what is in a file
   crossbar prt render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
       pictures of it
+  crossbar prt card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      the same on an emulated card
 
 docs/prt-format.md specifies the files, docs/papers/cpca.md what is computed.";
 
@@ -36,6 +39,7 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Verb {
+    Card(card::Args),
     Compress(compress::Args),
     Error(error::Args),
     Precompute(precompute::Args),
@@ -45,6 +49,7 @@ enum Verb {
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     match &args.verb {
+        Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compress(args) => compress::run(args, out)?,
         Verb::Error(args) => error::run(args, out)?,
         Verb::Precompute(args) => precompute::run(args, out)?,

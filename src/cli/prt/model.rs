@@ -7,7 +7,7 @@ use crate::cli::model_name::{self, Model};
 use crate::cli::{Problem, view};
 use crate::io::load_mesh;
 use crate::prt::cpca::Clustering;
-use crate::prt::file::{PrtFile, load_prt};
+use crate::prt::file::{MeshDigest, PrtFile, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
 
 /// The model. Where tangents are from texture coordinates, a file is read as a mesh, without materials: scenes have
@@ -30,10 +30,10 @@ pub(super) fn refused(error: TransferError) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar prt precompute --help`")
 }
 
-/// A `.prt` file that has clusters, and these.
-pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
+/// A `.prt` file that has clusters, and these; of a mesh, if one is given.
+pub(super) fn clusters(path: &Path, mesh: Option<&MeshDigest>) -> miette::Result<(PrtFile, Clustering)> {
     view::require_file(path, 2, "name a smaller file")?;
-    let mut file = load_prt(path, None)?;
+    let mut file = load_prt(path, mesh)?;
     let clustering = file.clustering.take().ok_or_else(|| {
         let what = format!("{}: expected clusters, found transfer alone", path.display());
         Problem::usage(what, "`crossbar prt compress` makes them")

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::light::LightArg;
+use clap::ValueEnum;
+
+use super::light::{LightArg, LightArgs};
 use super::model::{load, vertices};
 use super::values::TangentsArg;
 use crate::cli::memory::{self, MemoryNeed};
@@ -11,7 +13,7 @@ use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
 use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
-use crate::study::prt::Rendering;
+use crate::study::prt::{Rendering, Turning};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,6 +25,15 @@ Examples:
       uncompressed, the light turned around z in eight steps
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
+
+/// What frames turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TurnArg {
+    /// The light, around z
+    Light,
+    /// The camera, around the model
+    Camera,
+}
 
 /// Draw a model under distant light from its transfer, compressed or not
 #[derive(Debug, clap::Args)]
@@ -44,14 +55,16 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X.prt")]
     original: Option<PathBuf>,
 
-    /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
-    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
-    #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    light: LightArg,
+    #[command(flatten)]
+    light: LightArgs,
 
-    /// Pictures with the light turned around z in so many steps
+    /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
     frames: u32,
+
+    /// What these turn
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "light")]
+    turn: TurnArg,
 
     /// Pixels of the pictures
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
@@ -79,7 +92,7 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let picture = if let LightArg::Picture(path) = &self.light { Some(path.as_path()) } else { None };
+        let picture = if let LightArg::Picture(path) = &self.light.light { Some(path.as_path()) } else { None };
         let files = [Some(self.file.as_path()), self.original.as_deref(), picture];
         files.into_iter().flatten().chain(model_name::named_file(&self.model)).collect()
     }
@@ -127,6 +140,7 @@ impl StudyArgs for Args {
             light_name: self.light.name(),
             exposure: self.exposure,
             frames: self.frames,
+            turning: if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light },
             mesh: model.mesh,
             vertices,
             file,

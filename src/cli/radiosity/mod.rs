@@ -50,7 +50,7 @@ impl StudyArgs for Args {
             subdivision: ask::subdivision(self),
             factors: ask::requirements(self),
             ways: ask::methods(self)?,
-            profile: self.card.profile()?,
+            profile: self.card.profile("nv35")?,
             switches: self.card.switches(),
             executor: self.card.executor()?,
             options: Options {

@@ -58,7 +58,7 @@ impl StudyArgs for Args {
         let material = ask::material(self)?;
         let ways = ask::ways(self, &material)?;
         let reference = ask::all_pairs(self)?;
-        let profile = self.card.profile()?;
+        let profile = self.card.profile("nv35")?;
         let mesh = model_name::mesh(&self.model)?;
         let camera = self.eye.framing(&mesh, self.size)?;
         Ok(Parameters {

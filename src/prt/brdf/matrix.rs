@@ -40,6 +40,23 @@ impl ExitBasis {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
+    /// The basis of these functions, l (l + 1) + m in increasing order; of 0 alone the radiance, as `.prt` files have it.
+    ///
+    /// # Errors
+    /// [`HemisphereError`] for no functions.
+    ///
+    /// # Panics
+    /// If a function is not of an order up to [`MAX_ORDER`].
+    pub fn of_functions(functions: &[u16]) -> Result<Self, HemisphereError> {
+        if functions == [0] {
+            return Ok(Self::Radiance);
+        }
+        let functions: Vec<usize> = functions.iter().map(|&function| function.into()).collect();
+        let order = functions.last().map_or(1, |last| last.isqrt() + 1);
+        let dropped: Vec<usize> = (0..function_count(order)).filter(|function| !functions.contains(function)).collect();
+        Hemisphere::without(order, &dropped).map(Self::Harmonics)
+    }
+
     /// The number of functions.
     pub fn len(&self) -> usize {
         match self {

@@ -4,6 +4,7 @@ use std::mem::take;
 
 use super::products::Products;
 use super::transfer::CompressedTransfer;
+use super::weights::CardWeights;
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::prt::coherence::Superclusters;
@@ -52,7 +53,7 @@ pub(super) fn positions(transfer: &CompressedTransfer<'_>, frame: &UnitFrame) ->
 
 /// A chunk per supercluster.
 pub(super) fn chunks(
-    transfer: &CompressedTransfer<'_>,
+    (transfer, weights): (&CompressedTransfer<'_>, &CardWeights),
     superclusters: &Superclusters,
     kernel: &VertexKernel,
     positions: &[[u32; 4]],
@@ -71,7 +72,7 @@ pub(super) fn chunks(
         let distinct = [Some(a), (b != a).then_some(b), (c != a && c != b).then_some(c)];
         distinct.into_iter().flatten().for_each(|chunk| chunks[chunk as usize].indices.extend(corners));
     }
-    let source = VertexSourceData { transfer, addresses: &addresses, kernel, positions };
+    let source = VertexSourceData { transfer, weights, addresses: &addresses, kernel, positions };
     let mut local = vec![u32::MAX; positions.len()];
     for (number, chunk) in (0..).zip(&mut chunks) {
         let globals = take(&mut chunk.indices);
@@ -96,6 +97,7 @@ pub(super) fn chunks(
 /// What the attributes of a vertex are made of.
 struct VertexSourceData<'a> {
     transfer: &'a CompressedTransfer<'a>,
+    weights: &'a CardWeights,
     /// Per cluster its first constant, counted from the first with products.
     addresses: &'a [usize],
     kernel: &'a VertexKernel,
@@ -106,11 +108,13 @@ impl VertexSourceData<'_> {
     /// The attributes by register. Outside of the supercluster alpha and weights are zero.
     fn attributes(&self, vertex: usize, inside: bool) -> Vec<[u32; 4]> {
         let clustering = self.transfer.clustering;
-        let address = if inside { self.addresses[clustering.of_point()[vertex] as usize] } else { 0 };
+        let cluster = clustering.of_point()[vertex] as usize;
+        let address = if inside { self.addresses[cluster] } else { 0 };
         let alpha = f64::from(u8::from(inside));
         let mut all = vec![self.positions[vertex], attribute([address as f64, alpha, 0.0], 0.0)];
         let weights = if inside { clustering.weights(vertex) } else { &[] };
-        let weight = |at: usize| (weights.get(at).copied().unwrap_or(0.0) as f32).to_bits();
+        let held = |at: usize| weights.get(at).map_or(0.0, |&weight| self.weights.attribute(cluster, at, weight));
+        let weight = |at: usize| held(at).to_bits();
         all.extend(
             (0..self.kernel.weight_registers()).map(|register| [0, 1, 2, 3].map(|at| weight(4 * register + at))),
         );

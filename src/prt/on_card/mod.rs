@@ -12,20 +12,25 @@ mod options;
 pub mod order;
 mod products;
 mod programs;
+pub mod time;
 mod transfer;
+mod weights;
 
 use std::sync::Arc;
 
 use refsim::device::Profile;
+use refsim::event::Event;
 use refsim::machine::{AttributeStream, DrawCall, Executor, Machine, StepRate, VertexSource, VertexStreams};
 use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::TexelFormat;
+use refsim::timing::host::HostOperation;
 
 pub use error::PrtCardError;
 pub use options::PrtCardOptions;
 pub use products::Products;
 pub use transfer::CompressedTransfer;
+pub use weights::{CardWeights, WeightFormat};
 
 use crate::card::{NearestTarget, Texels, constants};
 use crate::geom::UnitFrame;
@@ -36,6 +41,7 @@ use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, ParabolicMap};
 use chunks::{Attribute, Chunk, chunks, positions};
 use exit_map::{ExitMaps, SAMPLER, map_scale};
+use model::TransferSize;
 use programs::{Programs, kernel, registers};
 
 #[cfg(test)]
@@ -62,6 +68,7 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 pub struct PrtCard<'a> {
     machine: Machine,
     transfer: CompressedTransfer<'a>,
+    weights: CardWeights,
     frame: UnitFrame,
     positions: Attribute,
     indices: Vec<u32>,
@@ -107,12 +114,14 @@ impl<'a> PrtCard<'a> {
         }
         let frame = UnitFrame::new(transfer.vertices.positions().iter().copied().map(wide));
         let positions = positions(&transfer, &frame);
-        let chunks = chunks(&transfer, &superclusters, &programs.kernel, &positions);
+        let weights = CardWeights::new(transfer.clustering, options.weights);
+        let chunks = chunks((&transfer, &weights), &superclusters, &programs.kernel, &positions);
         let indices = triangles.as_flattened().to_vec();
         let (map_scale, target) = (scale, None);
         Ok(Self {
             machine,
             transfer,
+            weights,
             frame,
             positions,
             indices,
@@ -128,6 +137,14 @@ impl<'a> PrtCard<'a> {
     /// The groups in which clusters are drawn.
     pub fn superclusters(&self) -> &Superclusters {
         &self.superclusters
+    }
+
+    /// The sizes of the transfer.
+    ///
+    /// # Errors
+    /// None: what does not go together was refused before.
+    pub fn size(&self) -> Result<TransferSize, PrtCardError> {
+        self.transfer.size()
     }
 
     /// The emulated card.
@@ -151,11 +168,30 @@ impl<'a> PrtCard<'a> {
     /// # Errors
     /// As [`Self::view`].
     pub fn view_texels(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<Texels, PrtCardError> {
+        let target = self.draw(light, view)?;
+        Ok(Texels::read_back(&self.machine, target.color)?)
+    }
+
+    /// What a frame asks of host and card, for [`time::frame_time`]: no read-back.
+    ///
+    /// # Errors
+    /// As [`Self::view`].
+    pub fn frame_log(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<Vec<Event>, PrtCardError> {
+        self.machine.record(true);
+        let drawn = self.draw(light, view);
+        self.machine.record(false);
+        let log = self.machine.take_log();
+        drawn.map(|_| log)
+    }
+
+    /// Draws a frame: products on the host, the mesh into the depth buffer, chunk by chunk into the target.
+    fn draw(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<NearestTarget, PrtCardError> {
         let found = view.exposure;
         if !(0.0..=1e30).contains(&found) {
             return Err(PrtCardError::Figure { what: "an exposure of 0 to 1e30", found });
         }
-        let products = Products::new(&self.transfer, light, view.exposure * self.map_scale)?;
+        let products = Products::new(&self.transfer, &self.weights, light, view.exposure * self.map_scale)?;
+        self.machine.host_work(HostOperation::MultiplyAdd.name(), self.size()?.host_multiply_adds() as u64);
         let target = self.target(view)?;
         target.clear(&mut self.machine)?;
         let mut head = view.camera.clip_rows(&self.frame).to_vec();
@@ -170,7 +206,7 @@ impl<'a> PrtCard<'a> {
                 self.draw_chunk(target, chunk, head.iter().copied().chain(products), mask)?;
             }
         }
-        Ok(Texels::read_back(&self.machine, target.color)?)
+        Ok(target)
     }
 
     /// The whole mesh into the depth buffer alone.

@@ -4,6 +4,7 @@ use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::error::PrtCardError;
+use super::weights::WeightFormat;
 
 /// How compressed transfer is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,11 +18,14 @@ pub struct PrtCardOptions {
     pub map_side: usize,
     /// Their format.
     pub map_format: TexelFormat,
+    /// What vertices hold weights in.
+    pub weights: WeightFormat,
 }
 
 impl Default for PrtCardOptions {
     fn default() -> Self {
-        Self { superclusters: true, vertex_version: None, map_side: 32, map_format: TexelFormat::Rgba16Snorm }
+        let (map_side, map_format) = (32, TexelFormat::Rgba16Snorm);
+        Self { superclusters: true, vertex_version: None, map_side, map_format, weights: WeightFormat::default() }
     }
 }
 

@@ -9,6 +9,7 @@ use refsim::num::{Format, ops};
 use super::error::PrtCardError;
 use super::products::Products;
 use super::transfer::CompressedTransfer;
+use super::weights::CardWeights;
 
 /// The exit radiance of every vertex as the card computes it: per vertex three channels of as many numbers as the
 /// transfer has rows.
@@ -18,12 +19,15 @@ use super::transfer::CompressedTransfer;
 pub fn exit_coefficients(
     rules: &Rules,
     transfer: &CompressedTransfer<'_>,
+    card_weights: &CardWeights,
     products: &Products,
 ) -> Result<Vec<[Vec<f32>; 3]>, PrtCardError> {
     transfer.shape()?;
     let of_point = transfer.clustering.of_point().iter().enumerate();
     let of_vertex = |(vertex, &cluster): (usize, &u32)| {
-        let weights: Vec<f32> = transfer.clustering.weights(vertex).iter().map(|&weight| weight as f32).collect();
+        let weights = transfer.clustering.weights(vertex).iter().enumerate();
+        let weights: Vec<f32> =
+            weights.map(|(at, &weight)| card_weights.attribute(cluster as usize, at, weight)).collect();
         let vectors: Vec<[&[f32]; 3]> = products.vectors(cluster as usize).collect();
         [0, 1, 2].map(|channel| {
             let row = |row| sum(rules, transfer.vectors, &weights, vectors.iter().map(|vector| vector[channel][row]));

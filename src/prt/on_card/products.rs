@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::error::PrtCardError;
 use super::transfer::{CompressedTransfer, TransferShape};
+use super::weights::CardWeights;
 use crate::linalg::dot;
 use crate::sphere::HarmonicLight;
 
@@ -16,13 +17,18 @@ pub struct Products {
 }
 
 impl Products {
-    /// Products in double precision, times a factor, rounded once. Coefficients of the light beyond the matrices'
-    /// columns are left out.
+    /// Products in double precision, times a factor, with the ranges of weights worked in, rounded once. Coefficients
+    /// of the light beyond the matrices' columns are left out.
     ///
     /// # Errors
     /// [`PrtCardError`] for parts that do not go together, light of too low an order, and products beyond single
     /// precision.
-    pub fn new(transfer: &CompressedTransfer<'_>, light: &HarmonicLight, factor: f64) -> Result<Self, PrtCardError> {
+    pub fn new(
+        transfer: &CompressedTransfer<'_>,
+        weights: &CardWeights,
+        light: &HarmonicLight,
+        factor: f64,
+    ) -> Result<Self, PrtCardError> {
         let shape = transfer.shape()?;
         let expected = shape.columns.isqrt();
         if light.order() < expected {
@@ -30,8 +36,16 @@ impl Products {
         }
         let of_cluster = |cluster: usize| {
             let subspace = &transfer.clustering.subspaces()[cluster];
-            let vectors = std::iter::once(&subspace.mean[..]).chain(subspace.vectors());
-            vectors.flat_map(|vector| of_vector(vector, light, shape, factor)).collect()
+            let mut mean = of_vector(&subspace.mean, light, shape, factor);
+            let mut vectors: Vec<Vec<f64>> =
+                subspace.vectors().map(|vector| of_vector(vector, light, shape, factor)).collect();
+            for (vector, &[low, extent]) in vectors.iter_mut().zip(weights.ranges(cluster)) {
+                for (mean, value) in mean.iter_mut().zip(vector) {
+                    *mean += low * *value;
+                    *value *= extent;
+                }
+            }
+            std::iter::once(mean).chain(vectors).flatten().map(|value| value as f32).collect()
         };
         let clusters: Vec<Vec<f32>> =
             (0..transfer.clustering.subspaces().len()).into_par_iter().map(of_cluster).collect();
@@ -52,12 +66,12 @@ impl Products {
 }
 
 /// The product of each channel's matrix, row by row.
-fn of_vector(vector: &[f64], light: &HarmonicLight, shape: TransferShape, factor: f64) -> Vec<f32> {
+fn of_vector(vector: &[f64], light: &HarmonicLight, shape: TransferShape, factor: f64) -> Vec<f64> {
     let size = shape.rows * shape.columns;
     let channels = light.channels().iter().enumerate();
     let rows = channels.flat_map(|(channel, light)| {
         let matrix = &vector[if shape.channels == 3 { channel * size } else { 0 }..][..size];
-        matrix.chunks_exact(shape.columns).map(|row| (factor * dot(row, &light[..shape.columns])) as f32)
+        matrix.chunks_exact(shape.columns).map(|row| factor * dot(row, &light[..shape.columns]))
     });
     rows.collect()
 }

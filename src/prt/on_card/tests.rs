@@ -64,15 +64,19 @@ fn vertex_programs_give_the_hosts_sums() {
         let hills = Hills::new(basis, clusters, vectors, CpcaMethod::Iterative);
         let transfer = hills.transfer(vectors);
         let light = HarmonicLight::red_and_blue(4);
-        for (name, superclusters, vertex_version) in
-            [("r300", true, None), ("r300", false, None), ("r350", true, Some(Version::Vs1_1)), ("nv35", true, None)]
-        {
+        for (name, superclusters, vertex_version, weights) in [
+            ("r300", true, None, WeightFormat::Fp32),
+            ("r300", false, None, WeightFormat::Unorm8),
+            ("r350", true, Some(Version::Vs1_1), WeightFormat::Fp16),
+            ("nv35", true, None, WeightFormat::Unorm16),
+        ] {
             let map_format = if name == "nv35" { TexelFormat::Rgba8Snorm } else { TexelFormat::Rgba16Snorm };
-            let options = PrtCardOptions { superclusters, vertex_version, map_format, ..PrtCardOptions::default() };
+            let options =
+                PrtCardOptions { superclusters, vertex_version, map_format, weights, ..PrtCardOptions::default() };
             let card = card(name, transfer, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
-            let products = Products::new(&transfer, &light, 0.7).expect("products");
+            let products = Products::new(&transfer, &card.weights, &light, 0.7).expect("products");
             let rules = &card.machine.profile().rules;
-            let expected = order::exit_coefficients(rules, &transfer, &products).expect("sums");
+            let expected = order::exit_coefficients(rules, &transfer, &card.weights, &products).expect("sums");
             let masks = if transfer.is_glossy() { 3 } else { 1 };
             let mut inside = 0;
             for chunk in &card.chunks {
@@ -121,6 +125,33 @@ fn check_chunk(
     count
 }
 
+/// Each weight is as near as its format's step, of the range of its cluster; zero and ends of the range are exact.
+#[test]
+fn weights_are_as_near_as_their_format() {
+    let hills = Hills::new(glossy(16), 5, 6, CpcaMethod::Iterative);
+    let clustering = &hills.clustering;
+    for (format, relative, of_range) in [
+        (WeightFormat::Fp32, f64::from(f32::EPSILON) / 2.0, 0.0),
+        (WeightFormat::Fp16, 1.0 / 2048.0, 0.0),
+        (WeightFormat::Unorm16, 1e-7, 0.5 / 65535.0),
+        (WeightFormat::Unorm8, 1e-7, 0.5 / 255.0),
+    ] {
+        let weights = CardWeights::new(clustering, format);
+        let (mut largest, mut allowed_largest) = (0.0_f64, 0.0_f64);
+        for (point, &cluster) in clustering.of_point().iter().enumerate() {
+            let ranges = weights.ranges(cluster as usize);
+            for (vector, (&weight, [low, extent])) in clustering.weights(point).iter().zip(ranges).enumerate() {
+                let read = low + extent * f64::from(weights.attribute(cluster as usize, vector, weight));
+                let allowed = relative * weight.abs().max(low.abs() + extent) + of_range * extent + 6e-8;
+                assert!((read - weight).abs() <= allowed, "{format}: {weight} {read}");
+                largest = largest.max((read - weight).abs());
+                allowed_largest = allowed_largest.max(allowed);
+            }
+        }
+        assert!(largest > allowed_largest / 20.0, "{format}: {largest} of {allowed_largest} allowed");
+    }
+}
+
 #[test]
 fn chunks_are_the_overdraw() {
     let hills = Hills::new(glossy(24), 12, 8, CpcaMethod::Iterative);
@@ -162,8 +193,9 @@ fn what_does_not_fit_is_refused() {
     let three = CompressedTransfer { channels: 3, ..diffuse.transfer(2) };
     assert!(matches!(card("r300", three, &options), Err(PrtCardError::Shape { rows: 1, .. })));
     let dim = HarmonicLight::constant(3, [1.0; 3]).expect("a light");
-    let found = Products::new(&diffuse.transfer(2), &dim, 1.0);
+    let weights = CardWeights::new(&diffuse.clustering, WeightFormat::Fp32);
+    let found = Products::new(&diffuse.transfer(2), &weights, &dim, 1.0);
     assert!(matches!(found, Err(PrtCardError::LightOrder { expected: 4, found: 3 })));
     let bright = HarmonicLight::constant(4, [1e30; 3]).expect("a light");
-    assert!(matches!(Products::new(&diffuse.transfer(2), &bright, 1e30), Err(PrtCardError::Figure { .. })));
+    assert!(matches!(Products::new(&diffuse.transfer(2), &weights, &bright, 1e30), Err(PrtCardError::Figure { .. })));
 }

@@ -6,6 +6,7 @@ use crate::prt::transfer::Vertices;
 use crate::sphere::MAX_ORDER;
 
 use super::error::PrtCardError;
+use super::model::TransferSize;
 
 /// The compressed transfer of a mesh's vertices: a matrix per channel, row by row, from light in global coordinates to
 /// exit radiance in local ones.
@@ -38,6 +39,16 @@ impl CompressedTransfer<'_> {
     /// Whether exit radiance depends on the view.
     pub fn is_glossy(&self) -> bool {
         matches!(self.basis, ExitBasis::Harmonics(_))
+    }
+
+    /// Its sizes.
+    ///
+    /// # Errors
+    /// [`PrtCardError`] if the parts do not go together.
+    pub fn size(&self) -> Result<TransferSize, PrtCardError> {
+        let TransferShape { rows, columns, .. } = self.shape()?;
+        let clusters = self.clustering.subspaces().len();
+        Ok(TransferSize { vertices: self.vertices.len(), rows, columns, clusters, vectors: self.vectors })
     }
 
     /// Checks that the parts go together.

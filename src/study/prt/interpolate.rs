@@ -44,6 +44,28 @@ impl Seen {
         self.pixels.par_iter().map(color).collect()
     }
 
+    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as a card without rounding
+    /// would have it. `functions` fills in the functions of exit radiance at a direction.
+    pub(super) fn radiance(
+        &self,
+        exit: &[Vec<[f64; 3]>],
+        view: &[DVec3],
+        functions: &(dyn Fn(DVec3, &mut [f64]) + Sync),
+    ) -> Vec<[f64; 3]> {
+        let color = |pixel: &Option<([u32; 3], DVec3)>| {
+            let Some((corners, weights)) = pixel else { return [0.0; 3] };
+            let parts = || corners.iter().zip(weights.to_array());
+            let towards = parts().map(|(&corner, weight)| weight * view[corner as usize]).sum::<DVec3>();
+            let mut y = vec![0.0; exit[corners[0] as usize].len()];
+            functions(towards.normalize_or_zero(), &mut y);
+            let of = |row: usize, channel: usize| -> f64 {
+                parts().map(|(&corner, weight)| weight * exit[corner as usize][row][channel]).sum()
+            };
+            [0, 1, 2].map(|channel| y.iter().enumerate().map(|(row, y)| y * of(row, channel)).sum())
+        };
+        self.pixels.par_iter().map(color).collect()
+    }
+
     /// The vertex that weighs most at each pixel.
     pub(super) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
         let nearest = |weights: DVec3| {

@@ -1,12 +1,14 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
-//! ([`CompressionError`]), and pictures ([`Rendering`]).
+//! ([`CompressionError`]), pictures ([`Rendering`]), and pictures by an emulated card ([`OnCard`]).
 
+mod card;
 mod compression_error;
 mod exit_radiance;
 mod interpolate;
 mod precompute;
 mod render;
 
+pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
-pub use render::{RenderError, Rendering};
+pub use render::{RenderError, Rendering, Turning};

@@ -46,8 +46,20 @@ pub struct Rendering {
     pub camera: Camera,
     /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
     pub exposure: Option<f64>,
-    /// Pictures with the light turned all the way round z in so many steps.
+    /// Pictures with the light or the camera carried all the way round z in so many steps.
     pub frames: u32,
+    /// Which of them.
+    pub turning: Turning,
+}
+
+/// What is carried round a model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Turning {
+    /// The light.
+    #[default]
+    Light,
+    /// The camera.
+    Camera,
 }
 
 /// Why there are no pictures.
@@ -76,7 +88,7 @@ impl Study for Rendering {
         progress("rays", 0, steps);
         let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
         progress("radiance", 1, steps);
-        let drawn = self.colors(&seen, &self.light, None)?;
+        let drawn = self.colors(&seen, (&self.light, &self.camera), None)?;
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("Precomputed radiance transfer");
         found.taken_from(self.camera.world_to_camera());
@@ -96,15 +108,15 @@ impl Study for Rendering {
         for frame in 0..self.frames {
             progress("frames", 2 + u64::from(frame), steps);
             let turns = f64::from(frame) / f64::from(self.frames);
-            let [c, s] = on_circle(turns);
-            let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
-            let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
-            let image = self.picture(&self.colors(&seen, &light, None)?).display(exposure)?;
-            let caption = format!("light turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
+            let image = self.picture(&self.turned(&seen, turns)?).display(exposure)?;
+            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }
         if !frames.is_empty() {
-            found.heading("The light turned around z");
+            found.heading(match self.turning {
+                Turning::Light => "The light turned around z",
+                Turning::Camera => "The camera carried around the model",
+            });
             found.pictures(frames);
         }
         found.field("exposure", json!(exposure));
@@ -121,7 +133,7 @@ impl Rendering {
     fn colors(
         &self,
         seen: &Seen,
-        light: &HarmonicLight,
+        (light, camera): (&HarmonicLight, &Camera),
         original: Option<&Signal>,
     ) -> Result<Vec<[f64; 3]>, RenderError> {
         let lit = Lit::new(&self.file.meaning, light).ok_or(RenderError::NoTransfer)?;
@@ -130,7 +142,24 @@ impl Rendering {
             (None, Some(clustering), _) => lit.of_clusters(clustering),
             (None, None, None) => return Err(RenderError::NoTransfer),
         };
-        Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(self.camera.eye())), [0.0; 3]))
+        Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(camera.eye())), [0.0; 3]))
+    }
+
+    /// The pixels with light or camera carried round z, 1 being all the way.
+    fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, RenderError> {
+        let [c, s] = on_circle(turns);
+        let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+        match self.turning {
+            Turning::Light => {
+                let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
+                self.colors(seen, (&light, &self.camera), None)
+            }
+            Turning::Camera => {
+                let middle = self.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
+                let camera = self.camera.carried(middle, &turn);
+                self.colors(&Seen::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
+            }
+        }
     }
 
     fn picture(&self, colors: &[[f64; 3]]) -> Picture {
@@ -160,7 +189,7 @@ impl Rendering {
         exposure: f64,
         found: &mut Findings,
     ) -> Result<(), RenderError> {
-        let whole = self.colors(seen, &self.light, Some(original))?;
+        let whole = self.colors(seen, (&self.light, &self.camera), Some(original))?;
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&whole).map(|(a, b)| mean(a) - mean(b)).collect();
         let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -219,7 +248,7 @@ impl Rendering {
 }
 
 /// Pixels that show something at 18 % grey on average.
-fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
+pub(super) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
     let lit: Vec<f64> =
         colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();
     let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;

@@ -1,0 +1,57 @@
+//! The tables of the study.
+
+use super::picture::ChunkCounts;
+use crate::prt::on_card::model::TransferSize;
+use crate::prt::on_card::time::FrameTime;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Table};
+
+pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \
+    adds as fast as the paper's 2.9 frames a second of uncompressed transfer say. A frame follows a frame, so that host and card \
+    work side by side.";
+
+/// Sizes and counts: the columns of the paper's Table 1 with those that section 6.2 derives.
+pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> Table {
+    let mut table = Table::new("Sizes and counts", &["what", "number"]);
+    let rows = [
+        ("vertices", size.vertices as u64),
+        ("clusters", size.clusters as u64),
+        ("vectors of a cluster", size.vectors as u64),
+        ("numbers uncompressed", size.raw_numbers() as u64),
+        ("numbers stored", size.stored_numbers() as u64),
+        ("constants of a cluster", size.registers_per_cluster() as u64),
+        ("superclusters", draws.superclusters as u64),
+        ("passes over each", size.passes() as u64),
+        ("constants sent for a frame", size.uploaded_registers() as u64),
+        ("host multiply-adds of a frame", size.host_multiply_adds() as u64),
+        ("triangles", draws.triangles as u64),
+        ("triangles drawn in a pass", draws.drawn),
+    ];
+    rows.into_iter().for_each(|(what, number)| table.push([what.into(), number.into()]));
+    table.push(["overdraw".into(), Cell::ratio(draws.drawn as f64 / draws.triangles.max(1) as f64)]);
+    table
+}
+
+/// The parts of a frame.
+pub(super) fn times(time: &FrameTime) -> Table {
+    let mut table = Table::new("A frame", &["part", "ms"]);
+    let parts = [
+        ("frame to frame", time.frame),
+        ("host at work", time.host),
+        ("products on the host", time.products),
+        ("state and constants", time.state),
+        ("draws", time.draws),
+    ];
+    parts.into_iter().for_each(|(part, time)| table.push([part.into(), Cell::measured(1e3 * time.seconds())]));
+    table
+}
+
+/// The rate, and what it waits for.
+pub(super) fn time_sentence(time: &FrameTime, card: &str) -> String {
+    let rate = shown(time.per_second(), Quantity::Measured);
+    let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));
+    format!(
+        "{card}: modelled {rate} frames a second{waits}; {} vertices are run and {} triangles set up in {} draws.",
+        time.vertices_run, time.triangles, time.calls
+    )
+}
