@@ -182,7 +182,8 @@ fn a_frame_is_counted_and_timed() {
         let transfer = hills.transfer(vectors);
         let mut card = PrtCard::new(r300.clone(), ExecutorKind::Batch, transfer, &options).expect("a card");
         let view = PrtView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
-        let log = card.frame_log(&hills.light, &view).expect("a frame");
+        let (texels, log) = card.logged_view(&hills.light, &view).expect("a frame");
+        assert!(texels.texels == card.view_texels(&hills.light, &view).expect("a frame").texels);
         let time = frame_time(&r300, &log, &host).expect("a time");
         let (size, groups) = (card.size().expect("sizes"), card.superclusters().count());
         let triangles = hills.vertices.triangles();

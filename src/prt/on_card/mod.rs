@@ -172,16 +172,16 @@ impl<'a> PrtCard<'a> {
         Ok(Texels::read_back(&self.machine, target.color)?)
     }
 
-    /// What a frame asks of host and card, for [`time::frame_time`]: no read-back.
+    /// As [`Self::view_texels`], with what the frame asks of host and card, for [`time::frame_time`]: no read-back.
     ///
     /// # Errors
     /// As [`Self::view`].
-    pub fn frame_log(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<Vec<Event>, PrtCardError> {
+    pub fn logged_view(&mut self, light: &HarmonicLight, view: &PrtView) -> Result<(Texels, Vec<Event>), PrtCardError> {
         self.machine.record(true);
         let drawn = self.draw(light, view);
         self.machine.record(false);
         let log = self.machine.take_log();
-        drawn.map(|_| log)
+        Ok((Texels::read_back(&self.machine, drawn?.color)?, log))
     }
 
     /// Draws a frame: products on the host, the mesh into the depth buffer, chunk by chunk into the target.

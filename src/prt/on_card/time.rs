@@ -75,7 +75,7 @@ pub fn host_of_section_7() -> Result<HostModel, HostError> {
     HostModel::calibrate(&HostCounts::default().with(HostOperation::MultiplyAdd, work), HEAD_SECONDS, 1)
 }
 
-/// The time of a frame from its log ([`super::PrtCard::frame_log`]).
+/// The time of a frame from its log ([`super::PrtCard::logged_view`]).
 ///
 /// # Errors
 /// [`FrameTimeError`] if the device's rates are not known.

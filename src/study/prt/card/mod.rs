@@ -109,7 +109,7 @@ impl Study for OnCard {
         let host: Vec<[f64; 3]> = host.into_iter().map(|color| color.map(|value| exposure * value)).collect();
         progress("card", 1, steps);
         let transfer = self.transfer(&basis)?;
-        let way = Way { profile: &self.profile, format: self.format, options: self.options };
+        let way = Way { profile: &self.profile, format: self.format, options: self.options, timed: true };
         let mut drawn = way.draw(self, transfer, exposure)?;
         let difference = Difference::of(&drawn.colors, &host);
         let mut found = Findings::new("Compressed transfer on a card");
@@ -189,12 +189,13 @@ impl OnCard {
             NamedPicture::new("card", self.picture(drawn).display(1.0)?, title),
             NamedPicture::new("host", self.picture(host).display(1.0)?, "the host in double precision"),
         ];
-        let largest = difference.largest.max(1.0 / 255.0);
-        let scale = shown(255.0 * largest, Quantity::Measured);
+        // A few pixels at edges, where the card's raster decides otherwise than a ray, would hide the rest.
+        let range = (4.0 * difference.rms).max(1.0 / 255.0);
+        let scale = shown(255.0 * range, Quantity::Measured);
         pictures.push(NamedPicture::new(
             "difference",
-            false_color::signed(width, &difference.of_pixel, largest),
-            format!("card less host, the channel that differs most: blue -{scale}, white 0, red +{scale} 255ths"),
+            false_color::signed(width, &difference.of_pixel, range),
+            format!("card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more"),
         ));
         found.pictures(pictures);
         found.keep_layers("card", self.picture(drawn));

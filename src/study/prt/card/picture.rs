@@ -24,13 +24,15 @@ pub(super) struct Way<'a> {
     pub(super) profile: &'a Profile,
     pub(super) format: TexelFormat,
     pub(super) options: PrtCardOptions,
+    /// Whether what is asked of host and card is kept.
+    pub(super) timed: bool,
 }
 
 /// What a card drew.
 pub(super) struct Drawn {
     /// Radiance times exposure per pixel, clamped to 0 to 1 as screens do.
     pub(super) colors: Vec<[f64; 3]>,
-    /// What a frame asked of host and card.
+    /// What the frame asked of host and card; nothing if it is not timed.
     pub(super) log: Vec<Event>,
     pub(super) size: TransferSize,
     pub(super) draws: ChunkCounts,
@@ -56,10 +58,13 @@ impl Way<'_> {
     ) -> Result<Drawn, CardError> {
         let mut card = PrtCard::new(self.profile.clone(), study.executor.clone(), transfer, &self.options)?;
         let view = PrtView { camera: study.camera, exposure, format: self.format };
-        let log = card.frame_log(&study.light, &view)?;
-        let texels = card.view_texels(&study.light, &view)?.texels;
+        let (texels, log) = if self.timed {
+            card.logged_view(&study.light, &view)?
+        } else {
+            (card.view_texels(&study.light, &view)?, Vec::new())
+        };
         let clamped = |value: f32| f64::from(value).clamp(0.0, 1.0);
-        let colors = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue].map(clamped)).collect();
+        let colors = texels.texels.into_iter().map(|[red, green, blue, _]| [red, green, blue].map(clamped)).collect();
         let triangles = transfer.vertices.triangles();
         let groups = card.superclusters();
         let draws = ChunkCounts {

@@ -81,7 +81,7 @@ pub(super) fn report(
 ) -> Result<(), CardError> {
     let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, CardError> {
         let profile = Profile::named(choice.device).unwrap_or_else(|_| study.profile.clone());
-        let way = Way { profile: &profile, format: choice.format, options: choice.options };
+        let way = Way { profile: &profile, format: choice.format, options: choice.options, timed: false };
         Ok(way.draw(study, transfer, exposure)?.colors)
     };
     let expected = draw(&reference())?;
