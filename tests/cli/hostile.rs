@@ -54,9 +54,9 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --tangents --original --light --frames --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --original --light --frames --size --eye --target --up --tan-half-height --exposure --out",
     ),
-    ("prt show nowhere.prt", "--vertex --at --model --tangents"),
+    ("prt show nowhere.prt", "--vertex --at --model"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \

@@ -2,18 +2,17 @@
 
 use std::path::Path;
 
-use super::values::TangentsArg;
 use crate::cli::model_name::{self, Model};
 use crate::cli::{Problem, view};
 use crate::io::load_mesh;
 use crate::prt::cpca::Clustering;
-use crate::prt::file::{PrtFile, load_prt};
+use crate::prt::file::{MeshDigest, PrtFile, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
 
-/// The model. Where tangents are from texture coordinates, a file is read as a mesh, without materials: scenes have
+/// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
 /// none.
-pub(super) fn load(path: &Path, tangents: TangentsArg) -> miette::Result<Model> {
-    if tangents.0 == Tangents::Texture && path.is_file() {
+pub(super) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
+    if tangents == Tangents::Texture && path.is_file() {
         view::require_mesh(path)?;
         return Ok(Model::plain(load_mesh(path)?));
     }
@@ -21,8 +20,29 @@ pub(super) fn load(path: &Path, tangents: TangentsArg) -> miette::Result<Model> 
 }
 
 /// The vertices that transfer is computed at.
-pub(super) fn vertices(model: &Model, tangents: TangentsArg) -> miette::Result<Vertices> {
-    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents.0).map_err(refused)?)
+pub(super) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
+    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
+}
+
+/// A `.prt` file with the model that it was made from.
+pub(super) struct FileOfModel {
+    pub(super) file: PrtFile,
+    pub(super) model: Model,
+    /// The points of the file, with tangents as the file says.
+    pub(super) vertices: Vertices,
+    pub(super) digest: MeshDigest,
+}
+
+impl FileOfModel {
+    pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
+        let file = load_prt(path, None)?;
+        let tangents = file.mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+        let model = load(model, tangents)?;
+        let vertices = vertices(&model, tangents)?;
+        let digest = MeshDigest::new(&vertices);
+        file.require_mesh(&digest, path)?;
+        Ok(Self { file, model, vertices, digest })
+    }
 }
 
 /// Why there is no transfer of a model.
