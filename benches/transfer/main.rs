@@ -1,9 +1,9 @@
 //! How fast transfer is precomputed on the host: the shadow rays of all vertices, and diffuse transfer from them.
 //!
-//! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. One element is one ray, those
-//! that certainly meet nothing among them; ratios are of one run. Once, a bumpy body of 49,990 vertices and 1,035
-//! directions each, 36 % of them blocked: 16.6 s of processor time for 51.7 million rays, so 9.8 s for 30.4 million.
-//! Without trying first what blocked the last ray, and with a finer skyline, it was 26.6 s.
+//! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. One element is one ray,
+//! traced or not. Ratios are of one run. Once, a bumpy body of 49,990 vertices with 1,035 directions each, 36 % of them
+//! blocked: 16.6 s of processor time for 51.7 million rays, so 9.8 s for 30.4 million. That was with coarse skylines
+//! everywhere; with fine ones, and without trying what blocked the last ray, 26.6 s.
 //!
 //! `cargo bench -p crossbar-benches --bench transfer`
 
