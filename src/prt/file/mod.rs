@@ -13,8 +13,6 @@ pub use error::PrtFileError;
 pub use read::{load_prt, parse_prt};
 pub use write::{save_prt, write_prt};
 
-use std::path::Path;
-
 use super::Signal;
 use super::cpca::Clustering;
 
@@ -112,17 +110,6 @@ impl PrtFile {
     pub fn points(&self) -> usize {
         let transfer = self.transfer.as_ref().map(Signal::points);
         transfer.or(self.clustering.as_ref().map(Clustering::points)).unwrap_or(0)
-    }
-
-    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
-    ///
-    /// # Errors
-    /// [`PrtFileError::OtherMesh`].
-    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
-        match self.mesh {
-            Some(found) if found == *expected => Ok(()),
-            found => Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found }),
-        }
     }
 
     /// Why the parts do not go together: the field, what was expected, what was found.

@@ -62,6 +62,19 @@ pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
     }
 }
 
+impl PrtFile {
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    ///
+    /// # Errors
+    /// [`PrtFileError::OtherMesh`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+        match self.mesh {
+            Some(found) if found == *expected => Ok(()),
+            found => Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found }),
+        }
+    }
+}
+
 struct PrtHeader {
     meaning: PrtMeaning,
     mesh: Option<MeshDigest>,
