@@ -9,12 +9,16 @@ use super::error::{PictureError, PictureFormat};
 use super::exr;
 use super::limits::limits;
 
+/// How Radiance HDR files begin, and how others write them.
+const RADIANCE: &[u8] = b"#?RADIANCE";
+const RGBE: &[u8] = b"#?RGBE";
+
 /// The format of a file that begins with these bytes.
 fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
     const SIGNATURES: [(&[u8], PictureFormat); 4] = [
         (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
-        (b"#?RADIANCE", PictureFormat::Hdr),
-        (b"#?RGBE", PictureFormat::Hdr),
+        (RADIANCE, PictureFormat::Hdr),
+        (RGBE, PictureFormat::Hdr),
         (b"\x76\x2f\x31\x01", PictureFormat::Exr),
     ];
     SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
@@ -29,6 +33,9 @@ impl Picture {
             Some(PictureFormat::Exr) => exr::decode(bytes),
             Some(PictureFormat::Png) => from_png(&decoded(bytes, PictureFormat::Png, ImageFormat::Png)?),
             Some(PictureFormat::Hdr) => {
+                // The decoder knows one of the two first lines.
+                let renamed = bytes.strip_prefix(RGBE).map(|rest| [RADIANCE, rest].concat());
+                let bytes = renamed.as_deref().unwrap_or(bytes);
                 let image = decoded(bytes, PictureFormat::Hdr, ImageFormat::Hdr)?.into_rgb32f();
                 let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
                 Ok(Self::rgb(image.width(), image.height(), &pixels))

@@ -8,7 +8,7 @@ use super::octree::{Compact, Flow, GpuCells, Octree, OctreeParameters, Traversal
 use super::packet::Packets;
 use super::scale::mesh_scale;
 use super::triangle_test::{HostRay, HostTriangle};
-use crate::geom::exact::Sides;
+use crate::geom::exact::{Guess, Sides, filter};
 use crate::geom::{Hit, Mesh, Ray};
 use refsim::exec::batch::SimdLevel;
 
@@ -39,6 +39,8 @@ impl std::ops::AddAssign for HostCounts {
 pub struct HostTracer {
     octree: Octree,
     triangles: Vec<HostTriangle>,
+    /// The triangles' corners as the mesh has them, for [`filter::guess`].
+    corners: Vec<[[f32; 3]; 3]>,
     sides: Sides,
     /// What single-precision coordinates are multiplied by; a power of two.
     scale: f64,
@@ -60,7 +62,8 @@ impl HostTracer {
         let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh, scale));
         let mut packets = Packets::default();
         let compact = Compact::new(&octree, |leaf| packets.add(mesh, scale, leaf));
-        Self { octree, triangles, sides, scale, compact, packets, level: SimdLevel::widest() }
+        let corners = mesh.iter_corners().collect();
+        Self { octree, triangles, corners, sides, scale, compact, packets, level: SimdLevel::widest() }
     }
 
     /// The octree.
@@ -123,23 +126,44 @@ impl HostTracer {
         mut answer: impl FnMut(usize, Option<Hit>),
     ) -> HostCounts {
         let (mut waiting, mut counts) = (Waiting::default(), HostCounts::default());
+        let mut blocker = None;
         for (i, ray) in rays.iter().enumerate() {
-            let (hit, cost) = self.walk::<BOTH, ANY>(ray, t_max, &mut waiting);
+            let host = self.host_ray(ray);
+            if let Some(leaf) = blocker.filter(|_| ANY) {
+                let mut best = Best::default();
+                counts.tests += self.packets.test::<BOTH>(leaf, &host, &mut best);
+                let hit = best.hit(host.power).filter(|hit| hit.t < t_max);
+                if let Some(hit) = hit.filter(|hit| self.is_certain(ray, hit.triangle, t_max)) {
+                    answer(i, Some(hit));
+                    counts.rays += 1;
+                    continue;
+                }
+            }
+            let (hit, cost) = self.walk::<BOTH, ANY>(ray, &host, t_max, &mut blocker, &mut waiting);
             answer(i, hit);
             counts += cost;
         }
         counts
     }
 
-    /// The nearest hit; with `ANY`, that or any hit before `t_max`, or none if there is none before.
+    /// Whether a ray certainly hits a triangle before `t_max` in exact arithmetic. Then it goes through a cell that
+    /// holds the triangle, and the walk would find the same.
+    fn is_certain(&self, ray: &Ray, triangle: u32, t_max: f32) -> bool {
+        let guess = filter::guess(ray, &self.corners[triangle as usize], self.sides);
+        matches!(guess, Guess::Hit { high, .. } if high < f64::from(t_max))
+    }
+
+    /// The nearest hit; with `ANY`, that or any hit before `t_max`, whose leaf goes to `blocker`, or none if there is
+    /// none before.
     #[inline(always)]
     fn walk<const BOTH: bool, const ANY: bool>(
         &self,
         ray: &Ray,
+        host: &HostRay,
         t_max: f32,
+        blocker: &mut Option<u32>,
         waiting: &mut Waiting,
     ) -> (Option<Hit>, HostCounts) {
-        let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
         let end = f64::from(t_max) * (1.0 + BEYOND);
         let traversal = self.compact.walk(
@@ -150,8 +174,11 @@ impl HostTracer {
                 if best.settles(t[0], host.power) || (ANY && t[0] > end) {
                     return Flow::Stop;
                 }
-                tests += self.packets.test::<BOTH>(leaf, &host, &mut best);
+                tests += self.packets.test::<BOTH>(leaf, host, &mut best);
                 let found = ANY && best.hit(host.power).is_some_and(|hit| hit.t < t_max);
+                if found {
+                    *blocker = Some(leaf);
+                }
                 if found || best.settles(t[1], host.power) { Flow::Stop } else { Flow::Continue }
             },
         );
@@ -206,7 +233,8 @@ impl HostTracer {
     }
 
     /// [`Self::occluded_before`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose
-    /// directions end at a light.
+    /// directions end at a light. Rays that follow each other are often blocked by the same triangles: those that
+    /// blocked one ray are tried first for the next, so neighboring rays should stand together.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }

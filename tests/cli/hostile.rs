@@ -47,7 +47,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
     (
         "prt card nowhere.prt --model nowhere.obj",
-        "--model --tangents --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
+        "--model --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
          --switch --executor --adapter --size --eye --target --up --tan-half-height --exposure --out",
     ),
     ("prt compress nowhere.prt --out y.prt", "--clusters --vectors --method --iterations --seed --start --out"),
@@ -59,9 +59,9 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --tangents --original --light --window --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --original --light --window --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
-    ("prt show nowhere.prt", "--vertex --at --model --tangents"),
+    ("prt show nowhere.prt", "--vertex --at --model"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \

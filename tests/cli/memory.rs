@@ -25,6 +25,9 @@ const LARGE: &[&[&str]] = &[
     &["compare", "large.toml"],
     &["timeline", "large.toml", "--device", "r300"],
     &["diff", "large.png", "large.png"],
+    &["prt", "compress", "large.csv", "--out", "y.prt"],
+    &["prt", "precompute", "transfer-polygons", "--kind", "glossy", "--rows", "100", "--order", "10", "--out", "x.prt"],
+    &["prt", "render", "step_small.prt", "--model", "step.obj", "--size", "16384x16384"],
     &["intersect", "--mesh", "square.obj", "--rays", "many.csv", "--out", "h.csv"],
     &["intersect", "--mesh", "large.obj", "--rays", "few.csv", "--out", "h.csv"],
 ];
@@ -52,6 +55,10 @@ fn inputs() -> tempfile::TempDir {
     put("small.png", &picture(64));
     put("medium.png", &picture(512));
     put("large.png", &picture(2048));
+    put("large.csv", &b"0.25,0.5,-1\n".repeat(2_000_000));
+    for name in ["step.obj", "step_small.prt"] {
+        put(name, &fs::read(root.join("docs/examples").join(name)).expect("an example"));
+    }
     put("large.obj", &b"v 0.0000000 0.0000000 0.0000000\n".repeat(500_000));
     folder
 }
@@ -90,7 +97,9 @@ fn a_limited_process_refuses_and_does_not_abort() {
     let before = names(folder.path());
     // With less than the first, the system may not even load the program.
     for kibibytes in ["500000", "1500000"] {
-        let small = |arguments: &&[&str]| arguments[0] == "intersect" || arguments.contains(&"large.toml");
+        let small = |arguments: &&[&str]| {
+            arguments[0] == "intersect" || arguments[1] == "compress" || arguments.contains(&"large.toml")
+        };
         for arguments in LARGE.iter().filter(|arguments| !small(arguments)) {
             let mut command = std::process::Command::new("sh");
             command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, env!("CARGO_BIN_EXE_crossbar")]);
@@ -165,6 +174,7 @@ fn what_is_said_is_what_is_taken() {
         sized("run SIZE.toml --executor batch", "small", "medium"),
         sized("diff SIZE.png SIZE.png --out maps", "small", "medium"),
         sized("intersect --mesh square.obj --rays SIZE.csv --out h.csv", "few", "many"),
+        sized("prt render step_small.prt --model step.obj --out prt --size SIZE", "64x64", "512x512"),
         sized("intersect --mesh SIZE.obj --rays few.csv --out h.csv", "square", "medium"),
     ];
     for [small, large] in &measured {

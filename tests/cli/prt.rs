@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
+use crossbar::io::{NumberTable, write_npy};
+use crossbar::picture::{Picture, exr, png};
 use serde_json::Value;
 
 use crate::{crossbar, crossbar_in};
@@ -168,4 +170,133 @@ fn cards_refuse_what_they_have_no_programs_for() {
     assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
     let floats = refused(&[small, "--model", model, "--target-format", "rgba32f"]);
     assert!(floats.contains("rgba32f") && floats.contains("r300"), "{floats}");
+}
+
+/// A Radiance HDR file of 8 x 4 pixels, all (1, 1, 1), in packed scanlines or plain pixels.
+fn white_hdr(first_line: &str, packed: bool) -> Vec<u8> {
+    // Mantissas of 128 / 256 with the exponent 1.
+    let pixel = [128, 128, 128, 129];
+    let row = match packed {
+        // Per channel a run of eight.
+        true => [vec![2, 2, 0, 8], pixel.iter().flat_map(|&value| [128 + 8, value]).collect()].concat(),
+        false => pixel.repeat(8),
+    };
+    [format!("{first_line}\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n").into_bytes(), row.repeat(4)].concat()
+}
+
+/// Pictures of light are known by what is in them, whatever they are called.
+#[test]
+fn pictures_are_lights() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP;
+    let page = place(folder.path(), "page");
+    let options = ["--model", model, "--size", "16x16", "--out", &page];
+    let exposure = |light: &str| {
+        let drawn = document(&[&["prt", "render", transfer, "--light", light][..], &options].concat());
+        number(&drawn["exposure"])
+    };
+    let expected = exposure("constant:1,1,1");
+    let white = Picture::rgb(8, 4, &[[1.0; 3]; 32]);
+    let shown = png(&white.display(1.0).expect("a picture")).expect("a file");
+    for (name, bytes) in [
+        ("flat.hdr", white_hdr("#?RADIANCE", false)),
+        ("packed.hdr", white_hdr("#?RADIANCE", true)),
+        ("other_line.hdr", white_hdr("#?RGBE", true)),
+        ("other_flat.pic", white_hdr("#?RGBE", false)),
+        ("light.exr", exr(&white).expect("a file")),
+        ("png.hdr", shown),
+    ] {
+        let light = place(folder.path(), name);
+        fs::write(&light, bytes).expect("written");
+        assert_relative_eq!(exposure(&light), expected, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn pictures_that_are_no_lights_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
+    let mut pixels = [[1.0; 3]; 32];
+    pixels[19] = [1.0, f32::NAN, 1.0];
+    let broken = [&white_hdr("#?RGBE", true)[..60], b"\0"].concat();
+    for (name, bytes, words) in [
+        (
+            "nan.exr",
+            exr(&Picture::rgb(8, 4, &pixels)).expect("a file"),
+            "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
+        ),
+        ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
+        ("cut.hdr", broken, "expected Radiance HDR data, found something else"),
+        ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
+        ("empty.hdr", Vec::new(), "begins with nothing"),
+    ] {
+        let light = place(folder.path(), name);
+        fs::write(&light, bytes).expect("written");
+        let arguments = ["prt", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert!(flat.contains(words) && flat.contains(name), "{name}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{name}");
+    }
+}
+
+/// A square whose first texture coordinate grows with y: the anisotropic material runs along it, the file says so, and
+/// commands that read the file need not be told.
+#[test]
+fn tangents_come_from_the_texture_and_stay_with_the_file() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let (model, page) = (place(folder.path(), "textured.obj"), place(folder.path(), "page"));
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\nf 1/1 2/2 3/3 4/4\n";
+    fs::write(&model, text).expect("written");
+    let made = |name: &str, tangents: &str| {
+        let out = place(folder.path(), name);
+        let options = ["--kind", "glossy", "--rows", "16", "--brdf", "ward:0.1,0.4,0.1,0.4", "--order", "4"];
+        let command = ["prt", "precompute", &model, "--tangents", tangents, "--out", &out];
+        document(&[&command[..], &options].concat());
+        let shown = document(&["prt", "show", &out, "--at", "1,1,0", "--model", &model]);
+        assert_eq!(shown["mesh"]["tangents"], tangents);
+        (out, shown["vertex"]["transfer"].as_array().expect("numbers").clone())
+    };
+    let (texture, along_texture) = made("texture.prt", "texture");
+    let (axis, along_y) = made("axis.prt", "0,1,0");
+    let (_, along_x) = made("other.prt", "1,0,0");
+    assert_eq!(along_texture, along_y);
+    assert_ne!(along_texture, along_x);
+    let render = ["prt", "render", &texture, "--model", &model, "--size", "8x8", "--out", &page];
+    document(&[&render[..], &["--original", &texture]].concat());
+    let refused = crossbar(&[&render[..], &["--original", &axis]].concat(), "");
+    let flat = refused.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(refused.code, Some(2), "{flat}");
+    for words in ["expected transfer of a mesh with 4 vertices", "tangents from texture coordinates", "along 0,1,0"] {
+        assert!(flat.contains(words), "{words}: {flat}");
+    }
+    // The same square without texture coordinates is another mesh.
+    let square = ["prt", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
+    assert_eq!(crossbar(&square, "").code, Some(2));
+}
+
+/// An array of NumPy's and a table of the same numbers are one signal.
+#[test]
+fn arrays_of_numpy_are_compressed() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [array, fortran, table] = ["signal.npy", "fortran.npy", "signal.csv"].map(|name| place(folder.path(), name));
+    let numbers: Vec<f32> = (0..120_u16).map(|i| f32::from(i * 37 % 101) / 8.0).collect();
+    let mut bytes = Vec::new();
+    write_npy(&NumberTable { columns: 4, values: numbers.clone() }, &mut bytes).expect("written");
+    fs::write(&array, &bytes).expect("written");
+    let lines = numbers.chunks(4).map(|row| row.iter().map(f32::to_string).collect::<Vec<_>>().join(",") + "\n");
+    fs::write(&table, lines.collect::<String>()).expect("written");
+    let compressed = |signal: &str, out: &str| {
+        let out = place(folder.path(), out);
+        document(&["prt", "compress", signal, "--clusters", "3", "--vectors", "2", "--out", &out]);
+        fs::read(&out).expect("written")
+    };
+    assert_eq!(compressed(&array, "one.prt"), compressed(&table, "other.prt"));
+    let at = bytes.windows(5).position(|word| word == b"False").expect("the order of the array");
+    bytes[at..at + 5].copy_from_slice(b"True ");
+    fs::write(&fortran, &bytes).expect("written");
+    let ran = crossbar(&["prt", "compress", &fortran, "--out", &place(folder.path(), "none.prt")], "");
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
+    assert!(ran.stderr.to_lowercase().contains("fortran"), "{}", ran.stderr);
 }

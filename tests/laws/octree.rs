@@ -70,9 +70,11 @@ proptest! {
         let [low, high] = mesh.bounds().expect("it has corners");
         let reach = (0..3).map(|i| high[i] - low[i]).fold(f32::MIN_POSITIVE, f32::max);
         let (fine, whole) = (HostTracer::with_octree(&mesh, parameters, sides), HostTracer::with_octree(&mesh, WHOLE, sides));
+        let mut cast = Vec::new();
         for (i, (origin, d)) in rays.into_iter().enumerate() {
             let origin = if i % 2 == 1 { mesh.positions()[0] } else { origin.map(|x| x * reach) };
             let ray = Ray::new(origin, d).expect("finite, not 0");
+            cast.push(ray);
             let (found, counts) = fine.nearest(&ray);
             let (expected, all) = whole.nearest(&ray);
             prop_assert!(all.tests <= mesh.len() as u64);
@@ -97,6 +99,12 @@ proptest! {
                 }
                 prop_assert!(cost.tests <= counts.tests);
             }
+        }
+        // The answer to a ray does not depend on those before it, whose blockers it is tried with.
+        let bundle: Vec<Ray> = cast.iter().chain(cast.iter().rev()).copied().collect();
+        for end in [end, reach * end, f32::INFINITY] {
+            let each: Vec<bool> = bundle.iter().map(|ray| fine.occluded_before(ray, end).0).collect();
+            prop_assert_eq!(fine.occluded_all(&bundle, end).0, each, "before {}", end);
         }
         let octree = fine.octree();
         let cells = GpuCells::mark(octree, least..=least + more);

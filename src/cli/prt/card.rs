@@ -7,15 +7,14 @@ use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::light::{LightArg, LightArgs};
-use super::model::{clusters, load, vertices};
-use super::values::TangentsArg;
+use super::model::{FileOfModel, clusters_of};
 use crate::cli::card::CardArgs;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
-use crate::prt::file::{MeshDigest, PrtMeaning};
+use crate::prt::file::PrtMeaning;
 use crate::prt::on_card::{PrtCardOptions, WeightFormat};
 use crate::study::prt::OnCard;
 
@@ -64,10 +63,6 @@ pub(in crate::cli) struct Args {
     /// The model that the file was made from, as given to `crossbar prt precompute`
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
-
-    /// As given to `crossbar prt precompute`
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
 
     #[command(flatten)]
     light: LightArgs,
@@ -163,13 +158,8 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<OnCard> {
         let profile = self.card.profile("r300")?;
-        let model = load(&self.model, self.tangents)?;
-        let (file, clustering) = clusters(&self.file, Some(&MeshDigest::new(&model.mesh)))?;
-        let vertices = vertices(&model, self.tangents)?;
-        if vertices.len() != clustering.points() {
-            let what = format!("expected clusters of {} vertices, found {}", vertices.len(), clustering.points());
-            return Err(Problem::usage(what, "give `--tangents` as to `crossbar prt precompute`").into());
-        }
+        let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.model)?;
+        let clustering = clusters_of(&mut file, &self.file)?;
         let PrtMeaning::Transfer { light_order, .. } = file.meaning else {
             let help = "compress a file that `crossbar prt precompute` wrote";
             return Err(Problem::usage("expected transfer, found numbers without a meaning", help).into());

@@ -39,7 +39,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
-    let (file, clustering) = clusters(&args.compressed, None)?;
+    let (file, clustering) = clusters(&args.compressed)?;
     let shapes = [(signal.points(), signal.dimension()), (clustering.points(), clustering.dimension())];
     if shapes[0] != shapes[1] {
         let [one, other] = shapes.map(|(points, numbers)| format!("{points} points of {numbers} numbers"));

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::values::TangentsArg;
 use crate::cli::model_name::{self, Model};
 use crate::cli::{Problem, view};
 use crate::io::load_mesh;
@@ -10,10 +9,10 @@ use crate::prt::cpca::Clustering;
 use crate::prt::file::{MeshDigest, PrtFile, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
 
-/// The model. Where tangents are from texture coordinates, a file is read as a mesh, without materials: scenes have
+/// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
 /// none.
-pub(super) fn load(path: &Path, tangents: TangentsArg) -> miette::Result<Model> {
-    if tangents.0 == Tangents::Texture && path.is_file() {
+pub(super) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
+    if tangents == Tangents::Texture && path.is_file() {
         view::require_mesh(path)?;
         return Ok(Model::plain(load_mesh(path)?));
     }
@@ -21,8 +20,29 @@ pub(super) fn load(path: &Path, tangents: TangentsArg) -> miette::Result<Model> 
 }
 
 /// The vertices that transfer is computed at.
-pub(super) fn vertices(model: &Model, tangents: TangentsArg) -> miette::Result<Vertices> {
-    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents.0).map_err(refused)?)
+pub(super) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
+    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
+}
+
+/// A `.prt` file with the model that it was made from.
+pub(super) struct FileOfModel {
+    pub(super) file: PrtFile,
+    pub(super) model: Model,
+    /// The points of the file, with tangents as the file says.
+    pub(super) vertices: Vertices,
+    pub(super) digest: MeshDigest,
+}
+
+impl FileOfModel {
+    pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
+        let file = load_prt(path, None)?;
+        let tangents = file.mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+        let model = load(model, tangents)?;
+        let vertices = vertices(&model, tangents)?;
+        let digest = MeshDigest::new(&vertices);
+        file.require_mesh(&digest, path)?;
+        Ok(Self { file, model, vertices, digest })
+    }
 }
 
 /// Why there is no transfer of a model.
@@ -30,13 +50,18 @@ pub(super) fn refused(error: TransferError) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar prt precompute --help`")
 }
 
-/// A `.prt` file that has clusters, and these; of a mesh, if one is given.
-pub(super) fn clusters(path: &Path, mesh: Option<&MeshDigest>) -> miette::Result<(PrtFile, Clustering)> {
+/// A `.prt` file that has clusters, and these.
+pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
     view::require_file(path, 2, "name a smaller file")?;
-    let mut file = load_prt(path, mesh)?;
-    let clustering = file.clustering.take().ok_or_else(|| {
+    let mut file = load_prt(path, None)?;
+    let clustering = clusters_of(&mut file, path)?;
+    Ok((file, clustering))
+}
+
+/// The clusters of a file, taken out of it.
+pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clustering> {
+    Ok(file.clustering.take().ok_or_else(|| {
         let what = format!("{}: expected clusters, found transfer alone", path.display());
         Problem::usage(what, "`crossbar prt compress` makes them")
-    })?;
-    Ok((file, clustering))
+    })?)
 }

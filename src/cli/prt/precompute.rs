@@ -109,8 +109,8 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let exit = exit(args)?;
     let scatterer = scatterer(args)?;
-    let model = load(&args.model, args.tangents)?;
-    let vertices = vertices(&model, args.tangents)?;
+    let model = load(&args.model, args.tangents.0)?;
+    let vertices = vertices(&model, args.tangents.0)?;
     let precomputation = Precomputation {
         mesh: &model.mesh,
         vertices: &vertices,

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use super::light::{LightArg, LightArgs};
-use super::model::{load, vertices};
-use super::values::TangentsArg;
+use super::model::FileOfModel;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
-use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+use crate::prt::file::{PrtFile, PrtMeaning, load_prt};
 use crate::study::prt::{Rendering, Turning};
 
 const EXAMPLES: &str = "\
@@ -46,10 +45,6 @@ pub(in crate::cli) struct Args {
     /// The model that the file was made from, as given to `crossbar prt precompute`
     #[arg(long, value_name = "MODEL")]
     model: PathBuf,
-
-    /// As given to `crossbar prt precompute`
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
 
     /// Uncompressed transfer of the same model, to compare with
     #[arg(long, value_name = "X.prt")]
@@ -109,14 +104,7 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Rendering> {
-        let model = load(&self.model, self.tangents)?;
-        let digest = MeshDigest::new(&model.mesh);
-        let file = load_prt(&self.file, Some(&digest))?;
-        let vertices = vertices(&model, self.tangents)?;
-        if vertices.len() != file.points() {
-            let what = format!("expected transfer of {} vertices, found that of {}", vertices.len(), file.points());
-            return Err(Problem::usage(what, "give `--tangents` as to `crossbar prt precompute`").into());
-        }
+        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.model)?;
         let PrtMeaning::Transfer { light_order, .. } = file.meaning else {
             let help = "compress a file that `crossbar prt precompute` wrote";
             return Err(Problem::usage("expected transfer, found numbers without a meaning", help).into());

@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::model::{load, vertices};
-use super::values::TangentsArg;
+use super::model::FileOfModel;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
 use crate::prt::cpca::Clustering;
-use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+use crate::prt::file::{PrtFile, PrtMeaning, load_prt};
 use crate::report::{Cell, Table};
 
 const EXAMPLES: &str = "\
@@ -45,10 +44,6 @@ pub(super) struct Args {
     /// The model that the file was made from, for --at
     #[arg(long, value_name = "MODEL", requires = "at")]
     model: Option<PathBuf>,
-
-    /// As given to `crossbar prt precompute`
-    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
-    tangents: TangentsArg,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
@@ -56,12 +51,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let file = load_prt(&args.file, None)?;
     let vertex = match (args.vertex, args.at, &args.model) {
         (Some(vertex), ..) => Some(vertex as usize),
-        (None, Some(at), Some(model)) => {
-            let model = load(model, args.tangents)?;
-            load_prt(&args.file, Some(&MeshDigest::new(&model.mesh)))?;
-            let places = vertices(&model, args.tangents)?;
-            nearest(places.positions(), at)
-        }
+        (None, Some(at), Some(model)) => nearest(FileOfModel::load(&args.file, model)?.vertices.positions(), at),
         _ => None,
     };
     if let Some(vertex) = vertex.filter(|&vertex| vertex >= file.points()) {
@@ -190,7 +180,7 @@ fn header_document(file: &PrtFile) -> Value {
     };
     let mesh = file.mesh.map(|mesh| {
         let [vertex_crc, triangle_crc] = [mesh.vertex_crc, mesh.triangle_crc].map(|crc| format!("{crc:08x}"));
-        json!({ "vertices": mesh.vertices, "triangles": mesh.triangles,
+        json!({ "vertices": mesh.vertices, "triangles": mesh.triangles, "tangents": mesh.tangents.to_string(),
                 "vertex_crc": vertex_crc, "triangle_crc": triangle_crc })
     });
     json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some() })

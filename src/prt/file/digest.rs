@@ -2,34 +2,38 @@
 
 use std::fmt;
 
-use crate::geom::Mesh;
+use crate::prt::transfer::{LocalFrame, Tangents, Vertices};
 
-/// A mesh's counts and checksums. Meshes of other positions, normals, texture coordinates or triangles, or of the same
-/// in another order, have other digests, but for one in 2^32.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Counts and checksums of the vertices that transfer is computed at. Vertices of other positions, normals or tangents,
+/// other triangles, or the same in another order, have another digest, but for one in 2^32.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshDigest {
+    /// Where tangents come from.
+    pub tangents: Tangents,
     /// Number of vertices.
     pub vertices: u32,
     /// Number of triangles.
     pub triangles: u32,
-    /// CRC-32 of positions, normals and texture coordinates as little-endian f32, all of one after all of another.
+    /// CRC-32 of all positions as little-endian f32, then all normals, then all tangents, as little-endian f64.
     pub vertex_crc: u32,
     /// CRC-32 of the triangles' corners as little-endian u32.
     pub triangle_crc: u32,
 }
 
 impl MeshDigest {
-    /// Of a mesh.
-    pub fn new(mesh: &Mesh) -> Self {
+    /// Of the vertices of a mesh.
+    pub fn new(vertices: &Vertices) -> Self {
         let (mut vertex, mut triangle) = (crc32fast::Hasher::new(), crc32fast::Hasher::new());
-        let mut add = |values: &[f32]| values.iter().for_each(|value| vertex.update(&value.to_le_bytes()));
-        add(mesh.positions().as_flattened());
-        add(mesh.normals().unwrap_or_default().as_flattened());
-        add(mesh.texcoords().unwrap_or_default().as_flattened());
-        mesh.triangles().as_flattened().iter().for_each(|corner| triangle.update(&corner.to_le_bytes()));
+        vertices.positions().as_flattened().iter().for_each(|value| vertex.update(&value.to_le_bytes()));
+        for axis in [LocalFrame::normal, LocalFrame::tangent] {
+            let values = vertices.frames().iter().flat_map(|frame| axis(frame).to_array());
+            values.for_each(|value| vertex.update(&value.to_le_bytes()));
+        }
+        vertices.triangles().as_flattened().iter().for_each(|corner| triangle.update(&corner.to_le_bytes()));
         Self {
-            vertices: mesh.positions().len() as u32,
-            triangles: mesh.len() as u32,
+            tangents: vertices.tangents(),
+            vertices: vertices.len() as u32,
+            triangles: vertices.triangles().len() as u32,
             vertex_crc: vertex.finalize(),
             triangle_crc: triangle.finalize(),
         }
@@ -38,7 +42,12 @@ impl MeshDigest {
 
 impl fmt::Display for MeshDigest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { vertices, triangles, vertex_crc, triangle_crc } = self;
-        write!(f, "{vertices} vertices ({vertex_crc:08x}) and {triangles} triangles ({triangle_crc:08x})")
+        let Self { tangents, vertices, triangles, vertex_crc, triangle_crc } = self;
+        write!(f, "{vertices} vertices ({vertex_crc:08x}) and {triangles} triangles ({triangle_crc:08x}), ")?;
+        match tangents {
+            Tangents::Any => f.write_str("any tangents"),
+            Tangents::Texture => f.write_str("tangents from texture coordinates"),
+            Tangents::Along(_) => write!(f, "tangents along {tangents}"),
+        }
     }
 }

@@ -56,6 +56,9 @@ pub enum PrtFileError {
     /// It belongs to another mesh.
     #[error("{}: expected transfer of a mesh with {expected}, found that of {}", path.display(),
         found.map_or_else(|| "no mesh".to_owned(), |found| found.to_string()))]
-    #[diagnostic(code(crossbar::prt::mesh), help("name the mesh that it was made for, or make it anew"))]
+    #[diagnostic(
+        code(crossbar::prt::mesh),
+        help("name the model that it was made from, or make it anew with `crossbar prt precompute`")
+    )]
     OtherMesh { path: PathBuf, expected: MeshDigest, found: Option<MeshDigest> },
 }

@@ -27,6 +27,11 @@ pub const MAX_BYTES: u64 = 1 << 32;
 /// is y, z, x), light in the axes of the mesh, exit radiance in those of the vertex with its normal as z.
 const CONVENTIONS: u32 = 1;
 
+/// Numbers of [`Tangents`](super::transfer::Tangents); 0 without a mesh.
+const ANY_TANGENTS: u32 = 1;
+const TEXTURE_TANGENTS: u32 = 2;
+const AXIS_TANGENTS: u32 = 3;
+
 const TRANSFER: &[u8; 4] = b"TRAN";
 const CLUSTERING: &[u8; 4] = b"CLUS";
 
@@ -35,7 +40,7 @@ const CLUSTERING: &[u8; 4] = b"CLUS";
 pub struct PrtFile {
     /// What the numbers of a point are.
     pub meaning: PrtMeaning,
-    /// The mesh whose vertices the points are, if they are.
+    /// The mesh whose vertices the points are, if they are: as many as points.
     pub mesh: Option<MeshDigest>,
     /// The uncompressed numbers.
     pub transfer: Option<Signal>,
@@ -120,6 +125,9 @@ impl PrtFile {
         };
         if let Some(second) = clustering.filter(|&second| second != first) {
             return Some(("clusters", shape(first), shape(second)));
+        }
+        if let Some(mesh) = self.mesh.filter(|mesh| mesh.vertices as usize != first.0) {
+            return Some(("vertices of the mesh", first.0.to_string(), mesh.vertices.to_string()));
         }
         let expected = self.meaning.dimension().map_or(usize::MAX, |dimension| dimension);
         (first.1 != expected).then(|| ("numbers per point", expected.to_string(), first.1.to_string()))

@@ -2,14 +2,19 @@
 
 use std::path::Path;
 
+use glam::DVec3;
+
 use super::{
-    CLUSTERING, CONVENTIONS, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError, PrtMeaning, TRANSFER, VERSION,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError,
+    PrtMeaning, TEXTURE_TANGENTS, TRANSFER, VERSION,
 };
+use crate::geom::vector::unit;
 use crate::io::{ReadError, read_limited};
 use crate::prt::Signal;
 use crate::prt::cpca::{AffineSubspace, Clustering};
+use crate::prt::transfer::Tangents;
 
-/// Fields of 32 bits between the version and the exit functions.
+/// Fields of 32 bits between the version and the axis of tangents.
 const FIELDS: usize = 12;
 
 /// Reads a file; of `mesh`, if one is given.
@@ -21,12 +26,8 @@ pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFi
     let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
     let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?;
     let file = parse_prt(&bytes, path)?;
-    match mesh {
-        Some(&expected) if file.mesh != Some(expected) => {
-            Err(PrtFileError::OtherMesh { path: path.into(), expected, found: file.mesh })
-        }
-        _ => Ok(file),
-    }
+    mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
+    Ok(file)
 }
 
 /// Reads a file from bytes; `name` stands for it in messages.
@@ -58,6 +59,19 @@ pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
     match file.fault() {
         Some((field, expected, found)) => Err(reader.field(field, expected, found)),
         None => Ok(file),
+    }
+}
+
+impl PrtFile {
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    ///
+    /// # Errors
+    /// [`PrtFileError::OtherMesh`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+        match self.mesh {
+            Some(found) if found == *expected => Ok(()),
+            found => Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found }),
+        }
     }
 }
 
@@ -150,18 +164,19 @@ impl<'a> Reader<'a> {
         for field in &mut fields {
             *field = self.integer("header")?;
         }
-        let [conventions, channels, rows, columns, albedo, points, is_of_mesh, mesh @ .., sections] = fields;
+        let [conventions, channels, rows, columns, albedo, points, sections, digest @ .., tangents] = fields;
+        let axis = self.doubles(3, "axis of tangents")?;
         let exit_functions = self.numbers(rows as usize, "exit functions")?;
         let exit_functions: Vec<u16> = exit_functions.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
         self.checksum(0, "the header")?;
         // What is not used is 0, so that equal contents have equal bytes.
-        let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(is_of_mesh > 0));
+        let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
         let fields = [
             ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
             ("number of exit functions", rows, 0..=matrix * u32::MAX),
             ("albedo", albedo, 0..=matrix),
-            ("mesh", is_of_mesh, 0..=1),
-            ("mesh's digest", mesh.iter().copied().max().unwrap_or(0), 0..=of_mesh * u32::MAX),
+            ("tangents", tangents, 0..=AXIS_TANGENTS),
+            ("mesh's digest", digest.iter().copied().max().unwrap_or(0), 0..=of_mesh * u32::MAX),
             ("number of sections", sections, 1..=2),
         ];
         for (field, found, expected) in fields {
@@ -173,13 +188,30 @@ impl<'a> Reader<'a> {
                 ));
             }
         }
-        let [vertices, triangles, vertex_crc, triangle_crc] = mesh;
-        let digest = MeshDigest { vertices, triangles, vertex_crc, triangle_crc };
+        let tangents = self.tangents(tangents, DVec3::from_slice(&axis))?;
+        let [vertices, triangles, vertex_crc, triangle_crc] = digest;
+        let mesh = tangents.map(|tangents| MeshDigest { tangents, vertices, triangles, vertex_crc, triangle_crc });
         let meaning = match channels {
             0 => PrtMeaning::Numbers { dimension: columns },
             _ => PrtMeaning::Transfer { channels, exit_functions, light_order: columns, includes_albedo: albedo == 1 },
         };
-        Ok(PrtHeader { meaning, mesh: (is_of_mesh == 1).then_some(digest), points: points as usize, sections })
+        Ok(PrtHeader { meaning, mesh, points: points as usize, sections })
+    }
+
+    /// Where tangents come from; `None` without a mesh.
+    fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
+        let is_axis = number == AXIS_TANGENTS;
+        let is_used = axis.to_array().iter().any(|value| value.to_bits() != 0);
+        if is_used != is_axis || (is_axis && unit(axis).is_none()) {
+            let expected = if is_axis { "a finite length above 0" } else { "zeros" };
+            return Err(self.field("axis of tangents", expected, Tangents::Along(axis).to_string()));
+        }
+        Ok(match number {
+            ANY_TANGENTS => Some(Tangents::Any),
+            TEXTURE_TANGENTS => Some(Tangents::Texture),
+            AXIS_TANGENTS => Some(Tangents::Along(axis)),
+            _ => None,
+        })
     }
 
     /// The next section, its checksum compared.

@@ -3,10 +3,14 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::{CLUSTERING, CONVENTIONS, MAGIC, PrtFile, PrtMeaning, TRANSFER, VERSION};
+use super::{
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, PrtFile, PrtMeaning, TEXTURE_TANGENTS, TRANSFER,
+    VERSION,
+};
 use crate::io::{WriteError, write_file};
 use crate::prt::Signal;
 use crate::prt::cpca::{AffineSubspace, Clustering};
+use crate::prt::transfer::Tangents;
 
 /// Writes a file, whole or not at all.
 ///
@@ -47,16 +51,21 @@ fn header(file: &PrtFile) -> Vec<u8> {
         }
     };
     let sections = u32::from(file.transfer.is_some()) + u32::from(file.clustering.is_some());
-    let mesh = file.mesh.map_or([0; 4], |m| [m.vertices, m.triangles, m.vertex_crc, m.triangle_crc]);
-    let [vertices, triangles, vertex_crc, triangle_crc] = mesh;
-    let is_of_mesh = u32::from(file.mesh.is_some());
+    let digest = file.mesh.map_or([0; 4], |m| [m.vertices, m.triangles, m.vertex_crc, m.triangle_crc]);
+    let (tangents, axis) = match file.mesh.map(|mesh| mesh.tangents) {
+        None => (0, [0.0; 3]),
+        Some(Tangents::Any) => (ANY_TANGENTS, [0.0; 3]),
+        Some(Tangents::Texture) => (TEXTURE_TANGENTS, [0.0; 3]),
+        Some(Tangents::Along(axis)) => (AXIS_TANGENTS, axis.to_array()),
+    };
     let fields = [
         [VERSION, CONVENTIONS, channels, functions.len() as u32],
-        [columns, albedo, file.points() as u32, is_of_mesh],
-        [vertices, triangles, vertex_crc, triangle_crc],
+        [columns, albedo, file.points() as u32, sections],
+        digest,
     ];
     let mut bytes = MAGIC.to_vec();
-    bytes.extend(fields.as_flattened().iter().chain([&sections]).flat_map(|field| field.to_le_bytes()));
+    bytes.extend(fields.as_flattened().iter().chain([&tangents]).flat_map(|field| field.to_le_bytes()));
+    bytes.extend(axis.iter().flat_map(|value| value.to_le_bytes()));
     bytes.extend(functions.iter().flat_map(|function| function.to_le_bytes()));
     bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
     bytes

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::error::TransferError;
 use super::origins::origins;
 use super::shooter::{Asked, FrontHit, Shooter};
-use super::skyline::{Occluders, SkyPart};
+use super::skyline::{Occluders, SkyPart, ones};
 use super::vertices::Vertices;
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
@@ -185,17 +185,6 @@ impl TracedRays {
         }
         Ok(())
     }
-}
-
-/// The bits that are set, from the lowest up.
-fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        (bits != 0).then(|| {
-            let lowest = bits.trailing_zeros() as usize;
-            bits &= bits - 1;
-            lowest
-        })
-    })
 }
 
 #[cfg(test)]

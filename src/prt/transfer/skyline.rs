@@ -18,10 +18,12 @@ const RINGS: usize = 24;
 const COLUMNS: usize = 64;
 /// Triangles of a leaf.
 const LEAF: usize = 4;
-/// A box seen under a smaller angle than this (its sine) is marked as a whole.
-const SMALL: f64 = 0.08;
+/// A box seen under a smaller angle than this (its sine) is marked as a whole: at first, and if that marks little.
+const SMALL: [f64; 2] = [0.25, 0.08];
+/// The share of the hemisphere above which what was marked at first stays: there is little sky to be found.
+const MUCH: f64 = 0.5;
 /// A box seen under a larger angle than this (its sine) is opened without asking whether all that it covers is marked.
-const WIDE: f64 = 0.25;
+const WIDE: f64 = 0.4;
 /// A sphere seen under a larger angle than this (its sine) is near.
 const NEAR: f64 = 0.9;
 /// What angles are widened by, in radians: rays differ from their f64 directions by 1e-7.
@@ -71,6 +73,12 @@ impl Skyline {
     /// Whether something may be seen in a part.
     pub(crate) fn is_marked(&self, part: SkyPart) -> bool {
         self.0[usize::from(part.ring)] >> part.column & 1 != 0
+    }
+
+    /// The share of the hemisphere that is marked.
+    fn share(&self) -> f64 {
+        let count = (1..).step_by(2).zip(&self.0).map(|(area, ring)| area * ring.count_ones()).sum::<u32>();
+        f64::from(count) / (RINGS * RINGS * COLUMNS) as f64
     }
 
     fn mark(&mut self, region: &Region) {
@@ -164,6 +172,11 @@ impl Occluders {
 
     /// The skyline of a point, in the local coordinates of a frame.
     pub(crate) fn skyline(&self, at: DVec3, frame: &LocalFrame, waiting: &mut Vec<u32>) -> Skyline {
+        let coarse = self.skyline_with(SMALL[0], at, frame, waiting);
+        if coarse.share() > MUCH { coarse } else { self.skyline_with(SMALL[1], at, frame, waiting) }
+    }
+
+    fn skyline_with(&self, small: f64, at: DVec3, frame: &LocalFrame, waiting: &mut Vec<u32>) -> Skyline {
         let mut skyline = Skyline::default();
         let rows = [frame.tangent(), frame.normal().cross(frame.tangent()), frame.normal()].map(DVec3::abs);
         waiting.clear();
@@ -182,7 +195,7 @@ impl Occluders {
                 match Region::of(middle, distance, sine, highest) {
                     None => continue,
                     Some(region) if skyline.holds(&region) => continue,
-                    Some(region) if sine < SMALL => {
+                    Some(region) if sine < small => {
                         skyline.mark(&region);
                         continue;
                     }
@@ -194,7 +207,7 @@ impl Occluders {
                 continue;
             }
             for corners in &self.triangles[node.next as usize..(node.next + node.count) as usize] {
-                self.triangle(corners.map(|corner| frame.to_local(corner - at)), &mut skyline);
+                self.triangle(small, corners.map(|corner| frame.to_local(corner - at)), &mut skyline);
             }
         }
         skyline
@@ -221,7 +234,7 @@ impl Occluders {
     }
 
     /// Marks what a triangle in local coordinates may cover.
-    fn triangle(&self, [a, b, c]: [DVec3; 3], skyline: &mut Skyline) {
+    fn triangle(&self, small: f64, [a, b, c]: [DVec3; 3], skyline: &mut Skyline) {
         let top = a.z.max(b.z).max(c.z);
         if top <= 0.0 {
             return;
@@ -237,7 +250,7 @@ impl Occluders {
             Region::of(middle, distance, sine, highest)
         };
         let Some(region) = region.filter(|region| !skyline.holds(region)) else { return };
-        if sine < SMALL {
+        if sine < small {
             skyline.mark(&region);
             return;
         }
@@ -248,10 +261,15 @@ impl Occluders {
             return;
         }
         let plane = if across.dot(a) > 0.0 { -across } else { across } / length;
+        let slope = plane.truncate().length();
         for ring in region.rings[0]..=region.rings[1] {
-            let missing = region.columns & !skyline.0[ring];
-            for column in (0..COLUMNS).filter(|column| missing >> column & 1 != 0) {
-                if plane.dot(self.middles[ring * COLUMNS + column]) < self.part_radii[ring] {
+            // No column of the ring has a smaller product than this.
+            let (middle, radius) = (self.middles[ring * COLUMNS], self.part_radii[ring]);
+            if plane.z * middle.z - slope * middle.truncate().length() >= radius + MARGIN {
+                continue;
+            }
+            for column in ones(region.columns & !skyline.0[ring]) {
+                if plane.dot(self.middles[ring * COLUMNS + column]) < radius {
                     skyline.0[ring] |= 1 << column;
                 }
             }
@@ -264,6 +282,17 @@ fn part_radius(ring: usize) -> f64 {
     let middle = SkyPart { ring: ring as u8, column: 0 }.middle();
     let ends = [lower_end(ring), lower_end(ring + 1)];
     ends.map(|z| at(z, 0.0).distance(middle)).into_iter().fold(0.0, f64::max) + MARGIN
+}
+
+/// The bits that are set, from the lowest up.
+pub(super) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (bits != 0).then(|| {
+            let lowest = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            lowest
+        })
+    })
 }
 
 /// Appends the boxes over `triangles`, which stand from `first` on, and brings the triangles into the order of leaves.

@@ -1,6 +1,7 @@
 //! The vertices that transfer is computed at: unique positions, normals and tangents.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use glam::DVec3;
 
@@ -22,6 +23,16 @@ pub enum Tangents {
     Along(DVec3),
 }
 
+impl fmt::Display for Tangents {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Any => f.write_str("any"),
+            Self::Texture => f.write_str("texture"),
+            Self::Along(DVec3 { x, y, z }) => write!(f, "{x},{y},{z}"),
+        }
+    }
+}
+
 /// A mesh whose vertices are told apart by position, normal, tangent and material, with the local frame of each. Its
 /// triangles are those of the mesh that it was made from, in the same order.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +41,7 @@ pub struct Vertices {
     frames: Vec<LocalFrame>,
     materials: Vec<u32>,
     triangles: Vec<[u32; 3]>,
+    tangents: Tangents,
     /// Vertices of the source that no triangle uses: they are left out.
     pub unused: usize,
     /// Vertices whose tangent had no direction across the normal, and got any.
@@ -101,7 +113,7 @@ impl Vertices {
         let frames = frames.collect();
         let positions = of.iter().map(|&source| mesh.positions()[source as usize]).collect();
         let unused = mesh.positions().len() - used(mesh).into_iter().filter(|&used| used).count();
-        Ok(Self { positions, frames, materials: materials_of, triangles, unused, replaced_tangents })
+        Ok(Self { positions, frames, materials: materials_of, triangles, tangents, unused, replaced_tangents })
     }
 
     /// The number of vertices.
@@ -132,6 +144,11 @@ impl Vertices {
     /// The vertices of each triangle, in the order of the source mesh.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
+    }
+
+    /// Where the tangents of the frames come from.
+    pub fn tangents(&self) -> Tangents {
+        self.tangents
     }
 
     /// The corners of a triangle.

@@ -124,7 +124,7 @@ impl Precomputation<'_> {
         };
         let bounces = channels.iter().map(|transfer| transfer.bounces.clone()).collect();
         let transfer = Some(together(channels)?);
-        let mesh = Some(MeshDigest::new(self.mesh));
+        let mesh = Some(MeshDigest::new(self.vertices));
         Ok(Precomputed {
             file: PrtFile { meaning, mesh, transfer, clustering: None },
             directions: rays.rule().len(),

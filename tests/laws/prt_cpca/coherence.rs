@@ -5,6 +5,7 @@ use crossbar::geom::random::CounterRng;
 use crossbar::prt::Signal;
 use crossbar::prt::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
+use glam::DVec3;
 use proptest::prelude::*;
 
 /// A grid of `size` x `size` vertices, two triangles per cell.
@@ -150,16 +151,27 @@ proptest! {
 #[test]
 fn digests_tell_meshes_apart() {
     use crossbar::prt::file::MeshDigest;
+    use crossbar::prt::transfer::{Tangents, Vertices};
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
     let mesh = Mesh::new(corners.clone(), vec![[0, 1, 2], [2, 1, 3]]).expect("a mesh");
     let mut moved = corners.clone();
     moved[3][2] = 0.25;
     let others = [
         Mesh::new(moved, vec![[0, 1, 2], [2, 1, 3]]).expect("a mesh"),
-        Mesh::new(corners, vec![[0, 1, 2], [1, 3, 2]]).expect("a mesh"),
+        Mesh::new(corners.clone(), vec![[0, 1, 2], [1, 3, 2]]).expect("a mesh"),
         mesh.clone().with_normals(vec![[0.0, 0.0, 1.0]; 4]).expect("normals"),
-        mesh.clone().with_texcoords(vec![[0.0, 1.0]; 4]).expect("coordinates"),
     ];
-    assert_eq!(MeshDigest::new(&mesh), MeshDigest::new(&mesh.clone()));
-    assert!(others.iter().all(|other| MeshDigest::new(other) != MeshDigest::new(&mesh)));
+    let digest = |mesh: &Mesh, tangents| MeshDigest::new(&Vertices::new(mesh, tangents).expect("vertices"));
+    let one = digest(&mesh, Tangents::Any);
+    assert_eq!(digest(&mesh.clone(), Tangents::Any), one);
+    assert!(others.iter().all(|other| digest(other, Tangents::Any) != one));
+    // Tangents count by what they are, not by their name alone.
+    let textured = |slope: f32| {
+        let texture = corners.iter().map(|&[x, y, _]| [x, y + slope * x]).collect();
+        digest(&mesh.clone().with_texcoords(texture).expect("coordinates"), Tangents::Texture)
+    };
+    assert_ne!(textured(0.0).vertex_crc, textured(0.5).vertex_crc);
+    assert_eq!(textured(0.0), textured(0.0));
+    let along = [DVec3::X, DVec3::Y].map(|axis| digest(&mesh, Tangents::Along(axis)).vertex_crc);
+    assert!(along[0] != along[1] && along[0] != one.vertex_crc);
 }

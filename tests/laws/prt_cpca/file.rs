@@ -9,7 +9,9 @@ use crossbar::prt::file::{
     MAGIC, MeshDigest, PrtFile, PrtFileError, PrtMeaning, load_prt, parse_prt, save_prt, write_prt,
 };
 use crossbar::prt::synthetic::torus_signal;
+use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::prt::{Signal, load_signal};
+use glam::DVec3;
 use proptest::prelude::*;
 
 fn name() -> &'static Path {
@@ -26,9 +28,11 @@ fn parsed(bytes: &[u8]) -> Result<PrtFile, String> {
     parse_prt(bytes, name()).map_err(|error| error.to_string())
 }
 
-fn digest() -> MeshDigest {
-    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    MeshDigest::new(&Mesh::new(corners, vec![[0, 1, 2]]).expect("a mesh"))
+/// Of a fan of 12 vertices.
+fn digest(tangents: Tangents) -> MeshDigest {
+    let corners = (0..12).map(|i| [i as f32, (i * i) as f32, 0.0]).collect();
+    let mesh = Mesh::new(corners, (1..11).map(|i| [0, i, i + 1]).collect()).expect("a mesh");
+    MeshDigest::new(&Vertices::new(&mesh, tangents).expect("vertices"))
 }
 
 /// A small file with everything: 12 points of 2 x 4 numbers in 3 clusters with different numbers of vectors.
@@ -39,7 +43,8 @@ fn small() -> PrtFile {
     let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
     let meaning =
         PrtMeaning::Transfer { channels: 1, exit_functions: vec![0, 3], light_order: 2, includes_albedo: true };
-    PrtFile { meaning, mesh: Some(digest()), transfer: Some(signal), clustering: Some(clustering) }
+    let mesh = Some(digest(Tangents::Along(DVec3::new(0.0, -0.5, 2.0))));
+    PrtFile { meaning, mesh, transfer: Some(signal), clustering: Some(clustering) }
 }
 
 #[test]
@@ -48,7 +53,11 @@ fn what_is_written_is_read_in_all_its_parts() {
     let plain = PrtFile { meaning: PrtMeaning::Numbers { dimension: 8 }, mesh: None, ..all.clone() };
     let transfer = PrtFile { clustering: None, ..all.clone() };
     let clusters = PrtFile { transfer: None, ..plain.clone() };
-    for file in [all, plain, transfer, clusters] {
+    let tangents = [Tangents::Any, Tangents::Texture].map(|tangents| {
+        let mesh = all.mesh.map(|mesh| MeshDigest { tangents, ..mesh });
+        PrtFile { mesh, ..all.clone() }
+    });
+    for file in [all, plain, transfer, clusters].into_iter().chain(tangents) {
         assert_eq!(parsed(&bytes(&file)), Ok(file.clone()));
         assert_eq!(file.points(), 12);
         let folder = tempfile::tempdir().expect("a folder");
@@ -82,11 +91,11 @@ fn every_flipped_bit_and_every_cut_is_seen() {
 }
 
 /// Replaces a field of the header and makes its checksum right again.
-fn forged(bytes: &[u8], at: usize, field: u32) -> Vec<u8> {
+fn forged<const N: usize>(bytes: &[u8], at: usize, field: [u8; N]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
-    bytes[at..at + 4].copy_from_slice(&field.to_le_bytes());
+    bytes[at..at + N].copy_from_slice(&field);
     let functions = u32::from_le_bytes(bytes[20..24].try_into().expect("four"));
-    let end = 60 + 2 * (functions as usize).min(2);
+    let end = 84 + 2 * (functions as usize).min(2);
     let crc = crc32fast::hash(&bytes[..end]);
     bytes[end..end + 4].copy_from_slice(&crc.to_le_bytes());
     bytes
@@ -95,13 +104,23 @@ fn forged(bytes: &[u8], at: usize, field: u32) -> Vec<u8> {
 #[test]
 fn forged_headers_are_refused_by_name() {
     let whole = bytes(&small());
-    assert_eq!(forged(&whole, 12, 1), whole, "the header's checksum is where it is thought to be");
-    let error = |at: usize, field: u32| parsed(&forged(&whole, at, field)).expect_err("refused");
+    assert_eq!(forged(&whole, 12, [1, 0, 0, 0]), whole, "the header's checksum is where it is thought to be");
+    let error = |at: usize, field: u32| parsed(&forged(&whole, at, field.to_le_bytes())).expect_err("refused");
     assert_eq!(error(8, 2), "a.prt: expected a .prt file of version 1 to 1, found version 2");
     assert_eq!(error(12, 7), "a.prt: conventions: expected 1 to 1, found 7");
     assert_eq!(error(28, 2), "a.prt: albedo: expected 0 to 1, found 2");
-    assert_eq!(error(56, 0), "a.prt: number of sections: expected 1 to 2, found 0");
-    assert!(error(56, 1).contains("expected the end of the file"), "{}", error(56, 1));
+    assert_eq!(error(36, 0), "a.prt: number of sections: expected 1 to 2, found 0");
+    assert!(error(36, 1).contains("expected the end of the file"), "{}", error(36, 1));
+    assert_eq!(error(40, 11), "a.prt: vertices of the mesh: expected 12, found 11");
+    assert_eq!(error(56, 4), "a.prt: tangents: expected 0 to 3, found 4");
+    assert_eq!(error(56, 2), "a.prt: axis of tangents: expected zeros, found 0,-0.5,2");
+    assert!(error(56, 0).starts_with("a.prt: mesh's digest: expected 0 to 0, found"), "{}", error(56, 0));
+    let axis = |axis: [f64; 3]| {
+        let field: [u8; 24] = std::array::from_fn(|i| axis[i / 8].to_le_bytes()[i % 8]);
+        parsed(&forged(&whole, 60, field)).expect_err("refused")
+    };
+    assert_eq!(axis([0.0; 3]), "a.prt: axis of tangents: expected a finite length above 0, found 0,0,0");
+    assert!(axis([1.0, f64::NAN, 0.0]).ends_with("found 1,NaN,0") && axis([1e300; 3]).contains("a finite length"));
     // Counts far beyond the bytes that are there: refused before anything of that size is allocated.
     for at in [16, 20, 24, 32] {
         for field in [3, 1000, u32::MAX] {
@@ -117,12 +136,21 @@ fn another_mesh_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("a.prt");
     save_prt(&small(), &path).expect("saved");
-    let other = MeshDigest { vertices: 4, ..digest() };
-    let error = load_prt(&path, Some(&other)).expect_err("another mesh");
-    assert!(
-        matches!(&error, PrtFileError::OtherMesh { expected, found, .. } if (*expected, *found) == (other, Some(digest())))
-    );
-    assert!(error.to_string().contains("expected transfer of a mesh with 4 vertices"), "{error}");
+    let mesh = small().mesh.expect("a mesh");
+    let others = [
+        (MeshDigest { vertices: 4, ..mesh }, "expected transfer of a mesh with 4 vertices ("),
+        (MeshDigest { tangents: Tangents::Any, ..mesh }, "), any tangents, found that of 12 vertices ("),
+        (digest(Tangents::Along(DVec3::X)), "tangents along 1,0,0, found that of 12 vertices ("),
+    ];
+    for (other, words) in others {
+        let error = load_prt(&path, Some(&other)).expect_err("another mesh");
+        assert!(
+            matches!(&error, PrtFileError::OtherMesh { expected, found, .. } if (*expected, *found) == (other, Some(mesh)))
+        );
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.to_string().ends_with("tangents along 0,-0.5,2"), "{error}");
+    }
+    assert!(load_prt(&path, Some(&mesh)).is_ok());
     assert!(load_prt(&path, None).is_ok());
 }
 
@@ -151,6 +179,8 @@ fn parts_that_do_not_go_together_are_not_written() {
     assert_eq!(refused(&with(meaning(1, &[0], 2))), "numbers per point: expected 4, found 8");
     let empty = PrtFile { transfer: None, clustering: None, ..file.clone() };
     assert_eq!(refused(&empty), "contents: expected transfer or clusters, found neither");
+    let mesh = file.mesh.map(|mesh| MeshDigest { vertices: 13, ..mesh });
+    assert_eq!(refused(&PrtFile { mesh, ..file.clone() }), "vertices of the mesh: expected 12, found 13");
     let other = PrtFile { transfer: Some(torus_signal(11, 8, 1)), ..file.clone() };
     let shapes = "clusters: expected 11 points of 8 numbers, found 12 points of 8 numbers";
     assert_eq!(refused(&other), shapes);
@@ -194,7 +224,7 @@ proptest! {
         let _ = parsed(&[&MAGIC[..], &noise].concat());
         let mut changed = bytes(&small());
         changed[at..at + 4].copy_from_slice(&with);
-        let end = 64;
+        let end = 88;
         let crc = crc32fast::hash(&changed[..end]);
         changed[end..end + 4].copy_from_slice(&crc.to_le_bytes());
         let _ = parsed(&changed);

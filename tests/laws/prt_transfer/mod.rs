@@ -7,6 +7,7 @@ mod chance;
 mod closed_forms;
 mod equation_1;
 mod models;
+mod path_tracing;
 mod rotation;
 mod scattering;
 
