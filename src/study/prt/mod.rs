@@ -8,5 +8,8 @@ mod precompute;
 mod render;
 
 pub use compression_error::CompressionError;
+pub(super) use exit_radiance::Lit;
+pub(super) use interpolate::Seen;
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
+pub(super) use render::auto_exposure;
 pub use render::{RenderError, Rendering};
