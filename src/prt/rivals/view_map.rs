@@ -91,8 +91,8 @@ impl ViewMap {
         Ok((0..vertices.len()).into_par_iter().map(towards).collect())
     }
 
-    /// Where the functions of the four texels around a direction begin, with the weights of a linear filter. Coordinates
-    /// are clamped to the map, NaN to its first texel.
+    /// Where the functions of the four texels around a direction begin, with the weights of a linear filter.
+    /// Coordinates are clamped to the map, NaN to its first texel.
     fn corners(&self, direction: DVec3) -> [(usize, f32); 4] {
         let last = self.map.side() - 1;
         let along = self.map.coordinates(direction).map(|coordinate| {

@@ -149,11 +149,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "Numbers, registers and host work of compressed transfer (CPCA, section 6)",
         work: |_| Ok(cpca::section_6()),
     },
-    ReproduceEntry {
-        id: "cpca-figure-2",
-        title: "Squared error by storage (CPCA, figure 2)",
-        work: cpca::figure_2,
-    },
+    ReproduceEntry { id: "cpca-figure-2", title: "Squared error by storage (CPCA, figure 2)", work: cpca::figure_2 },
     ReproduceEntry {
         id: "cpca-figures-3-4",
         title: "Static, iterative and adaptive compression (CPCA, figures 3 and 4)",
@@ -174,11 +170,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "The number of vectors per cluster (CPCA, figure 11)",
         work: cpca::figure_11,
     },
-    ReproduceEntry {
-        id: "cpca-table-1",
-        title: "Errors of seven signals (CPCA, table 1)",
-        work: cpca::table_1,
-    },
+    ReproduceEntry { id: "cpca-table-1", title: "Errors of seven signals (CPCA, table 1)", work: cpca::table_1 },
     ReproduceEntry {
         id: "cpca-coherence",
         title: "Overdraw of clusters (CPCA, figure 5 and the table of section 7)",

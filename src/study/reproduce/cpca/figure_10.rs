@@ -2,7 +2,7 @@
 
 use super::figure_3::EYE;
 use super::signals::BIRD;
-use super::views::View;
+use super::views::ModelView;
 use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
     order,
@@ -45,7 +45,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(equal_storage(name, error / errors[2]));
     }
     let light = HarmonicLight::red_and_blue(5);
-    let view = View::new(computed, &light, EYE)?;
+    let view = ModelView::new(computed, &light, EYE)?;
     let mut pictures = Vec::new();
     for ((name, ..), clustering) in ENCODINGS.iter().zip(clusterings) {
         pictures.push(view.picture(Some(clustering), format!("cpca-figure-10-{name}"), (*name).to_owned())?);

@@ -2,7 +2,7 @@
 
 use super::figure_3::EYE;
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
-use super::views::View;
+use super::views::ModelView;
 use super::{EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, order};
 use crate::prt::cpca::{Clustering, CpcaMethod};
 use crate::report::{Cell, NamedPicture, Table};
@@ -27,7 +27,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (at, name, printed) in PRINTED {
         let (computed, eight) = shared.cpca.iterative(at, shared.models)?;
         let energy: f64 = computed.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum();
-        let view = View::new(computed, &light, EYE)?;
+        let view = ModelView::new(computed, &light, EYE)?;
         let mut errors = Vec::new();
         for (vectors, printed) in VECTORS.into_iter().zip(printed) {
             let (error, picture) = with(computed, &view, (vectors, eight), name)?;
@@ -65,7 +65,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 /// The error with a number of vectors, and a picture; with 8 by the clustering that Table 1 has.
 fn with(
     computed: &ComputedSignal,
-    view: &View<'_>,
+    view: &ModelView<'_>,
     (vectors, eight): (usize, &Clustering),
     name: &str,
 ) -> Result<(f64, NamedPicture), ReproduceError> {

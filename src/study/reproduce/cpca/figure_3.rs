@@ -1,7 +1,7 @@
 //! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and vertex by vertex.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::views::View;
+use super::views::ModelView;
 use super::{
     Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, number,
@@ -116,7 +116,7 @@ fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
 /// The error of each vertex, of the largest of the static clustering.
 fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, ReproduceError> {
     let light = HarmonicLight::red_and_blue(5);
-    let view = View::new(computed, &light, EYE)?;
+    let view = ModelView::new(computed, &light, EYE)?;
     let methods = [
         ("static", CpcaMethod::Static),
         ("iterative", CpcaMethod::Iterative),

@@ -1,7 +1,7 @@
 //! Figure 6: diffuse transfer of order 10 on a ground below a blocker.
 
 use super::signals::POLYGONS;
-use super::views::View;
+use super::views::ModelView;
 use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
@@ -24,7 +24,7 @@ const HOW: &str = "A ground and a blocker of {} vertices together, light of orde
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let computed = shared.cpca.signal(POLYGONS, shared.models)?;
     let light = disk()?;
-    let view = View::new(computed, &light, EYE)?;
+    let view = ModelView::new(computed, &light, EYE)?;
     let mut table =
         Table::of("Squared errors", "clusters_printed clusters vectors static iterative static_over_iterative");
     let (mut rows, mut pictures) = (Vec::new(), Vec::new());
@@ -48,7 +48,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let low = low_order(&light)?;
     for (order, light) in ORDERS.into_iter().zip([&light, &low]) {
-        let view = View::new(computed, light, EYE)?;
+        let view = ModelView::new(computed, light, EYE)?;
         let caption = format!("order {order}, uncompressed");
         pictures.push(view.picture(None, format!("cpca-figure-6-order-{order}"), caption)?);
     }

@@ -1,8 +1,8 @@
 //! "Clustered Principal Components": its figures on compression, Table 1, the table of section 7, and the appendix.
 //!
-//! The paper's models and BRDFs are lost. Ours have its counts of vertices, or a sixteenth or less of them with as small
-//! a share of the clusters ([`ModelSize`]), so that as many points share a cluster. What is judged is which of two errors
-//! is larger.
+//! The paper's models and BRDFs are lost. Ours have its counts of vertices, or a sixteenth or less of them with as
+//! small a share of the clusters ([`ModelSize`]), so that as many points share a cluster. What is judged is which of
+//! two errors is larger.
 
 mod appendix;
 mod coherence;
@@ -28,15 +28,14 @@ pub(super) use section_6::findings as section_6;
 pub(super) use shared::CpcaShared;
 pub(super) use table_1::findings as table_1;
 
+use signals::HOST;
+
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
     Bound, EntryChart, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError,
     Standing, number,
 };
-
-/// What our side of the rows is computed on.
-const HOST: &str = "host";
 
 /// A ratio of two of the paper's values beside that of ours: judged by which of the two is larger.
 fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {

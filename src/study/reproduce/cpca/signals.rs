@@ -1,6 +1,6 @@
 //! The signals of Table 1 and of Figures 2 to 4, on models of ours.
 
-use super::{HOST, ModelSize, ReproduceError, failed};
+use super::{ModelSize, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::prt::Signal;
 use crate::prt::brdf::{Brdf, ExitBasis};
@@ -12,6 +12,8 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{ExitRadiance, Precomputation, Scatterer};
 use crate::subsurface::{Dipole, materials};
 
+/// What our side of the rows is computed on.
+pub(super) const HOST: &str = "host";
 /// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for reduced models.
 const ITERATIONS: usize = 10;
 const REDUCED_ITERATIONS: usize = 4;
@@ -31,7 +33,7 @@ const SOLID_ANGLE: f64 = 0.1;
 
 /// How a model reflects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Material {
+pub(super) enum SignalMaterial {
     Diffuse,
     Isotropic,
     Anisotropic,
@@ -46,21 +48,21 @@ pub(super) struct PaperSignal {
     pub(super) name: &'static str,
     /// Ours in place of the paper's.
     pub(super) model: TransferModel,
-    pub(super) material: Material,
+    pub(super) material: SignalMaterial,
     /// As printed.
     pub(super) size: TransferSize,
 }
 
 const fn signal(
     name: &'static str,
-    (model, material): (TransferModel, Material),
+    (model, material): (TransferModel, SignalMaterial),
     (vertices, [rows, columns]): (usize, [usize; 2]),
     (clusters, vectors): (usize, usize),
 ) -> PaperSignal {
     PaperSignal { name, model, material, size: TransferSize { vertices, rows, columns, clusters, vectors } }
 }
 
-use Material::{Anisotropic, Diffuse, Isotropic, Translucent};
+use SignalMaterial::{Anisotropic, Diffuse, Isotropic, Translucent};
 use TransferModel::{Bumpy, Head, Polygons, Smooth};
 
 /// The rows of Table 1, then the signal of Figures 2 to 4.
@@ -188,7 +190,7 @@ fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, u
     CpcaOptions { clusters, vectors, iterations, method, start: StartPoints::Seed(1) }
 }
 
-impl Material {
+impl SignalMaterial {
     fn brdf(self) -> Brdf {
         match self {
             Diffuse => LAMBERT,

@@ -14,14 +14,14 @@ use crate::study::prt::{Lit, Seen, auto_exposure};
 const SIDE: u32 = 160;
 
 /// A model under a light, seen by a camera. All pictures are exposed as the one without compression is.
-pub(super) struct View<'a> {
+pub(super) struct ModelView<'a> {
     computed: &'a ComputedSignal,
     light: &'a HarmonicLight,
     camera: Camera,
     seen: Seen,
 }
 
-impl<'a> View<'a> {
+impl<'a> ModelView<'a> {
     /// From an eye towards the middle of the model.
     pub(super) fn new(
         computed: &'a ComputedSignal,
