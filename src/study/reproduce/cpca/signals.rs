@@ -14,7 +14,10 @@ use crate::subsurface::{Dipole, materials};
 
 /// What our side of the rows is computed on.
 pub(super) const HOST: &str = "host";
-/// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for reduced models.
+/// How many times as long the edges of reduced models are: of diffuse and of glossy transfer.
+const DIFFUSE_COARSER: u32 = 4;
+const GLOSSY_COARSER: u32 = 6;
+/// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for glossy transfer of reduced models.
 const ITERATIONS: usize = 10;
 const REDUCED_ITERATIONS: usize = 4;
 /// "20 VQ iterations were used" (Figure 2).
@@ -84,12 +87,22 @@ pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;
 
 impl PaperSignal {
-    /// How many times as long the edges of our model are: 1, or for reduced models 4, of glossy transfer 6.
+    /// The degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or 276
+    /// for glossy transfer.
+    fn degree(&self, models: ModelSize) -> usize {
+        match self.coarser(models) {
+            1 => 62,
+            DIFFUSE_COARSER => 30,
+            _ => 22,
+        }
+    }
+
+    /// How many times as long the edges of our model are.
     fn coarser(&self, models: ModelSize) -> u32 {
         match (models, self.material) {
             (ModelSize::Printed, _) => 1,
-            (ModelSize::Reduced, Diffuse) => 4,
-            (ModelSize::Reduced, _) => 6,
+            (ModelSize::Reduced, Diffuse) => DIFFUSE_COARSER,
+            (ModelSize::Reduced, _) => GLOSSY_COARSER,
         }
     }
 }
@@ -115,7 +128,7 @@ impl ComputedSignal {
             channels: vec![(0, vec![paper.material.brdf()])],
             exit: exit_radiance(paper)?,
             order: paper.size.columns.isqrt(),
-            degree: if models == ModelSize::Printed { 62 } else { 22 },
+            degree: paper.degree(models),
             bounces: Bounces::Count(if paper.model == Bumpy { BOUNCES } else { 0 }),
             scatterer: if paper.material == Translucent { Some(scatterer()?) } else { None },
         };
@@ -131,7 +144,7 @@ impl ComputedSignal {
     }
 
     fn iterations(&self) -> usize {
-        if self.models == ModelSize::Printed { ITERATIONS } else { REDUCED_ITERATIONS }
+        if self.paper.coarser(self.models) < GLOSSY_COARSER { ITERATIONS } else { REDUCED_ITERATIONS }
     }
 
     /// Compresses the signal to a share of so many of the paper's clusters.
