@@ -166,8 +166,8 @@ fn maps_of_y_b_tend_to_the_matrices() {
     };
     let errors = [16, 32, 64, 128].map(off);
     for pair in errors.windows(2) {
-        for which in 0..2 {
-            assert!(pair[1][which] < pair[0][which] / 2.5, "{errors:?}");
+        for (finer, coarser) in pair[1].iter().zip(pair[0]) {
+            assert!(*finer < coarser / 2.5, "{errors:?}");
         }
     }
     assert!(errors[3].iter().all(|&error| error < 1e-3), "{errors:?}");

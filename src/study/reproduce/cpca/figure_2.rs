@@ -86,7 +86,7 @@ fn crossings(curves: &[Curve]) -> [usize; 2] {
     for pair in curves.windows(2) {
         let mut differences = pair[1].iter().filter_map(|&(storage, error)| Some(error - at(&pair[0], storage)?));
         let first = differences.next();
-        let last = differences.last().or(first);
+        let last = differences.next_back().or(first);
         found[0] += usize::from(first.is_some_and(|difference| difference > 0.0));
         found[1] += usize::from(last.is_some_and(|difference| difference < 0.0));
     }

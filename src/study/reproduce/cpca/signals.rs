@@ -243,10 +243,10 @@ mod tests {
         let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected;
         let (still, iterative) = (computed.static_errors(5, 4), computed.iterative_errors(5, 2));
         let (still, iterative) = (still.expect("compressed"), iterative.expect("compressed"));
-        for vectors in 0..=4 {
+        for (vectors, &error) in still.iter().enumerate() {
             let options = options(5, vectors, (CpcaMethod::Static, VQ_ITERATIONS));
             let clustering = compress(&computed.signal, &options, |_| ()).expect("compressed").clustering;
-            assert!(near(still[vectors], computed.error(&clustering)), "{vectors} vectors");
+            assert!(near(error, computed.error(&clustering)), "{vectors} vectors");
         }
         for (vectors, &error) in iterative.iter().enumerate() {
             let clustering = computed.compressed_to(5, vectors, CpcaMethod::Iterative).expect("compressed");

@@ -6,6 +6,7 @@ use crate::prt::cpca::CpcaMethod;
 use crate::report::{Cell, Table};
 
 /// Squared errors, static and iterative, of the rows: with the digits behind the point.
+#[expect(clippy::approx_constant, reason = "3.14 is a squared error, as printed")]
 const PRINTED: [([f64; 2], u8); 7] = [
     ([563.0, 451.0], 0),
     ([10_996.0, 8524.0], 0),
