@@ -87,8 +87,8 @@ pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;
 
 impl PaperSignal {
-    /// The degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or 276
-    /// for glossy transfer.
+    /// The degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or
+    /// 276 for glossy transfer.
     fn degree(&self, models: ModelSize) -> usize {
         match self.coarser(models) {
             1 => 62,
