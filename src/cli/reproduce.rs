@@ -6,7 +6,7 @@ use super::Out;
 use super::memory::MemoryNeed;
 use super::study::{self, StudyArgs};
 use crate::report::{Table, Verdict};
-use crate::study::reproduce::{ENTRIES, Parameters, choose};
+use crate::study::reproduce::{ENTRIES, ModelSize, Parameters, choose};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -14,6 +14,8 @@ Examples:
       every entry, in out/reproduce/index.html
   crossbar reproduce equation-11 figure-7 --json
       two of them, as JSON on standard output
+  crossbar reproduce cpca-table-1 --full-size
+      on models of the paper's size
   crossbar reproduce --list
       the entries
 
@@ -37,6 +39,10 @@ pub(super) struct Args {
     /// Say what there is, and do nothing
     #[arg(long)]
     list: bool,
+
+    /// Models as large as the papers', where an entry has smaller ones by default: minutes to hours
+    #[arg(long)]
+    full_size: bool,
 
     /// Where to write the page, the tables and the drawings
     #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
@@ -64,7 +70,8 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Parameters> {
-        Ok(Parameters { entries: choose(&self.entries)? })
+        let models = if self.full_size { ModelSize::Printed } else { ModelSize::Reduced };
+        Ok(Parameters { entries: choose(&self.entries)?, models })
     }
 }
 

@@ -6,6 +6,7 @@
 //! - [`cpca`]: clustered principal components of any signal;
 //! - [`coherence`]: clusters that are cheaper to draw;
 //! - [`kernels`], [`on_card`]: compressed transfer drawn by vertex and pixel programs;
+//! - [`rivals`]: the same without compression, to compare with;
 //! - [`mod@file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
@@ -17,6 +18,7 @@ pub mod kernels;
 mod load;
 pub mod on_card;
 pub mod reference;
+pub mod rivals;
 pub mod signal;
 pub mod synthetic;
 pub mod transfer;

@@ -234,7 +234,9 @@ fn every_wrong_pixel_is_shown() {
 #[test]
 fn papers_rows_are_tallied() {
     let entries = reproduce::choose(&["equation-11".to_owned(), "radeon-8500".to_owned()]).expect("two entries");
-    let mut found = reproduce::Parameters { entries }.findings(&mut |_, _, _| ()).expect("the entries run");
+    let mut found = reproduce::Parameters { entries, models: reproduce::ModelSize::Reduced }
+        .findings(&mut |_, _, _| ())
+        .expect("the entries run");
     let files = found.take_files(&Provenance::new("crossbar reproduce")).expect("files");
     let rows: serde_json::Value = serde_json::from_str(&text(&files, "study.json")).expect("JSON");
     let rows = rows["rows"].as_array().expect("rows");

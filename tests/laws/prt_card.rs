@@ -202,7 +202,7 @@ fn a_frame_is_counted_and_timed() {
     let [few, many] = [2, 8].map(frame);
     // Rounded up to picoseconds, each.
     assert!((3 * few.products.0).abs_diff(many.products.0) <= 3, "3 parts of a cluster, 9: {few:?} {many:?}");
-    assert!(many.frame > few.frame && many.vertices_run >= few.vertices_run);
+    assert!(many.frame > few.frame && many.vertices_run >= few.vertices_run, "{few:?} {many:?}");
 }
 
 /// Fewer bits for weights change a picture, and by how much is in order.

@@ -7,13 +7,13 @@ use approx::abs_diff_eq;
 use crossbar::report::{Cell, Series, Table};
 use crossbar::study::reproduce::report::{held, notes, tables, tally_line};
 use crossbar::study::reproduce::{
-    Bound, ENTRIES, EntryFindings, Method, Origin, PaperRow, Prose, Reproduced, RowVerdict, Standing, choose, number,
-    reproduce,
+    Bound, ENTRIES, EntryFindings, Method, ModelSize, Origin, PaperRow, Prose, Reproduced, RowVerdict, Standing,
+    choose, number, reproduce,
 };
 
 /// Worked out once.
 static FOUND: LazyLock<Reproduced> =
-    LazyLock::new(|| reproduce(ENTRIES, &mut |_, _, _| ()).expect("the entries can be worked out"));
+    LazyLock::new(|| reproduce(ENTRIES, ModelSize::Reduced, &mut |_, _, _| ()).expect("the entries can be worked out"));
 
 fn all() -> impl Iterator<Item = &'static PaperRow> {
     FOUND.iter().flat_map(|(_, found)| &found.rows)
@@ -234,6 +234,31 @@ fn the_card_is_linear_and_the_host_is_not() {
     assert!(all.windows(2).all(|two| two[1] >= two[0]) && all[6] > 5.0 * all[0], "{all:?}");
 }
 
+/// Where models and BRDFs are lost, an order is judged and nothing closer; what the appendix prints to its digits.
+#[test]
+fn lost_models_are_judged_by_order() {
+    for id in ["cpca-figure-6", "cpca-figure-10", "cpca-figure-11", "cpca-table-1", "cpca-coherence"] {
+        let rows = &findings(id).rows;
+        assert!(rows.iter().all(|row| matches!(row.bound, Bound::Order | Bound::AtLeast)), "{id}");
+        assert!(rows.iter().all(|row| row.target.value != 1.0 || row.bound == Bound::AtLeast), "{id}: 1 is no order");
+    }
+    let appendix = &findings("cpca-appendix").rows;
+    assert!(appendix.iter().all(|row| row.bound == Bound::Print && row.verdict() == RowVerdict::Reproduced));
+    assert_eq!(appendix.len(), 17);
+}
+
+/// Figure 11: each additional vector helps, and more on the smooth model. Pictures stand beside the rows.
+#[test]
+fn smooth_transfer_compresses_better() {
+    let figure = findings("cpca-figure-11");
+    assert!(figure.rows.iter().all(|row| row.verdict() == RowVerdict::Reproduced));
+    let falls = |name: &str| -> f64 {
+        figure.rows.iter().filter(|row| row.what.starts_with(name)).map(|row| row.ours).product()
+    };
+    assert!(falls("bird") > falls("Buddha"), "{} and {}", falls("bird"), falls("Buddha"));
+    assert_eq!((figure.pictures.len(), findings("cpca-figure-10").pictures.len()), (10, 4));
+}
+
 fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
@@ -285,7 +310,8 @@ fn missed_by_place() -> String {
 }
 
 fn paper_of(id: &str) -> &'static str {
-    if id.starts_with("radiosity") { "radiosity" } else { "Ray Engine" }
+    const PAPERS: [(&str, &str); 3] = [("radiosity", "radiosity"), ("subsurface", "subsurface"), ("cpca", "CPCA")];
+    PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
 }
 
 /// What the book says of a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
@@ -319,7 +345,7 @@ fn said(name: &str) -> String {
 /// The book's figures are the program's.
 #[test]
 fn the_book_says_what_the_program_says() {
-    for path in ["README.md", "docs/papers/ray_engine.md", "docs/papers/radiosity.md"] {
+    for path in ["README.md", "docs/papers/ray_engine.md", "docs/papers/radiosity.md", "docs/papers/cpca.md"] {
         let text = std::fs::read_to_string(file(path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
         hold(path, &filled(&text, said));

@@ -1,6 +1,7 @@
 //! The meshes that the project builds itself and that are no scenes, by name.
 
-use super::{stand_ins, transfer_models};
+use super::stand_ins;
+use super::transfer_models::TransferModel;
 use crate::geom::Mesh;
 
 /// A mesh that can be asked for by name.
@@ -21,18 +22,18 @@ const MESHES: &[BuiltMesh] = &[
     BuiltMesh {
         name: "transfer-bumpy",
         what: "49,990 vertices, closed, with many bumps",
-        build: transfer_models::bumpy,
+        build: || TransferModel::Bumpy.mesh(1),
     },
-    BuiltMesh { name: "transfer-head", what: "50,060 vertices, closed, a head", build: transfer_models::head },
+    BuiltMesh { name: "transfer-head", what: "50,060 vertices, closed, a head", build: || TransferModel::Head.mesh(1) },
     BuiltMesh {
         name: "transfer-polygons",
         what: "58,624 vertices, a ground and a blocker",
-        build: transfer_models::polygons,
+        build: || TransferModel::Polygons.mesh(1),
     },
     BuiltMesh {
         name: "transfer-smooth",
         what: "48,688 vertices, closed, smooth with a neck",
-        build: transfer_models::smooth,
+        build: || TransferModel::Smooth.mesh(1),
     },
 ];
 

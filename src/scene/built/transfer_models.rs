@@ -14,14 +14,39 @@ use crate::elementary::{acos, atan2, sin_cos};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
+/// A model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TransferModel {
+    /// A smooth closed body with a neck that shadows its breast, about 2.5 units high. Stands for the paper's bird.
+    Smooth,
+    /// A closed body covered with bumps that shadow each other, about 2.5 units high. Stands for the paper's Buddha.
+    Bumpy,
+    /// A closed head with nose, eye sockets, ears and neck, about 2.5 units high.
+    Head,
+    /// A ground 4 units wide, and above it a blocker 1 unit wide, both looking up (Figure 6).
+    Polygons,
+}
+
 /// Parts of an icosahedron's edge: 10 parts^2 + 2 vertices before the largest faces are divided.
 const SMOOTH_PARTS: u32 = 69;
 const BUMPY_PARTS: u32 = 70;
 const HEAD_PARTS: u32 = 70;
 
-/// A smooth closed body with a neck that shadows its breast: 48,688 vertices, about 2.5 units high. Stands for the
-/// paper's bird.
-pub fn smooth() -> Mesh {
+impl TransferModel {
+    /// The mesh with edges about so many times as long: with 1, as many vertices as the paper's. More than 16 is as 16.
+    pub fn mesh(self, coarser: u32) -> Mesh {
+        let coarser = coarser.clamp(1, 16);
+        match self {
+            Self::Smooth => smooth(coarser),
+            Self::Bumpy => bumpy(coarser),
+            Self::Head => head(coarser),
+            Self::Polygons => polygons(coarser),
+        }
+    }
+}
+
+/// 48,688 vertices.
+fn smooth(coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.55, 0.0, 0.85], height: 0.9, narrow: 14.0 },
         Lobe { toward: [1.0, 0.0, 0.75], height: 0.35, narrow: 60.0 },
@@ -35,12 +60,11 @@ pub fn smooth() -> Mesh {
         // Bent, so that the head overhangs the breast.
         at + DVec3::X * (0.12 * at.z * at.z)
     };
-    closed(SMOOTH_PARTS, 1_076, &shape)
+    closed([SMOOTH_PARTS, 1_076], coarser, &shape)
 }
 
-/// A closed body covered with bumps that shadow each other: 49,990 vertices, about 2.5 units high. Stands for the
-/// paper's Buddha.
-pub fn bumpy() -> Mesh {
+/// 49,990 vertices.
+fn bumpy(coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, 0.0, 1.0], height: 0.45, narrow: 9.0 },
         Lobe { toward: [0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
@@ -53,11 +77,11 @@ pub fn bumpy() -> Mesh {
         let bumps = wave(toward.x, 3.5) * wave(toward.y, 3.5) + wave(toward.y, 5.0) * wave(toward.z, 5.0);
         toward * (bumped(toward, &lobes) + 0.06 * bumps) * DVec3::new(0.9, 0.75, 1.1)
     };
-    closed(BUMPY_PARTS, 988, &shape)
+    closed([BUMPY_PARTS, 988], coarser, &shape)
 }
 
-/// A closed head with nose, eye sockets, ears and neck: 50,060 vertices, about 2.5 units high.
-pub fn head() -> Mesh {
+/// 50,060 vertices.
+fn head(coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, -1.0, -0.1], height: 0.25, narrow: 45.0 },
         Lobe { toward: [0.35, -1.0, 0.2], height: -0.1, narrow: 40.0 },
@@ -70,14 +94,13 @@ pub fn head() -> Mesh {
         Lobe { toward: [0.0, 0.35, -1.0], height: 0.4, narrow: 7.0 },
     ];
     let shape = |toward: DVec3| toward * bumped(toward, &lobes) * DVec3::new(0.78, 0.95, 1.05);
-    closed(HEAD_PARTS, 1_058, &shape)
+    closed([HEAD_PARTS, 1_058], coarser, &shape)
 }
 
-/// A ground of 240 x 240 vertices, 4 units wide, and above it a blocker of 32 x 32, 1 unit wide: 58,624 vertices, both
-/// looking up (Figure 6).
-pub fn polygons() -> Mesh {
+/// A ground of 240 x 240 vertices and a blocker of 32 x 32: 58,624 vertices.
+fn polygons(coarser: u32) -> Mesh {
     let (mut positions, mut texture, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for (counts, width, height) in [(240_u32, 4.0, 0.0), (32, 1.0, 0.5)] {
+    for (counts, width, height) in [(240 / coarser, 4.0, 0.0), (32 / coarser, 1.0, 0.5)] {
         let first = positions.len() as u32;
         for row in 0..counts {
             for column in 0..counts {
@@ -97,9 +120,9 @@ pub fn polygons() -> Mesh {
 }
 
 /// A geodesic sphere, the faces that are largest in a shape divided, in that shape.
-fn closed(parts: u32, divided: usize, shape: &dyn Fn(DVec3) -> DVec3) -> Mesh {
-    let mut sphere = Sphere::new(parts);
-    sphere.divide_largest(divided, shape);
+fn closed([parts, divided]: [u32; 2], coarser: u32, shape: &dyn Fn(DVec3) -> DVec3) -> Mesh {
+    let mut sphere = Sphere::new(parts / coarser);
+    sphere.divide_largest((divided / (coarser * coarser)) as usize, shape);
     let places: Vec<[f32; 3]> = sphere.directions.iter().map(|&toward| narrow(shape(toward))).collect();
     let plain = Mesh::new(places.clone(), sphere.faces.clone()).expect("shapes are finite");
     let normals: Vec<[f32; 3]> = plain.vertex_normals().into_iter().map(narrow).collect();

@@ -11,7 +11,7 @@ use crate::prt::transfer::Vertices;
 use crate::sphere::{HarmonicLight, MAX_ORDER, harmonics};
 
 /// What the numbers of a vertex mean, under a light of as many functions.
-pub(super) struct Lit<'a> {
+pub(in crate::study) struct Lit<'a> {
     channels: usize,
     functions: &'a [u16],
     columns: usize,
@@ -20,7 +20,7 @@ pub(super) struct Lit<'a> {
 
 impl<'a> Lit<'a> {
     /// `None` for numbers that are no transfer.
-    pub(super) fn new(meaning: &'a PrtMeaning, light: &'a HarmonicLight) -> Option<Self> {
+    pub(in crate::study) fn new(meaning: &'a PrtMeaning, light: &'a HarmonicLight) -> Option<Self> {
         let PrtMeaning::Transfer { channels, exit_functions, light_order, .. } = meaning else { return None };
         let columns = (light_order * light_order) as usize;
         Some(Self { channels: *channels as usize, functions: exit_functions, columns, light })
@@ -42,7 +42,7 @@ impl<'a> Lit<'a> {
     }
 
     /// The exit coefficients of every vertex, from uncompressed transfer.
-    pub(super) fn of_signal(&self, signal: &Signal) -> Vec<Vec<[f64; 3]>> {
+    pub(in crate::study) fn of_signal(&self, signal: &Signal) -> Vec<Vec<[f64; 3]>> {
         let exit = |point: usize| {
             let matrix: Vec<f64> = signal.point(point).iter().map(|&value| f64::from(value)).collect();
             self.product(&matrix)
@@ -52,7 +52,7 @@ impl<'a> Lit<'a> {
 
     /// The same from clusters, as in section 6: products with the mean and the vectors of each cluster once, then
     /// weighted sums per vertex.
-    pub(super) fn of_clusters(&self, clustering: &Clustering) -> Vec<Vec<[f64; 3]>> {
+    pub(in crate::study) fn of_clusters(&self, clustering: &Clustering) -> Vec<Vec<[f64; 3]>> {
         let products: Vec<Vec<Vec<[f64; 3]>>> = (clustering.subspaces().par_iter())
             .map(|subspace| {
                 std::iter::once(&subspace.mean[..]).chain(subspace.vectors()).map(|part| self.product(part)).collect()
@@ -72,7 +72,7 @@ impl<'a> Lit<'a> {
     }
 
     /// Radiance of every vertex towards the eye.
-    pub(super) fn radiance(&self, exit: &[Vec<[f64; 3]>], vertices: &Vertices, eye: DVec3) -> Vec<[f64; 3]> {
+    pub(in crate::study) fn radiance(&self, exit: &[Vec<[f64; 3]>], vertices: &Vertices, eye: DVec3) -> Vec<[f64; 3]> {
         let order = (1..=MAX_ORDER).find(|order| self.functions.iter().all(|&f| usize::from(f) < order * order));
         let order = order.unwrap_or(MAX_ORDER);
         let towards = |vertex: usize| {

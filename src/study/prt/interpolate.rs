@@ -11,13 +11,13 @@ use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
 /// What each pixel shows: the corners of a triangle with weights that sum to 1, or nothing.
-pub(super) struct Seen {
+pub(in crate::study) struct Seen {
     pixels: Vec<Option<([u32; 3], DVec3)>>,
 }
 
 impl Seen {
     /// From a camera, front faces only.
-    pub(super) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
+    pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
         let rays = camera.rays();
         let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
         let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
@@ -35,7 +35,7 @@ impl Seen {
     }
 
     /// Colors of vertices, interpolated; `background` where nothing is.
-    pub(super) fn colors(&self, of_vertex: &[[f64; 3]], background: [f64; 3]) -> Vec<[f64; 3]> {
+    pub(in crate::study) fn colors(&self, of_vertex: &[[f64; 3]], background: [f64; 3]) -> Vec<[f64; 3]> {
         let color = |pixel: &Option<([u32; 3], DVec3)>| {
             let Some((corners, weights)) = pixel else { return background };
             let mix = |channel: usize| (0..3).map(|i| weights[i] * of_vertex[corners[i] as usize][channel]).sum();
@@ -67,7 +67,7 @@ impl Seen {
     }
 
     /// The vertex that weighs most at each pixel.
-    pub(super) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
+    pub(in crate::study) fn nearest(&self) -> impl Iterator<Item = Option<u32>> + '_ {
         let nearest = |weights: DVec3| {
             if weights.x >= weights.max_element() {
                 0

@@ -248,7 +248,7 @@ impl Rendering {
 }
 
 /// Pixels that show something at 18 % grey on average.
-pub(super) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
+pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
     let lit: Vec<f64> =
         colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();
     let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;

@@ -2,7 +2,7 @@
 
 use super::shared::Shared;
 use super::{PaperRow, Prose, ReproduceError};
-use crate::report::{Chart, Table};
+use crate::report::{Chart, NamedPicture, Table};
 
 /// A chart, the name of its file, and what stands under it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,8 @@ pub struct EntryFindings {
     pub tables: Vec<Table>,
     /// Plots.
     pub charts: Vec<EntryChart>,
+    /// Pictures.
+    pub pictures: Vec<NamedPicture>,
 }
 
 /// A table or figure of a paper.

@@ -4,10 +4,13 @@
 //! was stated beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the
 //! value ([`Sweep`]).
 
+mod cpca;
 mod entry;
 mod equation_11;
 mod error;
 mod figure_7;
+mod model_size;
+mod once;
 mod overview;
 mod pipeline;
 mod prose;
@@ -26,15 +29,20 @@ use crate::study::{ProgressFn, Study};
 pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
 pub use error::ReproduceError;
 use error::figure;
+pub use model_size::ModelSize;
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
 pub use row::{Bound, Explanation, Method, Origin, PaperFigure, PaperRow, RowVerdict, Setting, Standing, Sweep};
 use shared::Shared;
 
-/// Works entries out, one after the other. What several of them need is rendered and run once. `progress` hears the
-/// name of each.
-pub fn reproduce(entries: &[ReproduceEntry], progress: &mut ProgressFn<'_>) -> Result<Reproduced, ReproduceError> {
-    let shared = Shared::default();
+/// Works entries out, one after the other, on models of a size where they have a choice. What several of them need is
+/// rendered and run once. `progress` hears the name of each.
+pub fn reproduce(
+    entries: &[ReproduceEntry],
+    models: ModelSize,
+    progress: &mut ProgressFn<'_>,
+) -> Result<Reproduced, ReproduceError> {
+    let shared = Shared::new(models);
     let work = |(done, entry): (u64, &ReproduceEntry)| {
         progress(entry.id, done, entries.len() as u64);
         Ok((*entry, (entry.work)(&shared)?))
@@ -47,13 +55,15 @@ pub fn reproduce(entries: &[ReproduceEntry], progress: &mut ProgressFn<'_>) -> R
 pub struct Parameters {
     /// The entries.
     pub entries: Vec<ReproduceEntry>,
+    /// The size of models that stand for a paper's.
+    pub models: ModelSize,
 }
 
 impl Study for Parameters {
     type Error = ReproduceError;
 
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, ReproduceError> {
-        Ok(report::findings(&reproduce(&self.entries, progress)?))
+        Ok(report::findings(&reproduce(&self.entries, self.models, progress)?))
     }
 
     /// Entries choose their devices themselves, and nothing is random.
@@ -128,6 +138,43 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         id: "subsurface-table-1",
         title: "The time of pass 2, and frames locked to a display (subsurface scattering, table 1)",
         work: subsurface::table_1,
+    },
+    ReproduceEntry {
+        id: "cpca-appendix",
+        title: "How wrong projections onto the hemisphere are (CPCA, appendix)",
+        work: |_| cpca::appendix(),
+    },
+    ReproduceEntry {
+        id: "cpca-section-6",
+        title: "Numbers, registers and host work of compressed transfer (CPCA, section 6)",
+        work: |_| Ok(cpca::section_6()),
+    },
+    ReproduceEntry { id: "cpca-figure-2", title: "Squared error by storage (CPCA, figure 2)", work: cpca::figure_2 },
+    ReproduceEntry {
+        id: "cpca-figures-3-4",
+        title: "Static, iterative and adaptive compression (CPCA, figures 3 and 4)",
+        work: cpca::figure_3,
+    },
+    ReproduceEntry {
+        id: "cpca-figure-6",
+        title: "Light of order 10 on two polygons (CPCA, figure 6)",
+        work: cpca::figure_6,
+    },
+    ReproduceEntry {
+        id: "cpca-figure-10",
+        title: "Principal components, vector quantization, and both (CPCA, figure 10)",
+        work: cpca::figure_10,
+    },
+    ReproduceEntry {
+        id: "cpca-figure-11",
+        title: "The number of vectors per cluster (CPCA, figure 11)",
+        work: cpca::figure_11,
+    },
+    ReproduceEntry { id: "cpca-table-1", title: "Errors of seven signals (CPCA, table 1)", work: cpca::table_1 },
+    ReproduceEntry {
+        id: "cpca-coherence",
+        title: "Overdraw of clusters (CPCA, figure 5 and the table of section 7)",
+        work: cpca::coherence,
     },
 ];
 

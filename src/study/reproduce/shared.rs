@@ -2,19 +2,28 @@
 
 use std::cell::OnceCell;
 
-use super::ReproduceError;
+use super::cpca::CpcaShared;
+use super::once::get_or_try;
 use super::subsurface::{CARD, GatherCost, all_costs};
 use super::tables::{SpeedUps, TeapotRoom, work_out};
+use super::{ModelSize, ReproduceError};
 
 /// Renderings and runs of the engine that entries share.
 #[derive(Default)]
 pub(super) struct Shared {
+    pub(super) models: ModelSize,
+    pub(super) cpca: CpcaShared,
     teapot: OnceCell<TeapotRoom>,
     speed_ups: OnceCell<SpeedUps>,
     gather: OnceCell<Vec<GatherCost>>,
 }
 
 impl Shared {
+    /// Nothing yet.
+    pub(super) fn new(models: ModelSize) -> Self {
+        Self { models, ..Self::default() }
+    }
+
     /// The teapot room of Tables 1 to 5.
     pub(super) fn teapot(&self) -> Result<&TeapotRoom, ReproduceError> {
         get_or_try(&self.teapot, TeapotRoom::new)
@@ -29,13 +38,4 @@ impl Shared {
     pub(super) fn gather(&self) -> Result<&[GatherCost], ReproduceError> {
         Ok(get_or_try(&self.gather, || all_costs(CARD))?)
     }
-}
-
-/// The value of a cell; computed if it has none yet, and left empty if that fails.
-fn get_or_try<T, E>(cell: &OnceCell<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
-    if let Some(value) = cell.get() {
-        return Ok(value);
-    }
-    let value = make()?;
-    Ok(cell.get_or_init(|| value))
 }

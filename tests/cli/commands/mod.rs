@@ -47,6 +47,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
     ("prt precompute transfer-smooth", "takes minutes; the other examples compute the same of a small model"),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
+    ("reproduce cpca-table-1 --full-size", "takes hours; tests/papers runs the entry on reduced models"),
 ];
 
 /// A copy of the folders that commands read.

@@ -68,6 +68,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
             },
             caption: "Figure 3 of the radiosity paper, whose points are not printed: both are straight lines.".into(),
         }],
+        ..EntryFindings::default()
     })
 }
 

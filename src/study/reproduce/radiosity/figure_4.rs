@@ -72,6 +72,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
                       card's time is a straight line over the elements of the matrix, the host's bends upward where the matrix leaves its cache."
                 .into(),
         }],
+        ..EntryFindings::default()
     })
 }
 

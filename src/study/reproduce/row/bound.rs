@@ -21,6 +21,8 @@ pub enum Bound {
     },
     /// At least the paper's value.
     AtLeast,
+    /// On the side of 1 that the paper's ratio is on: which of two values is the larger.
+    Order,
     /// The text is too vague to be missed.
     TooVague,
 }
@@ -39,6 +41,8 @@ impl Bound {
             Self::Relative(share) => around(share * target.value.abs() + target.rounding()),
             Self::Gain { share, over } => around(share * (target.value - over).abs() + target.rounding()),
             Self::AtLeast => Some([target.value - target.rounding(), f64::INFINITY]),
+            Self::Order if target.value > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
+            Self::Order => Some([f64::NEG_INFINITY, 1.0_f64.next_down()]),
             Self::TooVague => None,
         }
     }
@@ -51,6 +55,7 @@ impl Bound {
             Self::Relative(share) => format!("{} %", percent(share)),
             Self::Gain { share, .. } => format!("{} % of the gain", percent(share)),
             Self::AtLeast => "at least".to_owned(),
+            Self::Order => "order".to_owned(),
             Self::TooVague => "none".to_owned(),
         }
     }
@@ -79,6 +84,14 @@ mod tests {
     fn a_share_is_of_what_is_printed() {
         let rate = target(100.0, 0);
         assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
+    }
+
+    /// Equal values are in no order.
+    #[test]
+    fn an_order_is_a_side_of_1() {
+        let [more, less] = [target(3.05, 2), target(0.4, 1)];
+        assert_eq!([1.01, 1.0, 0.9].map(|value| admits(Bound::Order, &more, value)), [true, false, false]);
+        assert_eq!([1.01, 1.0, 0.9].map(|value| admits(Bound::Order, &less, value)), [false, false, true]);
     }
 
     /// "About twice" is not met by everything that rounds to 2.

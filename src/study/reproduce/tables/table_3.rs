@@ -40,6 +40,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
                 [super::workload::OCTREE.most_triangles.to_string()],
             ),
         }],
+        ..EntryFindings::default()
     })
 }
 

@@ -50,6 +50,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
                 caption: "The share of rays on the card of Table 4, and both readings of our runs.".into(),
             },
         ],
+        ..EntryFindings::default()
     })
 }
 

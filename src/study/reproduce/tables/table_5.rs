@@ -31,6 +31,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
             chart: chart(found, &lines),
             caption: "Table 5, with the costs of commands as stated and more.".into(),
         }],
+        ..EntryFindings::default()
     })
 }
 

@@ -1,0 +1,117 @@
+//! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
+
+use super::signals::DIFFUSE_BIRD;
+use super::{
+    Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
+    Standing, number,
+};
+use crate::elementary::ln;
+use crate::prt::on_card::model::TransferSize;
+use crate::report::{Cell, Chart, Scale, Series, Table};
+
+/// The curves.
+const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
+/// Points per cluster at least: 48,668 points have up to 16 k clusters.
+const LEAST_POINTS: usize = 2;
+
+const HOW: &str = "{} points of diffuse transfer of order {} on our smooth model, with shadows; {} to {} clusters. Static principal components, whose \
+    clusters do not depend on the number of vectors. The figure's axes are lost; its text says that each number of vectors is worse than the one before with few clusters and \
+    becomes better with many. Curves are compared at equal storage, the one before interpolated between its points.";
+const CAPTION: &str = "Squared error of all points by numbers stored.";
+
+/// Storage and squared error of a number of clusters.
+type Curve = Vec<(f64, f64)>;
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let computed = shared.cpca.signal(DIFFUSE_BIRD, shared.models)?;
+    let points = computed.signal.points();
+    let counts: Vec<usize> = std::iter::successors(Some(1), |&count| Some(2 * count))
+        .take_while(|count| count * LEAST_POINTS <= points)
+        .collect();
+    let mut curves: Vec<Curve> = vec![Vec::new(); VECTORS.len()];
+    let mut table =
+        Table::of("Squared error, as a share of that of one cluster without vectors (%)", "clusters 0 1 2 4 8 16");
+    let mut whole = None;
+    for &clusters in &counts {
+        let errors = computed.static_errors(clusters, VECTORS[VECTORS.len() - 1])?;
+        let whole = *whole.get_or_insert(errors[0]);
+        let mut cells: Vec<Cell> = vec![clusters.into()];
+        for (curve, &vectors) in curves.iter_mut().zip(&VECTORS) {
+            let size = TransferSize { vertices: points, clusters, vectors, ..computed.paper.size };
+            curve.push((size.stored_numbers() as f64, errors[vectors]));
+            cells.push(Cell::measured(100.0 * errors[vectors] / whole));
+        }
+        table.push(cells);
+    }
+    let [worse, better] = crossings(&curves);
+    let last = counts.last().copied().unwrap_or(1);
+    Ok(EntryFindings {
+        text: vec![Prose::new(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
+        rows: vec![row("worse than the one before with fewest clusters", worse), row("better with most", better)],
+        questions: vec!["the axes of the figure, which the scan has lost."],
+        tables: vec![table],
+        charts: vec![EntryChart {
+            name: "cpca-figure-2",
+            chart: Chart {
+                title: "Static principal components".to_owned(),
+                x: "numbers stored".to_owned(),
+                y: "squared error".to_owned(),
+                x_scale: Scale::Logarithmic,
+                y_scale: Scale::Logarithmic,
+                lines: VECTORS.iter().zip(curves).map(line).collect(),
+                ..Chart::default()
+            },
+            caption: CAPTION.into(),
+        }],
+        ..EntryFindings::default()
+    })
+}
+
+fn line((vectors, points): (&usize, Curve)) -> Series {
+    let shown = points.into_iter().filter(|(_, error)| *error > 0.0).collect();
+    Series { label: format!("n' = {vectors}"), points: shown }
+}
+
+fn row(what: &str, ours: usize) -> PaperRow {
+    let curves = VECTORS.len() - 1;
+    let origin = Origin::Implied("every curve after the first".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(curves as f64, 0, "curves", "section 4.1") };
+    let ours = (ours as f64, Standing::Counted);
+    PaperRow::new(format!("numbers of vectors that are {what}"), (HOST, Method::Solver), target, ours, Bound::Print)
+}
+
+/// How many curves are above the one before at the least storage that both have, and below it at the largest.
+fn crossings(curves: &[Curve]) -> [usize; 2] {
+    let mut found = [0, 0];
+    for pair in curves.windows(2) {
+        let mut differences = pair[1].iter().filter_map(|&(storage, error)| Some(error - at(&pair[0], storage)?));
+        let first = differences.next();
+        let last = differences.next_back().or(first);
+        found[0] += usize::from(first.is_some_and(|difference| difference > 0.0));
+        found[1] += usize::from(last.is_some_and(|difference| difference < 0.0));
+    }
+    found
+}
+
+/// The error of a curve at a storage that it has, between points by logarithms.
+fn at(curve: &Curve, storage: f64) -> Option<f64> {
+    let segment = curve.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&storage))?;
+    let [(s0, e0), (s1, e1)] = [segment[0], segment[1]];
+    let part = ln(storage / s0) / ln(s1 / s0);
+    Some(if e1 > 0.0 { e0 * crate::elementary::exp(part * ln(e1 / e0)) } else { e0 * (1.0 - part) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_are_compared_at_equal_storage() {
+        let before = vec![(1.0, 16.0), (4.0, 4.0), (16.0, 1.0)];
+        assert!((at(&before, 2.0).expect("between") - 8.0).abs() < 1e-12);
+        assert_eq!(at(&before, 20.0), None);
+        assert_eq!(crossings(&[before.clone(), vec![(2.0, 9.0), (8.0, 1.0), (32.0, 0.1)]]), [1, 1]);
+        assert_eq!(crossings(&[before.clone(), vec![(2.0, 7.0), (8.0, 3.0)]]), [0, 0]);
+        assert_eq!(crossings(&[before, vec![(32.0, 0.1)]]), [0, 0], "nothing in common");
+    }
+}

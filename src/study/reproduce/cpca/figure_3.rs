@@ -1,0 +1,147 @@
+//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and vertex by vertex.
+
+use super::signals::{ComputedSignal, DIFFUSE_BIRD};
+use super::views::ModelView;
+use super::{
+    Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
+    Standing, number,
+};
+use crate::elementary::ln;
+use crate::prt::cpca::CpcaMethod;
+use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
+use crate::sphere::HarmonicLight;
+
+/// Clusters of both figures.
+const CLUSTERS: usize = 256;
+/// Vectors of Figure 4, "n = 3".
+const FIGURE_4: usize = 3;
+/// Vectors that rows and the chart go to; static and iterative curves go farther, for comparison.
+const VECTORS: usize = 8;
+/// How much farther.
+const MORE: usize = 6;
+/// Rounds of redistribution at most.
+const ROUNDS: usize = 20;
+/// Where the model is seen from, and the tangent of half the field of view.
+pub(super) const EYE: ([f32; 3], f32) = ([4.0, -3.0, 1.5], 0.3);
+
+const HOW: &str = "{} points of diffuse transfer of order {} in {} clusters. Vectors gained: how many more the simpler method needs for the same error, \
+    interpolated by the logarithm of the error. Redistribution ends when nothing changes, or after {} rounds.";
+const QUESTION: &str =
+    "the paper's model: iteration and redistribution gain more where clusters differ more, and on more clusters.";
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let computed = shared.cpca.signal(DIFFUSE_BIRD, shared.models)?;
+    let clusters = computed.clusters(CLUSTERS);
+    let still = computed.static_errors(clusters, VECTORS + MORE)?;
+    let iterative = computed.iterative_errors(clusters, VECTORS + MORE)?;
+    let adaptive = adaptive_errors(computed, clusters)?;
+    let mut table = Table::of(
+        "Squared errors, and the vectors that iteration and redistribution gain",
+        "vectors static iterative adaptive iterative_gains adaptive_gains",
+    );
+    let mut rows = Vec::new();
+    for vectors in 1..=VECTORS {
+        let gains = [
+            reaching(&still, iterative[vectors]) - vectors as f64,
+            reaching(&iterative, adaptive[vectors]) - vectors as f64,
+        ];
+        let errors = [still[vectors], iterative[vectors], adaptive[vectors]].map(Cell::measured);
+        table.push([Cell::from(vectors)].into_iter().chain(errors).chain(gains.map(|gain| Cell::decimals(gain, 2))));
+        if vectors.is_power_of_two() {
+            rows.push(at_least("vectors gained by iteration", vectors, ("vectors", "section 4.2"), gains[0]));
+            rows.push(at_least("vectors gained by redistribution", vectors, ("vectors", "section 4.3"), gains[1]));
+        }
+    }
+    rows.sort_by(|a, b| a.target.place.cmp(b.target.place));
+    let ratio = |above: &[f64], below: &[f64]| above[FIGURE_4] / below[FIGURE_4];
+    rows.push(at_least("static over iterative error", FIGURE_4, ("times", "figure 4"), ratio(&still, &iterative)));
+    rows.push(at_least("iterative over adaptive error", FIGURE_4, ("times", "figure 4"), ratio(&iterative, &adaptive)));
+    let points = computed.signal.points();
+    let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
+    Ok(EntryFindings {
+        text: vec![Prose::new(HOW, figures)],
+        rows,
+        questions: vec![QUESTION],
+        tables: vec![table],
+        charts: vec![chart(&still, &iterative, &adaptive)],
+        pictures: error_maps(computed, clusters)?,
+    })
+}
+
+fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64>, ReproduceError> {
+    let method = CpcaMethod::Adaptive { rounds: ROUNDS };
+    let error = |vectors| Ok(computed.error(&computed.compressed_to(clusters, vectors, method)?));
+    (0..=VECTORS).map(error).collect()
+}
+
+/// "1-4 additional PCA vectors", "an additional vector", less error: at least 1.
+fn at_least(what: &str, vectors: usize, (unit, place): (&'static str, &'static str), ours: f64) -> PaperRow {
+    let target = match place {
+        "figure 4" => PaperFigure {
+            origin: Origin::Inferred("the text says that the error falls".to_owned()),
+            ..PaperFigure::printed(1.0, 2, unit, place)
+        },
+        _ => PaperFigure::printed(1.0, 2, unit, place),
+    };
+    let what = format!("{what}, n' = {vectors}");
+    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
+}
+
+/// The number of vectors at which a curve falls to an error, between numbers by logarithms; the last for less.
+fn reaching(curve: &[f64], error: f64) -> f64 {
+    let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
+    let [above, below] = [curve[at - 1], curve[at]];
+    if above <= error { 0.0 } else { (at - 1) as f64 + ln(above / error) / ln(above / below) }
+}
+
+fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
+    let line = |label: &str, errors: &[f64]| Series {
+        label: label.to_owned(),
+        points: errors.iter().take(VECTORS + 1).enumerate().map(|(n, &error)| (n as f64, error)).collect(),
+    };
+    EntryChart {
+        name: "cpca-figure-3",
+        chart: Chart {
+            title: "Three ways to compress".to_owned(),
+            x: "vectors per cluster n'".to_owned(),
+            y: "squared error".to_owned(),
+            y_scale: Scale::Logarithmic,
+            lines: vec![line("static", still), line("iterative", iterative), line("adaptive", adaptive)],
+            ..Chart::default()
+        },
+        caption: "Adaptive: on average as many vectors.".into(),
+    }
+}
+
+/// The error of each vertex, of the largest of the static clustering.
+fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, ReproduceError> {
+    let light = HarmonicLight::red_and_blue(5);
+    let view = ModelView::new(computed, &light, EYE)?;
+    let methods = [
+        ("static", CpcaMethod::Static),
+        ("iterative", CpcaMethod::Iterative),
+        ("adaptive", CpcaMethod::Adaptive { rounds: ROUNDS }),
+    ];
+    let mut largest = None;
+    let mut pictures = Vec::new();
+    for (name, method) in methods {
+        let clustering = computed.compressed_to(clusters, FIGURE_4, method)?;
+        let of = |point: usize| clustering.squared_error_of(point, &computed.signal);
+        let most = *largest.get_or_insert_with(|| (0..computed.signal.points()).map(of).fold(0.0, f64::max));
+        let caption = format!("{name}: error of each vertex, of the largest with static components; pale is large");
+        pictures.push(view.error_map(&clustering, most, (format!("cpca-figure-4-{name}"), caption)));
+    }
+    Ok(pictures)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vectors_are_interpolated_by_logarithms() {
+        let curve = [16.0, 4.0, 1.0];
+        assert_eq!([16.0, 4.0, 1.0, 0.5, 20.0].map(|error| reaching(&curve, error)), [0.0, 1.0, 2.0, 2.0, 0.0]);
+        assert!((reaching(&curve, 2.0) - 1.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,58 @@
+//! "Clustered Principal Components": its figures on compression, Table 1, the table of section 7, and the appendix.
+//!
+//! The paper's models and BRDFs are lost. Ours have its counts of vertices, or a sixteenth or less of them with as
+//! small a share of the clusters ([`ModelSize`]), so that as many points share a cluster. What is judged is which of
+//! two errors is larger.
+
+mod appendix;
+mod coherence;
+mod figure_10;
+mod figure_11;
+mod figure_2;
+mod figure_3;
+mod figure_6;
+mod section_6;
+mod shared;
+mod signals;
+mod table_1;
+mod views;
+
+pub(super) use appendix::findings as appendix;
+pub(super) use coherence::findings as coherence;
+pub(super) use figure_2::findings as figure_2;
+pub(super) use figure_3::findings as figure_3;
+pub(super) use figure_6::findings as figure_6;
+pub(super) use figure_10::findings as figure_10;
+pub(super) use figure_11::findings as figure_11;
+pub(super) use section_6::findings as section_6;
+pub(super) use shared::CpcaShared;
+pub(super) use table_1::findings as table_1;
+
+use signals::HOST;
+
+use super::pipeline::failed;
+use super::shared::Shared;
+use super::{
+    Bound, EntryChart, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError,
+    Standing, number,
+};
+
+/// A ratio of two of the paper's values beside that of ours: judged by which of the two is larger.
+fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {
+    let target = PaperFigure {
+        origin: Origin::Implied(format!("{above} / {below}")),
+        ..PaperFigure::printed(above / below, 2, "times", place)
+    };
+    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::Order)
+}
+
+/// A figure that follows from others of the paper, every digit of which is computed.
+fn every_digit(
+    what: impl Into<String>,
+    (value, decimals, unit): (f64, u8, &'static str),
+    place: &'static str,
+    ours: f64,
+) -> PaperRow {
+    let target = PaperFigure::printed(value, decimals, unit, place);
+    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::Print)
+}

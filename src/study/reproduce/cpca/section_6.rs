@@ -1,0 +1,76 @@
+//! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
+
+use super::signals::SIGNALS;
+use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
+use crate::prt::on_card::model::TransferSize;
+use crate::report::{Cell, Table};
+
+/// Constant registers of the card: "~256".
+const REGISTERS: usize = 256;
+
+const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 4.1 and section 6.2. A register holds {} numbers, and each vector takes whole \
+    ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
+    without compression, every vertex's matrix.";
+
+pub(in crate::study::reproduce) fn findings() -> EntryFindings {
+    let square = TransferSize { vertices: 1, rows: 25, columns: 25, clusters: 1, vectors: 5 };
+    let per_vertex = (square.vectors + 1) * square.rows;
+    let factor = (square.rows * square.columns) as f64 / per_vertex as f64;
+    let target = PaperFigure::printed(4.0, 2, "times", "section 6");
+    let what = "computation saved per vertex by 5 vectors for 25 x 25 matrices";
+    EntryFindings {
+        text: vec![Prose::new(HOW, [number(4.0, 0)])],
+        rows: vec![PaperRow::new(what, (HOST, Method::Equation), target, (factor, Standing::Counted), Bound::AtLeast)],
+        tables: vec![sizes()],
+        ..EntryFindings::default()
+    }
+}
+
+/// Table 1's signals, and the encodings of Figures 10 and 11 that are not among them.
+fn sizes() -> Table {
+    let mut table = Table::of(
+        "Sizes as printed, and what follows from them",
+        "signal clusters vectors raw_M stored_M ratio registers_per_cluster clusters_per_batch batches \
+         uploaded_registers host_M uncompressed_M less_host_work",
+    );
+    let bird = SIGNALS[super::signals::BIRD].size;
+    let others = [(256, 2), (256, 4), (256, 12), (1792, 0), (1, 20)]
+        .map(|(clusters, vectors)| ("bird gloss-anis", TransferSize { clusters, vectors, ..bird }));
+    for (name, size) in SIGNALS[..7].iter().map(|paper| (paper.name, paper.size)).chain(others) {
+        let [raw, stored, host, uncompressed] =
+            [size.raw_numbers(), size.stored_numbers(), size.host_multiply_adds(), size.uncompressed_multiply_adds()]
+                .map(|count| count as f64);
+        table.push([
+            name.into(),
+            size.clusters.into(),
+            size.vectors.into(),
+            Cell::decimals(raw / 1e6, 2),
+            Cell::decimals(stored / 1e6, 3),
+            Cell::decimals(raw / stored, 1),
+            size.registers_per_cluster().into(),
+            size.clusters_per_batch(REGISTERS).into(),
+            size.batches(REGISTERS).into(),
+            size.uploaded_registers().into(),
+            Cell::decimals(host / 1e6, 3),
+            Cell::decimals(uncompressed / 1e6, 2),
+            Cell::decimals(uncompressed / host, 1),
+        ]);
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Raw over stored numbers of Table 1's rows, and the bird's host work: 48,688 / (256 x 9) times less.
+    #[test]
+    fn ratios_of_table_1() {
+        let table = sizes();
+        let column = |name: &str| table.headings().iter().position(|heading| heading == name).expect("a column");
+        let of = |name: &str| table.rows().iter().map(|row| row[column(name)].text()).collect::<Vec<_>>();
+        assert_eq!(of("ratio")[..7], ["19.7", "16.8", "17.0", "16.5", "7.9", "19.7", "23.4"]);
+        assert_eq!(of("less_host_work")[3], "21.1");
+        assert_eq!(of("registers_per_cluster")[7..], ["18", "30", "78", "6", "126"]);
+    }
+}

@@ -1,0 +1,33 @@
+//! Signals and clusterings that several entries need.
+
+use std::cell::OnceCell;
+
+use super::signals::{ComputedSignal, SIGNALS};
+use super::{ModelSize, ReproduceError};
+use crate::prt::cpca::{Clustering, CpcaMethod};
+use crate::study::reproduce::once::get_or_try;
+
+/// Signals of [`SIGNALS`] by their places there, with what Table 1 makes of them.
+#[derive(Default)]
+pub(in crate::study::reproduce) struct CpcaShared {
+    signals: [OnceCell<ComputedSignal>; SIGNALS.len()],
+    clusterings: [OnceCell<Clustering>; SIGNALS.len()],
+}
+
+impl CpcaShared {
+    /// A signal.
+    pub(super) fn signal(&self, at: usize, models: ModelSize) -> Result<&ComputedSignal, ReproduceError> {
+        get_or_try(&self.signals[at], || ComputedSignal::new(&SIGNALS[at], models))
+    }
+
+    /// It with its iterative clustering, of as many clusters and vectors as printed or a share of the clusters.
+    pub(super) fn iterative(
+        &self,
+        at: usize,
+        models: ModelSize,
+    ) -> Result<(&ComputedSignal, &Clustering), ReproduceError> {
+        let (signal, size) = (self.signal(at, models)?, SIGNALS[at].size);
+        let compress = || signal.compressed(size.clusters, size.vectors, CpcaMethod::Iterative);
+        Ok((signal, get_or_try(&self.clusterings[at], compress)?))
+    }
+}

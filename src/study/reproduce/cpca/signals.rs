@@ -1,0 +1,257 @@
+//! The signals of Table 1 and of Figures 2 to 4, on models of ours.
+
+use super::{ModelSize, ReproduceError, failed};
+use crate::geom::Mesh;
+use crate::prt::Signal;
+use crate::prt::brdf::{Brdf, ExitBasis};
+use crate::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::prt::file::PrtMeaning;
+use crate::prt::on_card::model::TransferSize;
+use crate::prt::transfer::{Bounces, Incident, ScatteringOptions, Tangents, Vertices};
+use crate::scene::built::transfer_models::TransferModel;
+use crate::study::prt::{ExitRadiance, Precomputation, Scatterer};
+use crate::subsurface::{Dipole, materials};
+
+/// What our side of the rows is computed on.
+pub(super) const HOST: &str = "host";
+/// How many times as long the edges of reduced models are: of diffuse and of glossy transfer.
+const DIFFUSE_COARSER: u32 = 4;
+const GLOSSY_COARSER: u32 = 6;
+/// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for glossy transfer of reduced models.
+const ITERATIONS: usize = 10;
+const REDUCED_ITERATIONS: usize = 4;
+/// "20 VQ iterations were used" (Figure 2).
+const VQ_ITERATIONS: usize = 20;
+/// Reflected at most so often on the bumpy model: "multiple bounce interreflections".
+const BOUNCES: u32 = 2;
+/// Isotropic: the "glossy phong models" of Figure 8.
+const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0 };
+/// Anisotropic, with a Fresnel factor (Figure 7).
+const ANISOTROPIC: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.2, 0.5] };
+const LAMBERT: Brdf = Brdf::Lambert { albedo: 0.8 };
+/// A statuette of marble, about 10 mm high: its triangles are smaller than the mean free path.
+const MEDIUM: &str = "marble";
+const MM_PER_UNIT: f64 = 4.0;
+const SOLID_ANGLE: f64 = 0.1;
+
+/// How a model reflects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SignalMaterial {
+    Diffuse,
+    Isotropic,
+    Anisotropic,
+    /// Isotropic over a scattering medium.
+    Translucent,
+}
+
+/// A signal with the sizes that are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PaperSignal {
+    /// Model and BRDF as Table 1 names them.
+    pub(super) name: &'static str,
+    /// Ours in place of the paper's.
+    pub(super) model: TransferModel,
+    pub(super) material: SignalMaterial,
+    /// As printed.
+    pub(super) size: TransferSize,
+}
+
+const fn signal(
+    name: &'static str,
+    (model, material): (TransferModel, SignalMaterial),
+    (vertices, [rows, columns]): (usize, [usize; 2]),
+    (clusters, vectors): (usize, usize),
+) -> PaperSignal {
+    PaperSignal { name, model, material, size: TransferSize { vertices, rows, columns, clusters, vectors } }
+}
+
+use SignalMaterial::{Anisotropic, Diffuse, Isotropic, Translucent};
+use TransferModel::{Bumpy, Head, Polygons, Smooth};
+
+/// The rows of Table 1, then the signal of Figures 2 to 4.
+pub(super) const SIGNALS: [PaperSignal; 8] = [
+    signal("Buddha gloss-iso", (Bumpy, Isotropic), (49_990, [16, 25]), (256, 6)),
+    signal("Buddha gloss-anis", (Bumpy, Anisotropic), (49_990, [24, 25]), (256, 8)),
+    signal("Buddha subsurf+gloss-iso", (Bumpy, Translucent), (49_990, [25, 25]), (256, 8)),
+    signal("bird gloss-anis", (Smooth, Anisotropic), (48_688, [24, 25]), (256, 8)),
+    signal("bird diffuse", (Smooth, Diffuse), (48_688, [1, 100]), (256, 8)),
+    signal("head gloss-iso", (Head, Isotropic), (50_060, [16, 25]), (256, 6)),
+    signal("polys diffuse", (Polygons, Diffuse), (58_624, [1, 100]), (32, 4)),
+    signal("bird diffuse, order 5", (Smooth, Diffuse), (48_688, [1, 25]), (256, 3)),
+];
+
+/// Places in [`SIGNALS`].
+pub(super) const BUDDHA: usize = 1;
+pub(super) const BIRD: usize = 3;
+pub(super) const POLYGONS: usize = 6;
+pub(super) const DIFFUSE_BIRD: usize = 7;
+
+impl PaperSignal {
+    /// The degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or
+    /// 276 for glossy transfer.
+    fn degree(&self, models: ModelSize) -> usize {
+        match self.coarser(models) {
+            1 => 62,
+            DIFFUSE_COARSER => 30,
+            _ => 22,
+        }
+    }
+
+    /// How many times as long the edges of our model are.
+    fn coarser(&self, models: ModelSize) -> u32 {
+        match (models, self.material) {
+            (ModelSize::Printed, _) => 1,
+            (ModelSize::Reduced, Diffuse) => DIFFUSE_COARSER,
+            (ModelSize::Reduced, _) => GLOSSY_COARSER,
+        }
+    }
+}
+
+/// A signal, computed.
+pub(super) struct ComputedSignal {
+    pub(super) paper: &'static PaperSignal,
+    pub(super) mesh: Mesh,
+    pub(super) vertices: Vertices,
+    pub(super) meaning: PrtMeaning,
+    pub(super) signal: Signal,
+    models: ModelSize,
+}
+
+impl ComputedSignal {
+    pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, ReproduceError> {
+        let fail = failed(HOST);
+        let mesh = paper.model.mesh(paper.coarser(models));
+        let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|e| fail(&e))?;
+        let precomputation = Precomputation {
+            mesh: &mesh,
+            vertices: &vertices,
+            channels: vec![(0, vec![paper.material.brdf()])],
+            exit: exit_radiance(paper)?,
+            order: paper.size.columns.isqrt(),
+            degree: paper.degree(models),
+            bounces: Bounces::Count(if paper.model == Bumpy { BOUNCES } else { 0 }),
+            scatterer: if paper.material == Translucent { Some(scatterer()?) } else { None },
+        };
+        let computed = precomputation.run(&mut |_, _, _| ()).map_err(|e| fail(&e))?;
+        let missing = || fail(&"no transfer was computed");
+        let signal = computed.file.transfer.ok_or_else(missing)?;
+        Ok(Self { paper, meaning: computed.file.meaning, mesh, vertices, signal, models })
+    }
+
+    /// A share of so many of the paper's clusters, so that as many points are in each.
+    pub(super) fn clusters(&self, printed: usize) -> usize {
+        (printed / self.paper.coarser(self.models).pow(2) as usize).max(1)
+    }
+
+    fn iterations(&self) -> usize {
+        if self.paper.coarser(self.models) < GLOSSY_COARSER { ITERATIONS } else { REDUCED_ITERATIONS }
+    }
+
+    /// Compresses the signal to a share of so many of the paper's clusters.
+    pub(super) fn compressed(
+        &self,
+        clusters: usize,
+        vectors: usize,
+        method: CpcaMethod,
+    ) -> Result<Clustering, ReproduceError> {
+        self.compressed_to(self.clusters(clusters), vectors, method)
+    }
+
+    /// Compresses the signal to so many clusters.
+    pub(super) fn compressed_to(
+        &self,
+        clusters: usize,
+        vectors: usize,
+        method: CpcaMethod,
+    ) -> Result<Clustering, ReproduceError> {
+        let options = options(clusters, vectors, (method, self.iterations()));
+        Ok(compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering)
+    }
+
+    /// The squared error with 0 to `most` vectors in as many clusters, of which those without vectors are the same.
+    ///
+    /// By section 4.1's formula: a vector less adds its D_i^2.
+    pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
+        let options = options(clusters, most, (CpcaMethod::Static, VQ_ITERATIONS));
+        let clustering = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering;
+        let gained = |vector: usize| -> f64 {
+            clustering.subspaces().iter().filter_map(|subspace| subspace.eigenvalues.get(vector)).sum()
+        };
+        let mut errors = vec![self.error(&clustering)];
+        for vector in (0..most).rev() {
+            errors.push(errors[errors.len() - 1] + gained(vector));
+        }
+        errors.reverse();
+        Ok(errors)
+    }
+
+    /// The squared error with 0 to `most` vectors, added one by one (section 4.2).
+    pub(super) fn iterative_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
+        let options = options(clusters, most, (CpcaMethod::Iterative, self.iterations()));
+        let compression = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?;
+        let last = |vectors: usize| compression.steps.iter().rev().find(|step| step.vectors == vectors);
+        Ok((0..=most).filter_map(last).map(|step| step.squared_error).collect())
+    }
+
+    /// The squared error of all points.
+    pub(super) fn error(&self, clustering: &Clustering) -> f64 {
+        clustering.squared_error(&self.signal)
+    }
+}
+
+fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, usize)) -> CpcaOptions {
+    CpcaOptions { clusters, vectors, iterations, method, start: StartPoints::Seed(1) }
+}
+
+impl SignalMaterial {
+    fn brdf(self) -> Brdf {
+        match self {
+            Diffuse => LAMBERT,
+            Isotropic | Translucent => ISOTROPIC,
+            Anisotropic => ANISOTROPIC,
+        }
+    }
+}
+
+fn exit_radiance(paper: &PaperSignal) -> Result<ExitRadiance, ReproduceError> {
+    let basis = match paper.size.rows {
+        1 => return Ok(ExitRadiance::Diffuse),
+        24 => ExitBasis::without_1_0(5).map_err(|e| failed(HOST)(&e))?,
+        rows => ExitBasis::of_order(rows.isqrt()),
+    };
+    Ok(ExitRadiance::Glossy { basis, least_squares: true, incident: Incident::Harmonics { order: 5, inverse: true } })
+}
+
+fn scatterer() -> Result<Scatterer, ReproduceError> {
+    let missing = || failed(HOST)(&"the medium is not known");
+    let medium = materials::named(MEDIUM).ok_or_else(missing)?.material();
+    let [red, green, blue] = medium.channels.map(|channel| Dipole::new(channel, medium.eta));
+    let fail = failed(HOST);
+    let dipoles = [red.map_err(|e| fail(&e))?, green.map_err(|e| fail(&e))?, blue.map_err(|e| fail(&e))?];
+    Ok(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit: MM_PER_UNIT, solid_angle: SOLID_ANGLE } })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Errors by section 4.1's formula, and those of the steps of one compression, are those of compressions with as
+    /// many vectors.
+    #[test]
+    fn errors_by_vectors_are_those_of_compressions() {
+        let computed = ComputedSignal::new(&SIGNALS[DIFFUSE_BIRD], ModelSize::Reduced).expect("a signal");
+        let near = |found: f64, expected: f64| (found - expected).abs() <= 1e-9 * expected;
+        let (still, iterative) = (computed.static_errors(5, 4), computed.iterative_errors(5, 2));
+        let (still, iterative) = (still.expect("compressed"), iterative.expect("compressed"));
+        for (vectors, &error) in still.iter().enumerate() {
+            let options = options(5, vectors, (CpcaMethod::Static, VQ_ITERATIONS));
+            let clustering = compress(&computed.signal, &options, |_| ()).expect("compressed").clustering;
+            assert!(near(error, computed.error(&clustering)), "{vectors} vectors");
+        }
+        for (vectors, &error) in iterative.iter().enumerate() {
+            let clustering = computed.compressed_to(5, vectors, CpcaMethod::Iterative).expect("compressed");
+            assert!(near(error, computed.error(&clustering)), "{vectors} vectors");
+        }
+        assert_eq!((still.len(), iterative.len()), (5, 3));
+    }
+}
