@@ -227,7 +227,8 @@ fn only_draw(log: &[Event]) -> &DrawRecord {
     log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
 }
 
-/// Three instructions and 16 bytes a vertex that is run: once each along a strip, again wherever 16 others came between.
+/// Three instructions and 16 bytes a vertex that is run: once each along a strip, again wherever 16 others came
+/// between.
 #[test]
 fn vertices_that_left_the_cache_are_run_again() {
     let strip: Vec<u32> = (0..38).flat_map(|n| [n, n + 1, n + 2]).collect();

@@ -312,6 +312,7 @@ fn every_suite_is_a_test_and_the_other_way_round() {
         "fuzz::",
         "mipmaps::",
         "planted::",
+        "prt::",
         "radiosity::",
         "steps::",
         "subsurface::",

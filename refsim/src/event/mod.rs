@@ -12,6 +12,7 @@ mod counts;
 mod log;
 mod program;
 mod texels;
+mod vertex_cache;
 
 pub use counts::{ByteCounts, DrawEvents, FragmentCounts, PrimitiveCounts, SAMPLERS};
 pub use log::{
@@ -20,3 +21,4 @@ pub use log::{
 };
 pub use program::{ArithmeticSlot, FlowConstants, PhaseWork, ProgramWork, TextureSlot};
 pub use texels::{SamplerTraffic, TexelObserver, TexelTouch};
+pub use vertex_cache::vertex_cache_misses;

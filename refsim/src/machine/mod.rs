@@ -27,7 +27,6 @@ mod state;
 mod tiles;
 mod trace;
 mod validate;
-mod vertex_cache;
 mod vertices;
 mod walk;
 

@@ -5,12 +5,11 @@
 
 use super::state::DrawState;
 use super::validate::Plan;
-use super::vertex_cache::vertices_run;
 use super::vertices::{VertexStage, set_up};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
     DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
-    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord,
+    ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
 };
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
@@ -219,6 +218,17 @@ impl Machine {
         }
         quads
     }
+}
+
+/// Vertices processed with a cache of half the entries, of these, and of twice as many.
+fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) -> [u64; 3] {
+    let (Some(indices), Some(entries)) = (call.indices, entries) else { return [counts.vertices; 3] };
+    let vertices = match &call.vertices {
+        VertexSource::Transformed(vertices) => vertices.len(),
+        VertexSource::Program { streams, .. } => streams.vertex_count,
+    };
+    let of = |entries| counts.instances.saturating_mul(vertex_cache_misses(indices, vertices, entries));
+    [entries / 2, entries, entries.saturating_mul(2)].map(of)
 }
 
 /// An outline: edges and bounding box.

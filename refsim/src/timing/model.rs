@@ -183,8 +183,8 @@ impl Model {
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// The model with one guess scaled, rounded down but not to 0. Draws know their misses at half and at twice the size
-    /// of a cache (of textures, if they were observed); between those the nearest is taken.
+    /// The model with one guess scaled, rounded down but not to 0. Draws know their misses at half and at twice the
+    /// size of a cache (of textures, if they were observed); between those the nearest is taken.
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.

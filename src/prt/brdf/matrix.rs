@@ -40,7 +40,8 @@ impl ExitBasis {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
-    /// The basis of these functions, l (l + 1) + m in increasing order; of 0 alone the radiance, as `.prt` files have it.
+    /// The basis of these functions, l (l + 1) + m in increasing order; of 0 alone the radiance, as `.prt` files have
+    /// it.
     ///
     /// # Errors
     /// [`HemisphereError`] for no functions.

@@ -6,6 +6,7 @@
 
 mod chunks;
 mod error;
+pub mod estimate;
 mod exit_map;
 pub mod model;
 mod options;

@@ -44,8 +44,8 @@ impl Seen {
         self.pixels.par_iter().map(color).collect()
     }
 
-    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as a card without rounding
-    /// would have it. `functions` fills in the functions of exit radiance at a direction.
+    /// Radiance of each pixel's exit coefficients towards its view vector, both interpolated, as a card that rounds
+    /// nothing would have it. `functions` fills in the functions of exit radiance at a direction.
     pub(super) fn radiance(
         &self,
         exit: &[Vec<[f64; 3]>],

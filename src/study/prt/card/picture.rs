@@ -6,7 +6,7 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 use serde_json::{Value, json};
 
-use super::{CardError, OnCard};
+use super::subject::{CardError, OnCard};
 use crate::geom::vector::wide;
 use crate::prt::brdf::ExitBasis;
 use crate::prt::on_card::model::TransferSize;

@@ -5,7 +5,7 @@ use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
 use super::picture::{Difference, Way};
-use super::{CardError, OnCard};
+use super::subject::{CardError, OnCard};
 use crate::prt::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
 use crate::report::{Cell, Findings, FoundTable, Table};
 

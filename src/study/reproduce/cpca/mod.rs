@@ -11,6 +11,7 @@ mod figure_11;
 mod figure_2;
 mod figure_3;
 mod figure_6;
+mod rates;
 mod section_6;
 mod shared;
 mod signals;

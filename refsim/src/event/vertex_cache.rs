@@ -1,21 +1,8 @@
 //! How often a card runs its vertex program for an indexed draw: finished vertices are kept for a while.
 
-use super::{DrawCall, VertexSource};
-use crate::event::DrawEvents;
-
-/// Vertices processed with a cache of half the entries, of these, and of twice as many.
-pub(super) fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) -> [u64; 3] {
-    let (Some(indices), Some(entries)) = (call.indices, entries) else { return [counts.vertices; 3] };
-    let vertices = match &call.vertices {
-        VertexSource::Transformed(vertices) => vertices.len(),
-        VertexSource::Program { streams, .. } => streams.vertex_count,
-    };
-    [entries / 2, entries, entries.saturating_mul(2)]
-        .map(|entries| counts.instances.saturating_mul(misses(indices, vertices, entries)))
-}
-
-/// Vertices that are not among the `entries` last ones that came in: what is used again keeps its place in the row.
-fn misses(indices: &[u32], vertices: usize, entries: u64) -> u64 {
+/// How many of these vertices, each below `vertices`, are not among the `entries` last ones that came into a cache of
+/// finished vertices: what is used again keeps its place in the row, and the first in goes out first.
+pub fn vertex_cache_misses(indices: &[u32], vertices: usize, entries: u64) -> u64 {
     // How many had come in when this one did, itself included; 0 for none yet.
     let mut came = vec![0_u64; vertices];
     let mut misses = 0;
@@ -57,7 +44,7 @@ mod tests {
             indices in prop::collection::vec(0_u32..12, 0..80),
             entries in 0_usize..14,
         ) {
-            prop_assert_eq!(misses(&indices, 12, entries as u64), by_definition(&indices, entries));
+            prop_assert_eq!(vertex_cache_misses(&indices, 12, entries as u64), by_definition(&indices, entries));
         }
     }
 
@@ -65,7 +52,7 @@ mod tests {
     #[test]
     fn a_strip_runs_each_vertex_once() {
         let strip: Vec<u32> = (0..100).flat_map(|first| [first, first + 1, first + 2]).collect();
-        assert_eq!([3, 16].map(|entries| misses(&strip, 102, entries)), [102; 2]);
-        assert_eq!(misses(&strip, 102, 0), 300);
+        assert_eq!([3, 16].map(|entries| vertex_cache_misses(&strip, 102, entries)), [102; 2]);
+        assert_eq!(vertex_cache_misses(&strip, 102, 0), 300);
     }
 }

@@ -1,0 +1,106 @@
+//! What is drawn, by which card.
+
+use miette::Diagnostic;
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+use thiserror::Error;
+
+use crate::geom::Mesh;
+use crate::picture::{Picture, PictureError};
+use crate::prt::brdf::ExitBasis;
+use crate::prt::cpca::Clustering;
+use crate::prt::file::PrtMeaning;
+use crate::prt::on_card::time::FrameTimeError;
+use crate::prt::on_card::{CompressedTransfer, PrtCardError, PrtCardOptions};
+use crate::prt::transfer::Vertices;
+use crate::scene::Camera;
+use crate::sphere::{HarmonicLight, HemisphereError};
+use crate::study::timeline_trace::TimelineError;
+
+/// A model with compressed transfer, a light and a camera, and the card that draws it.
+#[derive(Debug)]
+pub struct OnCard {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices, the points of the clusters.
+    pub vertices: Vertices,
+    /// What the numbers of a vertex mean.
+    pub meaning: PrtMeaning,
+    /// The clusters.
+    pub clustering: Clustering,
+    /// The light's name.
+    pub light_name: String,
+    /// The light, of the order of the transfer.
+    pub light: HarmonicLight,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
+    pub exposure: Option<f64>,
+    /// The card.
+    pub profile: Profile,
+    /// Its switches that were set.
+    pub switches: Vec<(String, String)>,
+    /// What runs its programs.
+    pub executor: Executor,
+    /// The picture's format.
+    pub format: TexelFormat,
+    /// Variants.
+    pub options: PrtCardOptions,
+    /// Whether one thing after the other is made coarse.
+    pub sweep: bool,
+}
+
+/// Why there is no picture.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum CardError {
+    /// A signal that is no transfer.
+    #[error("expected transfer, found numbers without a meaning")]
+    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar prt precompute` wrote"))]
+    NoTransfer,
+    /// The card refuses.
+    #[error(transparent)]
+    #[diagnostic(
+        code(crossbar::prt::card),
+        help("`crossbar prt render` draws on the host what no card takes; `crossbar devices` lists cards")
+    )]
+    Card(#[from] PrtCardError),
+    /// The functions of exit radiance are none.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::functions))]
+    Functions(#[from] HemisphereError),
+    /// The frame has no time.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::time))]
+    Time(#[from] FrameTimeError),
+    /// The frame has no timeline.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Timeline(#[from] TimelineError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+}
+
+impl OnCard {
+    pub(super) fn basis(&self) -> Result<ExitBasis, CardError> {
+        let PrtMeaning::Transfer { exit_functions, .. } = &self.meaning else { return Err(CardError::NoTransfer) };
+        Ok(ExitBasis::of_functions(exit_functions)?)
+    }
+
+    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardError> {
+        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardError::NoTransfer) };
+        let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
+        let (vertices, clustering) = (&self.vertices, &self.clustering);
+        Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
+    }
+
+    pub(super) fn picture(&self, colors: &[[f64; 3]]) -> Picture {
+        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+        Picture::rgb(self.camera.width(), self.camera.height(), &single)
+    }
+}
