@@ -13,7 +13,7 @@ use std::time::Duration;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::geom::{Mesh, Sides};
 use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, Vertices};
-use crossbar::scene::built::transfer_models;
+use crossbar::scene::built::transfer_models::TransferModel;
 use crossbar::sphere::DirectionRule;
 use crossbar::tracer::HostTracer;
 
@@ -29,7 +29,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("transfer");
     group.sample_size(10).warm_up_time(Duration::from_millis(100));
-    for (name, mesh) in [("smooth", transfer_models::smooth()), ("bumpy", transfer_models::bumpy())] {
+    for (name, mesh) in [("smooth", TransferModel::Smooth.mesh(1)), ("bumpy", TransferModel::Bumpy.mesh(1))] {
         let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
         let rays = trace(&mesh, &vertices);
         group.throughput(Throughput::Elements(rays.counts.rays));

@@ -97,15 +97,15 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
         match event {
             Event::Host(work) => {
                 let operation = HostOperation::named(&work.kind)?;
-                time.products = time.products + host.time_of(operation, work.operations);
+                time.products += host.time_of(operation, work.operations);
             }
             Event::StateChange { changes, constants } => {
-                time.state = time.state + model.state_change(*changes, *constants);
+                time.state += model.state_change(*changes, *constants);
                 time.constants += u64::from(*constants);
             }
             Event::Draw(draw) => {
                 let cost = model.draw(draw);
-                time.draws = time.draws + cost.total;
+                time.draws += cost.total;
                 time.calls += 1;
                 time.vertices_run += draw.vertices_run[1];
                 time.triangles += draw.counts.primitives.assembled;
