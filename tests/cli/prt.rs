@@ -143,7 +143,7 @@ fn a_card_draws_what_the_host_draws() {
     assert_eq!(rows.len(), 18);
     let of = |what: &str, choice: &str| {
         let row = rows.iter().find(|row| row["what"] == what && row["choice"] == choice);
-        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms 255ths"])
+        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
     };
     assert!(of("weights", "unorm16") < of("weights", "unorm8"));
     assert!(of("map texels", "64 x 64") < of("map texels", "16 x 16"));

@@ -7,6 +7,7 @@ use strum::IntoEnumIterator;
 use super::picture::{Difference, Way};
 use super::subject::{CardError, OnCard};
 use crate::prt::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
+use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
 /// Maps as fine as the reference picture has them.
@@ -27,8 +28,8 @@ struct Choice {
 /// How many pictures a sweep takes.
 pub(super) const STEPS: u64 = 1 + 3 + 4 + 5 + 2 + 6 + 1;
 
-const EXPLAINED: &str = "All but the first row differ from the first in one thing, and are compared with it. Visible: pixels of which a channel is \
-    off by more than one 255th. Targets of fractions clamp at 0 after each group of clusters, so that light taken away by one \
+const EXPLAINED: &str = "Each row is one change of a picture in single precision, with maps of 512 x 512 texels in floats and a target of floats, and \
+    is compared with it. Visible: pixels of which a channel is off by more than one 255th. Targets of fractions clamp at 0 after each group of clusters, so that light taken away by one \
     part of a triangle that another group brings is lost; `together` draws clusters in groups, `alone` one after the other.";
 
 /// The reference: single precision everywhere, maps of many texels in single precision, a float target.
@@ -85,10 +86,7 @@ pub(super) fn report(
         Ok(way.draw(study, transfer, exposure)?.colors)
     };
     let expected = draw(&reference())?;
-    let mut table = Table::new(
-        "What shows",
-        &["what", "choice", "rms_255ths", "largest_255ths", "visible_%"].map(|heading| heading.replace('_', " ")),
-    );
+    let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_%");
     let mut shows = Vec::new();
     for (done, choice) in (1..).zip(choices(transfer.is_glossy())) {
         progress(done);
@@ -122,7 +120,7 @@ fn conclude(all: &[(Choice, Difference)], found: &mut Findings) {
             "Most is to blame on {} {}: {} 255ths root mean square.",
             choice.axis,
             choice.label,
-            crate::report::digits::shown(difference.rms_steps(), crate::report::digits::Quantity::Measured)
+            shown(difference.rms_steps(), Quantity::Measured)
         ));
     }
 }
