@@ -109,9 +109,12 @@ pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
 /// # Panics
 /// If their number is no square of 1 to [`MAX_ORDER`].
 pub fn order_of(coefficients: &[f64]) -> usize {
-    let order = coefficients.len().isqrt();
-    assert_eq!(coefficients.len(), function_count(order), "n^2 coefficients");
-    order
+    order_with(coefficients.len()).expect("n^2 coefficients")
+}
+
+/// The order of so many functions; `None` if there is no such order of 1 to [`MAX_ORDER`].
+pub fn order_with(functions: usize) -> Option<usize> {
+    (1..=MAX_ORDER).find(|&order| function_count(order) == functions)
 }
 
 /// Coefficients for D3DX's functions instead of ours, or back: D3DX has the Condon-Shortley sign (-1)^m.

@@ -30,7 +30,8 @@ pub use cube::{CUBE_FACES, CubeMap, FaceAxes};
 pub use environment::EnvironmentError;
 pub use extremes::Extremes;
 pub use harmonics::{
-    MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, swap_d3dx_signs,
+    MAX_ORDER, evaluate, function_band, function_count, function_index, harmonics, order_of, order_with,
+    swap_d3dx_signs,
 };
 pub use hemisphere::{Hemisphere, HemisphereError};
 pub use layout::EnvironmentLayout;

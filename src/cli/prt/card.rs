@@ -6,15 +6,14 @@ use clap::ValueEnum;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::light::{LightArg, LightArgs};
-use super::model::{FileOfModel, clusters_of};
+use super::light::LightArgs;
+use super::model::{FileOfModel, clusters_of, light_order};
 use crate::cli::card::CardArgs;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
-use crate::cli::{Problem, model_name, number};
-use crate::prt::file::PrtMeaning;
+use crate::cli::{model_name, number};
 use crate::prt::on_card::{PrtCardOptions, WeightFormat};
 use crate::study::prt::OnCard;
 
@@ -143,8 +142,11 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let picture = if let LightArg::Picture(path) = &self.light.light { Some(path.as_path()) } else { None };
-        [Some(self.file.as_path()), picture].into_iter().flatten().chain(model_name::named_file(&self.model)).collect()
+        [Some(self.file.as_path()), self.light.file()]
+            .into_iter()
+            .flatten()
+            .chain(model_name::named_file(&self.model))
+            .collect()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
@@ -160,14 +162,11 @@ impl StudyArgs for Args {
         let profile = self.card.profile("r300")?;
         let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.model)?;
         let clustering = clusters_of(&mut file, &self.file)?;
-        let PrtMeaning::Transfer { light_order, .. } = file.meaning else {
-            let help = "compress a file that `crossbar prt precompute` wrote";
-            return Err(Problem::usage("expected transfer, found numbers without a meaning", help).into());
-        };
+        let light_order = light_order(&file)?;
         Ok(OnCard {
             model: self.model.display().to_string(),
             camera: self.eye.framing(&model.mesh, self.size)?,
-            light: self.light.of_order(light_order as usize)?,
+            light: self.light.of_order(light_order)?,
             light_name: self.light.name(),
             exposure: self.exposure,
             options: self.options(&profile.limits.texture_formats),

@@ -1,6 +1,6 @@
 //! `--light`: distant light by name, by figures or from a picture.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::ValueEnum;
@@ -20,7 +20,7 @@ const SUN: [f64; 3] = [4e4, 3.7e4, 3.2e4];
 
 /// A light that is not yet of an order.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum LightArg {
+enum LightArg {
     Constant([f64; 3]),
     Disk { towards: DVec3, degrees: f64, radiance: [f64; 3] },
     Sky { sun: DVec3 },
@@ -64,7 +64,7 @@ pub(super) struct LightArgs {
     /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
     /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
     #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    pub(super) light: LightArg,
+    light: LightArg,
 
     /// Damp the light's higher bands, so that it rings less
     #[arg(long, value_enum, value_name = "W")]
@@ -75,6 +75,11 @@ impl LightArgs {
     /// What it is, in a few words.
     pub(super) fn name(&self) -> String {
         self.light.name()
+    }
+
+    /// The picture that it is read from, if it is.
+    pub(super) fn file(&self) -> Option<&Path> {
+        if let LightArg::Picture(path) = &self.light { Some(path) } else { None }
     }
 
     /// The light at an order, its window as wide as the first band that is left out.

@@ -6,7 +6,7 @@ use crate::cli::model_name::{self, Model};
 use crate::cli::{Problem, view};
 use crate::io::load_mesh;
 use crate::prt::cpca::Clustering;
-use crate::prt::file::{MeshDigest, PrtFile, load_prt};
+use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
 
 /// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
@@ -42,6 +42,17 @@ impl FileOfModel {
         let digest = MeshDigest::new(&vertices);
         file.require_mesh(&digest, path)?;
         Ok(Self { file, model, vertices, digest })
+    }
+}
+
+/// The order of the light that a file's transfer takes.
+pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
+    match file.meaning {
+        PrtMeaning::Transfer { light_order, .. } => Ok(light_order as usize),
+        PrtMeaning::Numbers { .. } => Err(Problem::usage(
+            "expected transfer, found numbers without a meaning",
+            "compress a file that `crossbar prt precompute` wrote",
+        )),
     }
 }
 

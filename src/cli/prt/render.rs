@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use super::light::{LightArg, LightArgs};
-use super::model::FileOfModel;
+use super::light::LightArgs;
+use super::model::{FileOfModel, light_order};
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
-use crate::prt::file::{PrtFile, PrtMeaning, load_prt};
+use crate::prt::file::{PrtFile, load_prt};
 use crate::study::prt::{Rendering, Turning};
 
 const EXAMPLES: &str = "\
@@ -87,8 +87,7 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let picture = if let LightArg::Picture(path) = &self.light.light { Some(path.as_path()) } else { None };
-        let files = [Some(self.file.as_path()), self.original.as_deref(), picture];
+        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
         files.into_iter().flatten().chain(model_name::named_file(&self.model)).collect()
     }
 
@@ -105,10 +104,7 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<Rendering> {
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.model)?;
-        let PrtMeaning::Transfer { light_order, .. } = file.meaning else {
-            let help = "compress a file that `crossbar prt precompute` wrote";
-            return Err(Problem::usage("expected transfer, found numbers without a meaning", help).into());
-        };
+        let light_order = light_order(&file)?;
         let original = match &self.original {
             None => None,
             Some(path) => {
@@ -124,7 +120,7 @@ impl StudyArgs for Args {
         Ok(Rendering {
             model: self.model.display().to_string(),
             camera: self.eye.framing(&model.mesh, self.size)?,
-            light: self.light.of_order(light_order as usize)?,
+            light: self.light.of_order(light_order)?,
             light_name: self.light.name(),
             exposure: self.exposure,
             frames: self.frames,

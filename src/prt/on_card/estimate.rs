@@ -44,8 +44,10 @@ impl FrameCounts {
         let attributes = (beside + kernel.weight_registers()) as u64;
         let work = self.size.host_multiply_adds() as u64;
         let kind = HostOperation::MultiplyAdd.name().into();
+        let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
+        let pixel = Arc::new(ProgramWork::new(&program, FlowConstants::default()));
         let mut log = vec![Event::Host(HostWork { kind, operations: work })];
-        log.push(self.draw(self.triangles, POSITION_SLOTS, 1));
+        log.push(self.draw(self.triangles, (POSITION_SLOTS, 1), &pixel));
         let groups = self.groups.max(1);
         let (passes, slots) = (self.size.passes() as u64, kernel.slots() as u64);
         let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
@@ -53,14 +55,14 @@ impl FrameCounts {
             let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;
             for _ in 0..passes {
                 log.push(Event::StateChange { changes: 2, constants });
-                log.push(self.draw(triangles, slots, attributes));
+                log.push(self.draw(triangles, (slots, attributes), &pixel));
             }
         }
         log
     }
 
-    /// A draw of triangles of which no pixel is seen.
-    fn draw(&self, triangles: u64, slots: u64, attributes: u64) -> Event {
+    /// A draw of triangles of which no pixel is seen, with the slots and attributes of a vertex.
+    fn draw(&self, triangles: u64, (slots, attributes): (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
         let mut counts = DrawEvents {
             draws: 1,
@@ -71,12 +73,11 @@ impl FrameCounts {
             ..DrawEvents::default()
         };
         counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
-        let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
         Event::Draw(Box::new(DrawRecord {
             counts,
             vertices_run: [run; 3],
             quads: 0,
-            pixel: Arc::new(ProgramWork::new(&program, FlowConstants::default())),
+            pixel: pixel.clone(),
             vertex: None,
             samplers: Vec::new(),
             targets: Vec::new(),

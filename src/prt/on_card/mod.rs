@@ -69,6 +69,7 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 pub struct PrtCard<'a> {
     machine: Machine,
     transfer: CompressedTransfer<'a>,
+    size: TransferSize,
     weights: CardWeights,
     frame: UnitFrame,
     positions: Attribute,
@@ -96,7 +97,7 @@ impl<'a> PrtCard<'a> {
     ) -> Result<Self, PrtCardError> {
         let profile = profile.into();
         options.check()?;
-        transfer.shape()?;
+        let size = transfer.size()?;
         let kernel = kernel(&profile, &transfer, options)?;
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
@@ -122,6 +123,7 @@ impl<'a> PrtCard<'a> {
         Ok(Self {
             machine,
             transfer,
+            size,
             weights,
             frame,
             positions,
@@ -141,11 +143,8 @@ impl<'a> PrtCard<'a> {
     }
 
     /// The sizes of the transfer.
-    ///
-    /// # Errors
-    /// None: what does not go together was refused before.
-    pub fn size(&self) -> Result<TransferSize, PrtCardError> {
-        self.transfer.size()
+    pub fn size(&self) -> TransferSize {
+        self.size
     }
 
     /// The emulated card.
@@ -192,7 +191,7 @@ impl<'a> PrtCard<'a> {
             return Err(PrtCardError::Figure { what: "an exposure of 0 to 1e30", found });
         }
         let products = Products::new(&self.transfer, &self.weights, light, view.exposure * self.map_scale)?;
-        self.machine.host_work(HostOperation::MultiplyAdd.name(), self.size()?.host_multiply_adds() as u64);
+        self.machine.host_work(HostOperation::MultiplyAdd.name(), self.size.host_multiply_adds() as u64);
         let target = self.target(view)?;
         target.clear(&mut self.machine)?;
         let mut head = view.camera.clip_rows(&self.frame).to_vec();

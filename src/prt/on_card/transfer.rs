@@ -3,7 +3,7 @@
 use crate::prt::brdf::ExitBasis;
 use crate::prt::cpca::Clustering;
 use crate::prt::transfer::Vertices;
-use crate::sphere::MAX_ORDER;
+use crate::sphere::order_with;
 
 use super::error::PrtCardError;
 use super::model::TransferSize;
@@ -56,8 +56,7 @@ impl CompressedTransfer<'_> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
         let size = channels * rows;
         let columns = found.checked_div(size).unwrap_or(0);
-        let square = (1..=MAX_ORDER).any(|order| order * order == columns);
-        if ![1, 3].contains(&channels) || size * columns != found || !square {
+        if ![1, 3].contains(&channels) || size * columns != found || order_with(columns).is_none() {
             return Err(PrtCardError::Shape { channels, rows, found });
         }
         let (expected, found) = (self.vertices.len(), self.clustering.points());

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::RivalError;
 use crate::prt::Signal;
-use crate::sphere::{HarmonicLight, MAX_ORDER};
+use crate::sphere::{HarmonicLight, order_with};
 
 /// Vertices that are computed together.
 const LANES: usize = 8;
@@ -37,7 +37,7 @@ impl UncompressedTransfer {
     pub fn new(signal: &Signal, rows: usize) -> Result<Self, RivalError> {
         let found = signal.dimension();
         let columns = found.checked_div(rows).unwrap_or(0);
-        if rows * columns != found || !(1..=MAX_ORDER).any(|order| order * order == columns) {
+        if rows * columns != found || order_with(columns).is_none() {
             return Err(RivalError::Shape { rows, found });
         }
         let vertices = signal.points();

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
+use crate::picture::Picture;
 use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
@@ -79,6 +80,12 @@ impl Seen {
         };
         self.pixels.iter().map(move |pixel| pixel.map(|(corners, weights)| corners[nearest(weights)]))
     }
+}
+
+/// The pixels of a camera as a picture.
+pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> Picture {
+    let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+    Picture::rgb(camera.width(), camera.height(), &single)
 }
 
 /// Weights of a triangle's corners at a point of its plane; of one beside it by rounding, at its rim.

@@ -11,7 +11,7 @@ mod render;
 pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
-pub(super) use interpolate::Seen;
+pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
 pub(super) use render::auto_exposure;
 pub use render::{RenderError, Rendering, Turning};

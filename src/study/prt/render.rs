@@ -7,12 +7,12 @@ use thiserror::Error;
 
 use super::compression_error::CompressionError;
 use super::exit_radiance::Lit;
-use super::interpolate::Seen;
+use super::interpolate::{Seen, linear_picture};
 use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
-use crate::picture::{Picture, PictureError, rgb8};
+use crate::picture::{PictureError, rgb8};
 use crate::prt::Signal;
 use crate::prt::file::PrtFile;
 use crate::prt::transfer::Vertices;
@@ -92,7 +92,7 @@ impl Study for Rendering {
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("Precomputed radiance transfer");
         found.taken_from(self.camera.world_to_camera());
-        let picture = self.picture(&drawn);
+        let picture = linear_picture(&self.camera, &drawn);
         found.pictures(vec![NamedPicture::new(
             "picture",
             picture.display(exposure)?,
@@ -108,7 +108,7 @@ impl Study for Rendering {
         for frame in 0..self.frames {
             progress("frames", 2 + u64::from(frame), steps);
             let turns = f64::from(frame) / f64::from(self.frames);
-            let image = self.picture(&self.turned(&seen, turns)?).display(exposure)?;
+            let image = linear_picture(&self.camera, &self.turned(&seen, turns)?).display(exposure)?;
             let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }
@@ -162,11 +162,6 @@ impl Rendering {
         }
     }
 
-    fn picture(&self, colors: &[[f64; 3]]) -> Picture {
-        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
-        Picture::rgb(self.camera.width(), self.camera.height(), &single)
-    }
-
     fn conclude(&self, seen: &Seen, found: &mut Findings) {
         let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
         found.conclusion(format!("{} of {pixels} pixels show {} under {}.", seen.count(), self.model, self.light_name));
@@ -201,8 +196,11 @@ impl Rendering {
             Cell::measured(100.0 * ratio),
         ]);
         table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
-        let mut pictures =
-            vec![NamedPicture::new("original", self.picture(&whole).display(exposure)?, "without compression")];
+        let mut pictures = vec![NamedPicture::new(
+            "original",
+            linear_picture(&self.camera, &whole).display(exposure)?,
+            "without compression",
+        )];
         let width = self.camera.width();
         if largest > 0.0 {
             let caption =

@@ -72,7 +72,7 @@ impl Way<'_> {
             triangles: triangles.len(),
             drawn: groups.overdraw(transfer.clustering, triangles),
         };
-        Ok(Drawn { colors, log, size: card.size()?, draws })
+        Ok(Drawn { colors, log, size: card.size(), draws })
     }
 }
 

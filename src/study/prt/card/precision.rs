@@ -25,9 +25,6 @@ struct Choice {
     options: PrtCardOptions,
 }
 
-/// How many pictures a sweep takes.
-pub(super) const STEPS: u64 = 1 + 3 + 4 + 5 + 2 + 6 + 1;
-
 const EXPLAINED: &str = "Each row is one change of a picture in single precision, with maps of 512 x 512 texels in floats and a target of floats, and \
     is compared with it. Visible: pixels of which a channel is off by more than one 255th. Targets of fractions clamp at 0 after each group of clusters, so that light taken away by one \
     part of a triangle that another group brings is lost; `together` draws clusters in groups, `alone` one after the other.";
@@ -73,6 +70,11 @@ fn choices(glossy: bool) -> Vec<Choice> {
     all
 }
 
+/// How many pictures a sweep takes.
+pub(super) fn pictures(transfer: &CompressedTransfer<'_>) -> u64 {
+    1 + choices(transfer.is_glossy()).len() as u64
+}
+
 /// Draws all choices; adds what was found.
 pub(super) fn report(
     study: &OnCard,
@@ -81,7 +83,7 @@ pub(super) fn report(
     progress: &mut dyn FnMut(u64),
 ) -> Result<(), CardError> {
     let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, CardError> {
-        let profile = Profile::named(choice.device).unwrap_or_else(|_| study.profile.clone());
+        let profile = Profile::named(choice.device)?;
         let way = Way { profile: &profile, format: choice.format, options: choice.options, timed: false };
         Ok(way.draw(study, transfer, exposure)?.colors)
     };

@@ -10,6 +10,7 @@ use crate::prt::on_card::time::{FrameTimeError, frame_time, host_of_section_7};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, Provenance, false_color};
 use crate::study::prt::exit_radiance::Lit;
+use crate::study::prt::interpolate::linear_picture;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
 
@@ -17,22 +18,21 @@ impl Study for OnCard {
     type Error = CardError;
 
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardError> {
-        let steps = if self.sweep { 2 + precision::STEPS } else { 2 };
-        progress("host", 0, steps);
         let basis = self.basis()?;
+        let transfer = self.transfer(&basis)?;
+        let steps = 2 + if self.sweep { precision::pictures(&transfer) } else { 0 };
+        progress("host", 0, steps);
         let host = self.host_picture(&basis)?;
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&host));
         let host: Vec<[f64; 3]> = host.into_iter().map(|color| color.map(|value| exposure * value)).collect();
         progress("card", 1, steps);
-        let transfer = self.transfer(&basis)?;
         let way = Way { profile: &self.profile, format: self.format, options: self.options, timed: true };
-        let mut drawn = way.draw(self, transfer, exposure)?;
+        let drawn = way.draw(self, transfer, exposure)?;
         let difference = Difference::of(&drawn.colors, &host);
         let mut found = Findings::new("Compressed transfer on a card");
         found.taken_from(self.camera.world_to_camera());
         found.conclusion(difference.sentence(&self.profile.title));
-        let log = drawn.log;
-        let time = match frame_time(&self.profile, &log, &host_of_section_7().map_err(FrameTimeError::from)?) {
+        let time = match frame_time(&self.profile, &drawn.log, &host_of_section_7().map_err(FrameTimeError::from)?) {
             Ok(time) => Some(time),
             Err(FrameTimeError::Timing(_)) => None,
             Err(error) => return Err(error.into()),
@@ -46,12 +46,10 @@ impl Study for OnCard {
         if let Some(time) = &time {
             found.heading("Modelled time");
             found.explained_table(FoundTable::from(tables::times(time)).field("time"), tables::TIME);
-            if let Some(bytes) = timeline_trace::file(&self.profile, &log, "a frame of compressed transfer")? {
+            if let Some(bytes) = timeline_trace::file(&self.profile, &drawn.log, "a frame of compressed transfer")? {
                 found.keep_file("timeline.json", bytes);
             }
         }
-        drop(log);
-        drawn.colors.clear();
         if self.sweep {
             precision::report(self, (transfer, exposure), &mut found, &mut |done| progress("sweep", 2 + done, steps))?;
         }
@@ -85,8 +83,8 @@ impl OnCard {
         let width = self.camera.width();
         let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
         let mut pictures = vec![
-            NamedPicture::new("card", self.picture(drawn).display(1.0)?, title),
-            NamedPicture::new("host", self.picture(host).display(1.0)?, "the host in double precision"),
+            NamedPicture::new("card", linear_picture(&self.camera, drawn).display(1.0)?, title),
+            NamedPicture::new("host", linear_picture(&self.camera, host).display(1.0)?, "the host in double precision"),
         ];
         // A few pixels at edges, where the card's raster decides otherwise than a ray, would hide the rest.
         let range = (4.0 * difference.rms).max(1.0 / 255.0);
@@ -97,7 +95,7 @@ impl OnCard {
             format!("card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more"),
         ));
         found.pictures(pictures);
-        found.keep_layers("card", self.picture(drawn));
+        found.keep_layers("card", linear_picture(&self.camera, drawn));
         Ok(())
     }
 }

@@ -1,13 +1,13 @@
 //! What is drawn, by which card.
 
 use miette::Diagnostic;
-use refsim::device::Profile;
+use refsim::device::{DeviceError, Profile};
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
 use crate::geom::Mesh;
-use crate::picture::{Picture, PictureError};
+use crate::picture::PictureError;
 use crate::prt::brdf::ExitBasis;
 use crate::prt::cpca::Clustering;
 use crate::prt::file::PrtMeaning;
@@ -61,6 +61,10 @@ pub enum CardError {
     #[error("expected transfer, found numbers without a meaning")]
     #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar prt precompute` wrote"))]
     NoTransfer,
+    /// A device of the sweep is not known.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
     /// The card refuses.
     #[error(transparent)]
     #[diagnostic(
@@ -97,10 +101,5 @@ impl OnCard {
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
         let (vertices, clustering) = (&self.vertices, &self.clustering);
         Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
-    }
-
-    pub(super) fn picture(&self, colors: &[[f64; 3]]) -> Picture {
-        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
-        Picture::rgb(self.camera.width(), self.camera.height(), &single)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::rates::{CARD, rates};
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
-use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number, order};
+use super::{EntryFindings, HOST, Prose, REGISTERS, ReproduceError, Shared, failed, number, order};
 use crate::prt::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crate::prt::cpca::Clustering;
 use crate::report::{Cell, Table};
@@ -10,8 +10,6 @@ use crate::report::{Cell, Table};
 const PLACE: &str = "section 7";
 /// "Using a 5% error threshold".
 const BUDGET: f64 = 0.05;
-/// "~256 registers".
-const REGISTERS: usize = 256;
 /// The columns of the paper's table.
 const COLUMNS: [&str; 4] = ["original", "rec", "sc", "sc+rec"];
 /// The signal, its name, and the printed overdraw and frames per second.

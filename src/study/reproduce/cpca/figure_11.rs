@@ -26,7 +26,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let light = HarmonicLight::red_and_blue(5);
     for (at, name, printed) in PRINTED {
         let (computed, eight) = shared.cpca.iterative(at, shared.models)?;
-        let energy: f64 = computed.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum();
+        let energy = computed.energy();
         let view = ModelView::new(computed, &light, EYE)?;
         let mut errors = Vec::new();
         for (vectors, printed) in VECTORS.into_iter().zip(printed) {

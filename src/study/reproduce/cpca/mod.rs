@@ -38,6 +38,9 @@ use super::{
     Standing, number,
 };
 
+/// Constant registers of the card: "~256".
+const REGISTERS: usize = 256;
+
 /// A ratio of two of the paper's values beside that of ours: judged by which of the two is larger.
 fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {
     let target = PaperFigure {

@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::event::vertex_cache_misses;
 
 use super::signals::{PaperSignal, SIGNALS};
-use super::{Bound, HOST, Method, PaperFigure, PaperRow, ReproduceError, Standing, failed};
+use super::{Bound, HOST, Method, PaperFigure, PaperRow, REGISTERS, ReproduceError, Standing, failed};
 use crate::prt::on_card::estimate::FrameCounts;
 use crate::prt::on_card::time::{FrameTime, frame_time, host_of_section_7};
 use crate::report::{Cell, Table};
@@ -49,7 +49,7 @@ pub(super) fn rates(
         let mesh = MeshCost::new(paper, &profile);
         for (column, how) in columns.into_iter().enumerate() {
             let alone = column < 2;
-            let fit = if alone { 1 } else { paper.size.clusters_per_batch(256) };
+            let fit = if alone { 1 } else { paper.size.clusters_per_batch(REGISTERS) };
             let counts = FrameCounts {
                 size: paper.size,
                 triangles: mesh.triangles,

@@ -1,12 +1,9 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
+use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, REGISTERS, Standing, number};
 use crate::prt::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
-
-/// Constant registers of the card: "~256".
-const REGISTERS: usize = 256;
 
 const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 4.1 and section 6.2. A register holds {} numbers, and each vector takes whole \
     ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \

@@ -193,6 +193,11 @@ impl ComputedSignal {
         Ok((0..=most).filter_map(last).map(|step| step.squared_error).collect())
     }
 
+    /// The sum of all squares.
+    pub(super) fn energy(&self) -> f64 {
+        self.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
+    }
+
     /// The squared error of all points.
     pub(super) fn error(&self, clustering: &Clustering) -> f64 {
         clustering.squared_error(&self.signal)

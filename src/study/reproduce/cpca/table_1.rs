@@ -33,7 +33,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let size = SIGNALS[at].size;
         let still = computed.compressed(size.clusters, size.vectors, CpcaMethod::Static)?;
         let [still, iterative] = [&still, iterative].map(|clustering| computed.error(clustering));
-        let energy: f64 = computed.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum();
+        let energy = computed.energy();
         table.push([
             computed.paper.name.into(),
             size.vertices.into(),

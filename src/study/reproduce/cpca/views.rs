@@ -3,12 +3,11 @@
 use super::signals::ComputedSignal;
 use super::{HOST, ReproduceError, failed};
 use crate::geom::vector::wide;
-use crate::picture::Picture;
 use crate::prt::cpca::Clustering;
 use crate::report::{NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
-use crate::study::prt::{Lit, Seen, auto_exposure};
+use crate::study::prt::{Lit, Seen, auto_exposure, linear_picture};
 
 /// Pixels along an edge.
 const SIDE: u32 = 160;
@@ -19,6 +18,7 @@ pub(super) struct ModelView<'a> {
     light: &'a HarmonicLight,
     camera: Camera,
     seen: Seen,
+    exposure: f64,
 }
 
 impl<'a> ModelView<'a> {
@@ -31,7 +31,9 @@ impl<'a> ModelView<'a> {
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
         let camera = camera.map_err(|e| failed(HOST)(&e))?;
         let seen = Seen::new(&computed.mesh, &computed.vertices, &camera);
-        Ok(Self { computed, light, camera, seen })
+        let mut view = Self { computed, light, camera, seen, exposure: 1.0 };
+        view.exposure = auto_exposure(&view.colors(None)?);
+        Ok(view)
     }
 
     /// A picture of a clustering, or of the transfer itself.
@@ -41,9 +43,8 @@ impl<'a> ModelView<'a> {
         name: String,
         caption: String,
     ) -> Result<NamedPicture, ReproduceError> {
-        let exposure = auto_exposure(&self.colors(None)?);
-        let colors: Vec<[f32; 3]> = (self.colors(clustering)?.iter()).map(|color| color.map(|c| c as f32)).collect();
-        let image = Picture::rgb(SIDE, SIDE, &colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+        let picture = linear_picture(&self.camera, &self.colors(clustering)?);
+        let image = picture.display(self.exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(name, image, caption))
     }
 
