@@ -10,14 +10,21 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use crossbar::prt::Signal;
-use crossbar::prt::cpca::{CpcaMethod, CpcaOptions, StartPoints, compress, reference};
+use crossbar::prt::cpca::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, reference};
 use crossbar::prt::synthetic::torus_signal;
 
 /// Points of both signals.
 const POINTS: usize = 3000;
 
 fn options(clusters: usize, vectors: usize) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations: 3, method: CpcaMethod::Iterative, start: StartPoints::Seed(1) }
+    CpcaOptions {
+        clusters,
+        vectors,
+        iterations: 3,
+        method: CpcaMethod::Iterative,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(1),
+    }
 }
 
 fn fast(signal: &Signal, options: &CpcaOptions) -> f64 {

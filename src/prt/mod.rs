@@ -10,6 +10,7 @@
 //! - [`mod@file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
+pub mod all_frequency;
 pub mod brdf;
 pub mod coherence;
 pub mod cpca;

@@ -99,11 +99,16 @@ impl Programs {
         self.0.iter().map(|p| p.devices.len() as u64).sum()
     }
 
-    /// Pair number `seed`, over and over: first every second one, which the short form takes, then the others.
+    /// Pairs that the short form takes: every fourth, so that no program is left out that four devices accept.
+    pub(crate) fn short(&self) -> u64 {
+        self.pairs().div_ceil(4)
+    }
+
+    /// Pair number `seed`, over and over: first those of the short form, then the others.
     fn pair(&self, seed: u64) -> (&Program, &str) {
-        let (pairs, seconds) = (self.pairs().max(1), self.pairs().div_ceil(2));
-        let number = seed % pairs;
-        let mut left = if number < seconds { 2 * number } else { 2 * (number - seconds) + 1 };
+        let number = seed % self.pairs().max(1);
+        let others = |at: u64| 4 * (at / 3) + 1 + at % 3;
+        let mut left = number.checked_sub(self.short()).map_or(4 * number, others);
         for program in &self.0 {
             if left < program.devices.len() as u64 {
                 return (program, &program.devices[left as usize]);

@@ -2,7 +2,7 @@
 //! is proved beside them.
 
 use crossbar::prt::brdf::ExitBasis;
-use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
 use crossbar::prt::synthetic::{hills, signal_at};
 use crossbar::prt::transfer::{Tangents, Vertices};
@@ -28,7 +28,7 @@ impl Hills {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * 4, 7, place);
         let (method, start) = (CpcaMethod::Iterative, StartPoints::Seed(2));
-        let options = CpcaOptions { clusters, vectors, iterations: 3, method, start };
+        let options = CpcaOptions { clusters, vectors, iterations: 3, method, form: CpcaForm::Affine, start };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         Self { vertices, clustering, basis, vectors }
     }

@@ -259,8 +259,8 @@ pub(crate) fn all() -> Vec<Suite> {
     for shape in Shape::ALL {
         out.push(Suite::new(format!("geometry::{}", shape.name()), Kind::Geometry(shape), 21));
     }
-    out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.pairs().div_ceil(2)));
-    out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.pairs().div_ceil(2)));
+    out.push(Suite::new("project::kernels", Kind::Kernels, files::KERNELS.short()));
+    out.push(Suite::new("project::shaders", Kind::Shaders, files::SHADERS.short()));
     out.push(Suite::new("project::cases", Kind::Cases, files::CASES.len() as u64));
     out
 }

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use crossbar::card::Texels;
 use crossbar::prt::brdf::ExitBasis;
-use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::prt::on_card::estimate::FrameCounts;
 use crossbar::prt::on_card::model::TransferSize;
 use crossbar::prt::on_card::time::{frame_time, host_of_section_7};
@@ -35,7 +35,7 @@ impl Hills {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * 9, 3, place);
         let (method, start) = (CpcaMethod::Iterative, StartPoints::Seed(4));
-        let options = CpcaOptions { clusters, vectors, iterations: 5, method, start };
+        let options = CpcaOptions { clusters, vectors, iterations: 5, method, form: CpcaForm::Affine, start };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         let light = HarmonicLight::red_and_blue(3);
         Self { vertices, clustering, basis, light }

@@ -3,7 +3,7 @@
 use crossbar::linalg::dot;
 use crossbar::prt::Signal;
 use crossbar::prt::brdf::{BRDF_DEGREE, Brdf, ExitBasis, brdf_matrix};
-use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::prt::rivals::{ExitCoefficients, RivalError, UncompressedTransfer, ViewMap};
 use crossbar::prt::synthetic::hills;
 use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, TracedRays, Transfer, Vertices};
@@ -92,7 +92,14 @@ fn flat(exit: &ExitCoefficients) -> Vec<f64> {
 }
 
 fn options(clusters: usize, vectors: usize) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations: 3, method: CpcaMethod::Static, start: StartPoints::Seed(1) }
+    CpcaOptions {
+        clusters,
+        vectors,
+        iterations: 3,
+        method: CpcaMethod::Static,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(1),
+    }
 }
 
 /// 25 x 25, 24 x 25 and 16 x 25 matrices of a diffuse surface by equation 1, and diffuse transfer: the same radiance.

@@ -9,7 +9,8 @@ use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::{ReadError, read_limited};
 use crate::prt::cpca::{
-    Clustering, Compression, CpcaError, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints,
+    compress,
 };
 use crate::prt::file::{PrtFile, save_prt};
 use crate::prt::{Signal, load_signal_and_meaning};
@@ -46,6 +47,10 @@ pub(super) struct Args {
     /// By which measure points are shared out to clusters
     #[arg(long, value_enum, value_name = "HOW", default_value = "iterative")]
     method: MethodArg,
+
+    /// Without the clusters' means: vectors alone, the components of the points themselves
+    #[arg(long)]
+    linear: bool,
 
     /// Iterations at most for each number of vectors, and rounds of redistribution
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -90,6 +95,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
             MethodArg::Iterative => CpcaMethod::Iterative,
             MethodArg::Adaptive => CpcaMethod::Adaptive { rounds: iterations },
         },
+        form: if args.linear { CpcaForm::Linear } else { CpcaForm::Affine },
         start,
     };
     let bar = ProgressBar::new("vectors", u64::from(args.vectors) + 1);
@@ -132,6 +138,7 @@ fn in_file(path: &Path, error: &CpcaError) -> Problem {
 fn refused(error: &CpcaError) -> Problem {
     let help = match error {
         CpcaError::Clusters { .. } => "choose fewer `--clusters`, or name a larger signal",
+        CpcaError::NothingLinear => "choose more `--vectors`, or leave `--linear` out",
         CpcaError::Vectors { .. } => "choose fewer `--vectors`",
         CpcaError::StartCount { .. } => "give as many start points as `--clusters`",
         _ => "see `crossbar prt compress --help`",

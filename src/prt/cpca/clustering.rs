@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::AffineSubspace;
+use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
 use crate::prt::Signal;
 
@@ -123,10 +123,17 @@ impl Clustering {
         &self.weights[self.begins[point]..self.begins[point + 1]]
     }
 
-    /// Numbers that are stored but for the clusters of points: weights, means and vectors. With n' vectors in each
-    /// cluster this is m_p n' + m_c (n' + 1) n (section 4.1).
+    /// Linear if all means are 0, which is the same then.
+    pub fn form(&self) -> CpcaForm {
+        let linear = self.subspaces.iter().all(|subspace| subspace.mean.iter().all(|&value| value == 0.0));
+        if linear { CpcaForm::Linear } else { CpcaForm::Affine }
+    }
+
+    /// Numbers that are stored but for the clusters of points: weights, means unless all are 0, and vectors. With n'
+    /// vectors in each cluster this is m_p n' + m_c (n' + 1) n (section 4.1), and m_c n' n in the linear form.
     pub fn stored_numbers(&self) -> usize {
-        self.weights.len() + self.subspaces.iter().map(|s| s.mean.len() + s.vectors.len()).sum::<usize>()
+        let means = if self.form() == CpcaForm::Linear { 0 } else { self.subspaces.len() * self.dimension };
+        self.weights.len() + means + self.subspaces.iter().map(|s| s.vectors.len()).sum::<usize>()
     }
 
     /// The approximation of a point: `dimension` numbers.

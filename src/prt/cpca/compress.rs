@@ -7,7 +7,7 @@ use super::budget::distribute;
 use super::fit::{Fitted, fit};
 use super::members::{Members, fill_empty};
 use super::nearest::Points;
-use super::{Clustering, CpcaError, CpcaMethod, CpcaOptions};
+use super::{Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
 use crate::prt::Signal;
 
 /// What happened in a step, and what it left.
@@ -82,6 +82,7 @@ pub(super) fn compress_at(
 struct Work<'a, O> {
     signal: &'a Signal,
     points: Points<'a>,
+    form: CpcaForm,
     level: SimdLevel,
     clusters: Vec<Fitted>,
     /// Each point's cluster; empty before the first classification.
@@ -100,6 +101,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(Self {
             signal,
             points: Points::new(signal, level),
+            form: options.form,
             level,
             clusters: start.iter().map(|point| Fitted::at(at(point))).collect(),
             of_point: Vec::new(),
@@ -162,15 +164,17 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    /// Fits the clusters whose points have changed. One without points keeps its mean.
+    /// Fits the clusters whose points have changed. One without points keeps its mean, which is 0 in the linear form
+    /// once there are vectors.
     fn fit(&mut self, vectors: usize) -> Result<(), CpcaError> {
         let members = Members::new(&self.of_point, self.clusters.len());
-        let (signal, level) = (self.signal, self.level);
+        let (signal, form, level) = (self.signal, self.form, self.level);
         let fit_one = |(cluster, (fitted, changed)): (usize, (&mut Fitted, &mut bool))| {
             if std::mem::take(changed) {
                 *fitted = match members.of(cluster) {
+                    [] if form == CpcaForm::Linear && vectors > 0 => Fitted::at(vec![0.0; signal.dimension()]),
                     [] => Fitted::at(std::mem::take(&mut fitted.subspace.mean)),
-                    points => fit(signal, points, vectors, level).map_err(|source| (cluster, source))?,
+                    points => fit(signal, points, vectors, form, level).map_err(|source| (cluster, source))?,
                 };
             }
             Ok(())
@@ -212,7 +216,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     }
 
     fn fit_one(&self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, CpcaError> {
-        let fitted = fit(self.signal, members.of(cluster), count, self.level);
+        let fitted = fit(self.signal, members.of(cluster), count, self.form, self.level);
         fitted.map_err(|reason| CpcaError::Factor { cluster, reason })
     }
 }
@@ -228,7 +232,14 @@ mod tests {
         for (points, dimension, clusters) in [(700, 30, 9), (2500, 7, 20), (1200, 150, 1)] {
             let signal = torus_signal(points, dimension, 6);
             let method = CpcaMethod::Adaptive { rounds: 3 };
-            let options = CpcaOptions { clusters, vectors: 3, iterations: 4, method, start: StartPoints::Seed(2) };
+            let options = CpcaOptions {
+                clusters,
+                vectors: 3,
+                iterations: 4,
+                method,
+                form: CpcaForm::Affine,
+                start: StartPoints::Seed(2),
+            };
             let widest = compress(&signal, &options, |_| ()).expect("compressed");
             for level in SimdLevel::available() {
                 for threads in [1, 3] {
@@ -248,6 +259,7 @@ mod tests {
             vectors: 2,
             iterations: 3,
             method: CpcaMethod::Static,
+            form: CpcaForm::Affine,
             start: StartPoints::Seed(0),
         };
         let compression = compress(&signal, &options, |step| seen.push(*step)).expect("compressed");

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::AffineSubspace;
 use super::products::{Packed, ROWS, add_block};
+use super::{AffineSubspace, CpcaForm};
 use crate::linalg::{FactorError, LeadingEigen, Matrix, dot, make_largest_positive};
 use crate::prt::Signal;
 
@@ -53,10 +53,17 @@ impl Fitted {
 }
 
 /// The mean of some points, at least one, and their `count` first principal components; fewer where the residuals have
-/// a lower rank.
-pub(super) fn fit(signal: &Signal, points: &[u32], count: usize, level: SimdLevel) -> Result<Fitted, FactorError> {
-    let mean = mean(signal, points);
-    if count == 0 || points.len() == 1 {
+/// a lower rank. In the linear form the mean is 0 once there are vectors.
+pub(super) fn fit(
+    signal: &Signal,
+    points: &[u32],
+    count: usize,
+    form: CpcaForm,
+    level: SimdLevel,
+) -> Result<Fitted, FactorError> {
+    let linear = form == CpcaForm::Linear && count > 0;
+    let mean = if linear { vec![0.0; signal.dimension()] } else { mean(signal, points) };
+    if count == 0 || (points.len() == 1 && !linear) {
         let squared_error = points.iter().map(|&point| squared_distance(signal.point(point as usize), &mean)).sum();
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
     }

@@ -1,5 +1,6 @@
 //! Clustered principal component analysis: points are shared out to clusters, each of which is approximated by an
-//! affine subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper).
+//! affine subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper), or by the vectors alone
+//! ([`CpcaForm::Linear`]).
 //!
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
@@ -26,6 +27,6 @@ mod subspace;
 
 pub use clustering::{Clustering, ClusteringError};
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
-pub use options::{CpcaError, CpcaMethod, CpcaOptions, StartPoints};
+pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 pub use refit::refit;
 pub use subspace::AffineSubspace;

@@ -17,8 +17,21 @@ pub struct CpcaOptions {
     pub iterations: usize,
     /// By which measure points are shared out.
     pub method: CpcaMethod,
+    /// What approximates the points of a cluster.
+    pub form: CpcaForm,
     /// The first representatives.
     pub start: StartPoints,
+}
+
+/// What approximates the points of a cluster.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CpcaForm {
+    /// A mean and principal vectors of what is left (this system's paper, section 3.3).
+    #[default]
+    Affine,
+    /// Vectors alone, those of the raw second moment (equation 11 of the paper on all-frequency transfer). Before the
+    /// first vector, points are shared out by their distance from means all the same.
+    Linear,
 }
 
 /// How points are shared out to clusters.
@@ -56,6 +69,9 @@ pub enum CpcaError {
     /// More vectors than dimensions.
     #[error("expected at most {dimension} vectors per cluster, one per dimension, found {vectors}")]
     Vectors { vectors: usize, dimension: usize },
+    /// Without a mean and without vectors, nothing approximates a point.
+    #[error("expected at least 1 vector per cluster in the linear form, which has no means, found 0")]
+    NothingLinear,
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
@@ -98,6 +114,9 @@ impl CpcaOptions {
         }
         if vectors > dimension {
             return Err(CpcaError::Vectors { vectors, dimension });
+        }
+        if self.form == CpcaForm::Linear && vectors == 0 {
+            return Err(CpcaError::NothingLinear);
         }
         if iterations == 0 {
             return Err(CpcaError::NoIterations);

@@ -2,7 +2,7 @@
 //! Jacobi rotations of C^T C, every point compared with every cluster. For tests; its time grows with the cube of the
 //! dimension.
 
-use super::{AffineSubspace, Clustering, CpcaError, CpcaMethod, CpcaOptions};
+use super::{AffineSubspace, Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
 use crate::prt::Signal;
 
 /// The share of the squared distance from the mean up to which an error is 0.
@@ -22,9 +22,11 @@ pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, Cp
         points: (0..signal.points()).map(|p| signal.point(p).iter().map(|&v| f64::from(v)).collect()).collect(),
         clusters: Vec::new(),
         of_point: vec![usize::MAX; signal.points()],
+        linear: false,
     };
     plain.clusters = start.iter().map(|&p| Plain::alone(plain.points[p as usize].clone())).collect();
     plain.settle(0, options.iterations);
+    plain.linear = options.form == CpcaForm::Linear;
     match options.method {
         CpcaMethod::Static => plain.fit(options.vectors),
         CpcaMethod::Iterative | CpcaMethod::Adaptive { .. } => {
@@ -50,6 +52,8 @@ struct Plain {
     points: Vec<Vec<f64>>,
     clusters: Vec<PlainCluster>,
     of_point: Vec<usize>,
+    /// Whether clusters have vectors alone, which they do not before the first.
+    linear: bool,
 }
 
 impl Plain {
@@ -110,9 +114,10 @@ impl Plain {
             let members: Vec<&Vec<f64>> =
                 self.points.iter().zip(&self.of_point).filter(|(_, of)| **of == k).map(|(point, _)| point).collect();
             self.clusters[k] = if members.is_empty() {
-                Self::alone(self.clusters[k].mean.clone())
+                let mean = self.clusters[k].mean.clone();
+                Self::alone(if self.linear { vec![0.0; mean.len()] } else { mean })
             } else {
-                let mut cluster = principal_components(&members);
+                let mut cluster = principal_components(&members, self.linear);
                 cluster.vectors.truncate(count);
                 cluster.eigenvalues.truncate(count);
                 cluster
@@ -194,11 +199,12 @@ fn squared_error(point: &[f64], cluster: &PlainCluster) -> f64 {
     if error <= distance * NO_ERROR { 0.0 } else { error }
 }
 
-/// The mean of some points and all principal components that are more than rounding.
-fn principal_components(points: &[&Vec<f64>]) -> PlainCluster {
+/// The mean of some points and all principal components that are more than rounding; of the points themselves, with
+/// mean 0, in the linear form.
+fn principal_components(points: &[&Vec<f64>], linear: bool) -> PlainCluster {
     let dimension = points[0].len();
-    let mean: Vec<f64> =
-        (0..dimension).map(|j| points.iter().map(|point| point[j]).sum::<f64>() / points.len() as f64).collect();
+    let mean_of = |j: usize| points.iter().map(|point| point[j]).sum::<f64>() / points.len() as f64;
+    let mean: Vec<f64> = (0..dimension).map(|j| if linear { 0.0 } else { mean_of(j) }).collect();
     let mut matrix = vec![vec![0.0; dimension]; dimension];
     for (i, row) in matrix.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
@@ -208,7 +214,9 @@ fn principal_components(points: &[&Vec<f64>]) -> PlainCluster {
     let (values, vectors) = jacobi(matrix);
     let mut order: Vec<usize> = (0..dimension).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    order.retain(|&i| points.len() > 1 && values[i] > values.iter().fold(0.0, |a: f64, &b| a.max(b)) * NO_EIGENVALUE);
+    order.retain(|&i| {
+        (points.len() > 1 || linear) && values[i] > values.iter().fold(0.0, |a: f64, &b| a.max(b)) * NO_EIGENVALUE
+    });
     let vector = |&i: &usize| {
         let vector: Vec<f64> = vectors.iter().map(|row| row[i]).collect();
         let mut largest = 0;

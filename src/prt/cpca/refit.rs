@@ -22,9 +22,10 @@ pub fn refit(signal: &Signal, clustering: &Clustering) -> Result<Clustering, Cpc
     assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");
     let (subspaces, of_point) = (clustering.subspaces(), clustering.of_point());
     let (members, level) = (Members::new(of_point, subspaces.len()), SimdLevel::widest());
+    let form = clustering.form();
     let one = |cluster: usize| match members.of(cluster) {
         [] => Ok(Fitted::at(subspaces[cluster].mean.clone())),
-        points => fit(signal, points, subspaces[cluster].len(), level).map_err(|source| (cluster, source)),
+        points => fit(signal, points, subspaces[cluster].len(), form, level).map_err(|source| (cluster, source)),
     };
     let fitted: Vec<_> = (0..subspaces.len()).into_par_iter().with_max_len(1).map(one).collect();
     let fitted = fitted.into_iter().map(|fitted| fitted.map(|fitted| fitted.subspace));

@@ -7,7 +7,7 @@ use refsim::machine::ExecutorKind;
 
 use super::*;
 use crate::prt::brdf::ExitBasis;
-use crate::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::prt::kernels::VertexShading;
 use crate::prt::synthetic::{hills, signal_at};
 use crate::prt::transfer::{Tangents, Vertices};
@@ -29,7 +29,14 @@ impl Hills {
         let columns = if matches!(basis, ExitBasis::Radiance) { 16 } else { 4 };
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * columns, 5, place);
-        let options = CpcaOptions { clusters, vectors, iterations: 4, method, start: StartPoints::Seed(1) };
+        let options = CpcaOptions {
+            clusters,
+            vectors,
+            iterations: 4,
+            method,
+            form: CpcaForm::Affine,
+            start: StartPoints::Seed(1),
+        };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         Self { vertices, clustering, basis }
     }

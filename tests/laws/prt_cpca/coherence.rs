@@ -4,7 +4,7 @@ use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
 use crossbar::prt::Signal;
 use crossbar::prt::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
-use crossbar::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
+use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -27,8 +27,14 @@ fn ragged(size: u32, noise: f32) -> Signal {
 }
 
 fn clustered(signal: &Signal, clusters: usize) -> Clustering {
-    let options =
-        CpcaOptions { clusters, vectors: 1, iterations: 6, method: CpcaMethod::Iterative, start: StartPoints::Seed(4) };
+    let options = CpcaOptions {
+        clusters,
+        vectors: 1,
+        iterations: 6,
+        method: CpcaMethod::Iterative,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(4),
+    };
     compress(signal, &options, |_| ()).expect("compressed").clustering
 }
 

@@ -3,19 +3,26 @@
 use crossbar::linalg::{Matrix, SymmetricEigen};
 use crossbar::prt::Signal;
 use crossbar::prt::cpca::{
-    Compression, CpcaError, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
+    Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
 };
 use crossbar::prt::synthetic::torus_signal;
 use proptest::prelude::*;
 
 const METHODS: [CpcaMethod; 3] = [CpcaMethod::Static, CpcaMethod::Iterative, CpcaMethod::Adaptive { rounds: 6 }];
 
+const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
+
 fn options(clusters: usize, vectors: usize, method: CpcaMethod) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations: 8, method, start: StartPoints::Seed(3) }
+    CpcaOptions { clusters, vectors, iterations: 8, method, form: CpcaForm::Affine, start: StartPoints::Seed(3) }
 }
 
 fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
     compress(signal, options, |_| ()).expect("compressed")
+}
+
+/// The squares of all numbers.
+fn squares(signal: &Signal) -> f64 {
+    signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
 }
 
 /// The squared distance of all points from their mean.
@@ -35,8 +42,8 @@ fn near(a: f64, b: f64, energy: f64) -> bool {
     (a - b).abs() <= 1e-11 * energy
 }
 
-fn check_steps(signal: &Signal, compression: &Compression) {
-    let energy = energy(signal);
+fn check_steps(signal: &Signal, form: CpcaForm, compression: &Compression) {
+    let energy = if form == CpcaForm::Linear { squares(signal) } else { energy(signal) };
     for pair in compression.steps.windows(2) {
         let fixed = pair[0].vectors == pair[1].vectors && pair[1].kind != CpcaStepKind::Redistributed;
         let rises = pair[1].squared_error > pair[0].squared_error + 1e-11 * energy;
@@ -51,14 +58,19 @@ fn clusters_are_those_of_plain_loops() {
     for (points, dimension, clusters, vectors) in [(500, 4, 12, 2), (700, 9, 10, 4), (300, 25, 6, 3), (90, 40, 5, 6)] {
         for seed in 0..3 {
             let signal = torus_signal(points, dimension, seed);
-            for method in METHODS {
-                let options = options(clusters, vectors, method);
+            for (method, form) in METHODS.into_iter().flat_map(|method| FORMS.map(|form| (method, form))) {
+                let options = CpcaOptions { form, ..options(clusters, vectors, method) };
                 let fast = compressed(&signal, &options);
-                check_steps(&signal, &fast);
+                check_steps(&signal, form, &fast);
                 let plain = reference::compress(&signal, &options).expect("compressed");
                 let fast = fast.clustering;
-                assert_eq!(fast.of_point(), plain.of_point(), "{points} x {dimension}, {method:?}, seed {seed}");
-                let energy = energy(&signal);
+                assert_eq!(
+                    fast.of_point(),
+                    plain.of_point(),
+                    "{points} x {dimension}, {method:?}, {form:?}, seed {seed}"
+                );
+                assert_eq!(fast.form(), form);
+                let energy = squares(&signal);
                 assert!(near(fast.squared_error(&signal), plain.squared_error(&signal), energy));
                 for (a, b) in fast.subspaces().iter().zip(plain.subspaces()) {
                     assert_eq!(a.len(), b.len());
@@ -112,11 +124,30 @@ fn one_cluster_leaves_the_tail_of_its_eigenvalues() {
 }
 
 #[test]
+fn one_linear_cluster_leaves_the_tail_of_the_second_moment() {
+    for (points, dimension) in [(200, 12), (20, 30)] {
+        let signal = torus_signal(points, dimension, 5);
+        let rows: Vec<f64> = signal.values().iter().map(|&value| f64::from(value)).collect();
+        let rows = Matrix::new([points, dimension], rows).expect("a matrix");
+        let moment = rows.transposed().product(&rows).expect("a product");
+        let eigenvalues = SymmetricEigen::new(&moment).expect("eigenvalues").values;
+        for vectors in 1..dimension {
+            let options = CpcaOptions { form: CpcaForm::Linear, ..options(1, vectors, CpcaMethod::Static) };
+            let clustering = compressed(&signal, &options).clustering;
+            let (tail, error): (f64, _) = (eigenvalues[vectors..].iter().sum(), clustering.squared_error(&signal));
+            assert!(near(error, tail, squares(&signal)), "{vectors} vectors: {error}, expected {tail}");
+            assert_eq!(clustering.stored_numbers(), vectors.min(points) * (points + dimension));
+        }
+    }
+}
+
+#[test]
 fn as_many_vectors_as_dimensions_are_exact() {
     let signal = torus_signal(300, 6, 7);
     for clusters in [1, 7] {
-        for method in [CpcaMethod::Static, CpcaMethod::Iterative] {
-            let clustering = compressed(&signal, &options(clusters, 6, method)).clustering;
+        for (method, form) in [CpcaMethod::Static, CpcaMethod::Iterative].into_iter().zip(FORMS) {
+            let options = CpcaOptions { form, ..options(clusters, 6, method) };
+            let clustering = compressed(&signal, &options).clustering;
             let mut point = [0.0; 6];
             for p in 0..300 {
                 clustering.approximation(p, &mut point);
@@ -171,6 +202,8 @@ fn options_that_do_not_fit_are_refused() {
     assert_eq!(refused(&|o| o.clusters = 0), "expected 1 to 10 clusters, one per point at most, found 0");
     assert_eq!(refused(&|o| o.clusters = 11), "expected 1 to 10 clusters, one per point at most, found 11");
     assert_eq!(refused(&|o| o.vectors = 4), "expected at most 3 vectors per cluster, one per dimension, found 4");
+    let linear = refused(&|o| (o.vectors, o.form) = (0, CpcaForm::Linear));
+    assert_eq!(linear, "expected at least 1 vector per cluster in the linear form, which has no means, found 0");
     assert_eq!(refused(&|o| o.iterations = 0), "expected at least 1 iteration for each number of vectors, found 0");
     let given = |points: &[u32]| refused(&|o| o.start = StartPoints::Given(points.to_vec()));
     assert_eq!(given(&[0, 1, 2]), "expected 4 start points, one per cluster, found 3");
@@ -197,13 +230,14 @@ fn coarse_signal() -> impl Strategy<Value = Signal> {
 
 proptest! {
     #[test]
-    fn any_signal_is_compressed((signal, clusters, vectors, method, seed) in coarse_signal().prop_flat_map(|signal| {
+    fn any_signal_is_compressed((signal, clusters, vectors, method, form, seed) in coarse_signal().prop_flat_map(|signal| {
         let (points, dimension) = (signal.points(), signal.dimension());
-        (Just(signal), 1..=points, 0..=dimension, prop::sample::select(METHODS.to_vec()), 0..9_u64)
+        (Just(signal), 1..=points, 0..=dimension, prop::sample::select(METHODS.to_vec()), prop::sample::select(FORMS.to_vec()), 0..9_u64)
     })) {
-        let options = CpcaOptions { clusters, vectors, iterations: 5, method, start: StartPoints::Seed(seed) };
+        let form = if vectors == 0 { CpcaForm::Affine } else { form };
+        let options = CpcaOptions { clusters, vectors, iterations: 5, method, form, start: StartPoints::Seed(seed) };
         let compression = compressed(&signal, &options);
-        check_steps(&signal, &compression);
+        check_steps(&signal, form, &compression);
         let clustering = &compression.clustering;
         prop_assert!(clustering.all_weights().len() <= vectors * signal.points());
         // The vectors are orthonormal, and their largest components positive: `new` checks the former.

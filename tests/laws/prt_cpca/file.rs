@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::geom::Mesh;
 use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
-use crossbar::prt::cpca::{CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::prt::cpca::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::prt::file::{
     MAGIC, MeshDigest, PrtFile, PrtFileError, PrtMeaning, load_prt, parse_prt, save_prt, write_prt,
 };
@@ -39,7 +39,14 @@ fn digest(tangents: Tangents) -> MeshDigest {
 fn small() -> PrtFile {
     let signal = torus_signal(12, 8, 1);
     let method = CpcaMethod::Adaptive { rounds: 2 };
-    let options = CpcaOptions { clusters: 3, vectors: 2, iterations: 3, method, start: StartPoints::Seed(1) };
+    let options = CpcaOptions {
+        clusters: 3,
+        vectors: 2,
+        iterations: 3,
+        method,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(1),
+    };
     let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
     let meaning =
         PrtMeaning::Transfer { channels: 1, exit_functions: vec![0, 3], light_order: 2, includes_albedo: true };
@@ -206,7 +213,7 @@ proptest! {
         let signal = Signal::new(dimension, values[..whole].to_vec()).expect("a signal");
         let clusters = signal.points().min(3);
         let options = CpcaOptions {
-            clusters, vectors: 1, iterations: 2, method: CpcaMethod::Iterative, start: StartPoints::Seed(7),
+            clusters, vectors: 1, iterations: 2, method: CpcaMethod::Iterative, form: CpcaForm::Affine, start: StartPoints::Seed(7),
         };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         let file = PrtFile {

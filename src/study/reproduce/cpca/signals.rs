@@ -4,7 +4,7 @@ use super::{ModelSize, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::prt::Signal;
 use crate::prt::brdf::{Brdf, ExitBasis};
-use crate::prt::cpca::{Clustering, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crate::prt::file::PrtMeaning;
 use crate::prt::on_card::model::TransferSize;
 use crate::prt::transfer::{Bounces, Incident, ScatteringOptions, Tangents, Vertices};
@@ -205,7 +205,7 @@ impl ComputedSignal {
 }
 
 fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, usize)) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations, method, start: StartPoints::Seed(1) }
+    CpcaOptions { clusters, vectors, iterations, method, form: CpcaForm::Affine, start: StartPoints::Seed(1) }
 }
 
 impl SignalMaterial {

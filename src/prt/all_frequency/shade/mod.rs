@@ -1,0 +1,12 @@
+//! Rendering (section 6 of the paper): light through the clusters' representatives, then a weighted sum per vertex.
+//!
+//! - [`Shader`]: coded transfer laid out for that, by plain or sparse representatives;
+//! - [`TransferredRadiance`]: T_p of every vertex, equation 13;
+//! - [`plain`]: the same from transfer that is not coded, by plain loops in f64.
+
+pub mod plain;
+mod shader;
+mod transferred;
+
+pub use shader::{Representatives, Shader};
+pub use transferred::{LightSizeError, Multiplies, TransferredRadiance};
