@@ -76,7 +76,9 @@ enum MethodArg {
     Static,
     /// By the error of their approximation, while vectors are added one by one
     Iterative,
-    /// The same; then vectors are redistributed among the clusters
+    /// The same, while the number of vectors is doubled
+    Doubling,
+    /// As iterative; then vectors are redistributed among the clusters
     Adaptive,
 }
 
@@ -93,6 +95,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         method: match args.method {
             MethodArg::Static => CpcaMethod::Static,
             MethodArg::Iterative => CpcaMethod::Iterative,
+            MethodArg::Doubling => CpcaMethod::Doubling,
             MethodArg::Adaptive => CpcaMethod::Adaptive { rounds: iterations },
         },
         form: if args.linear { CpcaForm::Linear } else { CpcaForm::Affine },

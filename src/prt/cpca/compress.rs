@@ -66,14 +66,14 @@ pub(super) fn compress_at(
 ) -> Result<Compression, CpcaError> {
     let mut work = Work::new(level, signal, options, observe)?;
     work.settle(options.iterations)?;
-    match options.method {
-        CpcaMethod::Static if options.vectors > 0 => work.fit_all(options.vectors)?,
-        CpcaMethod::Static => {}
-        CpcaMethod::Iterative => work.add_vectors(options)?,
-        CpcaMethod::Adaptive { rounds } => {
-            work.add_vectors(options)?;
-            work.adapt(rounds)?;
+    for vectors in options.method.growth(options.vectors) {
+        work.fit_all(vectors)?;
+        if options.method != CpcaMethod::Static {
+            work.settle(options.iterations)?;
         }
+    }
+    if let CpcaMethod::Adaptive { rounds } = options.method {
+        work.adapt(rounds)?;
     }
     let subspaces = work.clusters.into_iter().map(|cluster| cluster.subspace).collect();
     Ok(Compression { clustering: Clustering::project(signal, subspaces, work.of_point), steps: work.steps })
@@ -126,14 +126,6 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
             }
             self.fit(self.vectors)?;
             self.fitted(CpcaStepKind::Fitted);
-        }
-        Ok(())
-    }
-
-    fn add_vectors(&mut self, options: &CpcaOptions) -> Result<(), CpcaError> {
-        for vectors in 1..=options.vectors {
-            self.fit_all(vectors)?;
-            self.settle(options.iterations)?;
         }
         Ok(())
     }

@@ -35,6 +35,14 @@ pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, Cp
                 plain.settle(vectors, options.iterations);
             }
         }
+        CpcaMethod::Doubling => {
+            let mut vectors = 0;
+            while vectors < options.vectors {
+                vectors = (2 * vectors).clamp(1, options.vectors);
+                plain.fit(vectors);
+                plain.settle(vectors, options.iterations);
+            }
+        }
     }
     if let CpcaMethod::Adaptive { rounds } = options.method {
         plain.adapt(options.vectors, rounds);
