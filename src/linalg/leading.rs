@@ -4,17 +4,12 @@
 //! recorded and applied to the wanted columns alone, so `count` vectors of n cost O(n^2 count) beside the 4/3 n^3
 //! operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
+use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
+use super::tridiagonal::{diagonalise, rotated};
 use super::{FactorError, Matrix, dot};
 
-/// QL sweeps per eigenvalue after which it counts as not found.
-const MAX_SWEEPS: usize = 100;
-
 /// The residual |A v - lambda v| of a pair that is accepted, as a share of the infinity norm of A.
-const MAX_RESIDUAL: f64 = 1e-10;
-
-/// The squared length below which part of a row counts as 0 beside a largest element of at least 1: far below all
-/// rounding, and far above where squares of squares vanish.
-const NEGLIGIBLE_SQUARE: f64 = 1e-60;
+pub(super) const MAX_RESIDUAL: f64 = 1e-10;
 
 /// All eigenvalues of a symmetric matrix, and the eigenvectors of the largest.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,19 +91,6 @@ struct Tridiagonal {
     reflections: Vec<Reflection>,
 }
 
-/// I - axis axis^T / half, on the first components.
-struct Reflection {
-    axis: Vec<f64>,
-    half: f64,
-}
-
-impl Reflection {
-    fn apply(&self, vector: &mut [f64]) {
-        let along = dot(&self.axis, vector) / self.half;
-        vector.iter_mut().zip(&self.axis).for_each(|(value, axis)| *value -= along * axis);
-    }
-}
-
 impl Lower {
     fn new(matrix: &Matrix) -> Result<Self, FactorError> {
         let lower = || matrix.rows().enumerate().map(|(i, row)| &row[..=i]);
@@ -182,87 +164,6 @@ impl Lower {
         let diagonal = self.rows.iter().enumerate().map(|(i, row)| row[i]).collect();
         Tridiagonal { diagonal, beside, reflections }
     }
-}
-
-/// The power of two that brings a magnitude into [1, 2); 1 for 0.
-fn inverse_power_of_two(magnitude: f64) -> f64 {
-    let exponent = (magnitude.to_bits() >> 52) & 0x7ff;
-    // Beyond these, the inverse would be no normal number.
-    if magnitude == 0.0 { 1.0 } else { f64::from_bits((2046 - exponent.clamp(1, 2045)) << 52) }
-}
-
-/// A rotation of columns `first` and `first + 1`.
-struct Rotation {
-    first: usize,
-    cosine: f64,
-    sine: f64,
-}
-
-/// Makes a tridiagonal matrix diagonal; gives the rotations in the order of their application.
-fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Vec<Rotation>, FactorError> {
-    let size = diagonal.len();
-    let norm = diagonal.iter().chain(beside.iter()).fold(0.0_f64, |norm, value| norm.max(value.abs()));
-    let negligible = norm * f64::EPSILON;
-    let mut rotations = Vec::new();
-    for first in 0..size {
-        for sweep in 0.. {
-            let last = (first..size - 1).find(|&i| beside[i].abs() <= negligible).unwrap_or(size - 1);
-            if last == first {
-                break;
-            }
-            if sweep == MAX_SWEEPS {
-                return Err(FactorError::NoConvergence { rows: size, columns: size });
-            }
-            sweep_once(diagonal, beside, first..last, &mut rotations);
-        }
-    }
-    Ok(rotations)
-}
-
-/// One implicit QL sweep over a block that no negligible element divides, from its last pair to its first.
-fn sweep_once(diagonal: &mut [f64], beside: &mut [f64], block: std::ops::Range<usize>, rotations: &mut Vec<Rotation>) {
-    let first = block.start;
-    // The shift: the eigenvalue of the first 2 x 2 block that is nearer to its first element.
-    let half = (diagonal[first + 1] - diagonal[first]) / (2.0 * beside[first]);
-    let shift = diagonal[first] - beside[first] / (half + (half * half + 1.0).sqrt().copysign(half));
-    let mut along = diagonal[block.end] - shift;
-    let (mut cosine, mut sine, mut moved) = (1.0, 1.0, 0.0);
-    for i in block.clone().rev() {
-        let (bulge, kept) = (sine * beside[i], cosine * beside[i]);
-        let length = (bulge * bulge + along * along).sqrt();
-        if i + 1 < block.end {
-            beside[i + 1] = length;
-        }
-        if length == 0.0 {
-            // The block falls apart here.
-            diagonal[i + 1] -= moved;
-            return;
-        }
-        (sine, cosine) = (bulge / length, along / length);
-        let lower = diagonal[i + 1] - moved;
-        let change = (diagonal[i] - lower) * sine + 2.0 * cosine * kept;
-        moved = sine * change;
-        diagonal[i + 1] = lower + moved;
-        along = cosine * change - kept;
-        rotations.push(Rotation { first: i, cosine, sine });
-    }
-    diagonal[first] -= moved;
-    beside[first] = along;
-}
-
-/// Columns of the product of all rotations, vector after vector.
-fn rotated(size: usize, columns: &[usize], rotations: &[Rotation]) -> Vec<f64> {
-    let count = columns.len();
-    // Row by row while they turn, so that all vectors turn together.
-    let mut rows = vec![0.0; size * count];
-    columns.iter().enumerate().for_each(|(vector, &column)| rows[column * count + vector] = 1.0);
-    for &Rotation { first, cosine, sine } in rotations.iter().rev() {
-        let (upper, lower) = rows[first * count..][..2 * count].split_at_mut(count);
-        for (a, b) in upper.iter_mut().zip(lower) {
-            (*a, *b) = (cosine * *a + sine * *b, cosine * *b - sine * *a);
-        }
-    }
-    (0..count).flat_map(|vector| rows[vector..].iter().step_by(count).copied()).collect()
 }
 
 #[cfg(test)]

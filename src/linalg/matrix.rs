@@ -145,6 +145,11 @@ impl Matrix {
         Self { rows: self.columns, columns: self.rows, values }
     }
 
+    /// All elements, row by row.
+    pub(super) fn into_values(self) -> Vec<f64> {
+        self.values
+    }
+
     pub(super) fn to_nalgebra(&self) -> DMatrix<f64> {
         DMatrix::from_row_slice(self.rows, self.columns, &self.values)
     }

@@ -2,19 +2,24 @@
 //!
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
 //! - [`Lu`], [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra;
-//! - [`LeadingEigen`]: the largest eigenvalues and their vectors alone.
+//! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, and the vectors of the largest alone.
 //!
 //! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its
 //! `std` feature is on (docs/decisions/0016).
 
+mod bidiagonal;
 mod dot;
 mod factor;
 mod leading;
+mod leading_svd;
 mod lu;
 mod matrix;
+mod reflection;
+mod tridiagonal;
 
 pub use dot::dot;
 pub use factor::{FactorError, Qr, Svd, SymmetricEigen};
 pub use leading::{LeadingEigen, make_largest_positive};
+pub use leading_svd::LeadingSvd;
 pub use lu::{Lu, Singular};
 pub use matrix::{MAX_ELEMENTS, MAX_SQUARE, Matrix, MatrixError};

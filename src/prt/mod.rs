@@ -1,5 +1,7 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
+//! System 5 is [`all_frequency`].
+//!
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
 //! - [`transfer`]: what each vertex makes of distant light; [`mod@reference`] by plain loops;
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;

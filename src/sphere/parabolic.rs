@@ -42,6 +42,33 @@ impl ParabolicMap {
         [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
     }
 
+    /// The number of texels.
+    pub const fn texels(self) -> usize {
+        self.side * self.side
+    }
+
+    /// The four texels around a direction of length 1, row times side plus column, with the weights of bilinear
+    /// interpolation between their centers: at least 0, and their sum is 1. Beyond the outermost centers the map is
+    /// clamped; -z, which has no coordinates, is put into the first texel.
+    pub fn taps(self, direction: DVec3) -> [(usize, f64); 4] {
+        let [x, y] = self.coordinates(direction).map(|at| {
+            let last = (self.side - 1) as f64;
+            let at = at * self.side as f64 - 0.5;
+            // Of no number, 0.
+            let at = if at > 0.0 { at.min(last) } else { 0.0 };
+            let first = (at as usize).min(self.side.saturating_sub(2));
+            (first, (first + 1).min(self.side - 1), at - first as f64)
+        });
+        let tap = |(row, down): (usize, f64), (column, across): (usize, f64)| (row * self.side + column, down * across);
+        let [(left, right, across), (top, bottom, down)] = [x, y];
+        [
+            tap((top, 1.0 - down), (left, 1.0 - across)),
+            tap((top, 1.0 - down), (right, across)),
+            tap((bottom, down), (left, 1.0 - across)),
+            tap((bottom, down), (right, across)),
+        ]
+    }
+
     /// The solid angle of a texel: the integral of 4 / (1 + s^2 + t^2)^2.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         let edge = |at: usize| 2.0 * at as f64 / self.side as f64 - 1.0;
@@ -75,6 +102,26 @@ mod tests {
         assert_eq!(map.coordinates(DVec3::Y), [0.5, 1.0], "rows along y");
         assert_eq!(map.coordinates(DVec3::Z), [0.5, 0.5]);
         assert!((ParabolicMap::new(4096).direction(0, 0).z + 1.0 / 3.0).abs() < 1e-3, "the corner");
+    }
+
+    #[test]
+    fn interpolation_gives_texels_at_their_centers_and_planes_between() {
+        let map = ParabolicMap::new(8);
+        let value = |at: usize| 3.0 * (at % 8) as f64 - 2.0 * (at / 8) as f64;
+        let read = |direction: DVec3| map.taps(direction).map(|(at, weight)| weight * value(at)).iter().sum::<f64>();
+        for (column, row) in [(0, 0), (7, 7), (3, 5)] {
+            assert!((read(map.direction(column, row)) - value(row * 8 + column)).abs() < 1e-12);
+        }
+        let between = DVec3::new(0.3, -0.2, (1.0_f64 - 0.13).sqrt());
+        let [x, y] = map.coordinates(between).map(|at| 8.0 * at - 0.5);
+        assert!((read(between) - (3.0 * x - 2.0 * y)).abs() < 1e-12);
+        for map in [ParabolicMap::new(1), ParabolicMap::new(2), map] {
+            for direction in [DVec3::X, DVec3::Z, DVec3::NEG_Z, DVec3::new(0.6, 0.0, -0.8), DVec3::NEG_Y] {
+                let taps = map.taps(direction);
+                assert!((taps.iter().map(|(_, weight)| weight).sum::<f64>() - 1.0).abs() < 1e-15);
+                assert!(taps.iter().all(|&(at, weight)| at < map.texels() && (0.0..=1.0).contains(&weight)));
+            }
+        }
     }
 
     #[test]

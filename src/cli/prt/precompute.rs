@@ -67,8 +67,8 @@ pub(super) struct Args {
     incident_order: u8,
 
     /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
-    /// ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular reflectance S [default: the model's
-    /// materials]
+    /// schlick:A,S,ROUGHNESS,ISOTROPY,F0, ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular
+    /// reflectance S [default: the model's materials]
     #[arg(long, value_name = "BRDF")]
     brdf: Option<BrdfArg>,
 

@@ -10,7 +10,7 @@ use crate::prt::brdf::{Brdf, ExitBasis};
 use crate::prt::transfer::Tangents;
 
 const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torrance:ALBEDO,SPECULAR,ROUGHNESS,F0, \
-                    ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
+                    schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
 
 /// What a vertex makes of light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -66,6 +66,9 @@ impl FromStr for BrdfArg {
             ("phong", &[albedo, specular, exponent]) => Brdf::Phong { albedo, specular, exponent },
             ("cook-torrance", &[albedo, specular, roughness, normal_incidence]) => {
                 Brdf::CookTorrance { albedo, specular, roughness, normal_incidence }
+            }
+            ("schlick", &[albedo, specular, roughness, isotropy, normal_incidence]) => {
+                Brdf::Schlick { albedo, specular, roughness, isotropy, normal_incidence }
             }
             ("ward", &[albedo, specular, x, y]) => Brdf::Ward { albedo, specular, roughness: [x, y] },
             ("ashikhmin-shirley", &[albedo, specular, u, v]) => {

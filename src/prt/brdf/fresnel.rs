@@ -1,13 +1,13 @@
 //! Fresnel reflectance as BRDF models write it: from the reflectance at normal incidence.
 
 /// Schlick's approximation; `cosine` is that of the angle to the half vector, in [0, 1].
-pub(super) fn schlick(normal_incidence: f64, cosine: f64) -> f64 {
+pub(crate) fn schlick(normal_incidence: f64, cosine: f64) -> f64 {
     normal_incidence + (1.0 - normal_incidence) * fifth_power(1.0 - cosine)
 }
 
 /// Fresnel's formula for dielectrics and unpolarised light, in the form of Cook and Torrance: the index follows from
 /// the reflectance at normal incidence, below 1.
-pub(super) fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
+pub(crate) fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
     let root = normal_incidence.sqrt();
     let index = (1.0 + root) / (1.0 - root);
     let g = ((index - 1.0) * (index + 1.0) + cosine * cosine).sqrt();

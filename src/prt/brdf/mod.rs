@@ -1,9 +1,10 @@
 //! Reflectance in local coordinates, and its matrices over spherical harmonics (section 3.1).
 //!
-//! - [`Brdf`]: Lambert, Phong, Cook-Torrance, Ward, Ashikhmin-Shirley, one channel each;
+//! - [`Brdf`]: Lambert, Phong, Cook-Torrance, Schlick, Ward, Ashikhmin-Shirley, one channel each;
 //! - [`ExitBasis`], [`brdf_matrix`]: the matrix B, and its least-squares forms.
 
-mod fresnel;
+pub(crate) mod facets;
+pub(crate) mod fresnel;
 mod matrix;
 mod models;
 

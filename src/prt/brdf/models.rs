@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use thiserror::Error;
 
+use super::facets;
 use super::fresnel::{dielectric, fifth_power, schlick};
 use crate::elementary::{exp, pow};
 use crate::scene::Surface;
@@ -35,6 +36,20 @@ pub enum Brdf {
         /// Root mean square slope of the microfacets, above 0.
         roughness: f64,
         /// Fresnel reflectance of the microfacets at normal incidence, below 1.
+        normal_incidence: f64,
+    },
+    /// Schlick 1994, anisotropic, single layer: S(u) G(v) G(v') Z(t) A(w) / (4 pi v v'). What the facets take from each
+    /// other is lost; his (1 - G G') / pi, which gives it back, is left out.
+    Schlick {
+        /// Reflectance of the diffuse part.
+        albedo: f64,
+        /// Factor of the facets.
+        specular: f64,
+        /// From 0, a mirror, excluded, to 1, the same in all directions.
+        roughness: f64,
+        /// From 0 excluded, wide across the tangent, to 1, isotropic.
+        isotropy: f64,
+        /// Reflectance of the facets at normal incidence.
         normal_incidence: f64,
     },
     /// Ward 1992, anisotropic, with Schlick's Fresnel term.
@@ -100,6 +115,8 @@ impl Brdf {
         let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
         let width =
             |what, found: f64| check(what, "a finite number of at least 0.001", found, (0.001..1e9).contains(&found));
+        let schlick_width =
+            |what, found: f64| check(what, "a number from 0.001 to 1", found, (0.001..=1.0).contains(&found));
         let exponent =
             |found: f64| check("exponent", "a finite number of at least 0", found, (0.0..1e9).contains(&found));
         match *self {
@@ -112,6 +129,13 @@ impl Brdf {
                 share("specular factor", specular)?;
                 width("roughness", roughness)?;
                 check("reflectance at normal incidence", "a number from 0 to below 1", f0, (0.0..1.0).contains(&f0))
+            }
+            Self::Schlick { albedo, specular, roughness, isotropy, normal_incidence } => {
+                share("albedo", albedo)?;
+                share("specular factor", specular)?;
+                schlick_width("roughness", roughness)?;
+                schlick_width("isotropy", isotropy)?;
+                share("reflectance at normal incidence", normal_incidence)
             }
             Self::Ward { albedo, specular, roughness: [x, y] } => {
                 share("albedo", albedo)?;
@@ -130,6 +154,7 @@ impl Brdf {
     pub fn is_isotropic(&self) -> bool {
         match self {
             Self::Lambert { .. } | Self::Phong { .. } | Self::CookTorrance { .. } => true,
+            Self::Schlick { isotropy, .. } => *isotropy == 1.0,
             Self::Ward { roughness: [x, y], .. } | Self::AshikhminShirley { exponents: [x, y], .. } => x == y,
         }
     }
@@ -150,11 +175,16 @@ impl Brdf {
             }
             Self::CookTorrance { albedo, specular, roughness, normal_incidence } => {
                 let cosine = half.dot(view).min(1.0);
-                let square = half.z * half.z;
-                let slope = (1.0 - square) / (square * roughness * roughness);
-                let facets = exp(-slope) / (PI * roughness * roughness * square * square);
-                let groove = (2.0 * half.z * view.z.min(s.z) / cosine).min(1.0);
+                let facets = facets::beckmann(half.z, roughness) / PI;
+                let groove = facets::groove(half.z, view.z.min(s.z), cosine);
                 let facets = facets * groove * dielectric(normal_incidence, cosine) / (4.0 * view.z * s.z);
+                albedo / PI + specular * facets
+            }
+            Self::Schlick { albedo, specular, roughness, isotropy, normal_incidence } => {
+                let facets = facets::schlick_zenith(half.z, roughness) / PI
+                    * facets::schlick_azimuth(facets::cosine_along_tangent(half), isotropy);
+                let seen = facets::schlick_seen(view.z, roughness) * facets::schlick_seen(s.z, roughness);
+                let facets = facets * seen * schlick(normal_incidence, half.dot(view).min(1.0)) / (4.0 * view.z * s.z);
                 albedo / PI + specular * facets
             }
             Self::Ward { albedo, specular, roughness: [across, along] } => {

@@ -1,0 +1,177 @@
+//! A matrix as reflections and two diagonals: the first half of a singular value decomposition.
+
+use rayon::prelude::*;
+
+use super::reflection::Reflection;
+use super::{Matrix, dot};
+
+/// Rows whose share of a product with columns is summed before it is added to the others'. Part of the result's bits.
+const BLOCK: usize = 32;
+
+/// Work on fewer elements than this stays on one thread.
+const MIN_PARALLEL_ELEMENTS: usize = 1 << 15;
+
+/// What is left of a matrix of at least as many rows as columns between reflections of its rows and of its columns.
+pub(super) struct Bidiagonal {
+    /// The diagonal.
+    pub(super) diagonal: Vec<f64>,
+    /// Element i stands right of diagonal element i.
+    pub(super) above: Vec<f64>,
+    /// Reflection k is of rows k and on.
+    left: Vec<Option<Reflection>>,
+    /// Reflection k is of columns k + 1 and on.
+    right: Vec<Option<Reflection>>,
+}
+
+impl Bidiagonal {
+    /// Golub and Kahan 1965, with the two rank-one changes of a step made together, so that a step reads the matrix
+    /// twice and writes it once.
+    pub(super) fn new(matrix: Matrix) -> Self {
+        let mut rest = Trailing::new(matrix);
+        let columns = rest.columns;
+        let mut found = Self { diagonal: Vec::new(), above: Vec::new(), left: Vec::new(), right: Vec::new() };
+        let (mut change, mut column) = (None, rest.column(0));
+        for k in 0..columns {
+            let (left, diagonal) = Reflection::onto_first(column);
+            found.diagonal.push(diagonal);
+            // What the last step changes, made now, while the product with this step's reflection is taken.
+            let product = rest.changed_product(k, change.take(), left.as_ref());
+            if k + 1 == columns {
+                found.left.push(left);
+                break;
+            }
+            let beside = product.iter().skip(1).copied().collect::<Vec<f64>>();
+            let first = left.as_ref().map_or(0.0, |left| left.axis[0]);
+            let row = rest.row(k)[k + 1..].iter().zip(&beside).map(|(value, w)| value - first * w).collect();
+            let (right, above) = Reflection::onto_first(row);
+            found.above.push(above);
+            let step = rest.change(k, left.as_ref(), beside, right.as_ref());
+            column = rest.next_column(k, &step);
+            change = Some(step);
+            found.left.push(left);
+            found.right.push(right);
+        }
+        found
+    }
+
+    /// A left vector of the two diagonals, taken back to one of the matrix.
+    pub(super) fn to_left(&self, vector: &mut [f64]) {
+        for (k, reflection) in self.left.iter().enumerate().rev() {
+            reflection.iter().for_each(|reflection| reflection.apply(&mut vector[k..]));
+        }
+    }
+
+    /// A right vector of the two diagonals, taken back to one of the matrix.
+    pub(super) fn to_right(&self, vector: &mut [f64]) {
+        for (k, reflection) in self.right.iter().enumerate().rev() {
+            reflection.iter().for_each(|reflection| reflection.apply(&mut vector[k + 1..]));
+        }
+    }
+}
+
+/// What a step takes from the rows and columns behind it: from element (i, j) `left[i] beside[j] + product[i] right[j]`.
+/// Vectors count from the first row and column behind the step.
+struct Change {
+    left: Vec<f64>,
+    beside: Vec<f64>,
+    product: Vec<f64>,
+    right: Vec<f64>,
+}
+
+/// The matrix while it becomes bidiagonal: rows and columns from the current step on are still to be done.
+struct Trailing {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Trailing {
+    fn new(matrix: Matrix) -> Self {
+        let [rows, columns] = [matrix.row_count(), matrix.column_count()];
+        Self { rows, columns, values: matrix.into_values() }
+    }
+
+    fn row(&self, row: usize) -> &[f64] {
+        &self.values[row * self.columns..(row + 1) * self.columns]
+    }
+
+    /// A column from its diagonal element down.
+    fn column(&self, column: usize) -> Vec<f64> {
+        (column..self.rows).map(|row| self.row(row)[column]).collect()
+    }
+
+    fn is_small(&self, step: usize) -> bool {
+        (self.rows - step) * (self.columns - step) < MIN_PARALLEL_ELEMENTS
+    }
+
+    /// Makes the change of the step before, and gives the product of the reflection's axis with the columns from `step`
+    /// on, divided by its half: block by block of rows, the blocks added in order.
+    fn changed_product(&mut self, step: usize, change: Option<Change>, left: Option<&Reflection>) -> Vec<f64> {
+        let (columns, small, width) = (self.columns, self.is_small(step), self.columns - step);
+        let first_block = step / BLOCK;
+        let block_of = |(block, values): (usize, &mut [f64])| {
+            let first_row = (first_block + block) * BLOCK;
+            let mut sum = vec![0.0; width];
+            for (row, values) in (first_row..).zip(values.chunks_exact_mut(columns)).skip_while(|(row, _)| *row < step)
+            {
+                let values = &mut values[step..];
+                let at = row - step;
+                if let Some(Change { left, beside, product, right }) = &change {
+                    let (a, b) = (left[at], product[at]);
+                    for ((value, beside), right) in values.iter_mut().zip(beside).zip(right) {
+                        *value -= a * beside + b * right;
+                    }
+                }
+                if let Some(left) = left {
+                    let axis = left.axis[at];
+                    sum.iter_mut().zip(&*values).for_each(|(sum, value)| *sum += axis * value);
+                }
+            }
+            sum
+        };
+        let values = &mut self.values[first_block * BLOCK * columns..];
+        let sums: Vec<Vec<f64>> = if small {
+            values.chunks_mut(BLOCK * columns).enumerate().map(block_of).collect()
+        } else {
+            values.par_chunks_mut(BLOCK * columns).enumerate().map(block_of).collect()
+        };
+        let mut product = vec![0.0; width];
+        for sum in sums {
+            product.iter_mut().zip(sum).for_each(|(product, sum)| *product += sum);
+        }
+        if let Some(left) = left {
+            product.iter_mut().for_each(|value| *value /= left.half);
+        }
+        product
+    }
+
+    /// What a step takes away, from its reflections and the product of the first with the columns behind.
+    fn change(&self, step: usize, left: Option<&Reflection>, beside: Vec<f64>, right: Option<&Reflection>) -> Change {
+        let behind = self.rows - step - 1;
+        let left = left.map_or_else(|| vec![0.0; behind], |left| left.axis[1..].to_vec());
+        let Some(right) = right else {
+            let (product, zeros) = (vec![0.0; behind], vec![0.0; beside.len()]);
+            return Change { left, beside, product, right: zeros };
+        };
+        let along = dot(&beside, &right.axis);
+        let product_of =
+            |(row, left): (usize, &f64)| (dot(&self.row(row)[step + 1..], &right.axis) - left * along) / right.half;
+        let product = if self.is_small(step) {
+            (step + 1..self.rows).zip(&left).map(product_of).collect()
+        } else {
+            let rows = (step + 1..self.rows).into_par_iter().with_min_len(BLOCK);
+            rows.zip(&left).map(product_of).collect()
+        };
+        Change { left, beside, product, right: right.axis.clone() }
+    }
+
+    /// The column behind a step, from its diagonal element down, as it will be once the step's change is made.
+    fn next_column(&self, step: usize, change: &Change) -> Vec<f64> {
+        let [beside, right] = [&change.beside, &change.right].map(|of| of.first().copied().unwrap_or(0.0));
+        let value = |row: usize| {
+            let at = row - step - 1;
+            self.row(row)[step + 1] - (change.left[at] * beside + change.product[at] * right)
+        };
+        (step + 1..self.rows).map(value).collect()
+    }
+}

@@ -1,0 +1,92 @@
+//! Singular values of a table of f, and what a number of terms keeps of it (equation 8).
+
+use super::error::FactorizationError;
+use super::factors::Factors;
+use super::table::ProductTable;
+use crate::linalg::LeadingSvd;
+use crate::sphere::ParabolicMap;
+
+/// Two singular values whose difference is less than this share of the larger count as a pair. A lobe that is symmetric
+/// around the normal has its values in such pairs, told apart by rounding, or by the square of texels: to 4e-4 in a map
+/// of 32 x 32.
+pub const PAIR_DISTANCE: f64 = 1e-3;
+
+/// A pair of equal singular values of which one is kept and one is not: the terms then prefer a direction that f does
+/// not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SplitPair {
+    /// The terms that are kept.
+    pub terms: usize,
+    /// The last value that is kept and the first that is not.
+    pub values: [f64; 2],
+}
+
+/// A table's singular values, with the vectors of the largest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factorization {
+    view: ParabolicMap,
+    light: ParabolicMap,
+    svd: LeadingSvd,
+}
+
+impl Factorization {
+    /// Of a table, with vectors for up to so many terms. The bits do not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`FactorizationError`] for no terms, for more than the table's rank, and for a table of zeros.
+    pub fn new(table: &ProductTable, terms: usize) -> Result<Self, FactorizationError> {
+        let svd = LeadingSvd::new(table.values(), terms)?;
+        if svd.rank == 0 {
+            return Err(FactorizationError::Dark { texels: table.view().texels() * table.light().texels() });
+        }
+        if !(1..=svd.rank).contains(&terms) {
+            return Err(FactorizationError::Terms { found: terms, rank: svd.rank });
+        }
+        Ok(Self { view: table.view(), light: table.light(), svd })
+    }
+
+    /// All singular values, the largest first.
+    pub fn singular_values(&self) -> &[f64] {
+        &self.svd.values
+    }
+
+    /// How many of them are told from 0.
+    pub const fn rank(&self) -> usize {
+        self.svd.rank
+    }
+
+    /// The most terms that there are vectors for.
+    pub fn terms(&self) -> usize {
+        self.svd.right.row_count()
+    }
+
+    /// The error of Figure 2: the sum of squared differences by the sum of squares, over all pairs of texels. It is that
+    /// of the squared singular values that are left out.
+    pub fn relative_squared_error(&self, terms: usize) -> f64 {
+        // From the smallest.
+        let squares = |values: &[f64]| values.iter().rev().map(|value| value * value).sum::<f64>();
+        let values = self.singular_values();
+        squares(&values[terms.min(values.len())..]) / squares(values)
+    }
+
+    /// The pair that a number of terms splits, if it does ([`PAIR_DISTANCE`]).
+    pub fn split_pair(&self, terms: usize) -> Option<SplitPair> {
+        let values = [*self.svd.values.get(terms.checked_sub(1)?)?, *self.svd.values.get(terms)?];
+        let is_pair = terms < self.rank() && values[0] - values[1] < PAIR_DISTANCE * values[0];
+        is_pair.then_some(SplitPair { terms, values })
+    }
+
+    /// The factors of the largest singular values, the root of each in both (equation 9). The component of F_k of largest
+    /// magnitude is positive.
+    ///
+    /// # Panics
+    /// If there are no vectors for so many terms.
+    pub fn factors(&self, terms: usize) -> Factors {
+        assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
+        let by_texel = |vectors: &crate::linalg::Matrix| {
+            let texel = |at: usize| (0..terms).map(move |k| self.svd.values[k].sqrt() * vectors.row(k)[at]);
+            (0..vectors.column_count()).flat_map(texel).collect()
+        };
+        Factors::new(terms, (self.view, by_texel(&self.svd.left)), (self.light, by_texel(&self.svd.right)))
+    }
+}

@@ -1,0 +1,173 @@
+//! Measured reflectance in the files of Matusik, Pfister, Brand and McMillan 2003 (MERL): `.binary`.
+//!
+//! Three 32-bit integers, 90, 90 and 180, then three channels of as many 64-bit floats, all little-endian: by the angles
+//! of the half vector from the normal (denser near it), of the light from the half vector, and around that, 180 degrees.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::motion::ProductSymmetry;
+use super::product::ProductFunction;
+use crate::elementary::{acos, atan2};
+use crate::io::{ReadError, read_limited};
+
+/// Cells by half angle, difference angle and azimuth.
+pub const MERL_CELLS: [usize; 3] = [90, 90, 180];
+
+/// Cells of a channel.
+const CELLS: usize = MERL_CELLS[0] * MERL_CELLS[1] * MERL_CELLS[2];
+/// Bytes of the three integers.
+const HEADER: usize = 12;
+/// Bytes of a file.
+const BYTES: usize = HEADER + 3 * CELLS * 8;
+/// What the numbers of red, green and blue are multiplied by.
+const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
+
+/// A channel of a measurement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MerlChannel {
+    /// The first.
+    Red,
+    /// The second.
+    Green,
+    /// The third.
+    Blue,
+}
+
+/// Measured isotropic reflectance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MerlBrdf {
+    cells: Vec<f64>,
+    /// Cells below 0, of all channels: where nothing was measured. They count as 0.
+    pub invalid: usize,
+}
+
+/// Why a file is no measurement.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MerlError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// The file ends too early.
+    #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
+    #[diagnostic(code(crossbar::merl::short), help("the file is cut; fetch it again"))]
+    Short { path: PathBuf, expected: usize, found: usize },
+    /// More bytes than the cells take.
+    #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
+    #[diagnostic(code(crossbar::merl::long), help("is it a measurement of another kind?"))]
+    TooLong { path: PathBuf, expected: usize, found: usize },
+    /// Other numbers of cells.
+    #[error(
+        "{}: expected 90 x 90 x 180 cells, found {} x {} x {}", path.display(), found[0], found[1], found[2]
+    )]
+    #[diagnostic(code(crossbar::merl::cells), help("only isotropic measurements of this size are read"))]
+    Dimensions { path: PathBuf, found: [i32; 3] },
+    /// A cell that is infinite or no number.
+    #[error("{}: expected finite numbers, found {found} in cell {cell} of channel {channel} (both from 0)", path.display())]
+    #[diagnostic(code(crossbar::merl::number), help("cells that were not measured are below 0"))]
+    NotFinite { path: PathBuf, channel: usize, cell: usize, found: f64 },
+}
+
+/// Reads a measurement from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`MerlError`].
+pub fn parse_merl(bytes: &[u8], name: &Path) -> Result<MerlBrdf, MerlError> {
+    let (expected, found) = (BYTES, bytes.len());
+    let Some((header, data)) = bytes.split_at_checked(HEADER) else {
+        return Err(MerlError::Short { path: name.into(), expected, found });
+    };
+    let mut sizes = [0; 3];
+    sizes.iter_mut().zip(header.as_chunks().0).for_each(|(size, bytes)| *size = i32::from_le_bytes(*bytes));
+    if sizes.map(|size| usize::try_from(size).unwrap_or(0)) != MERL_CELLS {
+        return Err(MerlError::Dimensions { path: name.into(), found: sizes });
+    }
+    if found < expected {
+        return Err(MerlError::Short { path: name.into(), expected, found });
+    }
+    if found > expected {
+        return Err(MerlError::TooLong { path: name.into(), expected, found });
+    }
+    let mut cells: Vec<f64> = data.as_chunks().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect();
+    if let Some(at) = cells.iter().position(|value| !value.is_finite()) {
+        let (channel, cell, found) = (at / CELLS, at % CELLS, cells[at]);
+        return Err(MerlError::NotFinite { path: name.into(), channel, cell, found });
+    }
+    let mut invalid = 0;
+    for (cells, scale) in cells.chunks_exact_mut(CELLS).zip(SCALES) {
+        for value in cells {
+            invalid += usize::from(*value < 0.0);
+            *value = value.max(0.0) * scale;
+        }
+    }
+    Ok(MerlBrdf { cells, invalid })
+}
+
+/// Reads a measurement from a file.
+///
+/// # Errors
+/// [`MerlError`].
+pub fn load_merl(path: &Path) -> Result<MerlBrdf, MerlError> {
+    let (what, limit) = ("MERL measurement", BYTES as u64);
+    let read = read_limited(path, limit).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
+    parse_merl(&read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit })?, path)
+}
+
+impl MerlBrdf {
+    /// A channel, to be factored.
+    pub const fn channel(&self, channel: MerlChannel) -> MerlProduct<'_> {
+        MerlProduct { brdf: self, channel }
+    }
+
+    /// The reflectance of a channel, per steradian: that of the nearest cell, as the measurement's own reader has it, not
+    /// interpolated. Both directions have length 1 and lie above the horizon.
+    pub fn value(&self, channel: MerlChannel, view: DVec3, light: DVec3) -> f64 {
+        let half = (view + light).normalize_or(DVec3::Z);
+        let radius = (half.x * half.x + half.y * half.y).sqrt();
+        let [cosine, sine] = if radius > 0.0 { [half.x / radius, half.y / radius] } else { [1.0, 0.0] };
+        // The light with the half vector turned to the normal.
+        let around = DVec3::new(-sine, cosine, 0.0);
+        let along = DVec3::new(half.z * cosine, half.z * sine, -radius);
+        let [x, y, z] = [along.dot(light), around.dot(light), half.dot(light)];
+        let azimuth = atan2(y, x);
+        // Light and view may be exchanged: half a turn.
+        let azimuth = if azimuth < 0.0 { azimuth + PI } else { azimuth };
+        let share = |angle: f64| acos(angle.clamp(-1.0, 1.0)) / FRAC_PI_2;
+        let at = [share(half.z).sqrt(), share(z), azimuth / PI];
+        let [half, difference, azimuth] =
+            [0, 1, 2].map(|i| ((at[i] * MERL_CELLS[i] as f64) as usize).min(MERL_CELLS[i] - 1));
+        let cell = (half * MERL_CELLS[1] + difference) * MERL_CELLS[2] + azimuth;
+        self.cells[channel as usize * CELLS + cell]
+    }
+}
+
+/// A channel of a measurement as a product function.
+#[derive(Clone, Copy, Debug)]
+pub struct MerlProduct<'a> {
+    brdf: &'a MerlBrdf,
+    channel: MerlChannel,
+}
+
+impl ProductFunction for MerlProduct<'_> {
+    fn value(&self, view: DVec3, light: DVec3) -> f64 {
+        self.brdf.value(self.channel, view, light) * light.z
+    }
+
+    fn continues(&self) -> bool {
+        false
+    }
+
+    fn symmetry(&self) -> ProductSymmetry {
+        ProductSymmetry::Turns
+    }
+
+    fn name(&self) -> &'static str {
+        "a measurement"
+    }
+}

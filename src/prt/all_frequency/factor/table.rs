@@ -1,0 +1,164 @@
+//! Tables of f by texels of two parabolic maps: Q of section 3.
+
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::io::{
+    NpyError, NumberTable, NumberTableError, ReadError, npy, number_table, parse_npy, parse_number_table, read_limited,
+};
+use crate::linalg::Matrix;
+use crate::sphere::ParabolicMap;
+
+use super::sampling::MAX_MAP_SIDE;
+
+/// Q: f at a texel of the view's map (row) and one of the light's (column). Texels count row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProductTable {
+    view: ParabolicMap,
+    light: ParabolicMap,
+    values: Matrix,
+}
+
+/// Why a file is no table of f.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum ProductTableError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// It is an array of NumPy's that cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Npy(#[from] NpyError),
+    /// It is a table that cannot be read.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Table(#[from] NumberTableError),
+    /// Rows or columns that are no square map.
+    #[error(
+        "{}: expected a square number of {what} up to {most}, a texel of a square map each, found {found}", path.display(),
+        most = MAX_MAP_SIDE * MAX_MAP_SIDE
+    )]
+    #[diagnostic(
+        code(crossbar::factor::shape),
+        help("a map of 32 x 32 texels has 1024; rows are views, columns lights, texels row by row")
+    )]
+    NotSquare { path: PathBuf, what: &'static str, found: usize },
+    /// A number that is no product of reflectance and cosine.
+    #[error(
+        "{}: expected finite numbers of at least 0, found {found} in row {row}, column {column} (counted from 0)",
+        path.display()
+    )]
+    #[diagnostic(code(crossbar::factor::number), help("the table holds reflectance times the light's cosine"))]
+    Number { path: PathBuf, row: usize, column: usize, found: f32 },
+}
+
+impl ProductTable {
+    /// From values by texels of the view's map (rows) and of the light's (columns).
+    ///
+    /// # Panics
+    /// If there is not a row per texel of the first map and a column per texel of the second.
+    pub(super) fn new([view, light]: [ParabolicMap; 2], values: Matrix) -> Self {
+        assert_eq!([values.row_count(), values.column_count()], [view.texels(), light.texels()], "a value per texel");
+        Self { view, light, values }
+    }
+
+    /// From rows of numbers; `name` stands for the file in messages.
+    ///
+    /// # Errors
+    /// [`ProductTableError`] if rows or columns are not as many as a square map has texels, or a number is below 0, NaN
+    /// or infinite.
+    pub fn of_numbers(table: &NumberTable, name: &Path) -> Result<Self, ProductTableError> {
+        let columns = table.columns.max(1);
+        let map = |what: &'static str, found: usize| {
+            let side = found.isqrt();
+            let fits = side * side == found && (1..=MAX_MAP_SIDE).contains(&side);
+            let refused = || ProductTableError::NotSquare { path: name.into(), what, found };
+            if fits { Ok(ParabolicMap::new(side)) } else { Err(refused()) }
+        };
+        let maps = [map("rows", table.values.len() / columns)?, map("columns", table.columns)?];
+        if let Some(at) = table.values.iter().position(|&value| !(value.is_finite() && value >= 0.0)) {
+            let [row, column] = [at / columns, at % columns];
+            return Err(ProductTableError::Number { path: name.into(), row, column, found: table.values[at] });
+        }
+        let values = table.values.iter().map(|&value| f64::from(value)).collect();
+        let values = Matrix::new(maps.map(ParabolicMap::texels), values).expect("whole rows of a small matrix");
+        Ok(Self::new(maps, values))
+    }
+
+    /// The map of views.
+    pub const fn view(&self) -> ParabolicMap {
+        self.view
+    }
+
+    /// The map of lights.
+    pub const fn light(&self) -> ParabolicMap {
+        self.light
+    }
+
+    /// The values: a row per view, a column per light.
+    pub const fn values(&self) -> &Matrix {
+        &self.values
+    }
+
+    /// f between texels, bilinear in both maps.
+    pub fn interpolated(&self, view: glam::DVec3, light: glam::DVec3) -> f64 {
+        let lights = self.light.taps(light);
+        let along = |row: &[f64]| lights.iter().map(|&(at, weight)| weight * row[at]).sum::<f64>();
+        self.view.taps(view).iter().map(|&(at, weight)| weight * along(self.values.row(at))).sum()
+    }
+}
+
+/// Reads a table from a file: comma-separated values or an array of NumPy's, told apart by how they begin. Numbers are
+/// rounded to the nearest f32.
+///
+/// # Errors
+/// [`ProductTableError`].
+pub fn load_product_table(path: &Path) -> Result<ProductTable, ProductTableError> {
+    let (what, limit) = ("table of reflectance", number_table::MAX_BYTES);
+    let read = read_limited(path, limit).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
+    let bytes = read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit })?;
+    let table =
+        if bytes.starts_with(npy::MAGIC) { parse_npy(&bytes, path)? } else { parse_number_table(&bytes, path)? };
+    ProductTable::of_numbers(&table, path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    fn table(rows: usize, columns: usize, values: &[f32]) -> Result<ProductTable, String> {
+        let values = values.iter().copied().cycle().take(rows * columns).collect();
+        let found = ProductTable::of_numbers(&NumberTable { columns, values }, Path::new("q.csv"));
+        found.map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn maps_may_differ_in_size() {
+        let table = table(4, 9, &[1.0, 2.0, 3.0]).expect("a table");
+        assert_eq!([table.view().side(), table.light().side()], [2, 3]);
+        assert_eq!(table.values().row(1)[5], 3.0);
+        // In the middle of the light's map stands texel 4, of value 2, whatever the view is.
+        assert_eq!(table.interpolated(DVec3::Z, DVec3::Z), 2.0);
+    }
+
+    #[test]
+    fn what_is_no_table_is_named() {
+        let error = |rows, columns, values: &[f32]| table(rows, columns, values).expect_err("no table");
+        assert_eq!(
+            error(5, 4, &[1.0]),
+            "q.csv: expected a square number of rows up to 2304, a texel of a square map each, found 5"
+        );
+        assert!(error(4, 7, &[1.0]).contains("columns"));
+        assert_eq!(
+            error(4, 4, &[1.0, 2.0, 3.0, -0.5]),
+            "q.csv: expected finite numbers of at least 0, found -0.5 in row 0, column 3 (counted from 0)"
+        );
+        assert!(error(4, 4, &[f32::NAN]).contains("found NaN in row 0, column 0"));
+        assert!(error(1, 49 * 49, &[0.0]).contains("2401"));
+    }
+}

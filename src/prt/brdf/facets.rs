@@ -1,0 +1,73 @@
+//! Factors of microfacet models: how many facets face a direction, and how many of them are seen.
+//!
+//! Distributions are pi times the usual ones: times the cosine they integrate to pi over the hemisphere.
+
+use glam::DVec3;
+
+use crate::elementary::exp;
+
+/// Beckmann's distribution, isotropic, times pi: e^(-tan^2 / m^2) / (m^2 cos^4) of the angle between half vector and
+/// normal, whose cosine is above 0.
+pub(crate) fn beckmann(half_cosine: f64, roughness: f64) -> f64 {
+    let square = half_cosine * half_cosine;
+    let slope = (1.0 - square) / (square * roughness * roughness);
+    exp(-slope) / (roughness * roughness * square * square)
+}
+
+/// Shadowing by V-grooves (Torrance and Sparrow 1967): `least` is the smaller cosine of view and light, `cosine` that of
+/// the angle between view and half vector.
+pub(crate) fn groove(half_cosine: f64, least: f64, cosine: f64) -> f64 {
+    (2.0 * half_cosine * least / cosine).min(1.0)
+}
+
+/// Schlick's zenith factor Z(t) = r / (1 + r t^2 - t^2)^2: the distribution times pi of an isotropic surface.
+pub(crate) fn schlick_zenith(half_cosine: f64, roughness: f64) -> f64 {
+    let square = half_cosine * half_cosine;
+    let base = 1.0 + roughness * square - square;
+    roughness / (base * base)
+}
+
+/// Schlick's azimuth factor A(w) = sqrt(p / (p^2 - p^2 w^2 + w^2)). Its mean over all azimuths is 1 for p = 1, and less
+/// for others.
+pub(crate) fn schlick_azimuth(w: f64, isotropy: f64) -> f64 {
+    let square = isotropy * isotropy;
+    (isotropy / (square - square * w * w + w * w)).sqrt()
+}
+
+/// Schlick's G(v) = v / (r - r v + v): how much of the facets that face a direction it sees.
+pub(crate) fn schlick_seen(cosine: f64, roughness: f64) -> f64 {
+    cosine / (roughness - roughness * cosine + cosine)
+}
+
+/// Schlick's w: the cosine of the angle between the tangent x and the half vector's projection onto the surface; 1 for
+/// the normal itself, which has none.
+pub(crate) fn cosine_along_tangent(half: DVec3) -> f64 {
+    let square = half.x * half.x + half.y * half.y;
+    if square > 0.0 { half.x / square.sqrt() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::DirectionRule;
+    use approx::assert_abs_diff_eq;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn distributions_times_the_cosine_integrate_to_pi() {
+        let rule = DirectionRule::hemisphere(255);
+        for roughness in [0.2, 0.4, 1.0] {
+            assert_abs_diff_eq!(rule.integral(|h| h.z * schlick_zenith(h.z, roughness)), PI, epsilon = 1e-8);
+            assert_abs_diff_eq!(rule.integral(|h| h.z * beckmann(h.z, roughness)), PI, epsilon = 1e-8);
+        }
+    }
+
+    #[test]
+    fn lobes_are_wide_across_the_tangent() {
+        assert_eq!(schlick_azimuth(0.3, 1.0), 1.0);
+        assert!(schlick_azimuth(0.0, 0.25) == 2.0 && schlick_azimuth(1.0, 0.25) == 0.5);
+        assert_eq!(cosine_along_tangent(DVec3::new(0.0, 0.6, 0.8)), 0.0);
+        assert_eq!([cosine_along_tangent(DVec3::Z), cosine_along_tangent(DVec3::NEG_X)], [1.0, -1.0]);
+        assert_eq!([schlick_seen(1.0, 0.3), schlick_seen(0.0, 0.3), schlick_seen(0.4, 0.0)], [1.0, 0.0, 1.0]);
+    }
+}
