@@ -1,5 +1,6 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
+//! - [`all_frequency`]: light as a cube map, transfer in Haar wavelets (system 5);
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
 //! - [`transfer`]: what each vertex makes of distant light; [`mod@reference`] by plain loops;
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
@@ -10,6 +11,7 @@
 //! - [`mod@file`]: the `.prt` file, with transfer and clusters; [`load_signal`] reads a signal from it, NPY or CSV;
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
+pub mod all_frequency;
 pub mod brdf;
 pub mod coherence;
 pub mod cpca;
