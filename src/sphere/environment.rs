@@ -49,11 +49,7 @@ impl HarmonicLight {
     /// # Panics
     /// If the order is not 1 to 10.
     pub fn from_picture(order: usize, picture: &Picture) -> Result<Self, EnvironmentError> {
-        let [width, height] = [picture.width(), picture.height()];
-        let layout = EnvironmentLayout::of(width, height).ok_or(EnvironmentError::Shape { width, height })?;
-        let pixels = picture.linear()?;
-        let grid = LayoutGrid::new(layout, width as usize, height as usize);
-        check(&pixels, width as usize, |column, row| grid.shows(column, row))?;
+        let (grid, pixels) = read(picture)?;
         Ok(Self::projected(project(&grid, order, |at| pixels[at])))
     }
 
@@ -91,6 +87,16 @@ impl HarmonicLight {
         check(texels, side, |_, _| true)?;
         Ok(Self::projected(project(&map, order, |at| texels[at])))
     }
+}
+
+/// The pixels of a picture of the whole sphere, and where they lie on it.
+pub(super) fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), EnvironmentError> {
+    let [width, height] = [picture.width(), picture.height()];
+    let layout = EnvironmentLayout::of(width, height).ok_or(EnvironmentError::Shape { width, height })?;
+    let pixels = picture.linear()?;
+    let grid = LayoutGrid::new(layout, width as usize, height as usize);
+    check(&pixels, width as usize, |column, row| grid.shows(column, row))?;
+    Ok((grid, pixels))
 }
 
 /// Refuses texels that count and are not finite.

@@ -63,6 +63,45 @@ impl LayoutGrid {
         self.solid_angle(column, row) > 0.0
     }
 
+    /// The pixel that shows a direction of length 1, by its place row by row. On the border of two it is either.
+    pub(super) fn pixel(&self, direction: DVec3) -> usize {
+        let within = |at: f64, count: usize| (at.max(0.0) as usize).min(count - 1);
+        let [width, height] = [self.width, self.height];
+        let across = hypot(direction.x, direction.z);
+        let [column, row] = match self.layout {
+            EnvironmentLayout::LatLong => {
+                let turns = atan2(direction.x, direction.y) / TAU + 0.5;
+                let polar = atan2(hypot(direction.x, direction.y), direction.z) / PI;
+                [within(turns * width as f64, width), within(polar * height as f64, height)]
+            }
+            EnvironmentLayout::AngularProbe => {
+                let scale = if across > 0.0 { atan2(across, direction.y) / PI / across } else { 0.0 };
+                let [x, y] = [scale * direction.x, scale * direction.z];
+                let (width, side) = (width as f64 / 2.0, width);
+                [within((1.0 + x) * width, side), within((1.0 - y) * width, side)]
+            }
+            EnvironmentLayout::CubeCross => return self.cross_pixel(direction),
+        };
+        row * width + column
+    }
+
+    /// The pixel of a cross: on the face that the direction points to most, the first of equals.
+    fn cross_pixel(&self, direction: DVec3) -> usize {
+        let side = self.cross_side();
+        let tiles = (0..self.height / side).flat_map(|row| (0..self.width / side).map(move |column| [column, row]));
+        let faces = tiles.filter_map(|[column, row]| {
+            let (axes, ..) = self.cross_texel(column * side, row * side)?;
+            Some((axes.center.dot(direction), axes, [column, row]))
+        });
+        let most = faces.reduce(|best, face| if face.0 > best.0 { face } else { best });
+        let Some((ahead, axes, [column, row])) = most else { return 0 };
+        let place = |axis: DVec3| {
+            let at = (axis.dot(direction) / ahead + 1.0) / 2.0 * side as f64;
+            (at.max(0.0) as usize).min(side - 1)
+        };
+        (row * side + place(axes.down)) * self.width + column * side + place(axes.right)
+    }
+
     /// The edges of a probe's pixel, in the square from -1 to 1 with y up: left, bottom, right, top.
     fn probe_pixel(&self, [column, row]: [usize; 2]) -> [f64; 4] {
         let edge = |at: usize| 2.0 * at as f64 / self.width as f64 - 1.0;
@@ -207,6 +246,23 @@ mod tests {
                 let sum: f64 = (0..height).map(row).sum();
                 assert!((sum - 4.0 * PI).abs() < 4e-14, "{layout} {width}x{height}: {sum}");
                 assert_eq!(EnvironmentLayout::of(width as u32, height as u32), Some(layout));
+            }
+        }
+    }
+
+    #[test]
+    fn a_pixel_is_found_in_its_directions() {
+        for layout in EnvironmentLayout::iter() {
+            for [width, height] in shapes(layout) {
+                let grid = LayoutGrid::new(layout, width, height);
+                for at in 0..width * height {
+                    for [u, v] in [[0.5, 0.5], [0.02, 0.9], [0.97, 0.03]] {
+                        let (direction, density) = grid.at([at % width, at / width], u, v);
+                        if density > 0.0 {
+                            assert_eq!(grid.pixel(direction), at, "{layout} {width}x{height}: {direction}");
+                        }
+                    }
+                }
             }
         }
     }

@@ -40,6 +40,14 @@ pub struct HarmonicLight {
 }
 
 impl HarmonicLight {
+    /// Directions and radiances of the disks of [`Self::red_and_blue`].
+    pub const RED_AND_BLUE_DISKS: [(DVec3, [f64; 3]); 2] =
+        [(DVec3::new(0.8, 0.6, 0.0), [6.0, 0.3, 0.3]), (DVec3::new(-0.8, 0.6, 0.0), [0.3, 0.3, 6.0])];
+    /// Their angular radius in radians.
+    pub const RED_AND_BLUE_RADIUS: f64 = PI / 6.0;
+    /// The radiance around them.
+    pub const RED_AND_BLUE_SURROUNDING: [f64; 3] = [0.15; 3];
+
     /// Of coefficients by channel.
     ///
     /// # Errors
@@ -104,8 +112,9 @@ impl HarmonicLight {
     /// # Panics
     /// If the order is not 1 to 10.
     pub fn red_and_blue(order: usize) -> Self {
-        let disk = |x, color| Self::disk(order, DVec3::new(x, 0.6, 0.0), PI / 6.0, color);
-        let parts = [disk(0.8, [6.0, 0.3, 0.3]), disk(-0.8, [0.3, 0.3, 6.0]), Self::constant(order, [0.15; 3])];
+        let [red, blue] = Self::RED_AND_BLUE_DISKS
+            .map(|(towards, color)| Self::disk(order, towards, Self::RED_AND_BLUE_RADIUS, color));
+        let parts = [red, blue, Self::constant(order, Self::RED_AND_BLUE_SURROUNDING)];
         parts.into_iter().flatten().reduce(|sum, part| sum.plus(&part)).expect("three lights with finite figures")
     }
 

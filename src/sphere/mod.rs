@@ -5,7 +5,8 @@
 //! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
 //! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
 //! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;
-//! - [`HarmonicLight`], [`ClearSky`]: distant light, from pictures and by code.
+//! - [`HarmonicLight`], [`ClearSky`]: distant light, from pictures and by code;
+//! - [`EnvironmentPicture`]: the radiance that a picture shows in a direction.
 //!
 //! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
 //! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
@@ -17,6 +18,7 @@ mod harmonics;
 mod hemisphere;
 mod layout;
 mod light;
+mod lookup;
 mod parabolic;
 mod projection;
 mod rotation;
@@ -36,9 +38,10 @@ pub use harmonics::{
 pub use hemisphere::{Hemisphere, HemisphereError};
 pub use layout::EnvironmentLayout;
 pub use light::{HarmonicLight, LightError};
+pub use lookup::EnvironmentPicture;
 pub use parabolic::ParabolicMap;
 pub use projection::{HemisphereProjection, ProjectionErrors};
-pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError};
+pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError, check_rotation};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
 pub use window::BandWindow;

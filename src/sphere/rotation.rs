@@ -55,7 +55,7 @@ impl HarmonicRotation {
     /// # Panics
     /// If the order is not 1 to [`MAX_ORDER`].
     pub fn new(order: usize, rotation: &DMat3) -> Result<Self, RotationError> {
-        check(rotation)?;
+        check_rotation(rotation)?;
         let count = function_count(order);
         let rule = RULES[order - 1].get_or_init(|| rotation_rule(order));
         let mut turned = [0.0; MAX_ORDER * MAX_ORDER];
@@ -135,7 +135,11 @@ fn rotation_rule(order: usize) -> RotationRule {
     rule
 }
 
-fn check(rotation: &DMat3) -> Result<(), RotationError> {
+/// Whether a matrix is a rotation.
+///
+/// # Errors
+/// [`RotationError`] if the columns are not orthonormal to [`MAX_SKEW`], or the matrix is a reflection.
+pub fn check_rotation(rotation: &DMat3) -> Result<(), RotationError> {
     for columns in [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]] {
         let found = rotation.col(columns[0]).dot(rotation.col(columns[1]));
         let expected = if columns[0] == columns[1] { 1.0 } else { 0.0 };

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::linalg::MatrixError;
+use crate::prt::SignalError;
 use crate::prt::brdf::BrdfError;
 use crate::tracer::CastError;
 
@@ -55,6 +56,9 @@ pub enum TransferError {
     /// A matrix too large.
     #[error(transparent)]
     Matrix(#[from] MatrixError),
+    /// A response that is not finite.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
     /// The ray caster failed.
     #[error(transparent)]
     Cast(#[from] CastError),

@@ -19,8 +19,11 @@ mod whole;
 
 pub use error::TransferError;
 pub use frame::LocalFrame;
+pub(crate) use origins::{RayOrigin, origins};
 pub use rays::{TracedRays, TransferCounts};
 pub use response::{Incident, Response};
 pub use scattering::ScatteringOptions;
+pub(crate) use shooter::ray_length;
+pub(crate) use skyline::{Occluders, SkyPart};
 pub use vertices::{Tangents, Vertices};
 pub use whole::{Bounces, Transfer};

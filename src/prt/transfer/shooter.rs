@@ -42,22 +42,13 @@ pub(super) struct Shooter<'a> {
     pub(super) vertices: &'a Vertices,
     rule: DirectionRule,
     origins: &'a [RayOrigin],
-    /// Length of rays: a power of two, so that it changes no bit of their directions; t = 1 lies outside of the mesh.
+    /// Length of rays.
     reach: f64,
 }
 
 impl<'a> Shooter<'a> {
     pub(super) fn new(vertices: &'a Vertices, rule: &DirectionRule, origins: &'a [RayOrigin]) -> Self {
-        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for &position in vertices.positions() {
-            (low, high) = (low.min(wide(position)), high.max(wide(position)));
-        }
-        let diagonal = (high - low).length();
-        let mut reach = 1.0;
-        while reach < 2.0 * diagonal && reach < MAX_REACH {
-            reach *= 2.0;
-        }
-        Self { vertices, rule: rule.clone(), origins, reach }
+        Self { vertices, rule: rule.clone(), origins, reach: ray_length(vertices) }
     }
 
     fn ray(&self, vertex: usize, direction: DVec3) -> Option<Ray> {
@@ -118,6 +109,21 @@ impl<'a> Shooter<'a> {
         }
         (front, behind)
     }
+}
+
+/// The length of rays from the vertices of a mesh that end outside of it: a power of two, which changes no bit of a
+/// direction.
+pub(crate) fn ray_length(vertices: &Vertices) -> f64 {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &position in vertices.positions() {
+        (low, high) = (low.min(wide(position)), high.max(wide(position)));
+    }
+    let diagonal = (high - low).length();
+    let mut reach = 1.0;
+    while reach < 2.0 * diagonal && reach < MAX_REACH {
+        reach *= 2.0;
+    }
+    reach
 }
 
 /// The weights of the second and third corner at a point on or near a triangle, brought into the triangle.

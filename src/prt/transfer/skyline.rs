@@ -75,6 +75,12 @@ impl Skyline {
         self.0[usize::from(part.ring)] >> part.column & 1 != 0
     }
 
+    /// Whether something may be seen within an angle, given by its sine, of a local direction of length 1, as far as
+    /// that lies above the horizon.
+    pub(crate) fn may_block(&self, local: DVec3, sine: f64) -> bool {
+        Region::of(local, 1.0, sine, f64::INFINITY).is_some_and(|region| self.meets(&region))
+    }
+
     /// The share of the hemisphere that is marked.
     fn share(&self) -> f64 {
         let count = (1..).step_by(2).zip(&self.0).map(|(area, ring)| area * ring.count_ones()).sum::<u32>();
@@ -83,6 +89,10 @@ impl Skyline {
 
     fn mark(&mut self, region: &Region) {
         self.0[region.rings[0]..=region.rings[1]].iter_mut().for_each(|ring| *ring |= region.columns);
+    }
+
+    fn meets(&self, region: &Region) -> bool {
+        self.0[region.rings[0]..=region.rings[1]].iter().any(|ring| ring & region.columns != 0)
     }
 
     fn holds(&self, region: &Region) -> bool {

@@ -1,0 +1,147 @@
+//! The normalised, non-standard Haar transform of a square of 2^k x 2^k numbers (section 4; \[NRH03\]).
+//!
+//! A level takes four neighbors a b / c d to (a + b + c + d) / 2, to the differences across columns
+//! (a - b + c - d) / 2, across rows (a + b - c - d) / 2, and of both (a - b - c + d) / 2, and goes on with the averages.
+//! That is orthonormal. Coefficients lie in the usual pyramid: the averages of a level in the upper left quarter of its
+//! square, differences across columns in the upper right, across rows in the lower left, of both in the lower right.
+
+/// The transform of squares of one size.
+#[derive(Clone, Debug)]
+pub struct Haar {
+    side: usize,
+    scratch: Vec<f64>,
+}
+
+/// The square of numbers on which a basis function is not 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HaarSupport {
+    /// The first row.
+    pub row: usize,
+    /// The first column.
+    pub column: usize,
+    /// Rows, and columns.
+    pub side: usize,
+}
+
+impl Haar {
+    /// Of squares with so many numbers along an edge: a power of two.
+    ///
+    /// # Panics
+    /// If it is none.
+    pub fn new(side: usize) -> Self {
+        assert!(side.is_power_of_two(), "a power of two along an edge, not {side}");
+        Self { side, scratch: vec![0.0; side * side] }
+    }
+
+    /// Numbers along an edge.
+    pub const fn side(&self) -> usize {
+        self.side
+    }
+
+    /// Takes a square, row by row, to its coefficients.
+    ///
+    /// # Panics
+    /// If it has another size.
+    pub fn forward(&mut self, square: &mut [f64]) {
+        assert_eq!(square.len(), self.side * self.side, "a square of side {}", self.side);
+        let mut half = self.side / 2;
+        while half > 0 {
+            for row in 0..half {
+                for column in 0..half {
+                    let at = 2 * row * self.side + 2 * column;
+                    let [a, b, c, d] = [at, at + 1, at + self.side, at + self.side + 1].map(|at| square[at]);
+                    let quarters = butterfly([a, b, c, d]);
+                    self.places(half, row, column).into_iter().zip(quarters).for_each(|(at, q)| self.scratch[at] = q);
+                }
+            }
+            for row in 0..2 * half {
+                let part = row * self.side..row * self.side + 2 * half;
+                square[part.clone()].copy_from_slice(&self.scratch[part]);
+            }
+            half /= 2;
+        }
+    }
+
+    /// Takes coefficients to the square that they are of.
+    ///
+    /// # Panics
+    /// If there are more or fewer than the square has numbers.
+    pub fn inverse(&mut self, coefficients: &mut [f64]) {
+        assert_eq!(coefficients.len(), self.side * self.side, "a square of side {}", self.side);
+        let mut half = 1;
+        while half < self.side {
+            for row in 0..half {
+                for column in 0..half {
+                    let quarters = self.places(half, row, column).map(|at| coefficients[at]);
+                    let at = 2 * row * self.side + 2 * column;
+                    let places = [at, at + 1, at + self.side, at + self.side + 1];
+                    places.into_iter().zip(butterfly(quarters)).for_each(|(at, value)| self.scratch[at] = value);
+                }
+            }
+            for row in 0..2 * half {
+                let part = row * self.side..row * self.side + 2 * half;
+                coefficients[part.clone()].copy_from_slice(&self.scratch[part]);
+            }
+            half *= 2;
+        }
+    }
+
+    /// Where a level of 2 x `half` rows keeps an average and its three differences.
+    const fn places(&self, half: usize, row: usize, column: usize) -> [usize; 4] {
+        let at = row * self.side + column;
+        [at, at + half, at + half * self.side, at + half * self.side + half]
+    }
+
+    /// Where the basis function of a coefficient is not 0.
+    ///
+    /// # Panics
+    /// If there is no such coefficient.
+    pub fn support(&self, coefficient: usize) -> HaarSupport {
+        assert!(coefficient < self.side * self.side, "a coefficient of a square of side {}", self.side);
+        let [row, column] = [coefficient / self.side, coefficient % self.side];
+        let largest = row.max(column);
+        if largest == 0 {
+            return HaarSupport { row: 0, column: 0, side: self.side };
+        }
+        // The largest power of two up to it: squares of the level along an edge.
+        let half = 1 << largest.ilog2();
+        let side = self.side / half;
+        HaarSupport { row: row % half * side, column: column % half * side, side }
+    }
+}
+
+/// A level's four numbers; its own inverse.
+const fn butterfly([a, b, c, d]: [f64; 4]) -> [f64; 4] {
+    let ([left, right], [above, below]) = ([a + c, b + d], [a - b, c - d]);
+    [(left + right) / 2.0, (above + below) / 2.0, ((a + b) - (c + d)) / 2.0, (above - below) / 2.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_by_two_as_defined() {
+        let mut square = [8.0, 4.0, 2.0, 0.0];
+        Haar::new(2).forward(&mut square);
+        assert_eq!(square, [7.0, 3.0, 5.0, 1.0]);
+        Haar::new(2).inverse(&mut square);
+        assert_eq!(square, [8.0, 4.0, 2.0, 0.0]);
+    }
+
+    #[test]
+    fn a_basis_function_vanishes_outside_its_support() {
+        let mut haar = Haar::new(8);
+        for coefficient in 0..64 {
+            let mut square = [0.0; 64];
+            square[coefficient] = 1.0;
+            haar.inverse(&mut square);
+            let HaarSupport { row, column, side } = haar.support(coefficient);
+            for (at, value) in square.into_iter().enumerate() {
+                let within = (row..row + side).contains(&(at / 8)) && (column..column + side).contains(&(at % 8));
+                // Plus or minus one over the side: a sum of squares of 1.
+                assert_eq!(value.abs(), if within { 1.0 / side as f64 } else { 0.0 }, "{coefficient} at {at}");
+            }
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! The texels of a light.
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::disks::{DiskSource, add_disk};
+use super::error::CubeLightError;
+use crate::prt::all_frequency::grid::{
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
+};
+use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
+
+/// How 4 x 4 samples become a texel.
+///
+/// The paper says "supersample the lighting 4 x 4 and decimate", without weights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Decimation {
+    /// Their mean, weighted by the solid angles of the samples: keeps the flux through the texel.
+    #[default]
+    SolidAngle,
+    /// Their plain mean, the plain reading of the text. Samples of a texel differ by up to 1.4 in solid angle.
+    Plain,
+}
+
+/// Radiance from infinitely far: red, green and blue of each light texel, finite and at least 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CubeLight {
+    texels: Vec<[f64; 3]>,
+}
+
+impl CubeLight {
+    /// Of radiances by texel number.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite and at least 0.
+    pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, CubeLightError> {
+        if texels.len() != LIGHT_TEXELS {
+            return Err(CubeLightError::Texels { found: texels.len() });
+        }
+        for (texel, color) in texels.iter().enumerate() {
+            for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
+                if !(found.is_finite() && found >= 0.0) {
+                    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+                    return Err(CubeLightError::Radiance { found, channel, face, row, column });
+                }
+            }
+        }
+        Ok(Self { texels })
+    }
+
+    /// The same radiance from everywhere.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Radiance`] if it is negative or not finite.
+    pub fn constant(radiance: [f64; 3]) -> Result<Self, CubeLightError> {
+        Self::new(vec![radiance; LIGHT_TEXELS])
+    }
+
+    /// Of a function of unit directions, sampled in the 4 x 4 fine directions of each texel. Direction v of the
+    /// function shines from `rotation` v.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] if the matrix is no rotation, or a radiance is negative or not finite.
+    pub fn sampled(
+        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        check_rotation(rotation)?;
+        let back = rotation.transpose();
+        let fine: Vec<[f64; 3]> =
+            FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
+        Self::decimated(&fine, decimation)
+    }
+
+    /// Of a picture of the whole sphere, whose radiance is constant over each pixel.
+    ///
+    /// # Errors
+    /// As [`Self::sampled`].
+    pub fn from_picture(
+        picture: &EnvironmentPicture,
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
+    }
+
+    /// Of small sources, counted from 0 in errors. Each adds its radiance times the share of each fine texel that it
+    /// covers; the shares are found on a grid as fine as the source needs and scaled so that the source's flux,
+    /// 2 pi (1 - cos radius) times its radiance, is kept.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
+    pub fn from_disks(
+        sources: &[DiskSource],
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        check_rotation(rotation)?;
+        let mut fine = vec![[0.0; 3]; FINE_DIRECTIONS];
+        for (number, source) in sources.iter().enumerate() {
+            add_disk(&source.checked(number)?, rotation, &mut fine);
+        }
+        Self::decimated(&fine, decimation)
+    }
+
+    /// Of the CIE clear sky over z >= 0 with its sun, and the ground below.
+    ///
+    /// # Errors
+    /// As [`Self::sampled`], and for a sun that is not above the horizon.
+    pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+        sky.relative(DVec3::Z)?;
+        let radiance = |v: DVec3| match v.z >= 0.0 {
+            true => sky.zenith.map(|zenith| zenith * sky.relative(v).unwrap_or(0.0)),
+            false => sky.ground,
+        };
+        let sun = DiskSource { towards: sky.sun, radius: crate::sphere::SUN_RADIUS, radiance: sky.sun_radiance };
+        Ok(Self::sampled(radiance, rotation, decimation)?.plus(&Self::from_disks(&[sun], rotation, decimation)?))
+    }
+
+    /// [`HarmonicLight::red_and_blue`], not cut to an order: two disks in a dim surrounding.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
+    pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+        let disks = HarmonicLight::RED_AND_BLUE_DISKS
+            .map(|(towards, radiance)| DiskSource { towards, radius: HarmonicLight::RED_AND_BLUE_RADIUS, radiance });
+        let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
+        Ok(Self::from_disks(&disks, rotation, decimation)?.plus(&surrounding))
+    }
+
+    /// Samples in all fine directions to texels.
+    fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, CubeLightError> {
+        let solid_angles = FineDirections::get().solid_angles();
+        let texel = |texel: usize| {
+            let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+            let first = (face * FINE_SIDE + row * SUPERSAMPLES) * FINE_SIDE + column * SUPERSAMPLES;
+            let (mut sum, mut whole) = ([0.0; 3], 0.0);
+            for at in (0..SUPERSAMPLES * SUPERSAMPLES).map(|k| first + k / SUPERSAMPLES * FINE_SIDE + k % SUPERSAMPLES)
+            {
+                let weight = match decimation {
+                    Decimation::SolidAngle => solid_angles[at],
+                    Decimation::Plain => 1.0,
+                };
+                sum.iter_mut().zip(fine[at]).for_each(|(sum, radiance)| *sum += weight * radiance);
+                whole += weight;
+            }
+            sum.map(|sum| sum / whole)
+        };
+        Self::new((0..LIGHT_TEXELS).map(texel).collect())
+    }
+
+    /// Both lights together.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let both = self.texels.iter().zip(&other.texels);
+        Self { texels: both.map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect() }
+    }
+
+    /// The radiances, by texel number.
+    pub fn texels(&self) -> &[[f64; 3]] {
+        &self.texels
+    }
+
+    /// The integral of the radiance over all directions, radiance being constant over each texel.
+    pub fn flux(&self) -> [f64; 3] {
+        let solid_angles = FineDirections::get().solid_angles();
+        let mut sum = [0.0; 3];
+        for (fine, solid_angle) in solid_angles.iter().enumerate() {
+            let radiance = self.texels[crate::prt::all_frequency::grid::light_texel(fine)];
+            sum.iter_mut().zip(radiance).for_each(|(sum, radiance)| *sum += solid_angle * radiance);
+        }
+        sum
+    }
+}

@@ -1,0 +1,18 @@
+//! Distant light as radiances of a cube map of 6 x 32 x 32 texels, and its Haar coefficients (section 6).
+//!
+//! - [`CubeLight`]: the texels; from any function of directions, turned, supersampled 4 x 4 and decimated;
+//! - [`DiskSource`]: small sources, whose energy no sample misses;
+//! - [`HaarLight`]: coefficients by segment;
+//! - [`TruncationPriority`]: which coefficients stay if only some may.
+
+mod coefficients;
+mod cube_light;
+mod disks;
+mod error;
+mod truncation;
+
+pub use coefficients::HaarLight;
+pub use cube_light::{CubeLight, Decimation};
+pub use disks::DiskSource;
+pub use error::CubeLightError;
+pub use truncation::{LightTruncation, TruncationPriority};

@@ -1,0 +1,35 @@
+//! The radiance that a picture shows in a direction.
+
+use glam::DVec3;
+
+use super::environment::{EnvironmentError, read};
+use super::layout::LayoutGrid;
+use crate::picture::Picture;
+
+/// A picture of the whole sphere that can be asked for the radiance in a direction: constant over each pixel.
+pub struct EnvironmentPicture {
+    grid: LayoutGrid,
+    pixels: Vec<[f32; 3]>,
+}
+
+impl std::fmt::Debug for EnvironmentPicture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("EnvironmentPicture").field("pixels", &self.pixels.len()).finish_non_exhaustive()
+    }
+}
+
+impl EnvironmentPicture {
+    /// Of a picture, whose layout is that of its shape. Pixels that show no direction are not read.
+    ///
+    /// # Errors
+    /// [`EnvironmentError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
+    pub fn new(picture: &Picture) -> Result<Self, EnvironmentError> {
+        let (grid, pixels) = read(picture)?;
+        Ok(Self { grid, pixels })
+    }
+
+    /// Red, green and blue in a direction of length 1.
+    pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
+        self.pixels[self.grid.pixel(direction)].map(f64::from)
+    }
+}
