@@ -3,6 +3,7 @@
 mod card;
 mod compress;
 mod error;
+mod factor;
 mod light;
 mod model;
 mod precompute;
@@ -26,8 +27,10 @@ Examples:
       pictures of it
   crossbar prt card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
       the same on an emulated card
+  crossbar prt factor --brdf cook-torrance
+      reflectance as a sum of products of a function of view and one of light
 
-docs/prt-format.md specifies the files, docs/papers/cpca.md what is computed.";
+docs/prt-format.md specifies the files, docs/papers/cpca.md and docs/papers/all_frequency.md what is computed.";
 
 /// Precomputed radiance transfer: compute it, compress it by clustered principal components, draw it
 #[derive(Debug, clap::Args)]
@@ -42,6 +45,7 @@ enum Verb {
     Card(card::Args),
     Compress(compress::Args),
     Error(error::Args),
+    Factor(factor::Args),
     Precompute(precompute::Args),
     Render(render::Args),
     Show(show::Args),
@@ -52,6 +56,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compress(args) => compress::run(args, out)?,
         Verb::Error(args) => error::run(args, out)?,
+        Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Precompute(args) => precompute::run(args, out)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Show(args) => show::run(args, out)?,

@@ -1,9 +1,11 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
-//! ([`CompressionError`]), pictures ([`Rendering`]), and pictures by an emulated card ([`OnCard`]).
+//! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
+//! reflectance ([`BrdfFactors`]).
 
 mod card;
 mod compression_error;
 mod exit_radiance;
+mod factor;
 mod interpolate;
 mod precompute;
 mod render;
@@ -11,6 +13,7 @@ mod render;
 pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
+pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};
 pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
 pub(super) use render::auto_exposure;

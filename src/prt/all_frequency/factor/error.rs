@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::linalg::{FactorError, MatrixError};
+use crate::prt::brdf::BrdfError;
 
 /// Why there are no factors.
 #[non_exhaustive]
@@ -13,6 +14,10 @@ pub enum FactorizationError {
     #[error("expected {expected} for the {what}, found {found}")]
     #[diagnostic(code(crossbar::factor::range))]
     OutOfRange { what: &'static str, expected: &'static str, found: f64 },
+    /// A figure of the reflectance out of its range.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::factor::brdf))]
+    Brdf(#[from] BrdfError),
     /// A reflectance without a formula below the horizon.
     #[error("expected a reflectance with a formula below the horizon, found {what}")]
     #[diagnostic(code(crossbar::factor::continued), help("take 0 for texels outside the disc, or its rim"))]

@@ -1,0 +1,391 @@
+//! `crossbar prt factor`: reflectance as a sum of products.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use clap::{ArgGroup, ValueEnum};
+
+use crate::cli::Problem;
+use crate::cli::memory::MemoryNeed;
+use crate::cli::number;
+use crate::cli::study::StudyArgs;
+use crate::prt::all_frequency::factor::{
+    Denominators, FacetDistribution, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, OutsideDisc,
+    ProductClamp, Shadowing, Supersamples, TangentCosine, load_merl, load_product_table,
+};
+use crate::prt::brdf::Brdf;
+use crate::study::prt::{BrdfFactors, FactorSubject};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar prt factor --brdf cook-torrance --roughness 0.4 --fresnel 0.5
+      ten terms of the paper's first reflectance: errors, pictures, tables of G and F
+  crossbar prt factor --brdf schlick --roughness 0.2 --isotropy 0.2 --fresnel 0.8 --denominators quarter --tangent half-vector
+      the second, without pi and cosines in the denominator
+  crossbar prt factor --brdf cook-torrance --fresnel-form constant --shadowing none --denominators product --sweep-roughness 0.2,0.3,0.5
+      other forms of its factors, and three roughnesses side by side
+  crossbar prt factor --table docs/examples/reflectance.csv --terms 4 --json
+      any table of reflectance times cosine: a row per view, a column per light, by texels of square parabolic maps
+  crossbar prt factor --merl gold-metallic-paint.binary --channel green --terms 20
+      a measurement of the MERL database
+
+Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
+docs/papers/all_frequency.md says what the options are.";
+
+/// Reflectance models.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ModelArg {
+    /// Cook and Torrance 1982
+    CookTorrance,
+    /// Schlick 1994, anisotropic
+    Schlick,
+    /// Phong, as MTL files have it
+    Phong,
+    /// The same radiance in all directions
+    Lambert,
+}
+
+/// What stands in front of a lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum DenominatorsArg {
+    /// 1 / (4 pi v_z s_z)
+    Normalised,
+    /// 1 / (pi v_z s_z), as Cook and Torrance print it
+    #[value(name = "printed-1982")]
+    Printed1982,
+    /// 1
+    Product,
+    /// 1/4
+    Quarter,
+}
+
+/// Forms of Fresnel's term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FresnelArg {
+    /// Fresnel's formula for dielectrics
+    Dielectric,
+    /// Schlick's approximation
+    Schlick,
+    /// The same at all angles
+    Constant,
+}
+
+/// Light that facets take from each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ShadowingArg {
+    /// As the model has it
+    Model,
+    /// None
+    None,
+}
+
+/// The w of Schlick's azimuth factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TangentArg {
+    /// Of the half vector's projection onto the surface
+    Projected,
+    /// Of the half vector itself
+    HalfVector,
+}
+
+/// Texels outside of the disc.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum OutsideArg {
+    /// 0
+    Zero,
+    /// The formula below the horizon
+    Continued,
+    /// The rim's value
+    Rim,
+}
+
+/// When f is cut off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ClampWhenArg {
+    /// Each sample, before the mean is taken
+    Before,
+    /// The mean
+    After,
+}
+
+/// A channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ChannelArg {
+    Red,
+    Green,
+    Blue,
+}
+
+/// Where f is cut off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct LimitArg(Option<f64>);
+
+impl FromStr for LimitArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" { Ok(Self(None)) } else { number::positive(text).map(|limit| Self(Some(limit))) }
+    }
+}
+
+/// Samples along an edge of a texel: view and light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct SupersamplesArg(Supersamples);
+
+impl FromStr for SupersamplesArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let edge = |text: &str| text.parse::<usize>().ok().filter(|edge| (1..=16).contains(edge));
+        let found = text.split_once('x').and_then(|(view, light)| Some((edge(view)?, edge(light)?)));
+        let (view, light) =
+            found.ok_or_else(|| format!("expected two numbers from 1 to 16 as in 4x4, found `{text}`"))?;
+        Ok(Self(Supersamples { view, light }))
+    }
+}
+
+/// Factor reflectance into functions of view and of light: singular values, errors, tables
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true,
+          group = ArgGroup::new("subject").args(["brdf", "merl", "table"]).required(true))]
+pub(in crate::cli) struct Args {
+    /// A model of reflectance
+    #[arg(long, value_enum, value_name = "MODEL")]
+    brdf: Option<ModelArg>,
+
+    /// A measurement of the MERL database: a .binary file
+    #[arg(long, value_name = "FILE")]
+    merl: Option<PathBuf>,
+
+    /// A table of reflectance times the light's cosine, CSV or NumPy's: a row per texel of the view's map, a column per
+    /// texel of the light's, both square
+    #[arg(long, value_name = "FILE")]
+    table: Option<PathBuf>,
+
+    /// Roughness of cook-torrance and schlick [default: the paper's, 0.4 and 0.2]
+    #[arg(long, value_name = "R", value_parser = number::positive)]
+    roughness: Option<f64>,
+
+    /// Reflectance of the facets at normal incidence; the lobe's for phong [default: the paper's, 0.5 and 0.8; 0.5]
+    #[arg(long, value_name = "F", value_parser = number::not_negative)]
+    fresnel: Option<f64>,
+
+    /// Isotropy of schlick, up to 1
+    #[arg(long, value_name = "P", value_parser = number::positive, default_value_t = 0.2)]
+    isotropy: f64,
+
+    /// Exponent of phong
+    #[arg(long, value_name = "N", value_parser = number::not_negative, default_value_t = 20.0)]
+    exponent: f64,
+
+    /// Reflectance of the diffuse part [default: 1 for lambert, 0 for others]
+    #[arg(long, value_name = "A", value_parser = number::not_negative)]
+    albedo: Option<f64>,
+
+    /// What stands in front of the lobe of cook-torrance and schlick
+    #[arg(long, value_enum, value_name = "D", default_value = "normalised")]
+    denominators: DenominatorsArg,
+
+    /// Fresnel's term of cook-torrance and schlick [default: dielectric and schlick]
+    #[arg(long, value_enum, value_name = "FORM")]
+    fresnel_form: Option<FresnelArg>,
+
+    /// Shadowing of cook-torrance and schlick
+    #[arg(long, value_enum, value_name = "S", default_value = "model")]
+    shadowing: ShadowingArg,
+
+    /// The cosine along the tangent in schlick
+    #[arg(long, value_enum, value_name = "W", default_value = "projected")]
+    tangent: TangentArg,
+
+    /// The channel of a measurement
+    #[arg(long, value_enum, value_name = "C", default_value = "green")]
+    channel: ChannelArg,
+
+    /// Texels along an edge of the parabolic maps
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
+    side: u32,
+
+    /// Samples along an edge of a view's and of a light's texel; the paper's 16 x 16 may be 4x4, 16x1, 1x16 or 16x16
+    #[arg(long, value_name = "VxL", default_value = "4x4", allow_hyphen_values = true)]
+    supersamples: SupersamplesArg,
+
+    /// Texels outside of the disc, whose directions lie below the horizon
+    #[arg(long, value_enum, value_name = "HOW", default_value = "zero")]
+    outside: OutsideArg,
+
+    /// Cut off reflectance times cosine at this value, or at `none`
+    #[arg(long, value_name = "LIMIT", default_value = "3", allow_hyphen_values = true)]
+    clamp: LimitArg,
+
+    /// Whether samples or their mean are cut off
+    #[arg(long, value_enum, value_name = "WHEN", default_value = "after")]
+    clamp_when: ClampWhenArg,
+
+    /// Terms
+    #[arg(long, value_name = "M", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
+    terms: u32,
+
+    /// The same model with each of these roughnesses too, as in Figure 3
+    #[arg(long, value_name = "R,...", value_delimiter = ',', value_parser = number::positive, allow_hyphen_values = true)]
+    sweep_roughness: Vec<f64>,
+
+    /// Where to write the page, the pictures and the tables
+    #[arg(long, value_name = "DIR", default_value = "out/prt-factor")]
+    out: PathBuf,
+}
+
+impl Args {
+    fn sampling(&self) -> FactorSampling {
+        let Supersamples { view, light } = self.supersamples.0;
+        FactorSampling {
+            side: self.side as usize,
+            supersamples: Supersamples { view, light },
+            outside: match self.outside {
+                OutsideArg::Zero => OutsideDisc::Zero,
+                OutsideArg::Continued => OutsideDisc::Continued,
+                OutsideArg::Rim => OutsideDisc::Rim,
+            },
+            clamp: match (self.clamp.0, self.clamp_when) {
+                (None, _) => ProductClamp::None,
+                (Some(limit), ClampWhenArg::Before) => ProductClamp::Samples(limit),
+                (Some(limit), ClampWhenArg::After) => ProductClamp::Means(limit),
+            },
+        }
+    }
+
+    fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
+        let distribution = match lobe.distribution {
+            FacetDistribution::Schlick { roughness, isotropy, .. } => FacetDistribution::Schlick {
+                roughness,
+                isotropy,
+                tangent: match self.tangent {
+                    TangentArg::Projected => TangentCosine::Projected,
+                    TangentArg::HalfVector => TangentCosine::HalfVector,
+                },
+            },
+            beckmann @ FacetDistribution::Beckmann { .. } => beckmann,
+        };
+        let lobe = Lobe {
+            albedo: self.albedo.unwrap_or(0.0),
+            distribution,
+            fresnel: match self.fresnel_form {
+                None => lobe.fresnel,
+                Some(FresnelArg::Dielectric) => FresnelForm::Dielectric,
+                Some(FresnelArg::Schlick) => FresnelForm::Schlick,
+                Some(FresnelArg::Constant) => FresnelForm::Constant,
+            },
+            shadowing: match self.shadowing {
+                ShadowingArg::Model => Shadowing::Model,
+                ShadowingArg::None => Shadowing::None,
+            },
+            denominators: match self.denominators {
+                DenominatorsArg::Normalised => Denominators::Normalised,
+                DenominatorsArg::Printed1982 => Denominators::Printed1982,
+                DenominatorsArg::Product => Denominators::Product,
+                DenominatorsArg::Quarter => Denominators::Quarter,
+            },
+            ..lobe
+        };
+        lobe.check().map_err(|error| refused(&error))?;
+        Ok(FactorSubject::Lobe(lobe))
+    }
+
+    fn model(&self, model: ModelArg) -> Result<FactorSubject, Problem> {
+        let of_brdf = |brdf: Brdf| brdf.check().map(|()| FactorSubject::Brdf(brdf)).map_err(|error| refused(&error));
+        match model {
+            ModelArg::CookTorrance => {
+                self.lobe(Lobe::cook_torrance(self.roughness.unwrap_or(0.4), self.fresnel.unwrap_or(0.5)))
+            }
+            ModelArg::Schlick => {
+                let [roughness, fresnel] = [self.roughness.unwrap_or(0.2), self.fresnel.unwrap_or(0.8)];
+                self.lobe(Lobe::schlick(roughness, self.isotropy, fresnel))
+            }
+            ModelArg::Phong => {
+                let [albedo, specular] = [self.albedo.unwrap_or(0.0), self.fresnel.unwrap_or(0.5)];
+                of_brdf(Brdf::Phong { albedo, specular, exponent: self.exponent })
+            }
+            ModelArg::Lambert => of_brdf(Brdf::Lambert { albedo: self.albedo.unwrap_or(1.0) }),
+        }
+    }
+}
+
+fn refused(error: &crate::prt::brdf::BrdfError) -> Problem {
+    Problem::usage(error.to_string(), "see `crossbar prt factor --help`")
+}
+
+impl StudyArgs for Args {
+    type Study = BrdfFactors;
+    const COMMAND: &'static str = "prt factor";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        [&self.merl, &self.table].into_iter().flatten().map(PathBuf::as_path).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        /// Of each value of the table: it, its copies, and the rotations of its singular values.
+        const PER_VALUE: u64 = 160;
+        /// Of a MERL file: its bytes and its cells.
+        const MERL: u64 = 3 * 35_000_000;
+        let texels = u64::from(self.side) * u64::from(self.side);
+        let (what, help, values) = match &self.table {
+            // A number and its comma take two bytes at least.
+            Some(path) => {
+                let bytes = std::fs::metadata(path).map_or(0, |file| file.len());
+                (format!("factoring `{}`", path.display()), "name a smaller table", bytes / 2)
+            }
+            None => (format!("maps of {0} x {0} texels", self.side), "ask for a smaller `--side`", texels * texels),
+        };
+        let most = (MAX_MAP_SIDE as u64).pow(4);
+        let merl = if self.merl.is_some() { MERL } else { 0 };
+        Ok(Some(MemoryNeed { what, bytes: values.min(most).saturating_mul(PER_VALUE).saturating_add(merl), help }))
+    }
+
+    fn study(&self) -> miette::Result<BrdfFactors> {
+        let channel = match self.channel {
+            ChannelArg::Red => MerlChannel::Red,
+            ChannelArg::Green => MerlChannel::Green,
+            ChannelArg::Blue => MerlChannel::Blue,
+        };
+        let (name, subject) = match (&self.merl, &self.table, self.brdf) {
+            (Some(path), ..) => (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, channel)),
+            (None, Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
+            (None, None, model) => {
+                let model = model.unwrap_or(ModelArg::CookTorrance);
+                let name = match model {
+                    ModelArg::CookTorrance => "Cook and Torrance's model",
+                    ModelArg::Schlick => "Schlick's model",
+                    ModelArg::Phong => "Phong's model",
+                    ModelArg::Lambert => "Lambert's law",
+                };
+                (name.to_owned(), self.model(model)?)
+            }
+        };
+        let sampling = self.sampling();
+        Ok(BrdfFactors {
+            name,
+            subject,
+            sampling,
+            terms: self.terms as usize,
+            roughnesses: self.sweep_roughness.clone(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_and_supersamples_are_read_and_bad_ones_refused() {
+        assert_eq!("none".parse(), Ok(LimitArg(None)));
+        assert_eq!("2.5".parse(), Ok(LimitArg(Some(2.5))));
+        assert!("0".parse::<LimitArg>().is_err() && "-1".parse::<LimitArg>().is_err());
+        assert_eq!("16x1".parse(), Ok(SupersamplesArg(Supersamples::VIEW)));
+        assert!(["4", "0x4", "17x1", "4x4x4", "x"].iter().all(|text| text.parse::<SupersamplesArg>().is_err()));
+    }
+}

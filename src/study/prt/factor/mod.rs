@@ -1,0 +1,11 @@
+//! Factors of a reflectance: how many terms are how far off, beside spherical harmonics; pictures; tables of G and F.
+
+mod files;
+mod harmonics;
+mod report;
+mod sphere;
+mod subject;
+mod sweep;
+mod terms;
+
+pub use subject::{BrdfFactors, BrdfFactorsError, FactorSubject};

@@ -1,0 +1,70 @@
+//! Pictures of a sphere of some reflectance under two distant lights.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::picture::Picture;
+
+/// Pixels along an edge.
+pub(super) const SIZE: u32 = 160;
+
+/// Directions towards the lights, not yet of length 1, and their irradiances across them: one before the sphere, one that
+/// grazes it. z is up, the eye looks along y.
+const LIGHTS: [(DVec3, f64); 2] = [(DVec3::new(-0.5, -0.6, 0.62), PI), (DVec3::new(0.9, 0.35, 0.1), 0.5 * PI)];
+
+/// Radiance of each pixel towards the eye, rows from the top; 0 beside the sphere. `f` is reflectance times cosine by
+/// local directions of view and light; tangents run along the parallels, as on a turned vessel.
+pub(super) fn radiance(f: &(dyn Fn(DVec3, DVec3) -> f64 + Sync)) -> Vec<f64> {
+    let at = |place: u32| (2.0 * f64::from(place) + 1.0) / f64::from(SIZE) - 1.0;
+    let pixel = |pixel: u32| {
+        let [x, z] = [at(pixel % SIZE), -at(pixel / SIZE)].map(|along| 1.05 * along);
+        let square = 1.0 - x * x - z * z;
+        if square <= 0.0 {
+            return 0.0;
+        }
+        let normal = DVec3::new(x, -square.sqrt(), z);
+        let tangent = DVec3::Z.cross(normal).normalize();
+        let bitangent = normal.cross(tangent);
+        let local =
+            |direction: DVec3| DVec3::new(tangent.dot(direction), bitangent.dot(direction), normal.dot(direction));
+        let view = local(DVec3::NEG_Y);
+        let of = |(light, irradiance): &(DVec3, f64)| {
+            let light = local(light.normalize());
+            if light.z > 0.0 { irradiance * f(view, light) } else { 0.0 }
+        };
+        LIGHTS.iter().map(of).sum()
+    };
+    (0..SIZE * SIZE).into_par_iter().map(pixel).collect()
+}
+
+/// Radiances as a grey picture.
+pub(super) fn picture(radiance: &[f64]) -> Picture {
+    let pixels: Vec<[f32; 3]> = radiance.iter().map(|&value| [value as f32; 3]).collect();
+    Picture::rgb(SIZE, SIZE, &pixels)
+}
+
+/// What brings a picture to 18 % grey on average where it is lit.
+pub(super) fn exposure(radiance: &[f64]) -> f64 {
+    let colors: Vec<[f64; 3]> = radiance.iter().map(|&value| [value; 3]).collect();
+    crate::study::prt::render::auto_exposure(&colors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_diffuse_sphere_is_lit_by_the_cosine() {
+        let lit = radiance(&|_, light| light.z / PI);
+        let (x, z) = (-0.3_f64, 0.4_f64);
+        let place = |along: f64| (((along / 1.05 + 1.0) * f64::from(SIZE) - 1.0) / 2.0).round() as u32;
+        let found = lit[(place(-z) * SIZE + place(x)) as usize];
+        let normal = DVec3::new(x, -(1.0 - x * x - z * z).sqrt(), z);
+        let of = |(light, irradiance): &(DVec3, f64)| irradiance / PI * light.normalize().dot(normal).max(0.0);
+        let expected: f64 = LIGHTS.iter().map(of).sum();
+        assert!((found - expected).abs() < 0.01, "{found} {expected}");
+        assert_eq!((lit[0], lit.len()), (0.0, (SIZE * SIZE) as usize));
+    }
+}

@@ -1,0 +1,91 @@
+//! What is factored, and why it cannot be.
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::picture::PictureError;
+use crate::prt::all_frequency::factor::{
+    FactorSampling, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
+};
+use crate::prt::brdf::Brdf;
+use crate::report::ReportError;
+
+/// A reflectance to be factored.
+#[derive(Clone, Debug)]
+pub enum FactorSubject {
+    /// Microfacets in a form of their own.
+    Lobe(Lobe),
+    /// A model of `prt::brdf`.
+    Brdf(Brdf),
+    /// A channel of a measurement.
+    Merl(MerlBrdf, MerlChannel),
+    /// A table of f by texels.
+    Table(ProductTable),
+}
+
+/// A reflectance, how it is sampled, and how many terms are wanted.
+#[derive(Clone, Debug)]
+pub struct BrdfFactors {
+    /// Its name.
+    pub name: String,
+    /// The reflectance.
+    pub subject: FactorSubject,
+    /// How f is sampled; a table is as it is.
+    pub sampling: FactorSampling,
+    /// m.
+    pub terms: usize,
+    /// Roughnesses of the same lobe to be factored besides, as in Figure 3.
+    pub roughnesses: Vec<f64>,
+}
+
+/// Why there is no answer.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum BrdfFactorsError {
+    /// There are no factors.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Factors(#[from] FactorizationError),
+    /// Roughness is swept of something that has none.
+    #[error("expected a model of microfacets whose roughness can be swept, found {found}")]
+    #[diagnostic(
+        code(crossbar::factor::sweep),
+        help("roughness is swept for Cook and Torrance's and for Schlick's model")
+    )]
+    NoRoughness {
+        /// What was to be swept.
+        found: String,
+    },
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+    /// A file that cannot be encoded.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Report(#[from] ReportError),
+}
+
+impl FactorSubject {
+    /// Calls with f as a formula or a measurement; `None` for a table.
+    pub(super) fn with_product<T>(&self, of: impl FnOnce(&dyn ProductFunction) -> T) -> Option<T> {
+        match self {
+            Self::Lobe(lobe) => Some(of(lobe)),
+            Self::Brdf(brdf) => Some(of(brdf)),
+            Self::Merl(merl, channel) => Some(of(&merl.channel(*channel))),
+            Self::Table(_) => None,
+        }
+    }
+
+    /// The table of f.
+    pub(super) fn table(
+        &self,
+        sampling: &FactorSampling,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<ProductTable, FactorizationError> {
+        match self {
+            Self::Table(table) => Ok(table.clone()),
+            _ => self.with_product(|product| sampling.table(product, progress)).expect("all others are formulas"),
+        }
+    }
+}

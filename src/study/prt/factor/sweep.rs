@@ -1,0 +1,135 @@
+//! Figure 3: the same lobe with other roughnesses.
+
+use super::sphere;
+use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
+use crate::picture::metrics::{ScreenPicture, flip};
+use crate::prt::all_frequency::factor::{
+    DiscSamples, FacetDistribution, Factorization, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
+};
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
+use crate::study::ProgressFn;
+
+/// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
+const PIXELS_PER_DEGREE: f64 = 67.0;
+
+/// One roughness.
+pub(in crate::study) struct SweptRoughness {
+    pub(in crate::study) roughness: f64,
+    pub(in crate::study) relative_squared_error: f64,
+    pub(in crate::study) errors: ProductErrors,
+    /// Mean of FLIP between spheres of the table and of the terms.
+    pub(in crate::study) flip: f64,
+    pictures: [NamedPicture; 2],
+}
+
+/// The lobe with another roughness.
+pub(in crate::study) fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationError> {
+    let distribution = match lobe.distribution {
+        FacetDistribution::Beckmann { .. } => FacetDistribution::Beckmann { roughness },
+        FacetDistribution::Schlick { isotropy, tangent, .. } => {
+            FacetDistribution::Schlick { roughness, isotropy, tangent }
+        }
+    };
+    let swept = Lobe { distribution, ..*lobe };
+    swept.check()?;
+    Ok(swept)
+}
+
+impl BrdfFactors {
+    /// The lobe of [`FactorSubject::Lobe`] with each roughness.
+    pub(in crate::study) fn sweep(
+        &self,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<Vec<SweptRoughness>, BrdfFactorsError> {
+        if self.roughnesses.is_empty() {
+            return Ok(Vec::new());
+        }
+        let FactorSubject::Lobe(lobe) = &self.subject else {
+            return Err(BrdfFactorsError::NoRoughness { found: self.name.clone() });
+        };
+        let all = self.roughnesses.len() as u64;
+        let one = |(done, &roughness): (u64, &f64)| {
+            progress("roughnesses", done, all);
+            self.swept(&with_roughness(lobe, roughness)?, roughness)
+        };
+        (0..).zip(&self.roughnesses).map(one).collect()
+    }
+
+    fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, BrdfFactorsError> {
+        let table = self.sampling.table(lobe, &mut |_, _| ())?;
+        let found = Factorization::new(&table, self.terms)?;
+        let factors = found.factors(self.terms);
+        let limit = self.sampling.clamp.limit();
+        let [original, drawn] = [
+            sphere::radiance(&|view, light| lobe.value(view, light).min(limit)),
+            sphere::radiance(&|view, light| factors.product(view, light)),
+        ];
+        let exposure = sphere::exposure(&original);
+        let screens = [&original, &drawn].map(|radiance| ScreenPicture::new(&sphere::picture(radiance), exposure));
+        let [one, other] = screens;
+        let seen = flip(&one?, &other?, PIXELS_PER_DEGREE);
+        let named = |kind: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, BrdfFactorsError> {
+            let name = format!("roughness-{}-{kind}", shown(roughness, Quantity::Exact));
+            Ok(NamedPicture::new(name, sphere::picture(radiance).display(exposure)?, caption))
+        };
+        let label = shown(roughness, Quantity::Exact);
+        Ok(SweptRoughness {
+            roughness,
+            relative_squared_error: found.relative_squared_error(self.terms),
+            errors: DiscSamples::new(&table).errors(&factors),
+            flip: seen.map_or(0.0, |seen| seen.mean),
+            pictures: [
+                named("f", &original, format!("roughness {label}: f"))?,
+                named("terms", &drawn, format!("roughness {label}: {} terms", self.terms))?,
+            ],
+        })
+    }
+}
+
+/// Table, chart and pictures.
+pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>, terms: usize) {
+    if rows.is_empty() {
+        return;
+    }
+    found.heading("Roughness");
+    found.table(FoundTable::from(table(&rows, terms)).csv("roughness").field("roughness"));
+    if rows.len() > 1 {
+        let line = |label: &str, of: fn(&SweptRoughness) -> f64| Series {
+            label: label.to_owned(),
+            points: rows.iter().map(|row| (row.roughness, of(row))).collect(),
+        };
+        let chart = Chart {
+            title: format!("Errors of {terms} terms by roughness"),
+            x: "roughness".to_owned(),
+            y: "error".to_owned(),
+            y_scale: Scale::Logarithmic,
+            lines: vec![
+                line("relative squared", |row| row.relative_squared_error),
+                line("RMS", |row| row.errors.rms),
+                line("FLIP of spheres", |row| row.flip),
+            ],
+            ..Chart::default()
+        };
+        let caption = "A sharper lobe needs more terms (Figure 3).".to_owned();
+        found.chart(NamedChart { name: "roughness".to_owned(), chart, caption });
+    }
+    found.pictures(rows.into_iter().flat_map(|row| row.pictures).collect());
+}
+
+pub(in crate::study) fn table(rows: &[SweptRoughness], terms: usize) -> Table {
+    let mut table = Table::of(
+        format!("Errors of {terms} terms by roughness"),
+        "roughness relative_squared_error rms max flip_of_spheres",
+    );
+    for row in rows {
+        table.push([
+            row.roughness.into(),
+            Cell::error(row.relative_squared_error),
+            Cell::error(row.errors.rms),
+            Cell::error(row.errors.max),
+            Cell::error(row.flip),
+        ]);
+    }
+    table
+}
