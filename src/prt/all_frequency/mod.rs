@@ -1,6 +1,7 @@
 //! System 5: all-frequency transfer for glossy objects (Liu, Sloan, Shum and Snyder 2004).
 //!
 //! - [`factor`]: reflectance as a sum of products of a function of view and a function of light (section 3);
+//! - [`Reflectance`]: these factors, or the exact term of a diffuse surface;
 //! - [`grid`], [`haar`], [`hats`]: the cube of light texels, its segments and their bases (sections 4 and 5);
 //! - [`light`]: light as coefficients (section 6); [`visibility`], [`transfer`]: matrices of vertices (section 4);
 //! - [`compressed`]: each lighting segment's transfer by clusters of linear combinations (section 5);
@@ -16,6 +17,9 @@ pub mod haar;
 pub mod hats;
 pub mod light;
 pub mod reference;
+mod reflectance;
 pub mod shade;
 pub mod transfer;
 pub mod visibility;
+
+pub use reflectance::Reflectance;

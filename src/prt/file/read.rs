@@ -83,19 +83,24 @@ struct PrtHeader {
 }
 
 /// Bytes, from a place on. A section's reader ends with the section.
-struct Reader<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    name: &'a Path,
+pub(super) struct Reader<'a> {
+    pub(super) bytes: &'a [u8],
+    pub(super) at: usize,
+    pub(super) name: &'a Path,
 }
 
 impl<'a> Reader<'a> {
-    fn field(&self, field: &'static str, expected: impl Into<String>, found: impl Into<String>) -> PrtFileError {
+    pub(super) fn field(
+        &self,
+        field: &'static str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> PrtFileError {
         PrtFileError::Field { path: self.name.into(), field, expected: expected.into(), found: found.into() }
     }
 
     /// The next `needed` bytes.
-    fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], PrtFileError> {
+    pub(super) fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], PrtFileError> {
         let rest = &self.bytes[self.at..];
         match usize::try_from(needed).ok().and_then(|needed| rest.get(..needed)) {
             Some(taken) => {
@@ -109,32 +114,36 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], PrtFileError> {
+    pub(super) fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], PrtFileError> {
         let mut bytes = [0; N];
         bytes.copy_from_slice(self.take(N as u64, what)?);
         Ok(bytes)
     }
 
-    fn integer(&mut self, what: &'static str) -> Result<u32, PrtFileError> {
+    pub(super) fn integer(&mut self, what: &'static str) -> Result<u32, PrtFileError> {
         self.array(what).map(u32::from_le_bytes)
     }
 
     /// The next `count` numbers of N bytes.
-    fn numbers<const N: usize>(&mut self, count: usize, what: &'static str) -> Result<&'a [[u8; N]], PrtFileError> {
+    pub(super) fn numbers<const N: usize>(
+        &mut self,
+        count: usize,
+        what: &'static str,
+    ) -> Result<&'a [[u8; N]], PrtFileError> {
         let bytes = (count as u64).saturating_mul(N as u64);
         Ok(self.take(bytes, what)?.as_chunks().0)
     }
 
-    fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, PrtFileError> {
+    pub(super) fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, PrtFileError> {
         Ok(self.numbers(count, what)?.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect())
     }
 
-    fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, PrtFileError> {
+    pub(super) fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, PrtFileError> {
         Ok(self.numbers(count, what)?.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
     }
 
     /// Compares the checksum that follows with that of all bytes from `first` on.
-    fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), PrtFileError> {
+    pub(super) fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), PrtFileError> {
         let found = crc32fast::hash(&self.bytes[first..self.at]);
         let expected = self.integer("checksum")?;
         if found == expected {
@@ -143,23 +152,27 @@ impl<'a> Reader<'a> {
         Err(PrtFileError::Checksum { path: self.name.into(), what, offset: first, expected, found })
     }
 
-    fn end(&self) -> Result<(), PrtFileError> {
+    pub(super) fn end(&self) -> Result<(), PrtFileError> {
         match self.bytes.len() - self.at {
             0 => Ok(()),
             found => Err(PrtFileError::Trailing { path: self.name.into(), offset: self.at, found }),
         }
     }
 
-    fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
+    /// The beginning, with the version first: what follows depends on it.
+    pub(super) fn version(&mut self) -> Result<(), PrtFileError> {
         if !self.bytes.starts_with(MAGIC) {
             return Err(PrtFileError::Magic { path: self.name.into() });
         }
         self.at = MAGIC.len();
-        // The version first: what follows depends on it.
-        let found = self.integer("header")?;
-        if found != VERSION {
-            return Err(PrtFileError::Version { path: self.name.into(), found });
+        match self.integer("header")? {
+            VERSION => Ok(()),
+            found => Err(PrtFileError::Version { path: self.name.into(), found }),
         }
+    }
+
+    fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
+        self.version()?;
         let mut fields = [0; FIELDS];
         for field in &mut fields {
             *field = self.integer("header")?;
@@ -172,7 +185,7 @@ impl<'a> Reader<'a> {
         // What is not used is 0, so that equal contents have equal bytes.
         let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
         let fields = [
-            ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
+            ("conventions (2 is all-frequency transfer)", conventions, CONVENTIONS..=CONVENTIONS),
             ("number of exit functions", rows, 0..=matrix * u32::MAX),
             ("albedo", albedo, 0..=matrix),
             ("tangents", tangents, 0..=AXIS_TANGENTS),
@@ -199,7 +212,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Where tangents come from; `None` without a mesh.
-    fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
+    pub(super) fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
         let is_axis = number == AXIS_TANGENTS;
         let is_used = axis.to_array().iter().any(|value| value.to_bits() != 0);
         if is_used != is_axis || (is_axis && unit(axis).is_none()) {
@@ -215,7 +228,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The next section, its checksum compared.
-    fn section(&mut self) -> Result<([u8; 4], Self), PrtFileError> {
+    pub(super) fn section(&mut self) -> Result<([u8; 4], Self), PrtFileError> {
         let first = self.at;
         let tag = self.array("section")?;
         let length = u64::from_le_bytes(self.array("section")?);

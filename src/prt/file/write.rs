@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{
-    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, PrtFile, PrtMeaning, TEXTURE_TANGENTS, TRANSFER,
-    VERSION,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, MeshDigest, PrtFile, PrtMeaning, TEXTURE_TANGENTS,
+    TRANSFER, VERSION,
 };
 use crate::io::{WriteError, write_file};
 use crate::prt::Signal;
@@ -51,13 +51,8 @@ fn header(file: &PrtFile) -> Vec<u8> {
         }
     };
     let sections = u32::from(file.transfer.is_some()) + u32::from(file.clustering.is_some());
-    let digest = file.mesh.map_or([0; 4], |m| [m.vertices, m.triangles, m.vertex_crc, m.triangle_crc]);
-    let (tangents, axis) = match file.mesh.map(|mesh| mesh.tangents) {
-        None => (0, [0.0; 3]),
-        Some(Tangents::Any) => (ANY_TANGENTS, [0.0; 3]),
-        Some(Tangents::Texture) => (TEXTURE_TANGENTS, [0.0; 3]),
-        Some(Tangents::Along(axis)) => (AXIS_TANGENTS, axis.to_array()),
-    };
+    let digest = file.mesh.map_or([0; 4], digest_fields);
+    let (tangents, axis) = file.mesh.map_or((0, [0.0; 3]), |mesh| tangent_fields(mesh.tangents));
     let fields = [
         [VERSION, CONVENTIONS, channels, functions.len() as u32],
         [columns, albedo, file.points() as u32, sections],
@@ -69,6 +64,19 @@ fn header(file: &PrtFile) -> Vec<u8> {
     bytes.extend(functions.iter().flat_map(|function| function.to_le_bytes()));
     bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
     bytes
+}
+
+pub(super) fn digest_fields(mesh: MeshDigest) -> [u32; 4] {
+    [mesh.vertices, mesh.triangles, mesh.vertex_crc, mesh.triangle_crc]
+}
+
+/// The number of tangents, and their axis.
+pub(super) fn tangent_fields(tangents: Tangents) -> (u32, [f64; 3]) {
+    match tangents {
+        Tangents::Any => (ANY_TANGENTS, [0.0; 3]),
+        Tangents::Texture => (TEXTURE_TANGENTS, [0.0; 3]),
+        Tangents::Along(axis) => (AXIS_TANGENTS, axis.to_array()),
+    }
 }
 
 fn write_transfer(transfer: &Signal, section: &mut Section<'_>) -> io::Result<()> {
@@ -96,26 +104,26 @@ fn write_clustering(clustering: &Clustering, section: &mut Section<'_>) -> io::R
 const BUFFERED: usize = 1 << 14;
 
 /// A part with its length before and its checksum behind it.
-struct Section<'a> {
+pub(super) struct Section<'a> {
     out: &'a mut dyn Write,
     crc: crc32fast::Hasher,
 }
 
 impl<'a> Section<'a> {
-    fn begin(out: &'a mut dyn Write, tag: &[u8; 4], length: u64) -> io::Result<Self> {
+    pub(super) fn begin(out: &'a mut dyn Write, tag: &[u8; 4], length: u64) -> io::Result<Self> {
         let mut section = Self { out, crc: crc32fast::Hasher::new() };
         section.write(tag)?;
         section.write(&length.to_le_bytes())?;
         Ok(section)
     }
 
-    fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+    pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         self.crc.update(bytes);
         self.out.write_all(bytes)
     }
 
     /// Writes numbers, many at a time.
-    fn write_all<const N: usize>(&mut self, mut numbers: impl Iterator<Item = [u8; N]>) -> io::Result<()> {
+    pub(super) fn write_all<const N: usize>(&mut self, mut numbers: impl Iterator<Item = [u8; N]>) -> io::Result<()> {
         loop {
             let some: Vec<u8> = numbers.by_ref().take(BUFFERED).flatten().collect();
             if some.is_empty() {
@@ -125,7 +133,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    fn end(self) -> io::Result<()> {
+    pub(super) fn end(self) -> io::Result<()> {
         self.out.write_all(&self.crc.finalize().to_le_bytes())
     }
 }

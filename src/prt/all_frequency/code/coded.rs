@@ -85,6 +85,17 @@ impl CodedTransfer {
         Ok(Self { rows, coefficients, vertices: transfer.vertices, options, segments })
     }
 
+    /// Whether all parts go together: else the first that does not.
+    pub fn fault(&self) -> Option<&'static str> {
+        if self.options.check().is_err() {
+            return Some("bits");
+        }
+        if !self.segments.is_sorted_by(|a, b| a.segment < b.segment) {
+            return Some("order of segments");
+        }
+        self.segments.iter().find_map(|part| part.fault(self))
+    }
+
     /// Its size.
     pub fn size(&self) -> CodeSize {
         let mut size = CodeSize::default();
@@ -148,6 +159,30 @@ impl CodedSegment {
             weights,
             weight_steps,
         }
+    }
+
+    fn fault(&self, all: &CodedTransfer) -> Option<&'static str> {
+        let increasing = self.vertices.is_sorted_by(|a, b| a < b);
+        if !increasing || self.vertices.last().is_none_or(|&last| last as usize >= all.vertices) {
+            return Some("vertices of a segment");
+        }
+        let known = |&cluster: &u16| usize::from(cluster) < self.counts.len();
+        if self.cluster_of.len() != self.vertices.len() || !self.cluster_of.iter().all(known) {
+            return Some("clusters of vertices");
+        }
+        let sum = |counts: &mut dyn Iterator<Item = u8>| counts.map(usize::from).sum::<usize>();
+        let rows = sum(&mut self.counts.iter().copied());
+        let shape = (self.representatives.rows(), Some(self.representatives.columns()));
+        if shape != (rows, all.rows.checked_mul(all.coefficients)) {
+            return Some("representatives");
+        }
+        let steps = [&self.representative_steps, &self.weight_steps];
+        let fits = |steps: &Vec<f32>| steps.len() == rows && steps.iter().all(|step| step.is_finite() && *step >= 0.0);
+        if !steps.into_iter().all(fits) {
+            return Some("steps");
+        }
+        let weights = sum(&mut self.cluster_of.iter().map(|&cluster| self.counts[usize::from(cluster)]));
+        (self.weights.len() != weights).then_some("weights")
     }
 
     /// The number of each cluster's first representative.

@@ -44,6 +44,39 @@ impl SparseRows {
         sparse
     }
 
+    /// Of its parts: per column of each block how many numbers there are; all row numbers; all values. `None` if they do
+    /// not go together: a row beyond its block or out of order, a 0 among the values, too many numbers or too few.
+    pub fn from_parts(
+        rows: usize,
+        columns: usize,
+        counts: Vec<u16>,
+        row_in_block: Vec<u8>,
+        values: Vec<i16>,
+    ) -> Option<Self> {
+        let blocks = rows.div_ceil(BLOCK_ROWS);
+        let all = counts.iter().map(|&count| usize::from(count)).sum::<usize>();
+        if columns == 0 || Some(counts.len()) != blocks.checked_mul(columns) {
+            return None;
+        }
+        if row_in_block.len() != all || values.len() != all || values.contains(&0) {
+            return None;
+        }
+        let sparse = Self { rows, columns, counts, row_in_block, values };
+        let fits = sparse.blocks().enumerate().all(|(block, mut columns)| {
+            let height = BLOCK_ROWS.min(rows - block * BLOCK_ROWS);
+            columns.all(|column| {
+                column.rows.is_sorted_by(|a, b| a < b)
+                    && column.rows.last().is_none_or(|&last| usize::from(last) < height)
+            })
+        });
+        fits.then_some(sparse)
+    }
+
+    /// The parts: counts, row numbers, values.
+    pub fn parts(&self) -> (&[u16], &[u8], &[i16]) {
+        (&self.counts, &self.row_in_block, &self.values)
+    }
+
     /// All numbers, row by row.
     pub fn decode(&self) -> Vec<i16> {
         let mut values = vec![0; self.rows * self.columns];
@@ -113,9 +146,30 @@ mod tests {
             let values: Vec<i16> = (0..rows * columns).map(draw).collect();
             let sparse = SparseRows::encode(&values, columns);
             assert_eq!(sparse.decode(), values, "{rows} x {columns}");
+            let (counts, of_rows, of_values) = sparse.parts();
+            let parts = (counts.to_vec(), of_rows.to_vec(), of_values.to_vec());
+            assert_eq!(SparseRows::from_parts(rows, columns, parts.0, parts.1, parts.2).as_ref(), Some(&sparse));
             let nonzeros = values.iter().filter(|value| **value != 0).count();
             assert_eq!((sparse.nonzeros(), sparse.block_count()), (nonzeros, rows.div_ceil(256)));
             assert_eq!(sparse.bytes(), 3 * nonzeros + 2 * columns * rows.div_ceil(256));
+        }
+    }
+
+    #[test]
+    fn parts_that_do_not_go_together_are_refused() {
+        let of = |rows, columns, counts: &[u16], of_rows: &[u8], values: &[i16]| {
+            SparseRows::from_parts(rows, columns, counts.to_vec(), of_rows.to_vec(), values.to_vec())
+        };
+        assert!(of(3, 2, &[2, 0], &[0, 2], &[5, 6]).is_some());
+        for (counts, of_rows, values) in [
+            (&[2][..], &[0, 2][..], &[5, 6][..]),
+            (&[2, 1], &[0, 2], &[5, 6]),
+            (&[2, 0], &[0, 3], &[5, 6]),
+            (&[2, 0], &[2, 0], &[5, 6]),
+            (&[2, 0], &[0, 2], &[5, 0]),
+            (&[2, 0], &[0, 2], &[5]),
+        ] {
+            assert_eq!(of(3, 2, counts, of_rows, values), None, "{counts:?} {of_rows:?} {values:?}");
         }
     }
 

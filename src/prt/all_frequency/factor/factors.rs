@@ -37,7 +37,7 @@ impl FactorMap {
 }
 
 impl Factors {
-    pub(super) fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
+    pub(in crate::prt) fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));
         for map in [&view, &light] {
@@ -59,6 +59,11 @@ impl Factors {
     /// The map of F.
     pub const fn light_map(&self) -> ParabolicMap {
         self.light.map
+    }
+
+    /// Both maps' values, texel by texel: G, then F.
+    pub fn values(&self) -> [&[f64]; 2] {
+        [&self.view.values, &self.light.values]
     }
 
     /// G at a texel, row times side plus column.

@@ -124,8 +124,11 @@ impl CubeLight {
     /// # Errors
     /// [`CubeLightError::Rotation`] if the matrix is no rotation.
     pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
-        let disks = HarmonicLight::RED_AND_BLUE_DISKS
-            .map(|(towards, radiance)| DiskSource { towards, radius: HarmonicLight::RED_AND_BLUE_RADIUS, radiance });
+        let disks = HarmonicLight::RED_AND_BLUE_DISKS.map(|(towards, radiance)| DiskSource {
+            towards,
+            radius: HarmonicLight::RED_AND_BLUE_RADIUS,
+            radiance,
+        });
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
         Ok(Self::from_disks(&disks, rotation, decimation)?.plus(&surrounding))
     }

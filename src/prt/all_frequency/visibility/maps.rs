@@ -39,6 +39,23 @@ impl VisibilityMaps {
         Self { vertices: vertices.to_vec(), words: vec![0; vertices.len() * WORDS], counts }
     }
 
+    /// The maps of vertices 0, 1, 2 and so on, from all words, map by map; nothing is known of how they came about but
+    /// the number of bits. `None` if the last map is incomplete.
+    pub fn from_words(words: Vec<u64>) -> Option<Self> {
+        if !words.len().is_multiple_of(WORDS) {
+            return None;
+        }
+        let vertices = (0..u32::try_from(words.len() / WORDS).ok()?).collect();
+        let mut maps = Self { vertices, words, counts: VisibilityCounts::default() };
+        maps.count_visible();
+        Some(maps)
+    }
+
+    /// All words, map by map.
+    pub fn words(&self) -> &[u64] {
+        &self.words
+    }
+
     /// The vertices that the maps are of, by their number in the mesh.
     pub fn vertices(&self) -> &[u32] {
         &self.vertices
@@ -72,7 +89,6 @@ impl VisibilityMaps {
         self.bits(map)[fine / 64] >> (fine % 64) & 1 != 0
     }
 
-    /// All words, map by map.
     pub(super) fn words_mut(&mut self) -> &mut [u64] {
         &mut self.words
     }
