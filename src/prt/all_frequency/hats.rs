@@ -109,8 +109,9 @@ fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     let [down, right] = [half_texels(row), half_texels(column)];
     let reach = side as f64;
     let beyond = (down.abs().max(right.abs()) - reach).max(0.0);
-    let folded =
-        axes.center * (reach - beyond) + axes.right * right.clamp(-reach, reach) + axes.down * down.clamp(-reach, reach);
+    let folded = axes.center * (reach - beyond)
+        + axes.right * right.clamp(-reach, reach)
+        + axes.down * down.clamp(-reach, reach);
     let next = CUBE_FACES.iter().position(|other| *other != axes && other.center.dot(folded) == reach)?;
     let place = |along: f64| ((along + reach - 1.0) / 2.0) as usize;
     let [row, column] = [CUBE_FACES[next].down, CUBE_FACES[next].right].map(|axis| place(axis.dot(folded)));

@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::error::CubeLightError;
 use crate::elementary::sin_cos;
 use crate::geom::vector::unit;
+use crate::io::LightSourceRow;
 use crate::prt::all_frequency::grid::{FINE_SIDE, FineDirections, face_row_column};
 use crate::sphere::CUBE_FACES;
 
@@ -25,6 +26,13 @@ const TEXEL_RADIUS: f64 = 1.5 / FINE_SIDE as f64;
 const PER_RADIUS: f64 = 8.0;
 /// Samples along an edge of a fine texel, at most.
 const MAX_SAMPLES: usize = 64;
+
+impl From<LightSourceRow> for DiskSource {
+    fn from(row: LightSourceRow) -> Self {
+        let LightSourceRow { towards, degrees, radiance } = row;
+        Self { towards: towards.into(), radius: degrees.to_radians(), radiance }
+    }
+}
 
 impl DiskSource {
     /// The source with a direction of length 1.
@@ -53,7 +61,8 @@ pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 
     let chord = |angle: f64| 2.0 * sin_cos(angle.min(std::f64::consts::PI) / 2.0).0;
     let (edge, far) = (chord(source.radius), chord(source.radius + TEXEL_RADIUS));
     let near = if source.radius > TEXEL_RADIUS { chord(source.radius - TEXEL_RADIUS) } else { -1.0 };
-    let samples = ((PER_RADIUS * 2.0 / FINE_SIDE as f64 / source.radius).ceil()).clamp(4.0, MAX_SAMPLES as f64) as usize;
+    let samples =
+        ((PER_RADIUS * 2.0 / FINE_SIDE as f64 / source.radius).ceil()).clamp(4.0, MAX_SAMPLES as f64) as usize;
     let directions = FineDirections::get();
     let mut covered: Vec<(usize, f64)> = Vec::new();
     for (at, direction) in directions.directions().iter().enumerate() {
@@ -83,9 +92,7 @@ pub(super) fn add_disk(source: &DiskSource, rotation: &DMat3, fine: &mut [[f64; 
 fn covered_share(fine: usize, samples: usize, holds: impl Fn(DVec3) -> bool) -> f64 {
     let [face, row, column] = face_row_column(fine, FINE_SIDE);
     let axes = CUBE_FACES[face];
-    let along = |at: usize, k: usize| {
-        2.0 * (at as f64 + (k as f64 + 0.5) / samples as f64) / FINE_SIDE as f64 - 1.0
-    };
+    let along = |at: usize, k: usize| 2.0 * (at as f64 + (k as f64 + 0.5) / samples as f64) / FINE_SIDE as f64 - 1.0;
     let (mut inside, mut whole) = (0.0, 0.0);
     for v in (0..samples).map(|k| along(row, k)) {
         for u in (0..samples).map(|k| along(column, k)) {

@@ -40,11 +40,7 @@ impl HaarLight {
     ///
     /// # Errors
     /// [`CubeLightError::Responses`] if there is not one average response per coefficient.
-    pub fn truncated(
-        &self,
-        keep: usize,
-        priority: TruncationPriority<'_>,
-    ) -> Result<LightTruncation, CubeLightError> {
+    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, CubeLightError> {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],
             TruncationPriority::Area => support_areas(self.segmentation()),

@@ -64,7 +64,6 @@ impl SegmentCensus {
 pub fn segments_below_horizon(normal: DVec3, hats: &Hats) -> u32 {
     let directions = FineDirections::get().directions();
     let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;
-    (0..Segmentation::Quarters.count()).fold(0, |found, segment| {
-        found | u32::from(!hats.rim(segment).any(is_above)) << segment
-    })
+    (0..Segmentation::Quarters.count())
+        .fold(0, |found, segment| found | u32::from(!hats.rim(segment).any(is_above)) << segment)
 }

@@ -91,7 +91,12 @@ impl CubeCard {
             .filter(|corners| corners.iter().any(|corner| normal.dot(*corner) > 0.0))
             .collect();
         for (face, axes) in CUBE_FACES.iter().enumerate() {
-            let on_face: Vec<Vertex> = seen.iter().filter(|corners| !misses(axes, corners)).flatten().map(|corner| vertex(axes, *corner)).collect();
+            let on_face: Vec<Vertex> = seen
+                .iter()
+                .filter(|corners| !misses(axes, corners))
+                .flatten()
+                .map(|corner| vertex(axes, *corner))
+                .collect();
             if on_face.is_empty() {
                 continue;
             }

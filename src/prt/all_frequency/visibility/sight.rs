@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::maps::WORDS;
 use crate::geom::vector::wide;
-use crate::prt::all_frequency::grid::{FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES};
 use crate::prt::all_frequency::grid::face_row_column;
+use crate::prt::all_frequency::grid::{FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES};
 use crate::prt::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart};
 
 /// The largest sine of the angle from a light texel's center to a fine direction in it: 3/4 of half a diagonal at the
