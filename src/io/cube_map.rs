@@ -106,7 +106,7 @@ pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f
         texels[at] = (radiance, line.line);
     }
     let is_missing = |(_, line): &([f64; 3], u64)| *line == 0;
-    if let Some(at) = texels.iter().position(|texel| is_missing(texel)) {
+    if let Some(at) = texels.iter().position(is_missing) {
         let (expected, missing) = (texels.len(), texels.iter().filter(|texel| is_missing(texel)).count());
         let [face, row, column] = [at / (side * side), at / side % side, at % side];
         return Err(CubeTableError::Missing { path: name.into(), expected, missing, face, row, column });
