@@ -1,9 +1,11 @@
 //! Files in and out: models, scenes, pictures, rays and hits, and the writing that never leaves half a file.
 
 pub mod atomic;
+pub mod cube_map;
 pub mod error;
 pub mod gltf;
 pub mod irradiances;
+pub mod light_sources;
 mod lines;
 pub mod model;
 pub mod npy;
@@ -17,9 +19,11 @@ pub mod scene_file;
 pub mod scene_obj;
 
 pub use atomic::{FileSet, WriteError, write_file};
+pub use cube_map::{CubeTableError, load_cube_table, parse_cube_table, write_cube_table};
 pub use error::{FilePlace, ModelError, ReadError};
 pub use gltf::parse_gltf;
 pub use irradiances::{IrradiancesError, load_irradiances, parse_irradiances};
+pub use light_sources::{LightSourceRow, LightSourcesError, load_light_sources, parse_light_sources};
 pub use model::{load_mesh, load_scene};
 pub use npy::{NpyError, parse_npy, write_npy};
 pub use number::{NumberError, parse_f32, to_f32};

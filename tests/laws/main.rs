@@ -1,5 +1,6 @@
 //! Laws: what must hold of every input, by property tests and by formula.
 
+mod all_frequency;
 mod atlas;
 mod bad_geometry;
 mod beams;

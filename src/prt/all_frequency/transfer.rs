@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::grid::{FineDirections, Segmentation};
 use super::haar::Haar;
 use super::hats::Hats;
-use super::visibility::VisibilityMaps;
+use super::visibility::{VISIBILITY_BYTES, VisibilityMaps};
 use crate::prt::Signal;
 use crate::prt::transfer::{TransferError, Vertices};
 
@@ -25,6 +25,11 @@ use crate::prt::transfer::{TransferError, Vertices};
 const LEN: usize = Segmentation::Quarters.len();
 /// Points per chunk of a sum over all points: part of the shape of the sum.
 const CHUNK: usize = 1024;
+
+/// Memory of the visibility maps of so many vertices and of one segment with so many rows, in bytes, at most.
+pub const fn transfer_bytes(vertices: u64, rows: u64) -> u64 {
+    vertices * (VISIBILITY_BYTES as u64 + 4 * LEN as u64 * rows + 16)
+}
 
 /// What transfer is computed from: visibility, and the light's side of the factored BRDF.
 #[derive(Clone, Copy, Debug)]

@@ -8,13 +8,15 @@
 //! - one file a scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
 //! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates;
-//! - [`meshes`]: both of these by name.
+//! - [`meshes`]: both of these by name;
+//! - [`ground`]: a square below a model that receives its shadow.
 
 mod chance;
 mod cornell_box;
 mod desktop;
 mod furniture;
 mod geodesic;
+pub mod ground;
 pub mod meshes;
 mod office;
 mod office_floor;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::disks::{DiskSource, add_disk};
 use super::error::CubeLightError;
 use crate::prt::all_frequency::grid::{
-    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
 };
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 
@@ -38,14 +38,7 @@ impl CubeLight {
         if texels.len() != LIGHT_TEXELS {
             return Err(CubeLightError::Texels { found: texels.len() });
         }
-        for (texel, color) in texels.iter().enumerate() {
-            for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
-                if !(found.is_finite() && found >= 0.0) {
-                    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
-                    return Err(CubeLightError::Radiance { found, channel, face, row, column });
-                }
-            }
-        }
+        check(&texels, |texel| texel)?;
         Ok(Self { texels })
     }
 
@@ -71,6 +64,8 @@ impl CubeLight {
         let back = rotation.transpose();
         let fine: Vec<[f64; 3]> =
             FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
+        // A sample that is none would hide in the mean of sixteen.
+        check(&fine, light_texel)?;
         Self::decimated(&fine, decimation)
     }
 
@@ -171,9 +166,22 @@ impl CubeLight {
         let solid_angles = FineDirections::get().solid_angles();
         let mut sum = [0.0; 3];
         for (fine, solid_angle) in solid_angles.iter().enumerate() {
-            let radiance = self.texels[crate::prt::all_frequency::grid::light_texel(fine)];
+            let radiance = self.texels[light_texel(fine)];
             sum.iter_mut().zip(radiance).for_each(|(sum, radiance)| *sum += solid_angle * radiance);
         }
         sum
     }
+}
+
+/// Refuses radiances that are none; `texel` gives the light texel of each.
+fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize) -> Result<(), CubeLightError> {
+    for (at, color) in radiances.iter().enumerate() {
+        for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
+            if !(found.is_finite() && found >= 0.0) {
+                let [face, row, column] = face_row_column(texel(at), LIGHT_SIDE);
+                return Err(CubeLightError::Radiance { found, channel, face, row, column });
+            }
+        }
+    }
+    Ok(())
 }

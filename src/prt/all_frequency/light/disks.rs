@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::error::CubeLightError;
 use crate::elementary::sin_cos;
 use crate::geom::vector::unit;
+use crate::io::LightSourceRow;
 use crate::prt::all_frequency::grid::{FINE_SIDE, FineDirections, face_row_column};
 use crate::sphere::CUBE_FACES;
 
@@ -25,6 +26,13 @@ const TEXEL_RADIUS: f64 = 1.5 / FINE_SIDE as f64;
 const PER_RADIUS: f64 = 8.0;
 /// Samples along an edge of a fine texel, at most.
 const MAX_SAMPLES: usize = 64;
+
+impl From<LightSourceRow> for DiskSource {
+    fn from(row: LightSourceRow) -> Self {
+        let LightSourceRow { towards, degrees, radiance } = row;
+        Self { towards: towards.into(), radius: degrees.to_radians(), radiance }
+    }
+}
 
 impl DiskSource {
     /// The source with a direction of length 1.

@@ -1,0 +1,206 @@
+//! Cube maps as a comma-separated table: the header `face,row,column,r,g,b`, then a line per texel, in any order.
+//!
+//! Faces are Direct3D's, 0 to 5 or +x, -x, +y, -y, +z, -z, as they look from inside the cube; rows count from the top,
+//! columns from the left, from 0. Radiances are finite and at least 0.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::error::ReadError;
+use super::{quoted, read_limited};
+
+/// Longest file that is read, in bytes (64 MiB).
+pub const MAX_BYTES: u64 = 1 << 26;
+const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
+const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
+
+/// Why a file is no cube map. Lines count from 1, the header's.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum CubeTableError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// The first line is not the header.
+    #[error("{}:1: expected the header `face,row,column,r,g,b`, found {found}", path.display())]
+    #[diagnostic(code(crossbar::cube_map::header), help("a line `face,row,column,r,g,b`, then a line per texel"))]
+    Header { path: PathBuf, found: String },
+    /// A line of fewer or more fields.
+    #[error("{}:{line}: expected six fields (face,row,column,r,g,b), found {found}", path.display())]
+    #[diagnostic(code(crossbar::cube_map::fields))]
+    Fields { path: PathBuf, line: u64, found: String },
+    /// A face that is none.
+    #[error("{}:{line}: expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found {found}", path.display())]
+    #[diagnostic(code(crossbar::cube_map::face))]
+    Face { path: PathBuf, line: u64, found: String },
+    /// A row or column that is none.
+    #[error("{}:{line}: expected a {what} from 0 to {}, found {found}", path.display(), side - 1)]
+    #[diagnostic(code(crossbar::cube_map::place), help("the map has six faces of {side} x {side} texels"))]
+    Place { path: PathBuf, line: u64, what: &'static str, side: usize, found: String },
+    /// A radiance that is none.
+    #[error("{}:{line}: expected a finite number of at least 0 for `{channel}`, found {found}", path.display())]
+    #[diagnostic(code(crossbar::cube_map::radiance))]
+    Radiance { path: PathBuf, line: u64, channel: &'static str, found: String },
+    /// A texel that stood on a line before.
+    #[error("{}:{line}: the texel at face {face}, row {row}, column {column} stands on line {first} too", path.display())]
+    #[diagnostic(code(crossbar::cube_map::twice), help("give every texel one line"))]
+    Twice { path: PathBuf, line: u64, first: u64, face: usize, row: usize, column: usize },
+    /// Texels without a line.
+    #[error(
+        "{}: expected {expected} texels, {missing} of them are missing, the first at face {face}, row {row}, column \
+         {column}", path.display()
+    )]
+    #[diagnostic(code(crossbar::cube_map::missing), help("give every texel one line; black ones too"))]
+    Missing { path: PathBuf, expected: usize, missing: usize, face: usize, row: usize, column: usize },
+    /// The table's syntax is broken.
+    #[error("{}: the table cannot be read: {reason}", path.display())]
+    #[diagnostic(code(crossbar::cube_map::syntax))]
+    Syntax { path: PathBuf, reason: String },
+}
+
+/// Reads the texels of a cube map of a side from a file, by face, row and column.
+///
+/// # Errors
+/// [`CubeTableError`], with the path, and the line where there is one.
+pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTableError> {
+    let unreadable = |source| ReadError::Unreadable { what: "light", path: path.into(), source };
+    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
+        Some(bytes) => parse_cube_table(&bytes, path, side),
+        None => Err(ReadError::TooLong { what: "table", path: path.into(), limit: MAX_BYTES }.into()),
+    }
+}
+
+/// Reads the texels of a cube map from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`CubeTableError`], with the line where there is one.
+///
+/// # Panics
+/// If the side is 0.
+pub fn parse_cube_table(bytes: &[u8], name: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTableError> {
+    assert!(side > 0, "a texel along an edge");
+    // Some programs mark UTF-8 with three bytes.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let syntax = |reason: csv::Error| CubeTableError::Syntax { path: name.into(), reason: reason.to_string() };
+    let mut record = csv::ByteRecord::new();
+    let has_header = reader.read_byte_record(&mut record).map_err(syntax)?;
+    if !has_header || !record.iter().eq(HEADER.map(str::as_bytes)) {
+        return Err(CubeTableError::Header { path: name.into(), found: whole(&record) });
+    }
+    // Each texel with its line; 0 while there is none.
+    let mut texels = vec![([0.0; 3], 0); 6 * side * side];
+    while reader.read_byte_record(&mut record).map_err(syntax)? {
+        let line = TexelLine { path: name, line: record.position().map_or(0, csv::Position::line), side };
+        let (at, radiance) = line.parse(&record)?;
+        let [face, row, column] = [at / (side * side), at / side % side, at % side];
+        let (_, first) = texels[at];
+        if first > 0 {
+            return Err(CubeTableError::Twice { path: name.into(), line: line.line, first, face, row, column });
+        }
+        texels[at] = (radiance, line.line);
+    }
+    let is_missing = |(_, line): &([f64; 3], u64)| *line == 0;
+    if let Some(at) = texels.iter().position(is_missing) {
+        let (expected, missing) = (texels.len(), texels.iter().filter(|texel| is_missing(texel)).count());
+        let [face, row, column] = [at / (side * side), at / side % side, at % side];
+        return Err(CubeTableError::Missing { path: name.into(), expected, missing, face, row, column });
+    }
+    Ok(texels.into_iter().map(|(radiance, _)| radiance).collect())
+}
+
+/// The table of a cube map's texels, in their order.
+///
+/// # Panics
+/// If there are not the texels of six faces of this side.
+pub fn write_cube_table(texels: &[[f64; 3]], side: usize) -> String {
+    assert_eq!(texels.len(), 6 * side * side, "six faces of side {side}");
+    let mut text = HEADER.join(",") + "\n";
+    for (at, [r, g, b]) in texels.iter().enumerate() {
+        let [face, row, column] = [at / (side * side), at / side % side, at % side];
+        let _ = writeln!(text, "{face},{row},{column},{r},{g},{b}");
+    }
+    text
+}
+
+/// A line of the table.
+struct TexelLine<'a> {
+    path: &'a Path,
+    line: u64,
+    side: usize,
+}
+
+impl TexelLine<'_> {
+    /// The texel's number and its radiance.
+    fn parse(&self, record: &csv::ByteRecord) -> Result<(usize, [f64; 3]), CubeTableError> {
+        let (path, line) = (|| self.path.to_path_buf(), self.line);
+        let fields: Vec<&[u8]> = record.iter().collect();
+        let [face, row, column, r, g, b] = fields[..] else {
+            return Err(CubeTableError::Fields { path: path(), line, found: whole(record) });
+        };
+        let text = |field: &[u8]| std::str::from_utf8(field).unwrap_or_default().to_owned();
+        let named = FACES.iter().position(|name| name.as_bytes() == face);
+        let face = named
+            .or_else(|| text(face).parse().ok().filter(|face| *face < 6))
+            .ok_or_else(|| CubeTableError::Face { path: path(), line, found: quoted(face) })?;
+        let place = |what, field: &[u8]| {
+            let refused = || CubeTableError::Place { path: path(), line, what, side: self.side, found: quoted(field) };
+            text(field).parse().ok().filter(|at| *at < self.side).ok_or_else(refused)
+        };
+        let (row, column): (usize, usize) = (place("row", row)?, place("column", column)?);
+        let radiance = |channel, field: &[u8]| {
+            let value = text(field).parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
+            value.ok_or_else(|| CubeTableError::Radiance { path: path(), line, channel, found: quoted(field) })
+        };
+        let at = (face * self.side + row) * self.side + column;
+        Ok((at, [radiance("r", r)?, radiance("g", g)?, radiance("b", b)?]))
+    }
+}
+
+/// A line as messages quote it.
+fn whole(record: &csv::ByteRecord) -> String {
+    quoted(&record.iter().collect::<Vec<_>>().join(&b','))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Vec<[f64; 3]>, String> {
+        parse_cube_table(text.as_bytes(), Path::new("l.csv"), 1).map_err(|error| error.to_string())
+    }
+
+    const TAIL: &str = "1,0,0,1,0,0\n2,0,0,2,0,0\n3,0,0,3,0,0\n-z,0,0,5,0,0\n+z,0,0,4,0,0.5\n";
+
+    #[test]
+    fn a_line_is_a_texel_in_any_order() {
+        let texels = parse(&format!("face,row,column,r,g,b\n{TAIL}+x,0,0, 0.25 ,1e3,0\n")).expect("a map");
+        assert_eq!(texels[0], [0.25, 1000.0, 0.0]);
+        assert_eq!(texels[4..], [[4.0, 0.0, 0.5], [5.0, 0.0, 0.0]]);
+        assert_eq!(parse(&write_cube_table(&texels, 1)), Ok(texels));
+    }
+
+    #[test]
+    fn bad_tables_are_named() {
+        let error = |line: &str| parse(&format!("face,row,column,r,g,b\n{TAIL}{line}\n")).expect_err("no map");
+        assert_eq!(parse(""), Err("l.csv:1: expected the header `face,row,column,r,g,b`, found ``".to_owned()));
+        assert_eq!(error("0,0,0,1,1"), "l.csv:7: expected six fields (face,row,column,r,g,b), found `0,0,0,1,1`");
+        let faces = "l.csv:7: expected a face, 0 to 5 or +x, -x, +y, -y, +z, -z; found";
+        assert_eq!(error("6,0,0,1,1,1"), format!("{faces} `6`"));
+        assert_eq!(error("up,0,0,1,1,1"), format!("{faces} `up`"));
+        assert_eq!(error("0,1,0,1,1,1"), "l.csv:7: expected a row from 0 to 0, found `1`");
+        assert_eq!(error("0,0,-1,1,1,1"), "l.csv:7: expected a column from 0 to 0, found `-1`");
+        let radiance = "l.csv:7: expected a finite number of at least 0 for";
+        assert_eq!(error("0,0,0,1,nan,1"), format!("{radiance} `g`, found `nan`"));
+        assert_eq!(error("0,0,0,1,1,-2"), format!("{radiance} `b`, found `-2`"));
+        assert_eq!(error("0,0,0,inf,1,1"), format!("{radiance} `r`, found `inf`"));
+        assert_eq!(error("1,0,0,1,1,1"), "l.csv:7: the texel at face 1, row 0, column 0 stands on line 2 too");
+        let missing = "l.csv: expected 6 texels, 1 of them are missing, the first at face 0, row 0, column 0";
+        assert_eq!(error(""), missing);
+    }
+}

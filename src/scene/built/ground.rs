@@ -1,0 +1,78 @@
+//! A ground below a model, which receives its shadow.
+
+use glam::DVec3;
+
+use crate::geom::vector::{narrow, wide};
+use crate::geom::{Mesh, MeshError};
+
+/// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
+pub const GROUND_SIDE: u32 = 192;
+
+/// A square of `side` x `side` vertices at a height that looks up, with normals and texture coordinates: its middle and
+/// half its width.
+///
+/// # Panics
+/// If there are fewer than two vertices along an edge, or a coordinate is not finite in single precision.
+pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
+    assert!(side >= 2, "two vertices along an edge, not {side}");
+    let along = |at: u32| f64::from(at) / f64::from(side - 1);
+    let grid = || (0..side).flat_map(move |row| (0..side).map(move |column| [along(column), along(row)]));
+    let place = |[u, v]: [f64; 2]| narrow(middle + half_width * DVec3::new(2.0 * u - 1.0, 2.0 * v - 1.0, 0.0));
+    let quads = (0..side - 1).flat_map(|row| (0..side - 1).map(move |column| row * side + column));
+    let triangles = quads.flat_map(|a| {
+        let [b, c, d] = [a + 1, a + side + 1, a + side];
+        [[a, b, c], [a, c, d]]
+    });
+    let mesh = Mesh::new(grid().map(place).collect(), triangles.collect());
+    let mesh = mesh.and_then(|mesh| mesh.with_normals(vec![[0.0, 0.0, 1.0]; (side * side) as usize]));
+    let texture = grid().map(|at| at.map(|at| at as f32)).collect();
+    mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite coordinates of a grid")
+}
+
+/// A model on a ground of [`GROUND_SIDE`] that touches its lowest point, twice as wide as the model is along its
+/// longest side of x and y: both in one mesh, and a material per triangle, 0 of the model and 1 of the ground.
+///
+/// The ground's vertices have normals; the model keeps its own, or is given the means of its triangles.
+///
+/// # Errors
+/// [`MeshError::TooMany`] if there are too many triangles.
+pub fn on_ground(model: &Mesh) -> Result<(Mesh, Vec<u32>), MeshError> {
+    let [low, high] = model.bounds().unwrap_or_default().map(wide);
+    let middle = (low / 2.0 + high / 2.0).with_z(low.z);
+    let width = (high - low).truncate().max_element();
+    let ground = ground(GROUND_SIDE, middle, if width > 0.0 { width } else { 1.0 });
+    let first = model.positions().len() as u32;
+    let positions = [model.positions(), ground.positions()].concat();
+    let moved = ground.triangles().iter().map(|corners| corners.map(|corner| corner + first));
+    let triangles: Vec<[u32; 3]> = model.triangles().iter().copied().chain(moved).collect();
+    let of_model = match model.normals() {
+        Some(normals) => normals.to_vec(),
+        None => model.vertex_normals().into_iter().map(narrow).collect(),
+    };
+    let normals = of_model.into_iter().chain(std::iter::repeat_n([0.0, 0.0, 1.0], ground.positions().len())).collect();
+    let materials = (0..triangles.len()).map(|triangle| u32::from(triangle >= model.len())).collect();
+    Ok((Mesh::new(positions, triangles)?.with_normals(normals)?, materials))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ground_of_the_paper_has_36_864_vertices_and_looks_up() {
+        let ground = ground(GROUND_SIDE, DVec3::new(1.0, 2.0, -3.0), 4.0);
+        assert_eq!((ground.positions().len(), ground.len()), (36_864, 2 * 191 * 191));
+        assert_eq!(ground.bounds(), Some([[-3.0, -2.0, -3.0], [5.0, 6.0, -3.0]]));
+        assert!(ground.vertex_normals().iter().all(|normal| *normal == DVec3::Z));
+    }
+
+    #[test]
+    fn a_model_stands_on_its_ground() {
+        let model = crate::geom::teapot::teapot(2).expect("a teapot");
+        let (both, materials) = on_ground(&model).expect("a mesh");
+        assert_eq!(materials.iter().filter(|&&material| material == 0).count(), model.len());
+        assert_eq!(both.positions().len(), model.positions().len() + 36_864);
+        assert_eq!(both.bounds().map(|[low, _]| low[2]), model.bounds().map(|[low, _]| low[2]));
+        assert_eq!(both.normals().map(<[_]>::len), Some(both.positions().len()));
+    }
+}

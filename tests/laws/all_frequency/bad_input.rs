@@ -1,0 +1,101 @@
+//! Lights and transfer that cannot be: errors that say what and where.
+
+use crossbar::geom::random::CounterRng;
+use crossbar::io::{parse_cube_table, parse_light_sources, write_cube_table};
+use crossbar::picture::Picture;
+use crossbar::prt::all_frequency::grid::Segmentation;
+use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
+use crossbar::prt::all_frequency::light::{
+    CubeLight, CubeLightError, Decimation, DiskSource, HaarLight, TruncationPriority,
+};
+use crossbar::prt::all_frequency::transfer::FactoredTransfer;
+use crossbar::prt::all_frequency::visibility::VisibilityMaps;
+use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
+use crossbar::sphere::{ClearSky, EnvironmentPicture};
+use crossbar::tracer::HostTracer;
+use glam::{DMat3, DVec3};
+use proptest::prelude::*;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+use std::path::Path;
+
+use super::{clutter, trace, vertices};
+
+#[test]
+fn what_is_no_light_is_refused() {
+    let message = |found: Result<CubeLight, CubeLightError>| found.expect_err("refused").to_string();
+    assert_eq!(message(CubeLight::new(vec![[0.0; 3]; 6143])), "expected 6144 texels, six faces of 32x32, found 6143");
+    let mut texels = vec![[0.0; 3]; 6144];
+    for bad in [f64::NAN, -1.0, f64::INFINITY] {
+        texels[2 * 1024 + 5 * 32 + 7][1] = bad;
+        let expected = format!(
+            "expected a finite radiance of at least 0, found {bad} in channel green of face 2, row 5, column 7 (counted from 0)"
+        );
+        assert_eq!(message(CubeLight::new(texels.clone())), expected);
+    }
+    let disk = |towards, radius, radiance| {
+        let sources = [
+            DiskSource { towards: DVec3::Z, radius: 1.0, radiance: [1.0; 3] },
+            DiskSource { towards, radius, radiance },
+        ];
+        message(CubeLight::from_disks(&sources, &DMat3::IDENTITY, Decimation::Plain))
+    };
+    assert!(disk(DVec3::ZERO, 1.0, [1.0; 3]).starts_with("source 1: expected a direction of finite length"));
+    assert!(disk(DVec3::Z, 0.0, [1.0; 3]).starts_with("source 1: expected an angular radius above 0"));
+    assert!(disk(DVec3::Z, f64::NAN, [1.0; 3]).starts_with("source 1: expected an angular radius above 0"));
+    assert!(disk(DVec3::Z, 1.0, [1.0, -1.0, 0.0]).starts_with("source 1: expected finite radiances of at least 0"));
+    let mirror = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
+    assert!(message(CubeLight::sampled(|_| [1.0; 3], &mirror, Decimation::Plain)).contains("found a reflection"));
+    assert!(message(CubeLight::red_and_blue(&DMat3::ZERO, Decimation::Plain)).contains("orthonormal columns"));
+    let night = ClearSky { sun: -DVec3::Z, sun_radiance: [1.0; 3], zenith: [1.0; 3], ground: [0.0; 3] };
+    assert!(message(CubeLight::sky(&night, &DMat3::IDENTITY, Decimation::Plain)).contains("above the horizon"));
+    let mut pixels = vec![[1.0; 3]; 64 * 32];
+    pixels[2 * 64 + 33] = [-1.0; 3];
+    let picture = EnvironmentPicture::new(&Picture::rgb(64, 32, &pixels)).expect("an environment");
+    let error = message(CubeLight::from_picture(&picture, &DMat3::IDENTITY, Decimation::Plain));
+    assert!(error.contains("found -") && error.contains("channel red of face 4"), "{error}");
+    assert!(EnvironmentPicture::new(&Picture::rgb(65, 32, &[])).is_err());
+    let light = HaarLight::new(&CubeLight::constant([1.0; 3]).expect("a light"), Segmentation::Faces);
+    assert_eq!(
+        light.truncated(3, TruncationPriority::Transfer(&[1.0; 7])),
+        Err(CubeLightError::Responses { found: 7 })
+    );
+}
+
+#[test]
+fn what_is_no_transfer_is_refused() {
+    let mesh = clutter(1, 3, 1.0);
+    let vertices = vertices(&mesh);
+    let mut caster = HostTracer::new(&mesh, crossbar::geom::Sides::Both);
+    let error = VisibilityMaps::trace(&vertices, &[0, 9], &mut caster, &mut |_, _| ()).expect_err("nine vertices");
+    assert_eq!(error.to_string(), "expected one below the number of vertices for a vertex's number, found 9");
+    let card = |device: &str| CubeCard::new(Profile::named(device).expect("a device"), ExecutorKind::Scalar);
+    assert!(card("r350").expect("a card").draw(&vertices, &[9]).is_err());
+    let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), Hats::new(HatWidth::OneTexel));
+    let response = |_: DVec3, into: &mut [f64]| into.fill(f64::NAN);
+    let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 2, response };
+    let error = transfer.segments().find_map(Result::err).expect("a NaN");
+    assert!(error.to_string().starts_with("expected finite numbers, found NaN in component 0 of point 0"), "{error}");
+}
+
+proptest! {
+    /// Lines of any bytes, and good tables with a byte changed: read or refused, never a panic; what is read is written
+    /// and read again.
+    #[test]
+    fn tables_of_light_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200), at in 0_usize..200, byte: u8) {
+        let name = Path::new("l.csv");
+        let _ = parse_cube_table(&bytes, name, 1);
+        let _ = parse_light_sources(&bytes, name);
+        let random = CounterRng::new(u64::from(byte));
+        let texels: Vec<[f64; 3]> = (0..6).map(|at| [0, 1, 2].map(|k| random.unit(at, 0, k))).collect();
+        let good = write_cube_table(&texels, 1);
+        prop_assert_eq!(parse_cube_table(good.as_bytes(), name, 1).expect("a map"), texels);
+        let mut bad = good.into_bytes();
+        let place = at % bad.len();
+        bad[place] = byte;
+        if let Ok(read) = parse_cube_table(&bad, name, 1) {
+            let again = parse_cube_table(write_cube_table(&read, 1).as_bytes(), name, 1);
+            prop_assert_eq!(again.expect("what was read"), read);
+        }
+    }
+}

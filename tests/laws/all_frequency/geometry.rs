@@ -1,0 +1,62 @@
+//! "At any vertex, at least 4 out of 24 segments are below the normal's hemisphere; on average, about 8 out of 24 are"
+//! (section 5): what geometry says, for every normal.
+
+use std::f64::consts::PI;
+
+use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
+use crossbar::prt::all_frequency::visibility::segments_below_horizon;
+use crossbar::sphere::CubeMap;
+use glam::DVec3;
+
+use super::close;
+
+/// The least number of segments below the horizon, the mean and the largest, over the directions of a fine cube map.
+fn below(width: HatWidth, side: usize) -> (u32, f64, u32) {
+    let (hats, map) = (Hats::new(width), CubeMap::new(side));
+    let (mut least, mut most, mut sum, mut whole) = (24, 0, 0.0, 0.0);
+    for at in 0..map.len() {
+        let (face, row, column) = (at / (side * side), at / side % side, at % side);
+        let count = segments_below_horizon(map.direction(face, column, row), &hats).count_ones();
+        let weight = map.solid_angle(column, row);
+        (least, most) = (least.min(count), most.max(count));
+        sum += weight * f64::from(count);
+        whole += weight;
+    }
+    (least, sum / whole, most)
+}
+
+/// A segment lies below the horizon of a normal if its four corners do: normals of a convex polygon, whose area is
+/// 2 pi less the segment's perimeter. On average that is 6.649 of 24 segments, not 8: omega is 0.723, not 2/3. The least is 6,
+/// not 4.
+#[test]
+fn on_average_6_65_segments_are_below_the_horizon() {
+    let arc = |a: DVec3, b: DVec3| crossbar::elementary::acos(a.normalize().dot(b.normalize()));
+    let [middle, edge, corner] = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0]].map(DVec3::from);
+    let perimeter = 2.0 * (arc(middle, edge) + arc(edge, corner));
+    let closed = 24.0 * (2.0 * PI - perimeter) / (4.0 * PI);
+    close(closed, 6.649, 5e-4, "the closed form");
+    let (least, mean, most) = below(HatWidth::OneTexel, 64);
+    // Fine directions lie half a fine texel inside of a segment's border: a little more is below.
+    assert!(mean > closed && mean < closed * 1.03, "{mean} {closed}");
+    assert_eq!((least, most), (6, 8));
+}
+
+/// Hats of two texels reach over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
+#[test]
+fn with_hats_that_reach_over_fewer_are() {
+    let (least, mean, most) = below(HatWidth::TwoTexels, 64);
+    assert_eq!((least, most), (3, 7));
+    close(mean, 6.44, 0.02, "the mean");
+}
+
+/// Along an axis: the four segments of the face behind, and of the sides those that touch the horizon from below.
+#[test]
+fn along_an_axis_twelve_are_below_without_reach() {
+    let [one, two] = [HatWidth::OneTexel, HatWidth::TwoTexels].map(Hats::new);
+    for axis in DVec3::AXES {
+        for normal in [axis, -axis] {
+            assert_eq!(segments_below_horizon(normal, &one).count_ones(), 12);
+            assert_eq!(segments_below_horizon(normal, &two).count_ones(), 4);
+        }
+    }
+}

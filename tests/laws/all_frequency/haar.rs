@@ -1,0 +1,94 @@
+//! The Haar transform is an orthonormal change of basis.
+
+use crossbar::geom::random::CounterRng;
+use crossbar::prt::all_frequency::grid::{LIGHT_TEXELS, Segmentation};
+use crossbar::prt::all_frequency::haar::Haar;
+use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
+
+use super::close;
+
+fn random(seed: u64, count: usize) -> Vec<f64> {
+    let random = CounterRng::new(seed);
+    (0..count as u64).map(|at| 2.0 * random.unit(at, 0, 0) - 1.0).collect()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[test]
+fn lengths_and_products_stay_and_the_inverse_takes_back() {
+    for side in [1, 2, 4, 8, 16, 32, 64] {
+        let mut haar = Haar::new(side);
+        for seed in 0..8 {
+            let [a, b] = [seed, 100 + seed].map(|seed| random(seed, side * side));
+            let [mut ha, mut hb] = [a.clone(), b.clone()];
+            haar.forward(&mut ha);
+            haar.forward(&mut hb);
+            // Sums of side^2 products of at most 1: a rounding of the sum each, and those of the transform.
+            let bound = (side * side) as f64 * f64::EPSILON * (dot(&a, &a) + dot(&b, &b));
+            close(dot(&ha, &ha), dot(&a, &a), bound, "Parseval");
+            close(dot(&ha, &hb), dot(&a, &b), bound, "a product");
+            haar.inverse(&mut ha);
+            // A level adds four numbers: two roundings of at most 4 each, halved; the inverse the same.
+            let bound = 8.0 * f64::EPSILON * f64::from(side.ilog2()) * side as f64;
+            assert!(ha.iter().zip(&a).all(|(found, a)| (found - a).abs() <= bound), "side {side}, seed {seed}");
+        }
+    }
+}
+
+/// Every pair of basis functions of 16 x 16: products of 0 and 1, exactly, since all values are powers of two.
+#[test]
+fn the_basis_is_orthonormal() {
+    let mut haar = Haar::new(16);
+    let functions: Vec<Vec<f64>> = (0..256)
+        .map(|at| {
+            let mut function = vec![0.0; 256];
+            function[at] = 1.0;
+            haar.inverse(&mut function);
+            function
+        })
+        .collect();
+    for (i, a) in functions.iter().enumerate() {
+        for (k, b) in functions.iter().enumerate() {
+            assert_eq!(dot(a, b), f64::from(u8::from(i == k)), "{i} {k}");
+        }
+    }
+}
+
+#[test]
+fn a_constant_has_one_coefficient() {
+    for side in [1, 2, 16, 32] {
+        let mut square = vec![0.75; side * side];
+        Haar::new(side).forward(&mut square);
+        assert_eq!(square[0], 0.75 * side as f64);
+        assert!(square[1..].iter().all(|value| *value == 0.0));
+    }
+    let light = CubeLight::constant([1.0, 2.0, 0.0]).expect("a light");
+    for segmentation in [Segmentation::Quarters, Segmentation::Faces] {
+        let haar = HaarLight::new(&light, segmentation);
+        assert_eq!((haar.nonzero(), haar.energy()), (segmentation.count(), 5.0 * 6144.0));
+        assert_eq!(haar.radiances(), light.texels());
+    }
+}
+
+/// A row of transfer times the light is the same in texels, in 24 segments and in 6.
+#[test]
+fn transfer_times_light_is_the_same_in_every_basis() {
+    let texels: Vec<[f64; 3]> = random(1, LIGHT_TEXELS).into_iter().map(|value| [value + 1.0, 0.0, 1.0]).collect();
+    let light = CubeLight::new(texels.clone()).expect("a light");
+    let row = random(2, LIGHT_TEXELS);
+    let expected: f64 = texels.iter().zip(&row).map(|(texel, row)| texel[0] * row).sum();
+    for segmentation in [Segmentation::Quarters, Segmentation::Faces] {
+        let haar_light = HaarLight::new(&light, segmentation);
+        let mut haar = Haar::new(segmentation.side());
+        let mut sum = 0.0;
+        for segment in 0..segmentation.count() {
+            let mut square: Vec<f64> =
+                (0..segmentation.len()).map(|place| row[segmentation.texel(segment, place)]).collect();
+            haar.forward(&mut square);
+            sum += dot(&square, haar_light.segment(0, segment));
+        }
+        close(sum, expected, 1e-11, "M L");
+    }
+}

@@ -1,0 +1,178 @@
+//! Lights: flux, turns, decimation, truncation.
+
+use std::f64::consts::PI;
+
+use crossbar::elementary::sin_cos;
+use crossbar::geom::random::CounterRng;
+use crossbar::picture::Picture;
+use crossbar::prt::all_frequency::grid::Segmentation;
+use crossbar::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
+use glam::{DMat3, DVec3};
+
+use super::close;
+
+const DECIMATIONS: [Decimation; 2] = [Decimation::SolidAngle, Decimation::Plain];
+
+fn turn() -> DMat3 {
+    let (sin, cos) = sin_cos(0.7);
+    DMat3::from_cols(DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0), DVec3::Z)
+        * DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)
+}
+
+fn random_directions(seed: u64, count: u64) -> impl Iterator<Item = DVec3> {
+    let random = CounterRng::new(seed);
+    (0..count).map(move |at| {
+        let z = 2.0 * random.unit(at, 0, 0) - 1.0;
+        let (sin, cos) = sin_cos(2.0 * PI * random.unit(at, 0, 1));
+        DVec3::new((1.0 - z * z).sqrt() * cos, (1.0 - z * z).sqrt() * sin, z)
+    })
+}
+
+/// 40 small sources, as in Figure 6.
+fn sources() -> Vec<DiskSource> {
+    random_directions(7, 40)
+        .enumerate()
+        .map(|(at, towards)| DiskSource {
+            towards,
+            radius: 0.03 + 0.001 * at as f64,
+            radiance: [5.0, 4.0 + at as f64, 3.0],
+        })
+        .collect()
+}
+
+#[test]
+fn a_constant_stays_a_constant() {
+    for decimation in DECIMATIONS {
+        let light = CubeLight::sampled(|_| [1.0, 0.25, 3.0], &turn(), decimation).expect("a light");
+        let off = light.texels().iter().flat_map(|texel| [texel[0] - 1.0, texel[1] - 0.25, texel[2] - 3.0]);
+        assert!(off.fold(0.0, |most: f64, off| most.max(off.abs())) < 1e-14);
+        close(light.flux()[0], 4.0 * PI, 1e-11, "flux");
+    }
+}
+
+/// Decimation by solid angles keeps the samples' flux; the plain mean does not.
+#[test]
+fn a_disk_keeps_its_flux_however_small() {
+    for (at, towards) in random_directions(3, 6).chain(DVec3::AXES).chain([DVec3::ONE]).enumerate() {
+        for radius in [1e-6, 1e-3, 0.004_654, 0.03, 0.3, 1.5, 3.0, PI] {
+            let source = DiskSource { towards: 3.0 * towards, radius, radiance: [1.0, 2.0, 0.0] };
+            let light = CubeLight::from_disks(&[source], &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+            let half = sin_cos(radius / 2.0).0;
+            let expected = 4.0 * PI * half * half;
+            for (channel, factor) in [1.0, 2.0, 0.0].into_iter().enumerate() {
+                close(light.flux()[channel], factor * expected, 1e-12 * expected, &format!("disk {at} of {radius}"));
+            }
+            // The shares of fine texels: a grid of eighths of the radius.
+            let brightest = light.texels().iter().map(|texel| texel[0]).fold(0.0, f64::max);
+            assert!(brightest <= 1.02 || radius < 1e-3, "{brightest}");
+        }
+    }
+    let plain = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::Plain).expect("a light");
+    let weighted = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+    let ratio = plain.flux()[0] / weighted.flux()[0];
+    assert!(ratio != 1.0 && (ratio - 1.0).abs() < 0.01, "{ratio}");
+}
+
+/// (R l)(R v) = l(v).
+#[test]
+fn lights_turn_with_their_matrix() {
+    let wave = |v: DVec3| [1.0 + v.x, 1.0 + v.y * v.z, 2.0 - v.z];
+    let turn = turn();
+    for decimation in DECIMATIONS {
+        let turned = CubeLight::sampled(wave, &turn, decimation).expect("a light");
+        let expected =
+            CubeLight::sampled(|v| wave(turn.transpose() * v), &DMat3::IDENTITY, decimation).expect("a light");
+        assert_eq!(turned, expected);
+        let disks: Vec<DiskSource> = sources();
+        let moved: Vec<DiskSource> =
+            disks.iter().map(|disk| DiskSource { towards: turn * disk.towards, ..*disk }).collect();
+        let [a, b] = [(&disks, &turn), (&moved, &DMat3::IDENTITY)]
+            .map(|(disks, turn)| CubeLight::from_disks(disks, turn, decimation).expect("a light").flux());
+        close(a[1], b[1], 1e-9, "flux");
+    }
+}
+
+/// What pictures and generated lights send, against their harmonic of l = 0, which is exact.
+#[test]
+fn generated_lights_have_the_flux_of_their_harmonics() {
+    let flux = |light: &HarmonicLight| light.channels().each_ref().map(|channel| channel[0] * (4.0 * PI).sqrt());
+    let sky = ClearSky {
+        sun: DVec3::new(1.0, -1.0, 1.0),
+        sun_radiance: [4e4; 3],
+        zenith: [0.25, 0.4, 0.7],
+        ground: [0.1; 3],
+    };
+    let mut pixels = vec![[0.0; 3]; 128 * 64];
+    for (at, pixel) in pixels.iter_mut().enumerate() {
+        *pixel = [(at % 128) as f32 / 128.0, 1.0 + (at / 128) as f32, 0.5];
+    }
+    let picture = Picture::rgb(128, 64, &pixels);
+    let shown = EnvironmentPicture::new(&picture).expect("an environment");
+    for turn in [DMat3::IDENTITY, turn()] {
+        let made = [
+            (CubeLight::sky(&sky, &turn, Decimation::SolidAngle), sky.light(3).expect("a light")),
+            (CubeLight::red_and_blue(&turn, Decimation::SolidAngle), HarmonicLight::red_and_blue(3)),
+            (
+                CubeLight::from_picture(&shown, &turn, Decimation::SolidAngle),
+                HarmonicLight::from_picture(3, &picture).expect("a light"),
+            ),
+        ];
+        for (light, harmonic) in made {
+            let (found, expected) = (light.expect("a light").flux(), flux(&harmonic));
+            for (found, expected) in found.into_iter().zip(expected) {
+                // Point samples of a jump at the horizon or between pixels.
+                assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn truncation_keeps_what_was_asked_for() {
+    let light = CubeLight::from_disks(&sources(), &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+    for segmentation in [Segmentation::Quarters, Segmentation::Faces] {
+        let haar = HaarLight::new(&light, segmentation);
+        let responses: Vec<f64> = (0..6144).map(|at| f64::from(u8::from(at % 3 == 0))).collect();
+        let priorities =
+            [TruncationPriority::Magnitude, TruncationPriority::Area, TruncationPriority::Transfer(&responses)];
+        let texel_energy: f64 = light.texels().iter().flatten().map(|value| value * value).sum();
+        close(haar.energy(), texel_energy, 1e-12 * texel_energy, "Parseval");
+        for keep in [0, 1, 100, 800, 6144] {
+            let kept = priorities.map(|priority| haar.truncated(keep, priority).expect("a light"));
+            for truncated in &kept {
+                assert_eq!(truncated.kept, keep.min(haar.nonzero()));
+                assert_eq!((truncated.nonzero, truncated.light.nonzero()), (haar.nonzero(), truncated.kept));
+                let same = |channel: usize| {
+                    let pairs = truncated.light.channels()[channel].iter().zip(&haar.channels()[channel]);
+                    pairs.into_iter().all(|(kept, whole)| kept == whole || *kept == 0.0)
+                };
+                assert!((0..3).all(same));
+                close(truncated.kept_energy * truncated.energy, truncated.light.energy(), 1e-9, "kept energy");
+            }
+            // Nothing keeps more energy than the largest magnitudes.
+            assert!(kept.iter().all(|other| other.kept_energy <= kept[0].kept_energy + 1e-12), "{keep}");
+            if keep >= haar.nonzero() {
+                assert!(kept.iter().all(|all| all.light == haar && all.kept_energy == 1.0));
+            }
+        }
+        let by_area = haar.truncated(60, TruncationPriority::Area).expect("a light");
+        assert_ne!(by_area.light, haar.truncated(60, TruncationPriority::Magnitude).expect("a light").light);
+    }
+}
+
+/// Figure 6: chosen on six faces, drawn in 24 segments. The light stays what it is.
+#[test]
+fn a_truncated_light_is_reprojected_without_change() {
+    let light = CubeLight::from_disks(&sources(), &turn(), Decimation::SolidAngle).expect("a light");
+    let faces = HaarLight::new(&light, Segmentation::Faces);
+    let truncated = faces.truncated(300, TruncationPriority::Area).expect("a light").light;
+    let reprojected = truncated.reprojected(Segmentation::Quarters);
+    close(reprojected.energy(), truncated.energy(), 1e-9 * truncated.energy(), "energy");
+    let pairs = reprojected.radiances().into_iter().zip(truncated.radiances());
+    let off = pairs.flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs())).fold(0.0, f64::max);
+    assert!(off < 1e-12, "{off:e}");
+    // A function of a whole face is four of quarters: more coefficients for the same light.
+    assert!(reprojected.nonzero() >= truncated.nonzero());
+    assert_eq!(faces.reprojected(Segmentation::Faces).segmentation(), Segmentation::Faces);
+}

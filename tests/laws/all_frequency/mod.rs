@@ -1,0 +1,86 @@
+//! System 5: light in cube texels, visibility in fine directions, transfer in Haar wavelets.
+
+mod bad_input;
+mod geometry;
+mod haar;
+mod hats;
+mod light;
+mod orientation;
+mod shadows;
+mod symmetry;
+mod transfer;
+mod visibility;
+
+use crossbar::geom::random::CounterRng;
+use crossbar::geom::{Mesh, Sides};
+use crossbar::prt::all_frequency::visibility::VisibilityMaps;
+use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::sphere::CUBE_FACES;
+use crossbar::tracer::HostTracer;
+use glam::DVec3;
+
+/// Triangles that keep their own corners and have the normals of their planes.
+fn flat(triangles: &[[[f32; 3]; 3]]) -> Mesh {
+    let positions = triangles.as_flattened().to_vec();
+    let normals = triangles.iter().flat_map(|corners| {
+        let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
+        [(b - a).cross(c - a).normalize().as_vec3().to_array(); 3]
+    });
+    let normals = normals.collect();
+    let faces = (0..triangles.len() as u32).map(|at| [3 * at, 3 * at + 1, 3 * at + 2]).collect();
+    Mesh::new(positions, faces).and_then(|mesh| mesh.with_normals(normals)).expect("a mesh")
+}
+
+/// A triangle at the origin that looks along a normal, too small to matter: its first corner is vertex 0.
+fn observer(normal: DVec3) -> [[f32; 3]; 3] {
+    let x = normal.cross(if normal.x.abs() < 0.6 { DVec3::X } else { DVec3::Y }).normalize() * 1e-4;
+    let y = normal.cross(x);
+    [[0.0; 3], x.as_vec3().into(), y.as_vec3().into()]
+}
+
+/// Triangles of any place, size and turn.
+fn clutter(seed: u64, count: u64, size: f64) -> Mesh {
+    let random = CounterRng::new(seed);
+    let corner = |triangle: u64, corner: u64| {
+        [0, 1, 2].map(|k| {
+            let place = 2.0 * random.unit(triangle, 0, k) - 1.0;
+            (place + size * (random.unit(triangle, 1 + corner, k) - 0.5)) as f32
+        })
+    };
+    flat(&(0..count).map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect::<Vec<_>>())
+}
+
+fn vertices(mesh: &Mesh) -> Vertices {
+    Vertices::new(mesh, Tangents::Any).expect("vertices")
+}
+
+fn all(vertices: &Vertices) -> Vec<u32> {
+    (0..vertices.len() as u32).collect()
+}
+
+fn trace(mesh: &Mesh, vertices: &Vertices, of: &[u32]) -> VisibilityMaps {
+    VisibilityMaps::trace(vertices, of, &mut HostTracer::new(mesh, Sides::Both), &mut |_, _| ()).expect("traced")
+}
+
+fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
+}
+
+/// The texel of a cube of a side that a direction lies in: by its largest component.
+fn texel_of(direction: DVec3, side: usize) -> usize {
+    let face = (0..6)
+        .max_by(|&a, &b| {
+            CUBE_FACES[a].center.dot(direction).total_cmp(&CUBE_FACES[b].center.dot(direction)).then(b.cmp(&a))
+        })
+        .expect("six faces");
+    let axes = CUBE_FACES[face];
+    let place = |axis: DVec3| {
+        ((axis.dot(direction) / axes.center.dot(direction) + 1.0) / 2.0 * side as f64).clamp(0.0, side as f64 - 1.0)
+            as usize
+    };
+    (face * side + place(axes.down)) * side + place(axes.right)
+}
+
+fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!((found - expected).abs() <= tolerance, "{what}: {found} is not {expected} to {tolerance:e}");
+}

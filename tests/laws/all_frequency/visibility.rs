@@ -1,0 +1,156 @@
+//! Visibility maps: by rays, by the reference's triangles, by an emulated card.
+
+use crossbar::geom::teapot::teapot;
+use crossbar::geom::{Mesh, Sides};
+use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
+use crossbar::prt::all_frequency::hats::HatWidth;
+use crossbar::prt::all_frequency::reference::AllFrequencyReference;
+use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
+use crossbar::prt::all_frequency::visibility::{VISIBILITY_BYTES, VisibilityMaps};
+use crossbar::prt::transfer::Vertices;
+use crossbar::sphere::CUBE_FACES;
+use crossbar::tracer::HostTracer;
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+
+use super::{all, clutter, in_threads, trace, vertices};
+
+fn face_row_column(fine: usize) -> [usize; 3] {
+    [fine / (FINE_SIDE * FINE_SIDE), fine / FINE_SIDE % FINE_SIDE, fine % FINE_SIDE]
+}
+
+fn differing(a: &VisibilityMaps, b: &VisibilityMaps, map: usize) -> Vec<usize> {
+    (0..FINE_DIRECTIONS).filter(|&fine| a.is_visible(map, fine) != b.is_visible(map, fine)).collect()
+}
+
+/// How far a fine direction is from the nearest edge of a triangle, or from the plane of one, seen from an eye: in
+/// pixels of the direction's face.
+fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
+    let [face, row, column] = face_row_column(fine);
+    let axes = CUBE_FACES[face];
+    let half = FINE_SIDE as f64 / 2.0;
+    let pixel = DVec3::new(column as f64 + 0.5 - half, row as f64 + 0.5 - half, half);
+    let of_face = |v: DVec3| DVec3::new(axes.right.dot(v), axes.down.dot(v), axes.center.dot(v));
+    let to_line = |normal: DVec3| normal.dot(pixel).abs() / normal.truncate().length();
+    let mut nearest = f64::INFINITY;
+    for corners in mesh.iter_corners() {
+        let corners = corners.map(|corner| of_face(DVec3::from(corner.map(f64::from)) - eye));
+        for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(a, b): (usize, usize)| (corners[a], corners[b])) {
+            if a.z <= 0.0 && b.z <= 0.0 {
+                continue;
+            }
+            let line = a.cross(b);
+            if a.z > 0.0 && b.z > 0.0 {
+                // The part between two points of the face.
+                let [p, q] = [a, b].map(|point| half * point.truncate() / point.z);
+                let at = pixel.truncate();
+                let along = ((at - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
+                nearest = nearest.min(at.distance(p + along * (q - p)));
+            } else if line.truncate().length() > 0.0 {
+                nearest = nearest.min(to_line(line));
+            }
+        }
+        // The plane of a triangle that the eye all but touches is a line on the face.
+        let plane = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        if plane.normalize().dot(corners[0]).abs() < 1e-5 && plane.truncate().length() > 0.0 {
+            nearest = nearest.min(to_line(plane));
+        }
+    }
+    nearest
+}
+
+fn meshes() -> Vec<(String, Mesh)> {
+    let random = (0..8).map(|seed| (format!("clutter {seed}"), clutter(seed, 12, [0.3, 1.0, 3.0][seed as usize % 3])));
+    random.chain([("teapot".to_owned(), teapot(2).expect("a teapot"))]).collect()
+}
+
+fn some(vertices: &Vertices) -> Vec<u32> {
+    all(vertices).into_iter().filter(|vertex| vertices.len() < 40 || vertex % 13 == 0).collect()
+}
+
+/// What is not cast is free; any number of threads finds the same bits.
+#[test]
+fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
+    for (name, mesh) in meshes() {
+        let vertices = vertices(&mesh);
+        let of = some(&vertices);
+        let expected =
+            VisibilityMaps::trace_all(&vertices, &of, &mut HostTracer::new(&mesh, Sides::Both)).expect("maps");
+        for threads in [1, 2, 5] {
+            let found = in_threads(threads, || trace(&mesh, &vertices, &of));
+            assert!(found.counts.traced < expected.counts.traced, "{name}");
+            for map in 0..of.len() {
+                assert_eq!(found.bits(map), expected.bits(map), "{name}: vertex {}, {threads} threads", of[map]);
+            }
+            let counts =
+                [&found, &expected].map(|maps| (maps.counts.above, maps.counts.below_triangles, maps.counts.visible));
+            assert_eq!(counts[0], counts[1], "{name}");
+        }
+        assert_eq!(expected.bits(0).len() * 8, VISIBILITY_BYTES);
+    }
+}
+
+/// Bits differ from those of the reference, in f64 and triangle by triangle, only where an edge passes within a
+/// hundredth of a pixel.
+#[test]
+fn rays_see_what_the_reference_sees() {
+    let (mut compared, mut differ) = (0, 0);
+    for (name, mesh) in meshes() {
+        let vertices = vertices(&mesh);
+        let of: Vec<u32> = some(&vertices).into_iter().step_by(5).collect();
+        let maps = trace(&mesh, &vertices, &of);
+        let product = |_: DVec3, s: DVec3| s.z;
+        let reference = AllFrequencyReference {
+            vertices: &vertices,
+            product: &product,
+            light: &[0.0; 6144],
+            hats: HatWidth::OneTexel,
+        };
+        for (map, &vertex) in of.iter().enumerate() {
+            let eye = DVec3::from(vertices.positions()[vertex as usize].map(f64::from));
+            for fine in (map % 3..FINE_DIRECTIONS).step_by(3) {
+                compared += 1;
+                if maps.is_visible(map, fine) != reference.sees(vertex as usize, face_row_column(fine)) {
+                    let off = pixels_to_edge(&mesh, eye, fine);
+                    assert!(off < 0.01, "{name}, vertex {vertex}, direction {fine}: {off} pixels off");
+                    differ += 1;
+                }
+            }
+        }
+    }
+    assert!(differ < compared / 10_000, "{differ} of {compared}");
+}
+
+/// The card snaps corners to sixteenths of a pixel: its bits differ only near edges, and are those of the scalar
+/// executor on every device.
+#[test]
+fn the_card_draws_what_rays_see() {
+    for (name, mesh) in meshes() {
+        let vertices = vertices(&mesh);
+        let of: Vec<u32> = some(&vertices).into_iter().step_by(3).collect();
+        let traced = trace(&mesh, &vertices, &of);
+        let draw = |device: &str, executor: ExecutorKind| {
+            let profile = Profile::named(device).expect("a device");
+            CubeCard::new(profile, executor).expect("a card").draw(&vertices, &of).expect("maps")
+        };
+        let drawn = draw("r350", ExecutorKind::Batch);
+        assert_eq!(drawn, draw("r350", ExecutorKind::Scalar), "{name}");
+        let (mut differ, mut farthest) = (0, 0.0_f64);
+        for (map, &vertex) in of.iter().enumerate() {
+            let eye = DVec3::from(vertices.positions()[vertex as usize].map(f64::from));
+            for fine in differing(&traced, &drawn, map) {
+                let [face, row, column] = face_row_column(fine);
+                let off = pixels_to_edge(&mesh, eye, fine);
+                assert!(
+                    off < 0.07,
+                    "{name}, vertex {vertex}, {}: {off} pixels off",
+                    FINE_MAP.direction(face, column, row)
+                );
+                (differ, farthest) = (differ + 1, farthest.max(off));
+            }
+        }
+        assert!(differ < of.len() * FINE_DIRECTIONS / 500, "{name}: {differ} of {} maps", of.len());
+        assert_eq!(drawn.counts.above, traced.counts.above);
+    }
+}
