@@ -80,6 +80,11 @@ impl Signal {
         &self.values
     }
 
+    /// The squares of all numbers, summed.
+    pub fn sum_of_squares(&self) -> f64 {
+        self.sum(|point| self.point(point).iter().map(|&value| f64::from(value) * f64::from(value)).sum())
+    }
+
     /// The sum of a number per point. Its bits do not depend on the number of threads.
     pub(crate) fn sum(&self, of_point: impl Fn(usize) -> f64 + Sync) -> f64 {
         let chunks = (0..self.points.div_ceil(CHUNK)).into_par_iter();

@@ -73,6 +73,19 @@ impl CubeMap {
         CUBE_FACES[face].at([column, row].map(|at| (at as f64 + 0.5) / self.side as f64)).0
     }
 
+    /// The face, column and row of the texel that a direction falls into; the lower face of two as near. The direction
+    /// has a length above 0.
+    pub fn texel_of(self, direction: DVec3) -> [usize; 3] {
+        let along = |face: usize| direction.dot(CUBE_FACES[face].center);
+        let face = (1..6).fold(0, |best, face| if along(face) > along(best) { face } else { best });
+        let axes = CUBE_FACES[face];
+        let [column, row] = [axes.right, axes.down].map(|axis| {
+            let at = 0.5 * self.side as f64 * (1.0 + direction.dot(axis) / along(face));
+            (at as usize).min(self.side - 1)
+        });
+        [face, column, row]
+    }
+
     /// The solid angle of a texel, the same on all faces.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         face_solid_angle(self.side, column, row)
@@ -97,5 +110,20 @@ impl TexelGrid for CubeMap {
     fn at(&self, [column, row]: [usize; 2], u: f64, v: f64) -> (DVec3, f64) {
         let side = self.side as f64;
         CUBE_FACES[row / self.side].at([(column as f64 + u) / side, ((row % self.side) as f64 + v) / side])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn centers_fall_into_their_texels() {
+        let map = CubeMap::new(5);
+        for (face, column, row) in (0..150).map(|at| (at / 25, at % 5, at / 5 % 5)) {
+            assert_eq!(map.texel_of(3.0 * map.direction(face, column, row)), [face, column, row]);
+        }
+        assert_eq!(map.texel_of(DVec3::new(1.0, 1.0, 0.0))[0], 0, "the lower of two faces");
+        assert_eq!(map.texel_of(DVec3::new(1.0, -1.0, -1.0)), [0, 4, 4], "a corner");
     }
 }

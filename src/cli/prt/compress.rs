@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
+use super::all_frequency::{self, SegmentArgs};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::{ReadError, read_limited};
@@ -23,6 +24,8 @@ Examples:
       each vertex as the mean of its cluster and three weighted vectors
   crossbar prt compress docs/examples/step.prt --clusters 4 --vectors 2 --method adaptive --iterations 20 --json --out small.prt
       vectors redistributed among the clusters; every step's error for machines
+  crossbar prt compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.prt
+      transfer of all frequencies: segment by segment, linear, coded in 16 bits
   crossbar prt compress docs/examples/signal.csv --clusters 3 --vectors 1 --start docs/examples/start.txt --out small.prt
       a signal of one's own, a line of numbers per point, from given start points
 
@@ -34,19 +37,22 @@ CSV and NumPy arrays hold a row per point. The file that is written holds the cl
 pub(super) struct Args {
     /// A .prt file with transfer, a CSV table or an array of NumPy's (.npy)
     #[arg(value_name = "SIGNAL")]
-    signal: PathBuf,
+    pub(super) signal: PathBuf,
 
-    /// Clusters
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..))]
-    clusters: u32,
+    /// Clusters [default: 256; of transfer of all frequencies, by --points-per-cluster]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    clusters: Option<u32>,
 
-    /// Vectors per cluster; 0 is vector quantisation
-    #[arg(long, value_name = "N", default_value_t = 8)]
-    vectors: u32,
+    /// Vectors per cluster; 0 is vector quantisation [default: 8; 16 of transfer of all frequencies]
+    #[arg(long, value_name = "N")]
+    pub(super) vectors: Option<u32>,
 
-    /// By which measure points are shared out to clusters
-    #[arg(long, value_enum, value_name = "HOW", default_value = "iterative")]
-    method: MethodArg,
+    /// By which measure points are shared out to clusters [default: iterative; doubling of transfer of all frequencies]
+    #[arg(long, value_enum, value_name = "HOW")]
+    method: Option<MethodArg>,
+
+    #[command(flatten)]
+    pub(super) segments: SegmentArgs,
 
     /// Without the clusters' means: vectors alone, the components of the points themselves
     #[arg(long)]
@@ -54,11 +60,11 @@ pub(super) struct Args {
 
     /// Iterations at most for each number of vectors, and rounds of redistribution
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    iterations: u32,
+    pub(super) iterations: u32,
 
     /// Draws the start points
     #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
+    pub(super) seed: u64,
 
     /// The start points instead: a file with the number of a point per line, counted from 0, one per cluster
     #[arg(long, value_name = "FILE", conflicts_with = "seed")]
@@ -66,12 +72,12 @@ pub(super) struct Args {
 
     /// The file to write
     #[arg(long, value_name = "Y.prt")]
-    out: PathBuf,
+    pub(super) out: PathBuf,
 }
 
 /// How points are shared out to clusters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MethodArg {
+pub(super) enum MethodArg {
     /// By distance from the means, then principal components once
     Static,
     /// By the error of their approximation, while vectors are added one by one
@@ -82,27 +88,42 @@ enum MethodArg {
     Adaptive,
 }
 
+impl Args {
+    /// The method asked for.
+    pub(super) fn method(&self, default: MethodArg) -> CpcaMethod {
+        match self.method.unwrap_or(default) {
+            MethodArg::Static => CpcaMethod::Static,
+            MethodArg::Iterative => CpcaMethod::Iterative,
+            MethodArg::Doubling => CpcaMethod::Doubling,
+            MethodArg::Adaptive => CpcaMethod::Adaptive { rounds: self.iterations as usize },
+        }
+    }
+}
+
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    if all_frequency::is_such(&args.signal) {
+        return all_frequency::compress::run(args, out);
+    }
+    if args.segments != SegmentArgs::default() {
+        let what = "`--points-per-cluster`, `--model`, `--bits`, `--weight-bits` and `--scale` are for transfer of all frequencies";
+        return Err(Problem::usage(what, "name a file of `crossbar prt precompute --kind all-frequency`").into());
+    }
+    let (clusters, vectors) = (args.clusters.unwrap_or(256), args.vectors.unwrap_or(8));
     // The signal, its estimates, and what is written.
     view::require_file(&args.signal, 4, "name a smaller signal")?;
     let start = start(args)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let iterations = args.iterations as usize;
     let options = CpcaOptions {
-        clusters: args.clusters as usize,
-        vectors: args.vectors as usize,
+        clusters: clusters as usize,
+        vectors: vectors as usize,
         iterations,
-        method: match args.method {
-            MethodArg::Static => CpcaMethod::Static,
-            MethodArg::Iterative => CpcaMethod::Iterative,
-            MethodArg::Doubling => CpcaMethod::Doubling,
-            MethodArg::Adaptive => CpcaMethod::Adaptive { rounds: iterations },
-        },
+        method: args.method(MethodArg::Iterative),
         form: if args.linear { CpcaForm::Linear } else { CpcaForm::Affine },
         start,
     };
-    let bar = ProgressBar::new("vectors", u64::from(args.vectors) + 1);
-    let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, u64::from(args.vectors) + 1);
+    let bar = ProgressBar::new("vectors", u64::from(vectors) + 1);
+    let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, u64::from(vectors) + 1);
     let Compression { clustering, steps } = compress(&signal, &options, observe).map_err(|error| refused(&error))?;
     drop(bar);
     let error = CompressionError::new(&signal, &clustering);

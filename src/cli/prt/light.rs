@@ -7,8 +7,10 @@ use clap::ValueEnum;
 use glam::DVec3;
 
 use crate::cli::{Problem, number};
-use crate::io::load_picture;
-use crate::sphere::{BandWindow, ClearSky, HarmonicLight};
+use crate::io::{load_cube_table, load_light_sources, load_picture};
+use crate::prt::all_frequency::grid::LIGHT_SIDE;
+use crate::prt::all_frequency::light::{CubeLight, DiskSource, DistantLight};
+use crate::sphere::{BandWindow, ClearSky, EnvironmentPicture, HarmonicLight};
 
 const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
      (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture (EXR, HDR, PNG)";
@@ -62,7 +64,8 @@ enum WindowArg {
 #[derive(Debug, clap::Args)]
 pub(super) struct LightArgs {
     /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
-    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
+    /// red-and-blue, or a lat-long, angular-probe or cube-cross picture; for --kind all-frequency also a table of a
+    /// cube's texels (.csv) or of small sources (.sources.csv)
     #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
     light: LightArg,
 
@@ -80,6 +83,15 @@ impl LightArgs {
     /// The picture that it is read from, if it is.
     pub(super) fn file(&self) -> Option<&Path> {
         if let LightArg::Picture(path) = &self.light { Some(path) } else { None }
+    }
+
+    /// The light for transfer of all frequencies, which knows no bands.
+    pub(super) fn distant(&self) -> miette::Result<DistantLight> {
+        if self.window.is_some() {
+            let what = "`--window` damps bands of harmonics, which light of all frequencies does not have";
+            return Err(Problem::usage(what, "leave it out").into());
+        }
+        self.light.distant()
     }
 
     /// The light at an order, its window as wide as the first band that is left out.
@@ -116,6 +128,31 @@ impl LightArg {
         }
     }
 
+    /// The light before it is sampled by the texels of a cube.
+    fn distant(&self) -> miette::Result<DistantLight> {
+        Ok(match self {
+            Self::Constant(radiance) => DistantLight::Constant(*radiance),
+            Self::Disk { towards, degrees, radiance } => DistantLight::Disks(vec![DiskSource {
+                towards: *towards,
+                radius: degrees.to_radians(),
+                radiance: *radiance,
+            }]),
+            Self::Sky { sun } => DistantLight::Sky(clear_sky(*sun)),
+            Self::RedAndBlue => DistantLight::RedAndBlue,
+            Self::Picture(path) if has_ending(path, ".sources.csv") => {
+                DistantLight::Disks(load_light_sources(path)?.into_iter().map(DiskSource::from).collect())
+            }
+            Self::Picture(path) if has_ending(path, ".csv") => {
+                let light = CubeLight::new(load_cube_table(path, LIGHT_SIDE)?);
+                DistantLight::Texels(light.map_err(|error| no_light(path, &error))?)
+            }
+            Self::Picture(path) => {
+                let picture = EnvironmentPicture::new(&load_picture(path)?);
+                DistantLight::Picture(picture.map_err(|error| no_light(path, &error))?)
+            }
+        })
+    }
+
     /// The light at an order.
     fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let made = match self {
@@ -123,20 +160,27 @@ impl LightArg {
             Self::Disk { towards, degrees, radiance } => {
                 HarmonicLight::disk(order, *towards, degrees.to_radians(), *radiance)
             }
-            Self::Sky { sun } => ClearSky { sun: *sun, sun_radiance: SUN, zenith: ZENITH, ground: GROUND }.light(order),
+            Self::Sky { sun } => clear_sky(*sun).light(order),
             Self::RedAndBlue => Ok(HarmonicLight::red_and_blue(order)),
             Self::Picture(path) => {
                 let read = HarmonicLight::from_picture(order, &load_picture(path)?);
-                return Ok(read.map_err(|error| {
-                    Problem::usage(
-                        format!("{}: {error}", path.display()),
-                        "docs/papers/cpca.md says which pictures are lights",
-                    )
-                })?);
+                return Ok(read.map_err(|error| no_light(path, &error))?);
             }
         };
         Ok(made.map_err(|error| Problem::usage(error.to_string(), "see `crossbar prt render --help`"))?)
     }
+}
+
+const fn clear_sky(sun: DVec3) -> ClearSky {
+    ClearSky { sun, sun_radiance: SUN, zenith: ZENITH, ground: GROUND }
+}
+
+fn has_ending(path: &Path, ending: &str) -> bool {
+    path.to_string_lossy().to_ascii_lowercase().ends_with(ending)
+}
+
+fn no_light(path: &Path, error: &dyn std::fmt::Display) -> Problem {
+    Problem::usage(format!("{}: {error}", path.display()), "docs/papers/cpca.md says which pictures are lights")
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! `crossbar prt`: precomputed radiance transfer, one file a verb.
 
+mod all_frequency;
 mod card;
 mod compress;
 mod error;
@@ -58,6 +59,9 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Error(args) => error::run(args, out)?,
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Render(args) if all_frequency::is_such(args.file()) => {
+            return study::run(&all_frequency::render::Args(args), command_line, out);
+        }
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Show(args) => show::run(args, out)?,
     }

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::all_frequency;
 use super::model::{load, vertices};
-use super::values::{BrdfArg, ChannelsArg, ExitArg, IncidentArg, KindArg, RowsArg, TangentsArg};
+use super::values::{BrdfArg, ChannelsArg, ExitArg, HatsArg, IncidentArg, KindArg, RowsArg, TangentsArg};
 use crate::cli::materials::published;
 use crate::cli::model_name::Model;
 use crate::cli::words::counted;
@@ -24,6 +25,8 @@ Examples:
       matrices of 24 x 25 with two bounces, one glossy material
   crossbar prt precompute transfer-smooth --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out smooth.prt
       an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
+  crossbar prt precompute docs/examples/step.obj --kind all-frequency --out step.prt
+      what each vertex sees, for light of all frequencies on a diffuse surface; `--factors` for a glossy one
   crossbar prt precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
       light that scatters below the surface, in three channels
 
@@ -44,6 +47,15 @@ pub(super) struct Args {
     /// What a vertex makes of light
     #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
     kind: KindArg,
+
+    /// What `crossbar prt factor` wrote, for --kind all-frequency: view_factors.npy and light_factors.npy in a folder
+    /// [default: the one term of a diffuse surface]
+    #[arg(long, value_name = "DIR")]
+    factors: Option<PathBuf>,
+
+    /// Width in texels of the hats of the light's texels, for --kind all-frequency
+    #[arg(long, value_enum, value_name = "WIDTH", default_value = "two")]
+    hats: HatsArg,
 
     /// Order n of the light: n x n functions
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
@@ -107,6 +119,15 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    if args.kind == KindArg::AllFrequency {
+        let &Args { ref model, ref factors, hats, tangents, out: ref path, .. } = args;
+        return all_frequency::precompute::run((model, tangents), factors.as_deref(), hats, path, out);
+    }
+    if args.factors.is_some() {
+        return Err(
+            Problem::usage("`--factors` is for transfer of all frequencies", "add `--kind all-frequency`").into()
+        );
+    }
     let exit = exit(args)?;
     let scatterer = scatterer(args)?;
     let model = load(&args.model, args.tangents.0)?;

@@ -44,38 +44,67 @@ pub(in crate::cli) struct Args {
 
     /// The model that the file was made from, as given to `crossbar prt precompute`
     #[arg(long, value_name = "MODEL")]
-    model: PathBuf,
+    pub(super) model: PathBuf,
 
     /// Uncompressed transfer of the same model, to compare with
     #[arg(long, value_name = "X.prt")]
-    original: Option<PathBuf>,
+    pub(super) original: Option<PathBuf>,
 
     #[command(flatten)]
-    light: LightArgs,
+    pub(super) light: LightArgs,
+
+    /// Light coefficients that are kept, those of largest area times magnitude, for transfer of all frequencies
+    /// [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
+    pub(super) keep: Option<u32>,
 
     /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
-    frames: u32,
+    pub(super) frames: u32,
 
     /// What these turn
     #[arg(long, value_enum, value_name = "WHAT", default_value = "light")]
-    turn: TurnArg,
+    pub(super) turn: TurnArg,
 
     /// Pixels of the pictures
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
-    size: Size,
+    pub(super) size: Size,
 
     #[command(flatten)]
-    eye: EyeArgs,
+    pub(super) eye: EyeArgs,
 
     /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
-    exposure: Option<f64>,
+    pub(super) exposure: Option<f64>,
 
     /// Where to write pictures and the page
     #[arg(long, value_name = "DIR", default_value = "out/prt")]
-    out: PathBuf,
+    pub(super) out: PathBuf,
+}
+
+impl Args {
+    /// The file to draw.
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// What frames turn.
+    pub(super) fn turning(&self) -> Turning {
+        if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light }
+    }
+
+    /// Memory of the pictures.
+    pub(super) fn pictures(&self) -> MemoryNeed {
+        const PER_PIXEL: u64 = 320;
+        const PER_PIXEL_AND_FRAME: u64 = 16;
+        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(self.frames);
+        MemoryNeed {
+            what: format!("{} pictures of {} pixels", 1 + self.frames, self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, per_pixel, 0),
+            help: "ask for a smaller `--size` or fewer `--frames`",
+        }
+    }
 }
 
 impl StudyArgs for Args {
@@ -92,14 +121,7 @@ impl StudyArgs for Args {
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        const PER_PIXEL: u64 = 320;
-        const PER_PIXEL_AND_FRAME: u64 = 16;
-        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(self.frames);
-        Ok(Some(MemoryNeed {
-            what: format!("{} pictures of {} pixels", 1 + self.frames, self.size),
-            bytes: memory::of_pixels(self.size.width, self.size.height, per_pixel, 0),
-            help: "ask for a smaller `--size` or fewer `--frames`",
-        }))
+        Ok(Some(self.pictures()))
     }
 
     fn study(&self) -> miette::Result<Rendering> {
@@ -120,11 +142,17 @@ impl StudyArgs for Args {
         Ok(Rendering {
             model: self.model.display().to_string(),
             camera: self.eye.framing(&model.mesh, self.size)?,
-            light: self.light.of_order(light_order)?,
+            light: match self.keep {
+                None => self.light.of_order(light_order)?,
+                Some(_) => {
+                    let what = "`--keep` is for transfer of all frequencies, found harmonics";
+                    return Err(Problem::usage(what, "leave it out").into());
+                }
+            },
             light_name: self.light.name(),
             exposure: self.exposure,
             frames: self.frames,
-            turning: if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light },
+            turning: self.turning(),
             mesh: model.mesh,
             vertices,
             file,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use glam::DVec3;
 use serde_json::{Value, json};
 
+use super::all_frequency;
 use super::model::FileOfModel;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
@@ -47,6 +48,13 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    if all_frequency::is_such(&args.file) {
+        if args.vertex.is_some() || args.at.is_some() {
+            let what = "`--vertex` and `--at` are for transfer of low frequency";
+            return Err(Problem::usage(what, "leave them out").into());
+        }
+        return all_frequency::show::run(&args.file, out);
+    }
     view::require_file(&args.file, 3, "name a smaller file")?;
     let file = load_prt(&args.file, None)?;
     let vertex = match (args.vertex, args.at, &args.model) {

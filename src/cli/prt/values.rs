@@ -19,6 +19,17 @@ pub(super) enum KindArg {
     Diffuse,
     /// A matrix per vertex: radiance by direction
     Glossy,
+    /// Visibility in 98,304 directions per vertex, for light of 6,144 coefficients
+    AllFrequency,
+}
+
+/// How wide the hats of the light's texels are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum HatsArg {
+    /// A texel alone
+    One,
+    /// To the centers of its neighbors
+    Two,
 }
 
 /// Channels of transfer.

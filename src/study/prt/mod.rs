@@ -1,7 +1,9 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
 //! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
-//! reflectance ([`BrdfFactors`]).
+//! reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`], [`SegmentedCompression`],
+//! [`AllFrequencyRendering`].
 
+mod all_frequency;
 mod card;
 mod compression_error;
 mod exit_radiance;
@@ -10,6 +12,10 @@ mod interpolate;
 mod precompute;
 mod render;
 
+pub use all_frequency::{
+    AllFrequencyError, AllFrequencyRendering, CompressionTally, SegmentTally, SegmentedCompression, SegmentedError,
+    SightOfModel,
+};
 pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;

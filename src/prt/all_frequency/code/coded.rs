@@ -1,9 +1,12 @@
 //! Coded transfer of a mesh.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use rayon::prelude::*;
 
 use super::quantise::{quantise, step};
 use super::{CodeOptions, CodeOptionsError, ScaleOf, SparseRows};
+use crate::prt::Signal;
 use crate::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
 use crate::prt::cpca::Clustering;
 
@@ -130,6 +133,18 @@ impl CodedTransfer {
 }
 
 impl CodedSegment {
+    /// Codes a compressed segment.
+    ///
+    /// # Errors
+    /// [`CodeOptionsError`].
+    ///
+    /// # Panics
+    /// As [`CodedTransfer::new`].
+    pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+        options.check()?;
+        Ok(Self::new(part, options))
+    }
+
     fn new(part: &CompressedSegment, options: CodeOptions) -> Self {
         let clustering = &part.clustering;
         assert!(clustering.subspaces().len() <= 1 << 16, "clusters that 16 bits can number");
@@ -190,23 +205,52 @@ impl CodedSegment {
         firsts(&self.counts)
     }
 
-    /// A vertex's decoded transfer: `at` counts the segment's vertices. For comparisons; it decodes the whole segment.
-    #[cfg(test)]
-    fn decoded(&self, at: usize) -> Vec<f64> {
-        let (rows, columns) = (self.representatives.decode(), self.representatives.columns());
-        let cluster = usize::from(self.cluster_of[at]);
-        let begin: usize =
-            self.cluster_of[..at].iter().map(|&other| usize::from(self.counts[usize::from(other)])).sum();
-        let mut sum = vec![0.0; columns];
-        for k in 0..usize::from(self.counts[cluster]) {
-            let row = self.firsts()[cluster] + k;
-            let weight = f64::from(self.weights[begin + k]) * f64::from(self.weight_steps[row]);
-            let step = f64::from(self.representative_steps[row]);
-            for (sum, &code) in sum.iter_mut().zip(&rows[row * columns..]) {
-                *sum += weight * f64::from(code) * step;
-            }
-        }
-        sum
+    /// Where each vertex's weights begin.
+    fn weight_begins(&self) -> Vec<usize> {
+        let mut begin = 0;
+        let next = self.cluster_of.iter().map(|&cluster| {
+            begin += usize::from(self.counts[usize::from(cluster)]);
+            begin - usize::from(self.counts[usize::from(cluster)])
+        });
+        next.collect()
+    }
+
+    /// The transfer of all vertices as it is decoded: `into` is called with each vertex of the segment, counted from 0,
+    /// and its numbers, from several threads.
+    pub fn decode(&self, into: impl Fn(usize, &[f64]) + Sync) {
+        let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
+        let (firsts, begins) = (self.firsts(), self.weight_begins());
+        (0..self.vertices.len()).into_par_iter().for_each_init(
+            || vec![0.0; columns],
+            |sum, at| {
+                let cluster = usize::from(self.cluster_of[at]);
+                let weights = &self.weights[begins[at]..][..usize::from(self.counts[cluster])];
+                sum.fill(0.0);
+                for (&weight, row) in weights.iter().zip(firsts[cluster]..) {
+                    let steps = f64::from(self.weight_steps[row]) * f64::from(self.representative_steps[row]);
+                    let weight = f64::from(weight) * steps;
+                    let codes = &codes[row * columns..][..columns];
+                    sum.iter_mut().zip(codes).for_each(|(sum, &code)| *sum += weight * f64::from(code));
+                }
+                into(at, sum);
+            },
+        );
+    }
+
+    /// Squared differences from the transfer that was coded, vertex by vertex.
+    ///
+    /// # Panics
+    /// If the signal has other points or numbers.
+    pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {
+        let shape = (self.vertices.len(), self.representatives.columns());
+        assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");
+        let errors: Vec<AtomicU64> = (0..signal.points()).map(|_| AtomicU64::new(0)).collect();
+        self.decode(|at, decoded| {
+            let differences = decoded.iter().zip(signal.point(at)).map(|(a, &b)| a - f64::from(b));
+            let square: f64 = differences.map(|difference| difference * difference).sum();
+            errors[at].store(square.to_bits(), Ordering::Relaxed);
+        });
+        errors.into_iter().map(|bits| f64::from_bits(bits.into_inner())).collect()
     }
 }
 
@@ -253,14 +297,14 @@ mod tests {
                 let options = CodeOptions { representative_bits: bits, weight_bits: bits, scale };
                 let coded = CodedTransfer::new(&transfer, options).expect("coded");
                 for (part, code) in transfer.segments.iter().zip(&coded.segments) {
-                    let mut expected = vec![0.0; 48];
-                    for point in 0..part.vertices.len() {
+                    code.decode(|point, decoded| {
+                        let mut expected = vec![0.0; 48];
                         part.clustering.approximation(point, &mut expected);
                         let bound = bound(part, code, point);
-                        for (a, b) in code.decoded(point).iter().zip(&expected) {
+                        for (a, b) in decoded.iter().zip(&expected) {
                             assert!((a - b).abs() <= bound, "{bits} bits, {scale:?}: {a} for {b}, {bound}");
                         }
-                    }
+                    });
                 }
             }
         }

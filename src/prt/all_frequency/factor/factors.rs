@@ -37,7 +37,7 @@ impl FactorMap {
 }
 
 impl Factors {
-    pub(in crate::prt) fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
+    pub(crate) fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));
         for map in [&view, &light] {

@@ -43,6 +43,11 @@ impl HaarLight {
         &self.channels
     }
 
+    /// All coefficients, segment by segment, each with its three channels.
+    pub fn coefficients(&self) -> Vec<[f64; 3]> {
+        (0..LIGHT_TEXELS).map(|at| self.channels.each_ref().map(|channel| channel[at])).collect()
+    }
+
     /// The coefficients of a segment in a channel.
     ///
     /// # Panics

@@ -8,11 +8,13 @@
 mod coefficients;
 mod cube_light;
 mod disks;
+mod distant;
 mod error;
 mod truncation;
 
 pub use coefficients::HaarLight;
 pub use cube_light::{CubeLight, Decimation};
 pub use disks::DiskSource;
+pub use distant::DistantLight;
 pub use error::CubeLightError;
 pub use truncation::{LightTruncation, TruncationPriority};

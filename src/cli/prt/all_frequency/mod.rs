@@ -1,0 +1,58 @@
+//! The verbs of `crossbar prt` for transfer of all frequencies.
+
+pub(super) mod compress;
+pub(super) mod precompute;
+pub(super) mod render;
+pub(super) mod show;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use super::model::{load, vertices};
+use crate::cli::model_name::Model;
+use crate::prt::file::{AllFrequencyFile, MeshDigest, PrtFileError, is_all_frequency, load_all_frequency};
+use crate::prt::transfer::Vertices;
+
+pub(super) use compress::SegmentArgs;
+
+/// Which numbers share a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum ScaleArg {
+    /// Those of a representative, and the weights on it
+    #[default]
+    Representative,
+    /// All of a segment
+    Segment,
+}
+
+/// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
+pub(super) fn is_such(path: &Path) -> bool {
+    let mut head = [0; 16];
+    path.is_file()
+        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && is_all_frequency(&head)
+}
+
+/// A file with the model that it was made from.
+pub(super) struct FileOfModel {
+    pub(super) file: AllFrequencyFile,
+    pub(super) model: Model,
+    pub(super) vertices: Vertices,
+    pub(super) digest: MeshDigest,
+}
+
+impl FileOfModel {
+    pub(super) fn load(path: &PathBuf, model: &Path) -> miette::Result<Self> {
+        let file = load_all_frequency(path, None)?;
+        let model = load(model, file.mesh.tangents)?;
+        let vertices = vertices(&model, file.mesh.tangents)?;
+        let expected = MeshDigest::new(&vertices);
+        if file.mesh != expected {
+            return Err(PrtFileError::OtherMesh { path: path.clone(), expected, found: Some(file.mesh) }.into());
+        }
+        Ok(Self { file, model, vertices, digest: expected })
+    }
+}

@@ -1,0 +1,153 @@
+//! Transfer computed, compressed and coded, one segment of the light at a time.
+
+use std::time::Instant;
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer};
+use crate::prt::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::hats::{HatWidth, Hats};
+use crate::prt::all_frequency::transfer::{FactoredTransfer, TransferSegment};
+use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::prt::cpca::CpcaError;
+use crate::prt::transfer::{TransferError, Vertices};
+use crate::study::ProgressFn;
+
+/// What is compressed, and how.
+#[derive(Debug)]
+pub struct SegmentedCompression<'a> {
+    /// The vertices of the model.
+    pub vertices: &'a Vertices,
+    /// What each sees.
+    pub maps: &'a VisibilityMaps,
+    /// The hats of the light's texels.
+    pub hats: HatWidth,
+    /// The reflectance.
+    pub reflectance: &'a Reflectance,
+    /// How segments are compressed.
+    pub options: SegmentOptions,
+    /// How they are coded.
+    pub code: CodeOptions,
+}
+
+/// What became of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentTally {
+    /// The segment.
+    pub segment: usize,
+    /// Vertices at which it is not 0.
+    pub vertices: usize,
+    /// Their clusters.
+    pub clusters: usize,
+    /// The squares of its transfer.
+    pub squares: f64,
+    /// The squared error of its compression.
+    pub squared_error: f64,
+    /// The same after coding.
+    pub coded_squared_error: f64,
+    /// Time of transfer, compression and coding, in seconds.
+    pub seconds: [f64; 3],
+}
+
+/// What became of all segments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CompressionTally {
+    /// Segment by segment, without empty ones.
+    pub segments: Vec<SegmentTally>,
+    /// Per vertex of the model the squared error after coding.
+    pub squared_errors: Vec<f64>,
+}
+
+/// Why transfer cannot be compressed.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum SegmentedError {
+    /// There is no transfer.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::precompute))]
+    Transfer(#[from] TransferError),
+    /// The options do not fit, or principal components cannot be found.
+    #[error("segment {segment}: {reason}")]
+    #[diagnostic(code(crossbar::prt::cpca), help("see `crossbar prt compress --help`"))]
+    Cpca {
+        /// The segment, counted from 0.
+        segment: usize,
+        /// Why.
+        reason: CpcaError,
+    },
+    /// Bits that there are not.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::code))]
+    Code(#[from] CodeOptionsError),
+}
+
+impl CompressionTally {
+    /// A figure summed over segments.
+    pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
+        self.segments.iter().map(of).sum()
+    }
+}
+
+impl SegmentedCompression<'_> {
+    /// Bytes of raw transfer in single precision, all 24 segments at all vertices.
+    pub fn raw_bytes(&self) -> u64 {
+        let numbers = self.reflectance.terms() * Segmentation::Quarters.len() * Segmentation::Quarters.count();
+        4 * self.vertices.len() as u64 * numbers as u64
+    }
+
+    /// Compresses and codes all segments.
+    ///
+    /// # Errors
+    /// [`SegmentedError`].
+    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), SegmentedError> {
+        let hats = Hats::new(self.hats);
+        let rows = self.reflectance.terms();
+        let response = |direction, into: &mut [f64]| self.reflectance.light(direction, into);
+        let transfer = FactoredTransfer { vertices: self.vertices, maps: self.maps, hats: &hats, rows, response };
+        let mut tally = CompressionTally { squared_errors: vec![0.0; self.vertices.len()], ..Default::default() };
+        let count = Segmentation::Quarters.count();
+        let (mut segments, coefficients) = (Vec::new(), Segmentation::Quarters.len());
+        for segment in 0..count {
+            progress("segments", segment as u64, count as u64);
+            let start = Instant::now();
+            let Some(found) = transfer.segment(segment)? else { continue };
+            let seconds = start.elapsed().as_secs_f64();
+            segments.push(self.segment(found, seconds, &mut tally)?);
+        }
+        let vertices = self.vertices.len();
+        Ok((CodedTransfer { rows, coefficients, vertices, options: self.code, segments }, tally))
+    }
+
+    fn segment(
+        &self,
+        found: TransferSegment,
+        seconds: f64,
+        tally: &mut CompressionTally,
+    ) -> Result<CodedSegment, SegmentedError> {
+        let TransferSegment { segment, vertices, signal } = found;
+        let start = Instant::now();
+        let compressed = CompressedSegment::new(segment, vertices, &signal, &self.options, |_| ())
+            .map_err(|reason| SegmentedError::Cpca { segment, reason })?;
+        let compressing = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let coded = CodedSegment::code(&compressed, self.code)?;
+        let coding = start.elapsed().as_secs_f64();
+        let errors = coded.squared_errors(&signal);
+        for (&vertex, error) in coded.vertices.iter().zip(&errors) {
+            tally.squared_errors[vertex as usize] += error;
+        }
+        tally.segments.push(SegmentTally {
+            segment,
+            vertices: coded.vertices.len(),
+            clusters: coded.counts.len(),
+            squares: signal.sum_of_squares(),
+            squared_error: compressed.clustering.squared_error(&signal),
+            coded_squared_error: errors.iter().sum(),
+            seconds: [seconds, compressing, coding],
+        });
+        Ok(coded)
+    }
+}

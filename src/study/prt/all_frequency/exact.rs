@@ -1,0 +1,40 @@
+//! Transferred radiance without compression: M_p L, the raw matrix of one segment after the other.
+
+use rayon::prelude::*;
+
+use crate::linalg::dot;
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::hats::{HatWidth, Hats};
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::transfer::FactoredTransfer;
+use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::prt::transfer::{TransferError, Vertices};
+
+/// Per vertex m rows of three channels.
+pub(super) fn transferred(
+    (vertices, maps): (&Vertices, &VisibilityMaps),
+    hats: HatWidth,
+    reflectance: &Reflectance,
+    light: &HaarLight,
+) -> Result<Vec<[f64; 3]>, TransferError> {
+    let (hats, rows) = (Hats::new(hats), reflectance.terms());
+    let response = |direction, into: &mut [f64]| reflectance.light(direction, into);
+    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows, response };
+    let mut radiance = vec![[0.0; 3]; vertices.len() * rows];
+    for segment in transfer.segments() {
+        let segment = segment?;
+        let light = [0, 1, 2].map(|channel| light.segment(channel, segment.segment));
+        let products = |point: usize| -> Vec<[f64; 3]> {
+            let numbers: Vec<f64> = segment.signal.point(point).iter().map(|&value| f64::from(value)).collect();
+            let row = |row: &[f64]| light.map(|light| dot(row, light));
+            numbers.chunks_exact(light[0].len()).map(row).collect()
+        };
+        let products: Vec<Vec<[f64; 3]>> = (0..segment.vertices.len()).into_par_iter().map(products).collect();
+        for (&vertex, products) in segment.vertices.iter().zip(products) {
+            for (into, product) in radiance[vertex as usize * rows..].iter_mut().zip(products) {
+                (0..3).for_each(|channel| into[channel] += product[channel]);
+            }
+        }
+    }
+    Ok(radiance)
+}

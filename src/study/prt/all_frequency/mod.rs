@@ -1,0 +1,12 @@
+//! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer segment by segment through compression
+//! and coding ([`SegmentedCompression`]), and pictures of it ([`AllFrequencyRendering`]).
+
+mod compress;
+mod exact;
+mod precompute;
+mod render;
+mod shading;
+
+pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
+pub use precompute::SightOfModel;
+pub use render::{AllFrequencyError, AllFrequencyRendering};

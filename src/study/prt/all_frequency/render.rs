@@ -1,0 +1,368 @@
+//! Pictures of a model under distant light of all frequencies.
+
+use std::time::Instant;
+
+use glam::{DMat3, DVec3};
+use miette::Diagnostic;
+use serde_json::json;
+use thiserror::Error;
+
+use super::exact;
+use super::shading::radiance;
+use crate::elementary::on_circle;
+use crate::geom::Mesh;
+use crate::geom::random::CounterRng;
+use crate::geom::vector::wide;
+use crate::picture::{PictureError, rgb8};
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::light::{
+    CubeLight, CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
+};
+use crate::prt::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance};
+use crate::prt::file::AllFrequencyFile;
+use crate::prt::transfer::{TransferError, Vertices};
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::scene::Camera;
+use crate::study::prt::{Seen, Turning, auto_exposure, linear_picture};
+use crate::study::{ProgressFn, Study};
+
+/// Segments whose clusters are drawn, as in Figure 4.
+const CLUSTER_PICTURES: usize = 3;
+
+/// A model with its transfer, a light and a camera.
+#[derive(Debug)]
+pub struct AllFrequencyRendering {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// Per material the surface's color.
+    pub colors: Vec<[f64; 3]>,
+    /// Visibility, coded transfer or both: coded transfer is drawn.
+    pub file: AllFrequencyFile,
+    /// A file with visibility, to compare coded transfer with uncompressed.
+    pub original: Option<AllFrequencyFile>,
+    /// The light's name.
+    pub light_name: String,
+    /// The light.
+    pub light: DistantLight,
+    /// How it is decimated.
+    pub decimation: Decimation,
+    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
+    pub keep: Option<usize>,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure.
+    pub exposure: Option<f64>,
+    /// Pictures with the light or the camera carried all the way round z in so many steps.
+    pub frames: u32,
+    /// Which of them.
+    pub turning: Turning,
+}
+
+/// Why there are no pictures.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum AllFrequencyError {
+    /// A light that is none.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::light))]
+    Light(#[from] CubeLightError),
+    /// Transfer cannot be computed.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::precompute))]
+    Transfer(#[from] TransferError),
+    /// Coded transfer of more segments than light has.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::segments))]
+    Size(#[from] LightSizeError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+}
+
+/// Transferred radiance, by one way or the other.
+enum Transferred {
+    Coded(TransferredRadiance),
+    Exact { rows: usize, values: Vec<[f64; 3]> },
+}
+
+/// What a frame took, in seconds.
+#[derive(Clone, Copy, Debug, Default)]
+struct FrameTimes {
+    light: f64,
+    clusters: f64,
+    vertices: f64,
+    view: f64,
+}
+
+impl FrameTimes {
+    fn total(self) -> f64 {
+        self.light + self.clusters + self.vertices + self.view
+    }
+}
+
+impl Study for AllFrequencyRendering {
+    type Error = AllFrequencyError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyError> {
+        let steps = 2 + u64::from(self.frames);
+        progress("rays", 0, steps);
+        let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
+        progress("radiance", 1, steps);
+        let shader = self.file.coded.as_ref().map(|coded| Shader::new(coded, Representatives::Sparse));
+        let mut times = FrameTimes::default();
+        let cut = self.light(&DMat3::IDENTITY, &mut times)?;
+        let transferred = self.transferred(shader.as_ref(), &cut.light, &mut times)?;
+        let of_vertex = self.radiance(&transferred, &self.camera, &mut times);
+        let drawn = seen.colors(&of_vertex, [0.0; 3]);
+        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
+        let mut found = Findings::new("All-frequency transfer");
+        found.taken_from(self.camera.world_to_camera());
+        let picture = linear_picture(&self.camera, &drawn);
+        let caption = format!("{} under {}", self.model, self.light_name);
+        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
+        found.keep_layers("picture", picture);
+        self.conclude(&seen, &drawn, &cut, &mut found);
+        if let Some(shader) = &shader {
+            self.time(shader, &cut.light, times, &mut found);
+        }
+        if let Some(original) = &self.original {
+            self.compare(&seen, original, (&of_vertex, &drawn), &cut.light, exposure, &mut found)?;
+        }
+        self.clusters(&seen, &mut found);
+        self.frames(&seen, shader.as_ref(), (&transferred, exposure), &mut found, progress)?;
+        found.field("exposure", json!(exposure));
+        Ok(found)
+    }
+
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        provenance
+    }
+}
+
+impl AllFrequencyRendering {
+    /// Step 1: the light's coefficients.
+    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, AllFrequencyError> {
+        let start = Instant::now();
+        let cube: CubeLight = self.light.cube(rotation, self.decimation)?;
+        let light = HaarLight::new(&cube, Segmentation::Quarters);
+        let cut = light.truncated(self.keep.unwrap_or(usize::MAX), TruncationPriority::Area)?;
+        times.light = start.elapsed().as_secs_f64();
+        Ok(cut)
+    }
+
+    /// Steps 2 and 3, or the raw matrices where nothing is coded.
+    fn transferred(
+        &self,
+        shader: Option<&Shader>,
+        light: &HaarLight,
+        times: &mut FrameTimes,
+    ) -> Result<Transferred, AllFrequencyError> {
+        let Some(shader) = shader else { return self.exact(&self.file, light) };
+        let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
+        let start = Instant::now();
+        let products = shader.per_cluster(&light)?;
+        times.clusters = start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let transferred = shader.weighted(&products);
+        times.vertices = start.elapsed().as_secs_f64();
+        Ok(Transferred::Coded(transferred))
+    }
+
+    fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, AllFrequencyError> {
+        let rows = file.reflectance.terms();
+        let values = match &file.visibility {
+            Some(maps) => exact::transferred((&self.vertices, maps), file.hats, &file.reflectance, light)?,
+            None => vec![[0.0; 3]; rows * self.vertices.len()],
+        };
+        Ok(Transferred::Exact { rows, values })
+    }
+
+    /// Step 4.
+    fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
+        let start = Instant::now();
+        let of = |vertex: usize, row: usize| match transferred {
+            Transferred::Coded(radiance) => radiance.of(vertex)[row].map(f64::from),
+            Transferred::Exact { rows, values } => values[vertex * rows + row],
+        };
+        let eye = wide(camera.eye());
+        let radiance = radiance(&self.vertices, &self.file.reflectance, &self.colors, &of, eye);
+        times.view = start.elapsed().as_secs_f64();
+        radiance
+    }
+
+    fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
+        let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
+        let (model, light) = (&self.model, &self.light_name);
+        found.conclusion(format!("{} of {pixels} pixels show {model} under {light}.", seen.count()));
+        let share = shown(100.0 * cut.kept_energy, Quantity::Measured);
+        found.conclusion(format!(
+            "{} of the {} light coefficients that are not 0 are kept, with {share} % of their energy.",
+            cut.kept, cut.nonzero
+        ));
+        let negative = drawn.iter().filter(|color| color.iter().any(|&value| value < 0.0)).count();
+        let least = drawn.iter().flatten().fold(0.0_f64, |least, &value| least.min(value));
+        if negative > 0 {
+            let least = shown(least, Quantity::Measured);
+            found.conclusion(format!(
+                "{negative} pixels are below 0, down to {least}: factors cut off after m terms have negative lobes."
+            ));
+        }
+        found.field("nonzero", json!(cut.nonzero));
+        found.field("kept", json!(cut.kept));
+        found.field("energy", json!(cut.energy));
+        found.field("kept_energy", json!(cut.kept_energy));
+        found.field("negative_pixels", json!(negative));
+        found.field("least_radiance", json!(least));
+    }
+
+    /// What rendering multiplies, and what it took here.
+    fn time(&self, shader: &Shader, light: &HaarLight, times: FrameTimes, found: &mut Findings) {
+        let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
+        let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
+        let per_view = 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64;
+        let mut table =
+            Table::new("A frame on this computer", &["step", "multiplications", "time (ms)", "alone (fps)"]);
+        let steps = [
+            ("1 light", None, times.light),
+            ("2 clusters", Some(per_cluster), times.clusters),
+            ("3 vertices", Some(per_vertex), times.vertices),
+            ("4 view", Some(per_view), times.view),
+        ];
+        for (step, multiplies, seconds) in steps {
+            let count = multiplies.map_or(Cell::Empty, |count| (count as usize).into());
+            table.push([step.into(), count, Cell::measured(1e3 * seconds), Cell::measured(1.0 / seconds)]);
+        }
+        let total = times.total();
+        let all = (per_cluster + per_vertex + per_view) as usize;
+        table.push(["all".into(), all.into(), Cell::measured(1e3 * total), Cell::measured(1.0 / total)]);
+        found.heading("Time");
+        found.table(FoundTable::from(table).csv("time").field("time"));
+        found.field("multiplies", json!({ "clusters": per_cluster, "vertices": per_vertex, "view": per_view }));
+        found.field(
+            "seconds",
+            json!({ "light": times.light, "clusters": times.clusters, "vertices": times.vertices, "view": times.view }),
+        );
+        found.field("fps", json!(1.0 / total));
+    }
+
+    /// Uncompressed transfer beside the coded, and where they differ.
+    fn compare(
+        &self,
+        seen: &Seen,
+        original: &AllFrequencyFile,
+        (of_vertex, drawn): (&[[f64; 3]], &[[f64; 3]]),
+        light: &HaarLight,
+        exposure: f64,
+        found: &mut Findings,
+    ) -> Result<(), AllFrequencyError> {
+        let whole = self.exact(original, light)?;
+        let exact = self.radiance(&whole, &self.camera, &mut FrameTimes::default());
+        let picture = seen.colors(&exact, [0.0; 3]);
+        let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
+        let difference: Vec<f64> = drawn.iter().zip(&picture).map(|(a, b)| mean(a) - mean(b)).collect();
+        let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let squares = |a: &[[f64; 3]]| a.iter().flatten().map(|value| value * value).sum::<f64>();
+        let apart = |a: &[[f64; 3]], b: &[[f64; 3]]| -> f64 {
+            a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
+        };
+        let share = |a: &[[f64; 3]], b: &[[f64; 3]]| 100.0 * (apart(a, b) / squares(b)).sqrt();
+        let mut table = Table::new("Coded against uncompressed", &["figure", "value"]);
+        let pixels = share(drawn, &picture);
+        table.push(["root mean square of pixels' differences, of the picture's (%)".into(), Cell::measured(pixels)]);
+        let vertices = share(of_vertex, &exact);
+        table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
+        table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
+        let shown_whole = linear_picture(&self.camera, &picture).display(exposure)?;
+        let mut pictures = vec![NamedPicture::new("original", shown_whole, "without compression")];
+        if largest > 0.0 {
+            let caption =
+                format!("coded less uncompressed: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
+            let image = false_color::signed(self.camera.width(), &difference, largest);
+            pictures.push(NamedPicture::new("difference", image, caption));
+        }
+        found.heading("Against uncompressed transfer");
+        found.pictures(pictures);
+        found.table(FoundTable::from(table).csv("comparison").field("comparison"));
+        found.field("picture_rms_percent", json!(pixels));
+        Ok(())
+    }
+
+    /// The clusters of the three segments with most vertices, as in Figure 4.
+    fn clusters(&self, seen: &Seen, found: &mut Findings) {
+        let Some(coded) = &self.file.coded else { return };
+        let mut largest: Vec<_> = coded.segments.iter().collect();
+        largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
+        let random = CounterRng::new(0);
+        let pictures = largest.into_iter().take(CLUSTER_PICTURES).map(|part| {
+            let mut of_vertex = vec![None; self.vertices.len()];
+            for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
+                of_vertex[vertex as usize] = Some(cluster);
+            }
+            let color = |vertex: Option<u32>| {
+                let Some(cluster) = vertex.and_then(|vertex| of_vertex[vertex as usize]) else { return [0; 3] };
+                [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
+            };
+            let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
+            let name = format!("clusters-{}", part.segment);
+            let caption =
+                format!("segment {}: {} clusters; black sees none of its light", part.segment, part.counts.len());
+            NamedPicture::new(name, image, caption)
+        });
+        let pictures: Vec<_> = pictures.collect();
+        if !pictures.is_empty() {
+            found.heading("Clusters of three segments");
+            found.pictures(pictures);
+        }
+    }
+
+    /// Frames with light or camera carried round z.
+    fn frames(
+        &self,
+        seen: &Seen,
+        shader: Option<&Shader>,
+        (transferred, exposure): (&Transferred, f64),
+        found: &mut Findings,
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<(), AllFrequencyError> {
+        let mut frames = Vec::new();
+        for frame in 0..self.frames {
+            progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
+            let turns = f64::from(frame) / f64::from(self.frames);
+            let [c, s] = on_circle(turns);
+            let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+            let mut times = FrameTimes::default();
+            let colors = match self.turning {
+                Turning::Light => {
+                    let light = self.light(&turn, &mut times)?.light;
+                    let transferred = self.transferred(shader, &light, &mut times)?;
+                    seen.colors(&self.radiance(&transferred, &self.camera, &mut times), [0.0; 3])
+                }
+                // View alone changed: step 4 alone.
+                Turning::Camera => {
+                    let bounds = self.mesh.bounds();
+                    let middle = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
+                    let camera = self.camera.carried(middle, &turn);
+                    let seen = Seen::new(&self.mesh, &self.vertices, &camera);
+                    seen.colors(&self.radiance(transferred, &camera, &mut times), [0.0; 3])
+                }
+            };
+            let image = linear_picture(&self.camera, &colors).display(exposure)?;
+            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
+            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
+        }
+        if !frames.is_empty() {
+            found.heading(match self.turning {
+                Turning::Light => "The light turned around z",
+                Turning::Camera => "The camera carried around the model",
+            });
+            found.pictures(frames);
+        }
+        Ok(())
+    }
+}
