@@ -64,7 +64,7 @@ pub(in crate::cli) struct Args {
 
     /// What these turn
     #[arg(long, value_enum, value_name = "WHAT", default_value = "light")]
-    pub(super) turn: TurnArg,
+    turn: TurnArg,
 
     /// Pixels of the pictures
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
