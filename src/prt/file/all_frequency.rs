@@ -82,7 +82,7 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
     let axis = reader.doubles(3, "axis of tangents")?;
     reader.checksum(0, "the header")?;
     for (field, found, expected) in [
-        ("conventions (1 is transfer of low frequency)", conventions, CONVENTIONS..=CONVENTIONS),
+        ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
         ("terms of the reflectance", terms, 1..=1024),
         ("width of hats in texels", hats, 1..=2),
         ("number of sections", sections, 1..=3),

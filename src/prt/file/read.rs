@@ -185,7 +185,7 @@ impl<'a> Reader<'a> {
         // What is not used is 0, so that equal contents have equal bytes.
         let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
         let fields = [
-            ("conventions (2 is all-frequency transfer)", conventions, CONVENTIONS..=CONVENTIONS),
+            ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
             ("number of exit functions", rows, 0..=matrix * u32::MAX),
             ("albedo", albedo, 0..=matrix),
             ("tangents", tangents, 0..=AXIS_TANGENTS),

@@ -1,6 +1,8 @@
 //! System 5: light in cube texels, visibility in fine directions, transfer in Haar wavelets.
 
 mod bad_input;
+mod coding;
+mod file;
 mod geometry;
 mod haar;
 mod hats;
@@ -13,6 +15,7 @@ mod visibility;
 
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
+use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Factors, Lobe, Supersamples};
 use crossbar::prt::all_frequency::visibility::VisibilityMaps;
 use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::sphere::CUBE_FACES;
@@ -48,6 +51,13 @@ fn clutter(seed: u64, count: u64, size: f64) -> Mesh {
         })
     };
     flat(&(0..count).map(|triangle| [0, 1, 2].map(|at| corner(triangle, at))).collect::<Vec<_>>())
+}
+
+/// Factors of Cook and Torrance's model on small maps.
+fn factors(terms: usize) -> Factors {
+    let sampling = FactorSampling { side: 8, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+    let table = sampling.table(&Lobe::cook_torrance(0.4, 0.5), &mut |_, _| ()).expect("a table");
+    Factorization::new(&table, terms).expect("terms").factors(terms)
 }
 
 fn vertices(mesh: &Mesh) -> Vertices {

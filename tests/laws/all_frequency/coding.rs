@@ -1,0 +1,148 @@
+//! Transfer through compression, coding and rendering: what each step keeps.
+
+use crossbar::prt::all_frequency::Reflectance;
+use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
+use crossbar::prt::all_frequency::grid::Segmentation;
+use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
+use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
+use crossbar::prt::all_frequency::shade::{Representatives, Shader, plain};
+use crossbar::prt::all_frequency::transfer::{FactoredTransfer, TransferSegment};
+use crossbar::prt::all_frequency::visibility::VisibilityMaps;
+use crossbar::prt::cpca::{CpcaMethod, CpcaStep};
+use crossbar::prt::transfer::Vertices;
+use glam::DVec3;
+
+use super::{all, close, clutter, factors, in_threads, trace, vertices};
+
+/// All segments of the transfer of some maps.
+pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: &Reflectance) -> Vec<TransferSegment> {
+    let hats = Hats::new(HatWidth::TwoTexels);
+    let response = |direction: DVec3, into: &mut [f64]| reflectance.light(direction, into);
+    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows: reflectance.terms(), response };
+    transfer.segments().map(|segment| segment.expect("transfer")).collect()
+}
+
+/// The same by clusters of 10 vertices.
+pub(super) fn compressed(
+    vertices: &Vertices,
+    maps: &VisibilityMaps,
+    reflectance: &Reflectance,
+    vectors: usize,
+) -> CompressedTransfer {
+    let options = SegmentOptions { points_per_cluster: 10, vectors, ..SegmentOptions::default() };
+    let parts = segments(vertices, maps, reflectance).into_iter().map(|part| {
+        CompressedSegment::new(part.segment, part.vertices, &part.signal, &options, |_| ()).expect("compressed")
+    });
+    CompressedTransfer::new(reflectance.terms(), vertices.len(), parts.collect()).expect("transfer")
+}
+
+/// A light that differs from texel to texel.
+fn light() -> HaarLight {
+    let texel = |at: usize| [at % 7, at % 11, at % 3].map(|value| value as f64);
+    HaarLight::new(&CubeLight::new((0..6144).map(texel).collect()).expect("a light"), Segmentation::Quarters)
+}
+
+#[test]
+fn as_many_vectors_as_members_leave_the_matrices_themselves() {
+    let mesh = clutter(5, 14, 1.5);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    for reflectance in [Reflectance::Diffuse, Reflectance::Factored(factors(4))] {
+        let rows = reflectance.terms();
+        let transfer = compressed(&vertices, &maps, &reflectance, 256 * rows);
+        let light = light();
+        let found = plain::transferred(&transfer, &light.coefficients()).expect("radiance");
+        let mut expected = vec![[0.0; 3]; rows * vertices.len()];
+        for part in segments(&vertices, &maps, &reflectance) {
+            for (point, &vertex) in part.vertices.iter().enumerate() {
+                for (row, matrix) in part.signal.point(point).chunks_exact(256).enumerate() {
+                    for (channel, sum) in expected[vertex as usize * rows + row].iter_mut().enumerate() {
+                        let light = light.segment(channel, part.segment);
+                        *sum += matrix.iter().zip(light).map(|(&m, l)| f64::from(m) * l).sum::<f64>();
+                    }
+                }
+            }
+        }
+        let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+        assert!(most > 1.0);
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            // What counts as rounding of a cluster's eigenvalues is 2^-44 of the largest, 2^-22 of its length.
+            close(*found, *expected, 1e-5 * most, "radiance");
+        }
+    }
+}
+
+#[test]
+fn open_diffuse_vertices_under_light_1_give_back_pi() {
+    let mesh = clutter(2, 1, 0.5);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    let transfer = compressed(&vertices, &maps, &Reflectance::Diffuse, 3);
+    let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
+    let light = HaarLight::new(&CubeLight::constant([1.0, 2.0, 0.0]).expect("a light"), Segmentation::Quarters);
+    let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
+    let radiance = Shader::new(&coded, Representatives::Sparse).transferred(&light).expect("radiance");
+    for vertex in 0..vertices.len() {
+        let [red, green, blue] = radiance.of(vertex)[0].map(f64::from);
+        // 98,304 directions miss the integral of the cosine by up to a thousandth where the horizon cuts texels.
+        close(red, std::f64::consts::PI, 3e-3 * std::f64::consts::PI, "albedo 1");
+        close(green, 2.0 * red, 1e-6, "twice the light");
+        assert_eq!(blue, 0.0);
+    }
+}
+
+#[test]
+fn no_step_raises_the_error_while_the_number_of_vectors_stays() {
+    let mesh = clutter(8, 40, 1.0);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    for part in segments(&vertices, &maps, &Reflectance::Factored(factors(3))).into_iter().take(3) {
+        for method in [CpcaMethod::Iterative, CpcaMethod::Doubling] {
+            let mut steps: Vec<CpcaStep> = Vec::new();
+            let options = SegmentOptions { points_per_cluster: 20, vectors: 5, method, ..SegmentOptions::default() };
+            let vertices = part.vertices.clone();
+            CompressedSegment::new(part.segment, vertices, &part.signal, &options, |step| steps.push(*step))
+                .expect("compressed");
+            let squares = part.signal.sum_of_squares();
+            for pair in steps.windows(2).filter(|pair| pair[0].vectors == pair[1].vectors) {
+                assert!(pair[1].squared_error <= pair[0].squared_error + 1e-11 * squares, "{pair:?}");
+            }
+            assert!(steps.last().expect("steps").squared_error < 0.1 * squares);
+        }
+    }
+}
+
+#[test]
+fn bits_of_coded_transfer_do_not_depend_on_threads() {
+    let mesh = clutter(8, 20, 1.0);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    let coded = |threads| {
+        in_threads(threads, || {
+            let transfer = compressed(&vertices, &maps, &Reflectance::Factored(factors(2)), 3);
+            CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded")
+        })
+    };
+    let one = coded(1);
+    assert!([2, 5].into_iter().all(|threads| coded(threads) == one));
+}
+
+#[test]
+fn fewer_bits_leave_more_error() {
+    let mesh = clutter(8, 40, 1.0);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    let reflectance = Reflectance::Factored(factors(3));
+    let (transfer, segments) =
+        (compressed(&vertices, &maps, &reflectance, 6), segments(&vertices, &maps, &reflectance));
+    let errors = [4, 8, 12, 16].map(|bits| {
+        let options = CodeOptions { representative_bits: bits, weight_bits: bits, ..CodeOptions::default() };
+        let coded = CodedTransfer::new(&transfer, options).expect("coded");
+        let of = coded.segments.iter().zip(&segments).map(|(coded, part)| coded.squared_errors(&part.signal));
+        of.map(|errors| errors.iter().sum::<f64>()).sum::<f64>()
+    });
+    let exact: f64 =
+        transfer.segments.iter().zip(&segments).map(|(part, s)| part.clustering.squared_error(&s.signal)).sum();
+    assert!(errors.is_sorted_by(|a, b| a > b) && errors[3] < exact * 1.01, "{errors:?}, {exact} before coding");
+}

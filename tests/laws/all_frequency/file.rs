@@ -1,0 +1,137 @@
+//! Files of all-frequency transfer: what is written is read, what is damaged is refused.
+
+use std::path::Path;
+
+use crossbar::prt::all_frequency::Reflectance;
+use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crossbar::prt::all_frequency::hats::HatWidth;
+use crossbar::prt::file::{
+    AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency, parse_all_frequency, parse_prt,
+    save_all_frequency, write_all_frequency,
+};
+use proptest::prelude::*;
+
+use super::coding::compressed;
+use super::{all, clutter, factors, trace, vertices};
+
+fn bytes(file: &AllFrequencyFile) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_all_frequency(file, &mut bytes).expect("written");
+    bytes
+}
+
+fn parsed(bytes: &[u8]) -> Result<AllFrequencyFile, String> {
+    parse_all_frequency(bytes, Path::new("a.prt")).map_err(|error| error.to_string())
+}
+
+/// Everything of two triangles: factors of 3 terms, visibility, coded transfer.
+fn whole() -> AllFrequencyFile {
+    let mesh = clutter(3, 2, 1.0);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    let reflectance = Reflectance::Factored(factors(3));
+    let transfer = compressed(&vertices, &maps, &reflectance, 2);
+    let options = CodeOptions { representative_bits: 9, weight_bits: 11, scale: ScaleOf::Segment };
+    let coded = CodedTransfer::new(&transfer, options).expect("coded");
+    let mesh = MeshDigest::new(&vertices);
+    AllFrequencyFile { mesh, hats: HatWidth::OneTexel, reflectance, visibility: Some(maps), coded: Some(coded) }
+}
+
+/// A small file with coded transfer alone.
+fn small() -> AllFrequencyFile {
+    let mesh = clutter(3, 1, 1.0);
+    let vertices = vertices(&mesh);
+    let maps = trace(&mesh, &vertices, &all(&vertices));
+    let mut transfer = compressed(&vertices, &maps, &Reflectance::Diffuse, 1);
+    transfer.segments.truncate(2);
+    let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
+    let mesh = MeshDigest::new(&vertices);
+    let reflectance = Reflectance::Diffuse;
+    AllFrequencyFile { mesh, hats: HatWidth::TwoTexels, reflectance, visibility: None, coded: Some(coded) }
+}
+
+#[test]
+fn what_is_written_is_read_in_all_its_parts() {
+    let all = whole();
+    let sight = AllFrequencyFile { coded: None, ..all.clone() };
+    let coded = AllFrequencyFile { visibility: None, ..all.clone() };
+    for file in [all, sight, coded, small()] {
+        let mut read = parsed(&bytes(&file)).expect("read");
+        // How maps came about is not written.
+        if let (Some(read), Some(maps)) = (&mut read.visibility, &file.visibility) {
+            assert_eq!(read.counts.visible, maps.counts.visible);
+            read.counts = maps.counts.clone();
+        }
+        assert_eq!(read, file);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.prt");
+        save_all_frequency(&file, &path).expect("saved");
+        assert!(load_all_frequency(&path, Some(&file.mesh)).is_ok());
+        let other = MeshDigest { triangle_crc: !file.mesh.triangle_crc, ..file.mesh };
+        let error = load_all_frequency(&path, Some(&other)).expect_err("refused").to_string();
+        assert!(error.contains("expected transfer of a mesh with"), "{error}");
+    }
+}
+
+#[test]
+fn every_flipped_bit_and_every_cut_is_seen() {
+    let whole = bytes(&small());
+    for length in 0..whole.len() {
+        assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
+    }
+    for at in 0..whole.len() {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 1 << (at % 8);
+        assert!(parsed(&damaged).is_err(), "byte {at}");
+    }
+    let message = format!("a.prt: expected the end of the file at {}, found 1 more bytes", whole.len());
+    assert_eq!(parsed(&[&whole[..], b"x"].concat()), Err(message));
+}
+
+#[test]
+fn files_of_the_other_kind_are_told_apart() {
+    let ours = bytes(&small());
+    assert!(
+        is_all_frequency(&ours) && !is_all_frequency(&ours[..15]) && !is_all_frequency(b"no file at all, but long")
+    );
+    let error = parse_prt(&ours, Path::new("a.prt")).expect_err("refused").to_string();
+    assert!(error.starts_with("a.prt: "), "{error}");
+    let other = std::fs::read("docs/examples/step.prt").expect("an example");
+    assert!(!is_all_frequency(&other));
+    assert!(parsed(&other).is_err());
+}
+
+#[test]
+fn parts_of_unlike_shapes_are_not_written() {
+    let refused = |change: &dyn Fn(&mut AllFrequencyFile)| {
+        let mut file = small();
+        change(&mut file);
+        write_all_frequency(&file, &mut Vec::new()).expect_err("refused").to_string()
+    };
+    assert_eq!(refused(&|f| f.coded = None), "contents: expected visibility or coded transfer, found neither");
+    assert_eq!(refused(&|f| f.mesh.vertices = 9), "vertices: expected 9, found 3");
+    let part = |change: fn(&mut CodedTransfer)| refused(&|f| change(f.coded.as_mut().expect("coded")));
+    assert_eq!(part(|c| c.rows = 2), "shape of coded transfer: expected 1 x 256 in 24 segments, found [2, 256, 23]");
+    let parts = "coded transfer: expected parts that go together, found other ";
+    assert_eq!(part(|c| c.segments[0].weights.truncate(1)), format!("{parts}weights"));
+    assert_eq!(part(|c| c.segments[0].cluster_of[0] = 7), format!("{parts}clusters of vertices"));
+    assert_eq!(part(|c| c.segments[0].weight_steps[0] = f32::NAN), format!("{parts}steps"));
+    assert_eq!(part(|c| c.segments.swap(0, 1)), format!("{parts}order of segments"));
+}
+
+proptest! {
+    #[test]
+    fn forged_contents_never_panic(at in 0..4096_usize, value in any::<[u8; 4]>()) {
+        // A field of the coded section changed, and the checksum made right again.
+        let mut whole = bytes(&small());
+        let begin = 8 + 10 * 4 + 24 + 4;
+        let end = whole.len() - 4;
+        let at = begin + 12 + at % (end - begin - 16);
+        whole[at..at + 4].copy_from_slice(&value);
+        let crc = crc32fast::hash(&whole[begin..end]);
+        whole[end..].copy_from_slice(&crc.to_le_bytes());
+        if let Ok(read) = parsed(&whole) {
+            prop_assert_eq!(bytes(&read), whole);
+        }
+    }
+}
