@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use super::all_frequency;
 use super::model::clusters;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
@@ -26,18 +27,29 @@ Examples:
 pub(super) struct Args {
     /// The original: a .prt file with transfer, a CSV table or an array of NumPy's
     #[arg(value_name = "SIGNAL")]
-    signal: PathBuf,
+    pub(super) signal: PathBuf,
 
     /// What it was compressed to
     #[arg(value_name = "Y.prt")]
-    compressed: PathBuf,
+    pub(super) compressed: PathBuf,
+
+    /// The model of both, for transfer of all frequencies, which is computed again
+    #[arg(long, value_name = "MODEL")]
+    pub(super) model: Option<PathBuf>,
 
     /// Write a line per point to this file
     #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    pub(super) csv: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    if all_frequency::is_such(&args.signal) {
+        return all_frequency::error::run(args, out);
+    }
+    if args.model.is_some() {
+        let what = "`--model` is for transfer of all frequencies, which is computed again";
+        return Err(Problem::usage(what, "leave it out").into());
+    }
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let (file, clustering) = clusters(&args.compressed)?;
     let shapes = [(signal.points(), signal.dimension()), (clustering.points(), clustering.dimension())];

@@ -6,6 +6,7 @@ mod compress;
 mod error;
 mod factor;
 mod light;
+mod lighting;
 mod model;
 mod precompute;
 mod render;
@@ -47,6 +48,7 @@ enum Verb {
     Compress(compress::Args),
     Error(error::Args),
     Factor(factor::Args),
+    Lighting(lighting::Args),
     Precompute(precompute::Args),
     Render(render::Args),
     Show(show::Args),
@@ -58,6 +60,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Compress(args) => compress::run(args, out)?,
         Verb::Error(args) => error::run(args, out)?,
         Verb::Factor(args) => return study::run(args, command_line, out),
+        Verb::Lighting(args) => lighting::run(args, out)?,
         Verb::Precompute(args) => precompute::run(args, out)?,
         Verb::Render(args) if all_frequency::is_such(args.file()) => {
             return study::run(&all_frequency::render::Args(args), command_line, out);

@@ -13,8 +13,8 @@ mod precompute;
 mod render;
 
 pub use all_frequency::{
-    AllFrequencyError, AllFrequencyRendering, CompressionTally, SegmentTally, SegmentedCompression, SegmentedError,
-    SightOfModel,
+    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, SegmentTally, SegmentedCompression,
+    SegmentedError, SightOfModel, coded_errors,
 };
 pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;

@@ -1,6 +1,7 @@
 //! The verbs of `crossbar prt` for transfer of all frequencies.
 
 pub(super) mod compress;
+pub(super) mod error;
 pub(super) mod precompute;
 pub(super) mod render;
 pub(super) mod show;

@@ -2,11 +2,13 @@
 //! and coding ([`SegmentedCompression`]), and pictures of it ([`AllFrequencyRendering`]).
 
 mod compress;
+mod errors;
 mod exact;
 mod precompute;
 mod render;
 mod shading;
 
 pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
+pub use errors::{CodedErrors, coded_errors};
 pub use precompute::SightOfModel;
 pub use render::{AllFrequencyError, AllFrequencyRendering};

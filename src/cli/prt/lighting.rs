@@ -1,0 +1,173 @@
+//! `crossbar prt lighting`: light as coefficients of Haar wavelets.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use glam::{DMat3, DVec3};
+use serde_json::json;
+
+use super::light::LightArgs;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, number};
+use crate::elementary::on_circle;
+use crate::io::{write_cube_table, write_file};
+use crate::prt::all_frequency::grid::{LIGHT_SIDE, Segmentation};
+use crate::prt::all_frequency::light::{
+    CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority,
+};
+use crate::report::{Cell, Table};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar prt lighting --light sky:1,-1,1 --keep 800
+      6,144 texels as 24 segments of Haar wavelets; how much energy 800 of the coefficients hold
+  crossbar prt lighting --light red-and-blue --segments 6 --keep 200 --by magnitude --frames 8
+      six faces instead; how much of the light flickers as it turns in 8 steps
+  crossbar prt lighting --light disk:1,0,2:5 --keep 40 --out light.csv --json
+      what is left of a small source, as a table of the cube's texels";
+
+/// Segments of the cube.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SegmentsArg {
+    /// Four per face: 16 x 16 texels
+    #[value(name = "24")]
+    Quarters,
+    /// The faces: 32 x 32 texels
+    #[value(name = "6")]
+    Faces,
+}
+
+/// What coefficients are chosen by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ByArg {
+    /// Magnitude
+    Magnitude,
+    /// Magnitude times the solid angle of the wavelet
+    Area,
+}
+
+/// How the cube's texels are made of 4 x 4 samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum DecimationArg {
+    /// Weighted by solid angle, which keeps the flux
+    SolidAngle,
+    /// Their plain mean
+    Plain,
+}
+
+/// Take light into Haar wavelets over a cube, and leave the most important coefficients
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    #[command(flatten)]
+    light: LightArgs,
+
+    /// Squares that have a Haar transform each
+    #[arg(long, value_enum, value_name = "N", default_value = "24")]
+    segments: SegmentsArg,
+
+    /// Coefficients that are kept [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
+    keep: Option<u32>,
+
+    /// Which ones
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "area")]
+    by: ByArg,
+
+    /// Weights of the samples of a texel
+    #[arg(long, value_enum, value_name = "HOW", default_value = "solid-angle")]
+    decimation: DecimationArg,
+
+    /// Turn the light around z, in degrees
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number::finite, allow_hyphen_values = true)]
+    rotate: f64,
+
+    /// Turn it around z in so many steps, and measure the flicker of what is kept
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=720))]
+    frames: u32,
+
+    /// Write the radiances of the cube's texels to this file, as `--light` reads them
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let light = args.light.distant()?;
+    let decimation = if args.decimation == DecimationArg::Plain { Decimation::Plain } else { Decimation::SolidAngle };
+    let cube = |turns: f64| light.cube(&around_z(turns), decimation).map_err(refused);
+    let first = cube(args.rotate / 360.0)?;
+    let cut = args.cut(&first)?;
+    let texels = cut.light.radiances();
+    if let Some(path) = &args.out {
+        let text = write_cube_table(&texels, LIGHT_SIDE);
+        write_file(path, |file| std::io::Write::write_all(file, text.as_bytes())).map_err(Problem::from)?;
+    }
+    let negative = texels.iter().filter(|rgb| rgb.iter().any(|&value| value < 0.0)).count();
+    let frames: Vec<CubeLight> = (0..args.frames)
+        .map(|frame| cube(args.rotate / 360.0 + f64::from(frame) / f64::from(args.frames)))
+        .collect::<Result<_, _>>()?;
+    let flicker = if frames.is_empty() { None } else { Some(args.flicker(&frames)?) };
+    if out.json() {
+        return Ok(out.document(&json!({
+            "light": args.light.name(), "segments": args.segmentation().count(), "flux": first.flux(),
+            "nonzero": cut.nonzero, "kept": cut.kept, "energy": cut.energy, "kept_energy": cut.kept_energy,
+            "negative_texels": negative, "flicker": flicker, "out": args.out,
+        }))?);
+    }
+    let mut table = Table::new("Coefficients", &["figure", "value"]);
+    table.push(["not 0, of 6,144".into(), cut.nonzero.into()]);
+    table.push(["kept".into(), cut.kept.into()]);
+    table.push(["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)]);
+    table.push(["texels below 0 after that".into(), negative.into()]);
+    if let Some(flicker) = flicker {
+        table.push(["flicker of a frame (% of the light)".into(), Cell::measured(100.0 * flicker)]);
+    }
+    out.sentence(format_args!("{} in {} segments", args.light.name(), counted(args.segmentation().count())))?;
+    out.table(&table)?;
+    if let Some(path) = &args.out {
+        out.line(format_args!("written   {}", path.display()))?;
+    }
+    Ok(())
+}
+
+impl Args {
+    const fn segmentation(&self) -> Segmentation {
+        match self.segments {
+            SegmentsArg::Quarters => Segmentation::Quarters,
+            SegmentsArg::Faces => Segmentation::Faces,
+        }
+    }
+
+    fn cut(&self, cube: &CubeLight) -> Result<LightTruncation, Problem> {
+        let priority = if self.by == ByArg::Area { TruncationPriority::Area } else { TruncationPriority::Magnitude };
+        let keep = self.keep.map_or(usize::MAX, |keep| keep as usize);
+        HaarLight::new(cube, self.segmentation()).truncated(keep, priority).map_err(refused)
+    }
+
+    /// The root mean square change, from frame to frame, of what truncation takes away, as a share of the light's own
+    /// root mean square: 0 if everything is kept.
+    fn flicker(&self, frames: &[CubeLight]) -> Result<f64, Problem> {
+        let lost = |cube: &CubeLight| -> Result<Vec<f64>, Problem> {
+            let kept = self.cut(cube)?.light.radiances();
+            let pairs = cube.texels().as_flattened().iter().zip(kept.as_flattened());
+            Ok(pairs.map(|(all, kept)| all - kept).collect())
+        };
+        let lost: Vec<Vec<f64>> = frames.iter().map(lost).collect::<Result<_, _>>()?;
+        let (mut changes, mut squares) = (0.0, 0.0);
+        for (frame, cube) in frames.iter().enumerate() {
+            let next = &lost[(frame + 1) % lost.len()];
+            changes += lost[frame].iter().zip(next).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+            squares += cube.texels().as_flattened().iter().map(|value| value * value).sum::<f64>();
+        }
+        Ok(if squares > 0.0 { (changes / squares).sqrt() } else { 0.0 })
+    }
+}
+
+fn around_z(turns: f64) -> DMat3 {
+    let [c, s] = on_circle(turns);
+    DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
+}
+
+fn refused(error: CubeLightError) -> Problem {
+    Problem::usage(error.to_string(), "see `crossbar prt lighting --help`")
+}

@@ -1,0 +1,57 @@
+//! How far coded transfer is from the raw matrices.
+
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::CodedTransfer;
+use crate::prt::all_frequency::hats::{HatWidth, Hats};
+use crate::prt::all_frequency::transfer::FactoredTransfer;
+use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::prt::transfer::{TransferError, Vertices};
+use crate::study::ProgressFn;
+
+/// Per vertex of a model.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CodedErrors {
+    /// The squared error.
+    pub squared_errors: Vec<f64>,
+    /// The squares of the raw matrix.
+    pub squares: Vec<f64>,
+}
+
+/// Computes the raw matrices again, one segment after the other. What is coded as empty has the matrix's squares as its
+/// error.
+///
+/// # Errors
+/// [`TransferError`].
+///
+/// # Panics
+/// If what is coded belongs to other vertices or another reflectance.
+pub fn coded_errors(
+    (vertices, maps): (&Vertices, &VisibilityMaps),
+    hats: HatWidth,
+    reflectance: &Reflectance,
+    coded: &CodedTransfer,
+    progress: &mut ProgressFn<'_>,
+) -> Result<CodedErrors, TransferError> {
+    assert_eq!((coded.vertices, coded.rows), (vertices.len(), reflectance.terms()), "coded transfer of these vertices");
+    let (hats, rows) = (Hats::new(hats), reflectance.terms());
+    let response = |direction, into: &mut [f64]| reflectance.light(direction, into);
+    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows, response };
+    let none = vec![0.0; vertices.len()];
+    let mut found = CodedErrors { squared_errors: none.clone(), squares: none };
+    for segment in transfer.segments() {
+        let segment = segment?;
+        progress("segments", segment.segment as u64, 24);
+        let squares = |point: usize| -> f64 {
+            segment.signal.point(point).iter().map(|&value| f64::from(value) * f64::from(value)).sum()
+        };
+        let part =
+            coded.segments.iter().find(|part| part.segment == segment.segment && part.vertices == segment.vertices);
+        let errors = part.map(|part| part.squared_errors(&segment.signal));
+        for (point, &vertex) in segment.vertices.iter().enumerate() {
+            let squares = squares(point);
+            found.squares[vertex as usize] += squares;
+            found.squared_errors[vertex as usize] += errors.as_ref().map_or(squares, |errors| errors[point]);
+        }
+    }
+    Ok(found)
+}
