@@ -73,19 +73,6 @@ impl CubeMap {
         CUBE_FACES[face].at([column, row].map(|at| (at as f64 + 0.5) / self.side as f64)).0
     }
 
-    /// The texel that a direction of any length lies in: of the face of its largest component, the first of equals.
-    pub fn texel(self, direction: DVec3) -> usize {
-        let ahead = |face: usize| CUBE_FACES[face].center.dot(direction);
-        let face = (1..6).fold(0, |best, face| if ahead(face) > ahead(best) { face } else { best });
-        let place = |axis: DVec3| {
-            let at = (axis.dot(direction) / ahead(face) + 1.0) / 2.0 * self.side as f64;
-            // NaN is 0.
-            (at.max(0.0) as usize).min(self.side - 1)
-        };
-        let FaceAxes { right, down, .. } = CUBE_FACES[face];
-        (face * self.side + place(down)) * self.side + place(right)
-    }
-
     /// The solid angle of a texel, the same on all faces.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         face_solid_angle(self.side, column, row)

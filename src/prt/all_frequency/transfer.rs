@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::grid::{FineDirections, Segmentation};
 use super::haar::Haar;
 use super::hats::Hats;
-use super::visibility::{VISIBILITY_BYTES, VisibilityMaps};
+use super::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
 use crate::prt::Signal;
 use crate::prt::transfer::{TransferError, Vertices};
 
@@ -96,7 +96,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
             let (what, expected) = ("the number of rows", "at least 1");
             return Err(TransferError::OutOfRange { what, expected, found: 0.0 });
         }
-        self.maps.check(self.vertices)?;
+        check(self.vertices, self.maps.vertices())?;
         let hats = self.hats.segment(segment);
         let maps: Vec<usize> =
             (0..self.maps.len()).into_par_iter().filter(|&map| hats.sees(self.maps.bits(map))).collect();

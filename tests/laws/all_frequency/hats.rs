@@ -10,7 +10,7 @@ use crossbar::prt::all_frequency::hats::{HatWeights, HatWidth, Hats};
 use crossbar::sphere::{CUBE_FACES, CubeMap};
 use glam::{DMat3, DVec3};
 
-use super::close;
+use super::{close, texel_of};
 
 const WIDTHS: [HatWidth; 2] = [HatWidth::OneTexel, HatWidth::TwoTexels];
 
@@ -60,10 +60,10 @@ fn hats_have_the_symmetry_of_the_cube() {
     ];
     for turn in generators {
         for fine in (0..FINE_DIRECTIONS).filter(|fine| fine % FINE_SIDE < 8 || fine % 5 == 0) {
-            let turned = CubeMap::new(FINE_SIDE).texel(turn * direction(fine, FINE_SIDE));
+            let turned = texel_of(turn * direction(fine, FINE_SIDE), FINE_SIDE);
             let expected: BTreeMap<usize, f64> = weights(HatWidth::TwoTexels, fine)
                 .into_iter()
-                .map(|(texel, weight)| (CubeMap::new(LIGHT_SIDE).texel(turn * direction(texel, LIGHT_SIDE)), weight))
+                .map(|(texel, weight)| (texel_of(turn * direction(texel, LIGHT_SIDE), LIGHT_SIDE), weight))
                 .collect();
             assert_eq!(weights(HatWidth::TwoTexels, turned), expected, "{fine} turned to {turned}");
         }
@@ -85,8 +85,8 @@ fn hats_are_continuous_over_edges() {
         for (out, along) in [(axes.right, axes.down), (-axes.right, axes.down), (axes.down, axes.right)] {
             for k in 0..FINE_SIDE {
                 let v = (2 * k + 1) as f64 * step - 1.0;
-                let inside = CubeMap::new(FINE_SIDE).texel(axes.center + (1.0 - step) * out + v * along);
-                let beyond = CubeMap::new(FINE_SIDE).texel((1.0 - step) * axes.center + out + v * along);
+                let inside = texel_of(axes.center + (1.0 - step) * out + v * along, FINE_SIDE);
+                let beyond = texel_of((1.0 - step) * axes.center + out + v * along, FINE_SIDE);
                 assert_ne!(inside / (FINE_SIDE * FINE_SIDE), beyond / (FINE_SIDE * FINE_SIDE));
                 assert!(change(inside, beyond) <= 0.5 + 1e-12, "{inside} {beyond}: {}", change(inside, beyond));
                 pairs += 1;

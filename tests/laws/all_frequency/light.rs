@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crossbar::elementary::sin_cos;
 use crossbar::geom::random::CounterRng;
 use crossbar::picture::Picture;
-use crossbar::prt::all_frequency::grid::{LIGHT_MAP, Segmentation};
+use crossbar::prt::all_frequency::grid::Segmentation;
 use crossbar::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 use crossbar::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 use glam::{DMat3, DVec3};
@@ -90,26 +90,6 @@ fn lights_turn_with_their_matrix() {
         let [a, b] = [(&disks, &turn), (&moved, &DMat3::IDENTITY)]
             .map(|(disks, turn)| CubeLight::from_disks(disks, turn, decimation).expect("a light").flux());
         close(a[1], b[1], 1e-9, "flux");
-    }
-}
-
-/// A table's light turned: a quarter turn moves texels, any other keeps the flux to the samples along their borders.
-#[test]
-fn texels_turn_too() {
-    let random = CounterRng::new(9);
-    let texels: Vec<[f64; 3]> = (0..6144).map(|at| [0, 1, 2].map(|k| random.unit(at, 0, k))).collect();
-    let light = CubeLight::new(texels).expect("a light");
-    let quarter = DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X);
-    for decimation in DECIMATIONS {
-        let found = light.turned(&quarter, decimation).expect("a light");
-        for (texel, expected) in light.texels().iter().enumerate() {
-            let (face, row, column) = (texel / 1024, texel / 32 % 32, texel % 32);
-            let to = LIGHT_MAP.texel(quarter * LIGHT_MAP.direction(face, column, row));
-            let pairs = found.texels()[to].into_iter().zip(expected);
-            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-14), "{texel} to {to}");
-        }
-        let ratio = light.turned(&turn(), decimation).expect("a light").flux()[0] / light.flux()[0];
-        assert!((ratio - 1.0).abs() < 3e-3, "{ratio}");
     }
 }
 

@@ -15,6 +15,7 @@ use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
 use crossbar::prt::all_frequency::visibility::VisibilityMaps;
 use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
 use glam::DVec3;
 
@@ -63,6 +64,21 @@ fn trace(mesh: &Mesh, vertices: &Vertices, of: &[u32]) -> VisibilityMaps {
 
 fn in_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool").install(work)
+}
+
+/// The texel of a cube of a side that a direction lies in: by its largest component.
+fn texel_of(direction: DVec3, side: usize) -> usize {
+    let face = (0..6)
+        .max_by(|&a, &b| {
+            CUBE_FACES[a].center.dot(direction).total_cmp(&CUBE_FACES[b].center.dot(direction)).then(b.cmp(&a))
+        })
+        .expect("six faces");
+    let axes = CUBE_FACES[face];
+    let place = |axis: DVec3| {
+        ((axis.dot(direction) / axes.center.dot(direction) + 1.0) / 2.0 * side as f64).clamp(0.0, side as f64 - 1.0)
+            as usize
+    };
+    (face * side + place(axes.down)) * side + place(axes.right)
 }
 
 fn close(found: f64, expected: f64, tolerance: f64, what: &str) {

@@ -12,7 +12,7 @@ use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::sphere::CubeMap;
 use glam::{DMat3, DVec3};
 
-use super::{clutter, trace};
+use super::{clutter, texel_of, trace};
 
 /// The 24 turns of the cube.
 fn turns() -> Vec<DMat3> {
@@ -33,7 +33,7 @@ fn turned(mesh: &Mesh, turn: &DMat3) -> Mesh {
 fn places(turn: &DMat3, side: usize) -> Vec<usize> {
     let map = CubeMap::new(side);
     let direction = |at: usize| map.direction(at / (side * side), at % side, at / side % side);
-    (0..map.len()).map(|at| CubeMap::new(side).texel(*turn * direction(at))).collect()
+    (0..map.len()).map(|at| texel_of(*turn * direction(at), side)).collect()
 }
 
 /// M L of every vertex, with F of three components that depend on the tangent.

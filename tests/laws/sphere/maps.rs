@@ -19,7 +19,6 @@ fn the_emulated_card_finds_each_texel_where_we_put_it() {
             let (found, u, v) = cube_coordinates(direction.to_array().map(|along| (along as f32).to_bits()));
             let place = [u, v].map(|at| (8.0 * f32::from_bits(at)).floor() as usize);
             assert_eq!((found, place), (expected, [column, row]), "face {face}: {direction}");
-            assert_eq!(map.texel(3.0 * direction), face * 64 + texel);
         }
         let axes = CUBE_FACES[face];
         assert_eq!(axes.center.dot(axes.right), 0.0);

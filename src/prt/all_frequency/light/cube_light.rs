@@ -6,8 +6,7 @@ use rayon::prelude::*;
 use super::disks::{DiskSource, add_disk};
 use super::error::CubeLightError;
 use crate::prt::all_frequency::grid::{
-    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
-    light_texel,
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
 };
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 
@@ -127,14 +126,6 @@ impl CubeLight {
         });
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
         Ok(Self::from_disks(&disks, rotation, decimation)?.plus(&surrounding))
-    }
-
-    /// The light turned: its radiance, constant over each texel, sampled again as [`Self::sampled`] does.
-    ///
-    /// # Errors
-    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
-    pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
-        Self::sampled(|direction| self.texels[LIGHT_MAP.texel(direction)], rotation, decimation)
     }
 
     /// Samples in all fine directions to texels.

@@ -13,9 +13,9 @@ use refsim::machine::{DrawCall, Executor, Machine, MachineError, TextureId, Vert
 use refsim::raster::{PixelCenter, Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
-use super::maps::{VisibilityMaps, WORDS, check};
+use super::maps::{VisibilityMaps, WORDS};
 use super::sight::{above, set};
-use super::traced::unclear;
+use super::traced::{check, unclear};
 use crate::card::{KernelError, Texels};
 use crate::geom::vector::wide;
 use crate::prt::all_frequency::grid::FINE_SIDE;

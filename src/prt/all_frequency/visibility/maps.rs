@@ -1,7 +1,6 @@
 //! The bits.
 
 use crate::prt::all_frequency::grid::FINE_DIRECTIONS;
-use crate::prt::transfer::{TransferError, Vertices};
 
 /// Words of bits per vertex.
 pub(super) const WORDS: usize = FINE_DIRECTIONS / 64;
@@ -73,11 +72,6 @@ impl VisibilityMaps {
         self.bits(map)[fine / 64] >> (fine % 64) & 1 != 0
     }
 
-    /// Whether all vertices are those of a mesh.
-    pub(in crate::prt::all_frequency) fn check(&self, vertices: &Vertices) -> Result<(), TransferError> {
-        check(vertices, &self.vertices)
-    }
-
     /// All words, map by map.
     pub(super) fn words_mut(&mut self) -> &mut [u64] {
         &mut self.words
@@ -86,14 +80,5 @@ impl VisibilityMaps {
     /// Counts the bits that are set.
     pub(super) fn count_visible(&mut self) {
         self.counts.visible = self.words.iter().map(|word| u64::from(word.count_ones())).sum();
-    }
-}
-
-/// Whether all vertices are there.
-pub(super) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
-    let (what, expected) = ("a vertex's number", "one below the number of vertices");
-    match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
-        Some(&vertex) => Err(TransferError::OutOfRange { what, expected, found: f64::from(vertex) }),
-        None => Ok(()),
     }
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::maps::{VisibilityMaps, WORDS, check};
+use super::maps::{VisibilityMaps, WORDS};
 use super::sight::{Asked, above, look, set};
 use crate::geom::Ray;
 use crate::geom::vector::narrow;
@@ -108,6 +108,15 @@ impl VisibilityMaps {
         }
         maps.count_visible();
         Ok(maps)
+    }
+}
+
+/// Whether all vertices are there.
+pub(in crate::prt::all_frequency) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
+    let (what, expected) = ("a vertex's number", "one below the number of vertices");
+    match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
+        Some(&vertex) => Err(TransferError::OutOfRange { what, expected, found: f64::from(vertex) }),
+        None => Ok(()),
     }
 }
 
