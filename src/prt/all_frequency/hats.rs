@@ -7,8 +7,8 @@
 //! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
 //!   texels of both faces meet one to one.
 //! - *At the eight corners* only three texels meet. The weight a b of the one that is not there goes to the three in
-//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`). This alone keeps hats continuous
-//!   over all three edges and gives them the symmetry of the cube.
+//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hats are continuous over all three
+//!   edges and have the symmetry of the cube.
 //!
 //! For every fine direction the weights sum to 1 (to rounding where a third is none of f64): light of radiance 1 in
 //! every texel is 1 in every direction. All hats together are what the texels' light is interpolated by.

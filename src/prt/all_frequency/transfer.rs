@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use super::grid::{FineDirections, Segmentation};
 use super::haar::Haar;
 use super::hats::Hats;
-use super::visibility::{VISIBILITY_BYTES, VisibilityMaps};
+use super::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
 use crate::prt::Signal;
 use crate::prt::transfer::{TransferError, Vertices};
 
@@ -87,7 +87,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
     /// One segment; `None` if no vertex sees any of it. Its bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`TransferError`] if there are no rows, or F is not finite somewhere.
+    /// [`TransferError`] if there are no rows, the maps are of another mesh, or F is not finite somewhere.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -96,6 +96,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
             let (what, expected) = ("the number of rows", "at least 1");
             return Err(TransferError::OutOfRange { what, expected, found: 0.0 });
         }
+        check(self.vertices, self.maps.vertices())?;
         let hats = self.hats.segment(segment);
         let maps: Vec<usize> =
             (0..self.maps.len()).into_par_iter().filter(|&map| hats.sees(self.maps.bits(map))).collect();

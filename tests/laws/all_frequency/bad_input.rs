@@ -72,6 +72,15 @@ fn what_is_no_transfer_is_refused() {
     let card = |device: &str| CubeCard::new(Profile::named(device).expect("a device"), ExecutorKind::Scalar);
     assert!(card("r350").expect("a card").draw(&vertices, &[9]).is_err());
     let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), Hats::new(HatWidth::OneTexel));
+    let other = super::vertices(&clutter(1, 1, 1.0));
+    let elsewhere = FactoredTransfer {
+        vertices: &other,
+        maps: &maps,
+        hats: &hats,
+        rows: 1,
+        response: |_: DVec3, _: &mut [f64]| (),
+    };
+    assert!(elsewhere.segment(0).is_err_and(|error| error.to_string().ends_with("vertex's number, found 5")));
     let response = |_: DVec3, into: &mut [f64]| into.fill(f64::NAN);
     let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 2, response };
     let error = transfer.segments().find_map(Result::err).expect("a NaN");

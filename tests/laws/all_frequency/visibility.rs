@@ -80,8 +80,8 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
         for threads in [1, 2, 5] {
             let found = in_threads(threads, || trace(&mesh, &vertices, &of));
             assert!(found.counts.traced < expected.counts.traced, "{name}");
-            for map in 0..of.len() {
-                assert_eq!(found.bits(map), expected.bits(map), "{name}: vertex {}, {threads} threads", of[map]);
+            for (map, vertex) in of.iter().enumerate() {
+                assert_eq!(found.bits(map), expected.bits(map), "{name}: vertex {vertex}, {threads} threads");
             }
             let counts =
                 [&found, &expected].map(|maps| (maps.counts.above, maps.counts.below_triangles, maps.counts.visible));
@@ -122,8 +122,11 @@ fn rays_see_what_the_reference_sees() {
     assert!(differ < compared / 10_000, "{differ} of {compared}");
 }
 
-/// The card snaps corners to sixteenths of a pixel: its bits differ only near edges, and are those of the scalar
-/// executor on every device.
+/// How far a corner is snapped: half of a sixteenth of a pixel in both directions; a little more for single precision.
+const SNAP: f64 = 0.0442 + 0.001;
+
+/// The card snaps corners to sixteenths of a pixel: its bits differ only so near to edges, and are those of the scalar
+/// executor.
 #[test]
 fn the_card_draws_what_rays_see() {
     for (name, mesh) in meshes() {
@@ -143,7 +146,7 @@ fn the_card_draws_what_rays_see() {
                 let [face, row, column] = face_row_column(fine);
                 let off = pixels_to_edge(&mesh, eye, fine);
                 assert!(
-                    off < 0.07,
+                    off < SNAP,
                     "{name}, vertex {vertex}, {}: {off} pixels off",
                     FINE_MAP.direction(face, column, row)
                 );

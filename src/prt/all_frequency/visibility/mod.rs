@@ -12,3 +12,4 @@ mod traced;
 
 pub use census::{SegmentCensus, segments_below_horizon};
 pub use maps::{VISIBILITY_BYTES, VisibilityCounts, VisibilityMaps};
+pub(in crate::prt::all_frequency) use traced::check;

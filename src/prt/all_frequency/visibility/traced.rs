@@ -21,9 +21,13 @@ struct Rays<'a> {
 }
 
 impl Rays<'_> {
-    fn ray(&self, vertex: u32, fine: u32) -> Option<Ray> {
-        let direction = self.length * FineDirections::get().directions()[fine as usize];
-        Ray::new(self.origins[vertex as usize].at, narrow(direction)).ok()
+    /// The rays of a vertex in some directions; without those that single precision has no ray for, near its limits.
+    fn of(&self, vertex: u32, fine: &[u32]) -> (Vec<u32>, Vec<Ray>) {
+        let ray = |fine: u32| {
+            let direction = self.length * FineDirections::get().directions()[fine as usize];
+            Some((fine, Ray::new(self.origins[vertex as usize].at, narrow(direction)).ok()?))
+        };
+        fine.iter().filter_map(|&fine| ray(fine)).unzip()
     }
 }
 
@@ -58,9 +62,10 @@ impl VisibilityMaps {
                 .zip(of_block)
                 .map_init(Vec::new, |waiting, (bits, &vertex)| {
                     let at = (&rays.vertices.frames()[vertex as usize], &rays.origins[vertex as usize]);
-                    let asked = look(at, &occluders, waiting, bits);
-                    let rays = asked.fine.iter().filter_map(|&fine| rays.ray(vertex, fine)).collect();
-                    (asked, rays)
+                    let mut asked = look(at, &occluders, waiting, bits);
+                    let cast;
+                    (asked.fine, cast) = rays.of(vertex, &asked.fine);
+                    (asked, cast)
                 })
                 .collect();
             let all: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
@@ -93,11 +98,11 @@ impl VisibilityMaps {
         maps.counts.unclear = unclear(&rays.origins, of);
         for (map, &vertex) in of.iter().enumerate() {
             let (fine, below) = above(&vertices.frames()[vertex as usize], &rays.origins[vertex as usize]);
-            let cast: Vec<Ray> = fine.iter().filter_map(|&fine| rays.ray(vertex, fine)).collect();
+            maps.counts.above += fine.len() as u64 + below;
+            let (fine, cast) = rays.of(vertex, &fine);
             let answers = caster.occluded(&cast)?;
             let bits = &mut maps.words_mut()[map * WORDS..(map + 1) * WORDS];
             fine.iter().zip(answers).filter(|(_, is_blocked)| !is_blocked).for_each(|(&fine, _)| set(bits, fine));
-            maps.counts.above += fine.len() as u64 + below;
             maps.counts.below_triangles += below;
             maps.counts.traced += cast.len() as u64;
         }
@@ -107,7 +112,7 @@ impl VisibilityMaps {
 }
 
 /// Whether all vertices are there.
-pub(super) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
+pub(in crate::prt::all_frequency) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
     let (what, expected) = ("a vertex's number", "one below the number of vertices");
     match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
         Some(&vertex) => Err(TransferError::OutOfRange { what, expected, found: f64::from(vertex) }),
