@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crossbar::geom::teapot;
 use crossbar::io::{scene_files, write_obj};
+use crossbar::prt::all_frequency::factor::{FactorSampling, Lobe};
 use crossbar::ray_engine::kernels;
 use crossbar::scene::built;
 
@@ -25,6 +26,14 @@ fn rays() -> String {
     text
 }
 
+/// Reflectance times cosine on maps of 4 x 4 texels.
+fn reflectance() -> String {
+    let sampling = FactorSampling { side: 4, ..FactorSampling::default() };
+    let table = sampling.table(&Lobe::cook_torrance(0.5, 0.5), &mut |_, _| ()).expect("a table");
+    let line = |row: &[f64]| row.iter().map(|&value| format!("{:e}", value as f32)).collect::<Vec<_>>().join(",") + "\n";
+    table.values().rows().map(line).collect()
+}
+
 #[test]
 fn examples_are_what_the_library_makes() {
     let mut mesh = Vec::new();
@@ -32,6 +41,7 @@ fn examples_are_what_the_library_makes() {
     let mut files = vec![
         ("teapot.obj".to_owned(), mesh),
         ("rays.csv".to_owned(), rays().into_bytes()),
+        ("reflectance.csv".to_owned(), reflectance().into_bytes()),
         ("intersect.psa".to_owned(), kernels::ONE_ORIGIN_SIGNED.text.as_bytes().to_vec()),
     ];
     files.extend(scene_files(&built::build("cornell-box").expect("a scene"), "room").expect("files"));

@@ -8,7 +8,7 @@ pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices d
 
 /// The verbs of the commands that have some.
 pub(crate) const VERBS: &[&str] =
-    &["prt card", "prt compress", "prt error", "prt precompute", "prt render", "prt show"];
+    &["prt card", "prt compress", "prt error", "prt factor", "prt precompute", "prt render", "prt show"];
 
 #[test]
 fn program() {

@@ -53,6 +53,11 @@ const COMMANDS: &[(&str, &str)] = &[
     ("prt compress nowhere.prt --out y.prt", "--clusters --vectors --method --iterations --seed --start --out"),
     ("prt error nowhere.prt nowhere.prt", "--csv"),
     (
+        "prt factor --table nowhere.csv",
+        "--brdf --merl --table --roughness --fresnel --isotropy --exponent --albedo --denominators --fresnel-form \
+         --shadowing --tangent --channel --side --supersamples --outside --clamp --clamp-when --terms --sweep-roughness --out",
+    ),
+    (
         "prt precompute nowhere.obj --out x.prt",
         "--kind --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
          --degree --bounces --bounce-tolerance --out",
@@ -229,6 +234,14 @@ fn what_is_wrong_is_said() {
         ("prt precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
         ("prt precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
         ("prt precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
+        ("prt factor", "<--brdf <MODEL>|--merl <FILE>|--table <FILE>>"),
+        ("prt factor --brdf phong --table q.csv", "cannot be used with"),
+        ("prt factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
+        ("prt factor --brdf schlick --isotropy 2", "expected a number from 0.001 to 1 for the isotropy, found 2"),
+        ("prt factor --brdf lambert --supersamples 0x4", "expected two numbers from 1 to 16 as in 4x4, found `0x4`"),
+        ("prt factor --brdf lambert --side 8 --terms 2", "expected 1 to 1 terms, the rank of the table, found 2"),
+        ("prt factor --brdf lambert --side 8 --albedo 0", "expected reflectance above 0 somewhere"),
+        ("prt factor --brdf lambert --side 8 --sweep-roughness 0.2", "found Lambert's law"),
         ("prt render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
         ("prt show x.prt --at 0,0,0", "--model <MODEL>"),
         ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),
@@ -266,7 +279,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 16] = [
+    let commands: [&[&str]; 18] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -277,6 +290,8 @@ fn hostile_files() {
         &["radiosity", "IN"],
         &["prt", "compress", "IN", "--out", "y.prt"],
         &["prt", "error", "IN", "IN"],
+        &["prt", "factor", "--table", "IN"],
+        &["prt", "factor", "--merl", "IN"],
         &["prt", "precompute", "IN", "--out", "x.prt"],
         &["prt", "show", "IN"],
         &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],

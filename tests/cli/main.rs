@@ -10,6 +10,7 @@ mod compare;
 mod devices;
 mod diff;
 mod examples;
+mod factor;
 mod help;
 mod hostile;
 mod interrupted;

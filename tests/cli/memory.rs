@@ -28,6 +28,7 @@ const LARGE: &[&[&str]] = &[
     &["prt", "compress", "large.csv", "--out", "y.prt"],
     &["prt", "precompute", "transfer-polygons", "--kind", "glossy", "--rows", "100", "--order", "10", "--out", "x.prt"],
     &["prt", "render", "step_small.prt", "--model", "step.obj", "--size", "16384x16384"],
+    &["prt", "factor", "--brdf", "phong", "--side", "48"],
     &["intersect", "--mesh", "square.obj", "--rays", "many.csv", "--out", "h.csv"],
     &["intersect", "--mesh", "large.obj", "--rays", "few.csv", "--out", "h.csv"],
 ];
@@ -98,7 +99,7 @@ fn a_limited_process_refuses_and_does_not_abort() {
     // With less than the first, the system may not even load the program.
     for kibibytes in ["500000", "1500000"] {
         let small = |arguments: &&[&str]| {
-            arguments[0] == "intersect" || arguments[1] == "compress" || arguments.contains(&"large.toml")
+            arguments[0] == "intersect" || ["compress", "factor"].contains(&arguments[1]) || arguments.contains(&"large.toml")
         };
         for arguments in LARGE.iter().filter(|arguments| !small(arguments)) {
             let mut command = std::process::Command::new("sh");
@@ -175,6 +176,7 @@ fn what_is_said_is_what_is_taken() {
         sized("diff SIZE.png SIZE.png --out maps", "small", "medium"),
         sized("intersect --mesh square.obj --rays SIZE.csv --out h.csv", "few", "many"),
         sized("prt render step_small.prt --model step.obj --out prt --size SIZE", "64x64", "512x512"),
+        sized("prt factor --brdf phong --supersamples 1x1 --out f --side SIZE", "8", "32"),
         sized("intersect --mesh SIZE.obj --rays few.csv --out h.csv", "square", "medium"),
     ];
     for [small, large] in &measured {

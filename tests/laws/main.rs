@@ -27,6 +27,7 @@ mod pictures;
 mod ply;
 mod prt_card;
 mod prt_cpca;
+mod prt_factor;
 mod prt_rivals;
 mod prt_transfer;
 mod radiosity;

@@ -249,6 +249,23 @@ fn lost_models_are_judged_by_order() {
     assert_eq!(appendix.len(), 17);
 }
 
+/// Reflectance factors: the textbooks' forms judge the rows, and every other form stands in a table beside them.
+#[test]
+fn reflectance_factors_have_the_printed_rows() {
+    let found = findings("all-frequency-factors");
+    let errors = found.rows.iter().filter(|row| row.target.unit == "1/sr");
+    assert_eq!((errors.count(), found.rows.len(), found.tables.len()), (20, 27, 4));
+    let forms = |table: usize| found.tables[table].headings().len() - 5;
+    assert_eq!([forms(0), forms(1)], [4, 4]);
+    for table in &found.tables[..2] {
+        for row in table.rows() {
+            assert_eq!(row[4].text().trim_end_matches(" *"), row[5].text().trim_end_matches(" *"), "the first form");
+        }
+    }
+    let vague = found.rows.iter().filter(|row| row.verdict() == RowVerdict::TooVague);
+    assert_eq!(vague.count(), 1, "Figure 3's threshold");
+}
+
 /// Figure 11: each additional vector helps, and more on the smooth model. Pictures stand beside the rows.
 #[test]
 fn smooth_transfer_compresses_better() {
@@ -312,7 +329,12 @@ fn missed_by_place() -> String {
 }
 
 fn paper_of(id: &str) -> &'static str {
-    const PAPERS: [(&str, &str); 3] = [("radiosity", "radiosity"), ("subsurface", "subsurface"), ("cpca", "CPCA")];
+    const PAPERS: [(&str, &str); 4] = [
+        ("radiosity", "radiosity"),
+        ("subsurface", "subsurface"),
+        ("cpca", "CPCA"),
+        ("all-frequency", "all-frequency transfer"),
+    ];
     PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
 }
 
@@ -347,7 +369,7 @@ fn said(name: &str) -> String {
 /// The book's figures are the program's.
 #[test]
 fn the_book_says_what_the_program_says() {
-    for path in ["README.md", "docs/papers/ray_engine.md", "docs/papers/radiosity.md", "docs/papers/cpca.md"] {
+    for path in ["README.md", "docs/papers/ray_engine.md", "docs/papers/radiosity.md", "docs/papers/cpca.md", "docs/papers/all_frequency.md"] {
         let text = std::fs::read_to_string(file(path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
         hold(path, &filled(&text, said));

@@ -222,9 +222,9 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "WHEN", default_value = "after")]
     clamp_when: ClampWhenArg,
 
-    /// Terms
-    #[arg(long, value_name = "M", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
-    terms: u32,
+    /// Terms [default: 10, or the rank of the table where that is less]
+    #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
+    terms: Option<u32>,
 
     /// The same model with each of these roughnesses too, as in Figure 3
     #[arg(long, value_name = "R,...", value_delimiter = ',', value_parser = number::positive, allow_hyphen_values = true)]
@@ -370,7 +370,7 @@ impl StudyArgs for Args {
             name,
             subject,
             sampling,
-            terms: self.terms as usize,
+            terms: self.terms.map(|terms| terms as usize),
             roughnesses: self.sweep_roughness.clone(),
         })
     }

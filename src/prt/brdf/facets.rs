@@ -39,11 +39,15 @@ pub(crate) fn schlick_seen(cosine: f64, roughness: f64) -> f64 {
     cosine / (roughness - roughness * cosine + cosine)
 }
 
+/// The squared sine of the angle to the normal below which a half vector counts as the normal: rounding of two opposite
+/// directions leaves about 1e-32.
+const NORMAL: f64 = 1e-24;
+
 /// Schlick's w: the cosine of the angle between the tangent x and the half vector's projection onto the surface; 1 for
 /// the normal itself, which has none.
 pub(crate) fn cosine_along_tangent(half: DVec3) -> f64 {
     let square = half.x * half.x + half.y * half.y;
-    if square > 0.0 { half.x / square.sqrt() } else { 1.0 }
+    if square > NORMAL { half.x / square.sqrt() } else { 1.0 }
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ pub use card::{CardError, OnCard};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};
+pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
 pub(super) use render::auto_exposure;

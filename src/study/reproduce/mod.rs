@@ -4,6 +4,7 @@
 //! was stated beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the
 //! value ([`Sweep`]).
 
+mod all_frequency;
 mod cpca;
 mod entry;
 mod equation_11;
@@ -175,6 +176,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         id: "cpca-coherence",
         title: "Overdraw of clusters (CPCA, figure 5 and the table of section 7)",
         work: cpca::coherence,
+    },
+    ReproduceEntry {
+        id: "all-frequency-factors",
+        title: "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
+        work: all_frequency::factors,
     },
 ];
 

@@ -10,11 +10,13 @@ use proptest::prelude::*;
 
 use super::close;
 
-const MODELS: [Brdf; 8] = [
+const MODELS: [Brdf; 10] = [
     Brdf::Lambert { albedo: 0.7 },
     Brdf::Phong { albedo: 0.3, specular: 0.6, exponent: 20.0 },
     Brdf::CookTorrance { albedo: 0.2, specular: 1.0, roughness: 0.3, normal_incidence: 0.6 },
     Brdf::CookTorrance { albedo: 0.0, specular: 1.0, roughness: 0.8, normal_incidence: 0.95 },
+    Brdf::Schlick { albedo: 0.2, specular: 1.0, roughness: 0.3, isotropy: 0.4, normal_incidence: 0.6 },
+    Brdf::Schlick { albedo: 0.0, specular: 1.0, roughness: 0.6, isotropy: 1.0, normal_incidence: 0.9 },
     Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.15, 0.5] },
     Brdf::Ward { albedo: 0.0, specular: 1.0, roughness: [0.3, 0.3] },
     Brdf::AshikhminShirley { albedo: 0.5, specular: 0.3, exponents: [5.0, 60.0] },

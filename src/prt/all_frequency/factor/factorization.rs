@@ -35,12 +35,21 @@ impl Factorization {
     /// # Errors
     /// [`FactorizationError`] for no terms, for more than the table's rank, and for a table of zeros.
     pub fn new(table: &ProductTable, terms: usize) -> Result<Self, FactorizationError> {
-        let svd = LeadingSvd::new(table.values(), terms)?;
+        let found = Self::up_to(table, terms)?;
+        if !(1..=found.rank()).contains(&terms) {
+            return Err(FactorizationError::Terms { found: terms, rank: found.rank() });
+        }
+        Ok(found)
+    }
+
+    /// The same with fewer terms where the rank is less.
+    ///
+    /// # Errors
+    /// [`FactorizationError`] for a table of zeros.
+    pub fn up_to(table: &ProductTable, terms: usize) -> Result<Self, FactorizationError> {
+        let svd = LeadingSvd::new(table.values(), terms.max(1))?;
         if svd.rank == 0 {
             return Err(FactorizationError::Dark { texels: table.view().texels() * table.light().texels() });
-        }
-        if !(1..=svd.rank).contains(&terms) {
-            return Err(FactorizationError::Terms { found: terms, rank: svd.rank });
         }
         Ok(Self { view: table.view(), light: table.light(), svd })
     }

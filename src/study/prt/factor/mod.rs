@@ -9,3 +9,4 @@ mod sweep;
 mod terms;
 
 pub use subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
+pub(in crate::study) use sweep::{SweptRoughness, roughness_table};

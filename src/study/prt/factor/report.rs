@@ -23,11 +23,11 @@ impl Study for BrdfFactors {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BrdfFactorsError> {
         let table = self.subject.table(&self.sampling, &mut |done, of| progress("views", done, of))?;
         progress("singular values", 0, 1);
-        let all = Factorization::new(&table, self.terms)?;
-        let factors = all.factors(self.terms);
+        let all = self.factorization(&table)?;
+        let factors = all.factors(all.terms());
         let disc = DiscSamples::new(&table);
         progress("errors", 0, 1);
-        let by_terms = terms::by_terms(&disc, &all, self.terms);
+        let by_terms = terms::by_terms(&disc, &all);
         let errors = disc.errors(&factors);
         let harmonic = harmonics::rows(&disc)?;
         let mut found = Findings::new(format!("Factors of {}", self.name));
@@ -41,7 +41,7 @@ impl Study for BrdfFactors {
         found.table(FoundTable::from(harmonics::table(&harmonic)).csv("harmonics").field("harmonics"));
         found.heading("Directional albedo");
         found.table(FoundTable::from(self.albedos(&table, &factors)).csv("albedo").field("albedo"));
-        sweep::report(&mut found, self.sweep(progress)?, self.terms);
+        sweep::report(&mut found, self.sweep(progress)?);
         files::keep(&mut found, &all, &factors)?;
         self.fields(&mut found, &all, &errors);
         Ok(found)
@@ -61,7 +61,7 @@ impl BrdfFactors {
         harmonic: &[harmonics::HarmonicRow],
     ) {
         let error = |value: f64| shown(value, Quantity::Error);
-        let count = self.terms;
+        let count = all.terms();
         let [relative, rms, max] = [all.relative_squared_error(count), errors.rms, errors.max].map(error);
         let terms = if count == 1 { "1 term of".to_owned() } else { format!("{count} terms of") };
         found.conclusion(format!(
@@ -101,13 +101,14 @@ impl BrdfFactors {
 
     fn fields(&self, found: &mut Findings, all: &Factorization, errors: &ProductErrors) {
         found.field("singular_values", json!(all.singular_values()));
+        found.field("terms_kept", json!(all.terms()));
         found.field("rank", json!(all.rank()));
         found.field("rms", json!(errors.rms));
         found.field("max", json!(errors.max));
         found.field("least", json!(errors.least));
         found.field("negative_share", json!(errors.negative));
-        found.field("relative_squared_error", json!(all.relative_squared_error(self.terms)));
-        let pair = all.split_pair(self.terms).map(|pair| json!({ "terms": pair.terms, "values": pair.values }));
+        found.field("relative_squared_error", json!(all.relative_squared_error(all.terms())));
+        let pair = all.split_pair(all.terms()).map(|pair| json!({ "terms": pair.terms, "values": pair.values }));
         found.field("split_pair", json!(pair));
         if let FactorSubject::Merl(merl, _) = &self.subject {
             found.field("invalid_cells", json!(merl.invalid));
@@ -130,7 +131,7 @@ impl BrdfFactors {
             pictures.push(named("f", radiance, "f itself, cut off".to_owned())?);
         }
         pictures.push(named("table", &of_table, "f by its table, interpolated".to_owned())?);
-        pictures.push(named("approximation", &of_terms, format!("by {} terms", self.terms))?);
+        pictures.push(named("approximation", &of_terms, format!("by terms: {}", factors.terms()))?);
         let difference: Vec<f64> = of_terms.iter().zip(&of_table).map(|(terms, table)| terms - table).collect();
         let largest = difference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         if largest > 0.0 {

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use crate::picture::PictureError;
 use crate::prt::all_frequency::factor::{
-    FactorSampling, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
+    FactorSampling, Factorization, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
 };
 use crate::prt::brdf::Brdf;
 use crate::report::ReportError;
@@ -32,8 +32,8 @@ pub struct BrdfFactors {
     pub subject: FactorSubject,
     /// How f is sampled; a table is as it is.
     pub sampling: FactorSampling,
-    /// m.
-    pub terms: usize,
+    /// m; `None` for ten, or the rank of the table where that is less.
+    pub terms: Option<usize>,
     /// Roughnesses of the same lobe to be factored besides, as in Figure 3.
     pub roughnesses: Vec<f64>,
 }
@@ -64,6 +64,16 @@ pub enum BrdfFactorsError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Report(#[from] ReportError),
+}
+
+/// The paper's m for glossy surfaces.
+const TERMS: usize = 10;
+
+impl BrdfFactors {
+    /// Singular values of a table, with vectors for the terms that are wanted.
+    pub(super) fn factorization(&self, table: &ProductTable) -> Result<Factorization, FactorizationError> {
+        self.terms.map_or_else(|| Factorization::up_to(table, TERMS), |terms| Factorization::new(table, terms))
+    }
 }
 
 impl FactorSubject {

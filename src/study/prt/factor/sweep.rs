@@ -4,7 +4,7 @@ use super::sphere;
 use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::prt::all_frequency::factor::{
-    DiscSamples, FacetDistribution, Factorization, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
+    DiscSamples, FacetDistribution, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
 };
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
@@ -13,6 +13,9 @@ use crate::study::ProgressFn;
 /// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
+/// What table and chart show.
+const TITLE: &str = "Errors of the terms by roughness";
+
 /// One roughness.
 pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) roughness: f64,
@@ -20,11 +23,12 @@ pub(in crate::study) struct SweptRoughness {
     pub(in crate::study) errors: ProductErrors,
     /// Mean of FLIP between spheres of the table and of the terms.
     pub(in crate::study) flip: f64,
-    pictures: [NamedPicture; 2],
+    /// By f, and by the terms.
+    pub(in crate::study) pictures: [NamedPicture; 2],
 }
 
 /// The lobe with another roughness.
-pub(in crate::study) fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationError> {
+fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationError> {
     let distribution = match lobe.distribution {
         FacetDistribution::Beckmann { .. } => FacetDistribution::Beckmann { roughness },
         FacetDistribution::Schlick { isotropy, tangent, .. } => {
@@ -58,8 +62,8 @@ impl BrdfFactors {
 
     fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, BrdfFactorsError> {
         let table = self.sampling.table(lobe, &mut |_, _| ())?;
-        let found = Factorization::new(&table, self.terms)?;
-        let factors = found.factors(self.terms);
+        let found = self.factorization(&table)?;
+        let factors = found.factors(found.terms());
         let limit = self.sampling.clamp.limit();
         let [original, drawn] = [
             sphere::radiance(&|view, light| lobe.value(view, light).min(limit)),
@@ -76,31 +80,35 @@ impl BrdfFactors {
         let label = shown(roughness, Quantity::Exact);
         Ok(SweptRoughness {
             roughness,
-            relative_squared_error: found.relative_squared_error(self.terms),
+            relative_squared_error: found.relative_squared_error(found.terms()),
             errors: DiscSamples::new(&table).errors(&factors),
             flip: seen.map_or(0.0, |seen| seen.mean),
             pictures: [
                 named("f", &original, format!("roughness {label}: f"))?,
-                named("terms", &drawn, format!("roughness {label}: {} terms", self.terms))?,
+                named("terms", &drawn, format!("roughness {label}: terms {}", found.terms()))?,
             ],
         })
     }
 }
 
 /// Table, chart and pictures.
-pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>, terms: usize) {
+pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>) {
     if rows.is_empty() {
         return;
     }
     found.heading("Roughness");
-    found.table(FoundTable::from(table(&rows, terms)).csv("roughness").field("roughness"));
+    found.table(
+        FoundTable::from(roughness_table(&rows, TITLE))
+            .csv("roughness")
+            .field("roughness"),
+    );
     if rows.len() > 1 {
         let line = |label: &str, of: fn(&SweptRoughness) -> f64| Series {
             label: label.to_owned(),
             points: rows.iter().map(|row| (row.roughness, of(row))).collect(),
         };
         let chart = Chart {
-            title: format!("Errors of {terms} terms by roughness"),
+            title: TITLE.to_owned(),
             x: "roughness".to_owned(),
             y: "error".to_owned(),
             y_scale: Scale::Logarithmic,
@@ -117,11 +125,9 @@ pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>, terms: usi
     found.pictures(rows.into_iter().flat_map(|row| row.pictures).collect());
 }
 
-pub(in crate::study) fn table(rows: &[SweptRoughness], terms: usize) -> Table {
-    let mut table = Table::of(
-        format!("Errors of {terms} terms by roughness"),
-        "roughness relative_squared_error rms max flip_of_spheres",
-    );
+/// A row per roughness.
+pub(in crate::study) fn roughness_table(rows: &[SweptRoughness], title: &str) -> Table {
+    let mut table = Table::of(title, "roughness relative_squared_error rms max flip_of_spheres");
     for row in rows {
         table.push([
             row.roughness.into(),

@@ -12,8 +12,9 @@ pub(super) struct TermErrors {
     pub(super) errors: ProductErrors,
 }
 
-/// Of 1 to so many terms, and of 1 to 20 and so many where these are more.
-pub(super) fn by_terms(disc: &DiscSamples, found: &Factorization, terms: usize) -> Vec<TermErrors> {
+/// Of each number of terms up to 20, and of all that there are vectors for.
+pub(super) fn by_terms(disc: &DiscSamples, found: &Factorization) -> Vec<TermErrors> {
+    let terms = found.terms();
     let each = (1..=terms.min(EACH)).chain((terms > EACH).then_some(terms));
     each.map(|terms| TermErrors { terms, errors: disc.errors(&found.factors(terms)) }).collect()
 }

@@ -1,0 +1,96 @@
+//! Readings of the paper's two reflectances, and their errors.
+
+use super::{HOST, ReproduceError, failed};
+use crate::prt::all_frequency::factor::{
+    Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HarmonicFit,
+    HarmonicSides, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
+};
+use crate::sphere::MAX_ORDER;
+
+/// m.
+pub(super) const TERMS: usize = 10;
+/// Orders of the printed table.
+pub(super) const ORDERS: [usize; 4] = [4, 5, 6, 7];
+
+/// A reading: its name, the reflectance, how it is sampled.
+pub(super) type Form = (&'static str, Lobe, FactorSampling);
+
+/// What one reading gives.
+pub(super) struct FormErrors {
+    /// Of ten terms.
+    pub(super) terms: ProductErrors,
+    /// Of [`ORDERS`].
+    pub(super) harmonics: [ProductErrors; 4],
+    /// Functions of the first order whose RMS is not above that of the terms; those of the highest order if none is.
+    pub(super) functions: usize,
+}
+
+/// At texel centers, one sample per pair.
+fn centers() -> FactorSampling {
+    FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() }
+}
+
+/// Of Cook and Torrance's model, the textbooks' first.
+pub(super) fn cook_torrance() -> Vec<Form> {
+    let lobe = Lobe::cook_torrance(0.4, 0.5);
+    let bare = bare(lobe);
+    vec![
+        ("normalised", lobe, FactorSampling::default()),
+        ("printed_1982", Lobe { denominators: Denominators::Printed1982, ..lobe }, FactorSampling::default()),
+        ("distribution_alone", bare, FactorSampling::default()),
+        ("distribution_at_centers", bare, centers()),
+    ]
+}
+
+/// The distribution times the reflectance at normal incidence and the cosine alone.
+pub(super) fn bare(lobe: Lobe) -> Lobe {
+    Lobe { denominators: Denominators::Product, fresnel: FresnelForm::Constant, shadowing: Shadowing::None, ..lobe }
+}
+
+/// Of Schlick's model, its own first.
+pub(super) fn schlick() -> Vec<Form> {
+    let lobe = Lobe::schlick(0.2, 0.2, 0.8);
+    let quarter = Lobe { denominators: Denominators::Quarter, ..lobe };
+    let tangent = TangentCosine::HalfVector;
+    let distribution = FacetDistribution::Schlick { roughness: 0.2, isotropy: 0.2, tangent };
+    let half = Lobe { distribution, ..quarter };
+    vec![
+        ("normalised", lobe, FactorSampling::default()),
+        ("quarter", quarter, FactorSampling::default()),
+        ("quarter_of_half_vector", half, FactorSampling::default()),
+        ("half_vector_at_centers", half, centers()),
+    ]
+}
+
+impl FormErrors {
+    /// Of a reading.
+    pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, ReproduceError> {
+        let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
+        let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
+        let disc = DiscSamples::new(&table);
+        let terms = disc.errors(&found.factors(TERMS));
+        let of = |order: usize| {
+            harmonic_errors(&disc, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
+                .map_err(|error| failed(HOST)(&error))
+        };
+        let mut functions = MAX_ORDER * MAX_ORDER;
+        for order in 1..=MAX_ORDER {
+            if of(order)?.rms <= terms.rms {
+                functions = order * order;
+                break;
+            }
+        }
+        let [four, five, six, seven] = ORDERS;
+        Ok(Self { terms, harmonics: [of(four)?, of(five)?, of(six)?, of(seven)?], functions })
+    }
+
+    /// In the order of the printed table: RMS and maximum of the terms, then of each order; then the two comparisons of
+    /// RMS, and the ratio of functions to terms.
+    pub(super) fn values(&self) -> Vec<f64> {
+        let all = std::iter::once(&self.terms).chain(&self.harmonics);
+        let [.., six, seven] = &self.harmonics;
+        all.flat_map(|errors| [errors.rms, errors.max])
+            .chain([six.rms / self.terms.rms, self.terms.rms / seven.rms, self.functions as f64 / TERMS as f64])
+            .collect()
+    }
+}

@@ -1,0 +1,62 @@
+//! Figure 3: ten terms of Cook and Torrance's model by roughness.
+
+use super::forms::{TERMS, bare};
+use super::{Bound, HOST, Method, PaperFigure, PaperRow, ReproduceError, Standing, failed};
+use crate::prt::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
+use crate::report::{NamedPicture, Table};
+use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
+
+/// Roughnesses, from sharp to blunt.
+const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
+/// Mean FLIP of spheres above which their difference counts as seen: chosen by us, before any was computed.
+const SEEN: f64 = 0.05;
+
+/// What Figure 3's sweep gives.
+pub(super) struct Figure3 {
+    pub(super) row: PaperRow,
+    pub(super) tables: Vec<Table>,
+    pub(super) pictures: Vec<NamedPicture>,
+    /// Texels of a map above the horizon.
+    pub(super) inside: usize,
+}
+
+pub(super) fn sweep() -> Result<Figure3, ReproduceError> {
+    let lobe = Lobe::cook_torrance(0.4, 0.5);
+    let textbook = swept("normalised", lobe)?;
+    let bare = swept("distribution alone", bare(lobe))?;
+    let target = PaperFigure::printed(0.3, 1, "-", "figure 3");
+    let what = "roughness below which spheres of ten terms differ to the eye";
+    let row = PaperRow::new(
+        what,
+        (HOST, Method::Solver),
+        target,
+        (threshold(&textbook.1), Standing::Counted),
+        Bound::TooVague,
+    );
+    let centers = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
+    let table = centers.table(&lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
+    let [inside, _] = DiscSamples::new(&table).counts();
+    let pictures = textbook.1.into_iter().flat_map(|row| row.pictures).collect();
+    Ok(Figure3 { row, tables: vec![textbook.0, bare.0], pictures, inside })
+}
+
+fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), ReproduceError> {
+    let study = BrdfFactors {
+        name: form.to_owned(),
+        subject: FactorSubject::Lobe(lobe),
+        sampling: FactorSampling::default(),
+        terms: Some(TERMS),
+        roughnesses: ROUGHNESSES.to_vec(),
+    };
+    let rows = study.sweep(&mut |_, _, _| ()).map_err(|error| failed(HOST)(&error))?;
+    let table = roughness_table(&rows, &format!("Errors of {TERMS} terms by roughness, {form}"));
+    Ok((table, rows))
+}
+
+/// The largest roughness at which the difference is seen, between two of the sweep by a straight line; 0 if none is.
+fn threshold(rows: &[SweptRoughness]) -> f64 {
+    let Some(last) = rows.iter().rposition(|row| row.flip > SEEN) else { return 0.0 };
+    let Some(next) = rows.get(last + 1) else { return rows[last].roughness };
+    let row = &rows[last];
+    row.roughness + (next.roughness - row.roughness) * (row.flip - SEEN) / (row.flip - next.flip)
+}

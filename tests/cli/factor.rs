@@ -1,0 +1,120 @@
+//! `crossbar prt factor`: what it says, what it writes, and what it refuses.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::{crossbar, crossbar_in};
+
+const TABLE: &str = "docs/examples/reflectance.csv";
+
+fn document(arguments: &[&str]) -> Value {
+    let ran = crossbar(&[&["prt", "factor"], arguments, &["--json"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+}
+
+/// All files are there, and say the same on any number of threads.
+#[test]
+fn a_table_is_factored_into_files() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [one, three] = ["1", "3"].map(|threads| {
+        let out = folder.path().join(threads);
+        let found = document(&["--table", TABLE, "--terms", "4", "--threads", threads, "--out", out.to_str().expect("UTF-8")]);
+        assert_eq!(found["singular_values"].as_array().map(Vec::len), Some(16));
+        for (name, lines) in [("view_factors.csv", 17), ("light_factors.csv", 17), ("singular_values.csv", 17)] {
+            assert_eq!(fs::read_to_string(out.join(name)).expect("written").lines().count(), lines, "{name}");
+        }
+        for name in ["index.html", "view_factors.npy", "light_factors.npy", "terms.csv", "spectrum.svg", "difference.png"] {
+            assert!(out.join(name).is_file(), "{name}");
+        }
+        ["view_factors.csv", "light_factors.csv", "singular_values.csv", "terms.csv", "approximation.png"]
+            .map(|name| fs::read(out.join(name)).expect("written"))
+    });
+    assert!(one == three);
+}
+
+/// More terms are nearer, the document says what the spectrum says, and the rank ends it.
+#[test]
+fn errors_follow_from_the_spectrum() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = folder.path().join("out");
+    let found = |terms: &str| document(&["--table", TABLE, "--terms", terms, "--out", out.to_str().expect("UTF-8")]);
+    let [two, five] = ["2", "5"].map(found);
+    assert!(number(&five["rms"]) < number(&two["rms"]) && number(&five["max"]) < number(&two["max"]));
+    let squares: Vec<f64> =
+        two["singular_values"].as_array().expect("values").iter().map(|value| number(value).powi(2)).collect();
+    let tail = squares[2..].iter().sum::<f64>() / squares.iter().sum::<f64>();
+    assert!((number(&two["relative_squared_error"]) - tail).abs() < 1e-12);
+    let rank = number(&two["rank"]) as u64;
+    let whole = document(&["--table", TABLE, "--terms", &rank.to_string(), "--out", out.to_str().expect("UTF-8")]);
+    assert!(number(&whole["relative_squared_error"]) < 1e-25 && number(&whole["max"]) < 1e-12);
+    let lambert = document(&["--brdf", "lambert", "--side", "8", "--out", out.to_str().expect("UTF-8")]);
+    assert_eq!((&lambert["terms_kept"], &lambert["rank"]), (&Value::from(1), &Value::from(1)));
+}
+
+#[test]
+fn the_tables_are_these() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    fs::copy(root.join(TABLE), folder.path().join("q.csv")).expect("a copy");
+    let ran = crossbar_in(folder.path(), &["prt", "factor", "--table", "q.csv", "--terms", "3", "--out", "out"], "");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    insta::assert_snapshot!("factor_tables", ran.stdout);
+}
+
+/// Roughness as an option of the study: a row and two pictures each.
+#[test]
+fn roughness_is_swept() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = folder.path().join("out");
+    let base = ["--brdf", "cook-torrance", "--denominators", "product", "--side", "12", "--supersamples", "2x2"];
+    let options = ["--sweep-roughness", "0.2,0.4", "--out", out.to_str().expect("UTF-8")];
+    let found = document(&[&base[..], &options].concat());
+    let rows = found["roughness"].as_array().expect("rows");
+    let error = |row: usize| number(&rows[row]["relative_squared_error"]);
+    assert!(rows.len() == 2 && error(0) > error(1), "{rows:?}");
+    for name in ["roughness-0.2-f.png", "roughness-0.4-terms.png", "roughness.csv"] {
+        assert!(out.join(name).is_file(), "{name}");
+    }
+}
+
+/// Bad input: what is said, word for word, and nothing is written.
+#[test]
+fn bad_input_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let put = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).expect("written");
+    let line = "0.5,0.25,0.125,0\n";
+    put("ragged.csv", format!("{line}{line}1,2,3\n{line}").as_bytes());
+    put("nan.csv", format!("{line}{line}{line}1,nan,0,0\n").as_bytes());
+    put("negative.csv", format!("{line}{line}{line}1,-2,0,0\n").as_bytes());
+    put("three.csv", line.repeat(3).as_bytes());
+    put("equal.csv", line.repeat(4).as_bytes());
+    put("zero.csv", "0,0,0,0\n".repeat(4).as_bytes());
+    let merl = |sizes: [i32; 3]| sizes.iter().flat_map(|size| size.to_le_bytes()).collect::<Vec<u8>>();
+    put("cut.binary", &[&merl([90, 90, 180])[..], &[0; 100]].concat());
+    put("sizes.binary", &merl([90, 90, 360]));
+    let before = fs::read_dir(folder.path()).expect("a folder").count();
+    for (name, arguments) in [
+        ("ragged", &["--table", "ragged.csv"][..]),
+        ("nan", &["--table", "nan.csv"]),
+        ("negative", &["--table", "negative.csv"]),
+        ("not_square", &["--table", "three.csv"]),
+        ("above_rank", &["--table", "equal.csv", "--terms", "2"]),
+        ("dark", &["--table", "zero.csv"]),
+        ("merl_cut", &["--merl", "cut.binary"]),
+        ("merl_sizes", &["--merl", "sizes.binary"]),
+        ("merl_missing", &["--merl", "nowhere.binary"]),
+        ("roughness", &["--brdf", "schlick", "--roughness", "2"]),
+    ] {
+        let ran = crossbar_in(folder.path(), &[&["prt", "factor"], arguments].concat(), "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), before, "{arguments:?}");
+        insta::assert_snapshot!(format!("factor_bad_{name}"), ran.stderr);
+    }
+}

@@ -1,0 +1,284 @@
+//! What singular values promise, and what reflectance keeps.
+
+use std::f64::consts::PI;
+
+use crossbar::geom::random::CounterRng;
+use crossbar::io::NumberTable;
+use crossbar::linalg::{LeadingSvd, Matrix, dot};
+use crossbar::prt::all_frequency::factor::{
+    Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FactorizationError, FresnelForm, Lobe,
+    OutsideDisc, ProductClamp, ProductFunction, ProductSymmetry, ProductTable, Shadowing, Supersamples,
+};
+use crossbar::prt::brdf::Brdf;
+use crossbar::sphere::{DirectionRule, ParabolicMap};
+use glam::DVec3;
+
+const COOK_TORRANCE: Lobe = Lobe::cook_torrance(0.4, 0.5);
+const SCHLICK: Lobe = Lobe::schlick(0.2, 0.2, 0.8);
+
+fn sampled(side: usize, product: &dyn ProductFunction) -> ProductTable {
+    let sampling = FactorSampling { side, supersamples: Supersamples { view: 2, light: 2 }, ..FactorSampling::default() };
+    sampling.table(product, &mut |_, _| ()).expect("a table")
+}
+
+/// A table of random numbers, of which no two rows are alike.
+fn random([views, lights]: [usize; 2]) -> ProductTable {
+    let draw = CounterRng::new(7);
+    let [rows, columns] = [views * views, lights * lights];
+    let values = (0..rows * columns).map(|at| draw.unit(at as u64, 0, 0) as f32).collect();
+    ProductTable::of_numbers(&NumberTable { columns, values }, "random".as_ref()).expect("a table")
+}
+
+fn tables() -> Vec<ProductTable> {
+    let phong = Brdf::Phong { albedo: 0.1, specular: 0.7, exponent: 40.0 };
+    vec![sampled(8, &COOK_TORRANCE), sampled(8, &SCHLICK), sampled(6, &phong), random([5, 7]), random([8, 3])]
+}
+
+fn all_terms(table: &ProductTable) -> Factorization {
+    let rank = Factorization::new(table, 1).expect("a term").rank();
+    Factorization::new(table, rank).expect("all terms")
+}
+
+/// Differences of the table and of terms at all pairs of texels.
+fn differences(table: &ProductTable, found: &Factorization, terms: usize) -> Matrix {
+    let (factors, mut values) = (found.factors(terms), table.values().clone());
+    for view in 0..table.view().texels() {
+        for (light, value) in values.row_mut(view).iter_mut().enumerate() {
+            *value -= dot(factors.view_texel(view), factors.light_texel(light));
+        }
+    }
+    values
+}
+
+fn squares(values: &Matrix) -> f64 {
+    values.rows().map(|row| dot(row, row)).sum()
+}
+
+/// "With enough terms (big enough m), ... our work can drive the approximation error to 0 for arbitrary BRDFs."
+#[test]
+fn as_many_terms_as_the_rank_are_the_table() {
+    for table in tables() {
+        let found = all_terms(&table);
+        let left = differences(&table, &found, found.rank());
+        let most = left.rows().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let rounding = f64::EPSILON * found.singular_values()[0] * table.view().texels() as f64;
+        assert!(most <= rounding, "{most} of {rounding}");
+        assert!(found.relative_squared_error(found.rank()) < 1e-28);
+    }
+}
+
+/// The error of m terms is the sum of the squared singular values that are left out, and no row is off by more than the
+/// first of them.
+#[test]
+fn the_error_is_the_tail_of_the_spectrum() {
+    for table in tables() {
+        let found = all_terms(&table);
+        let energy = squares(table.values());
+        let mut before = f64::INFINITY;
+        for terms in [1, 2, 3, 5, 8] {
+            let left = differences(&table, &found, terms);
+            let [direct, said] = [squares(&left) / energy, found.relative_squared_error(terms)];
+            assert!((direct - said).abs() < 1e-13, "{terms}: {direct} {said}");
+            assert!(said < before, "one more term is nearer");
+            before = said;
+            let first = found.singular_values()[terms] * (1.0 + 1e-12);
+            assert!(left.rows().all(|row| dot(row, row).sqrt() <= first), "{terms}");
+        }
+    }
+}
+
+/// Nothing of rank m is nearer (Eckart and Young): here, the same table's factors moved a little.
+#[test]
+fn no_neighbour_of_the_factors_is_nearer() {
+    let table = sampled(6, &COOK_TORRANCE);
+    let svd = LeadingSvd::new(table.values(), 3).expect("vectors");
+    let error = |left: &Matrix, right: &Matrix| {
+        let mut values = table.values().clone();
+        for view in 0..36 {
+            for (light, value) in values.row_mut(view).iter_mut().enumerate() {
+                *value -= (0..3).map(|k| svd.values[k] * left.row(k)[view] * right.row(k)[light]).sum::<f64>();
+            }
+        }
+        squares(&values)
+    };
+    let best = error(&svd.left, &svd.right);
+    let draw = CounterRng::new(3);
+    for trial in 0..40 {
+        let moved = |matrix: &Matrix, which: u64| {
+            let mut matrix = matrix.clone();
+            for k in 0..3 {
+                for (at, value) in matrix.row_mut(k).iter_mut().enumerate() {
+                    *value += 1e-3 * (draw.unit(trial, at as u64 * 3 + k as u64, which) - 0.5);
+                }
+            }
+            matrix
+        };
+        assert!(error(&moved(&svd.left, 0), &moved(&svd.right, 1)) > best);
+    }
+}
+
+#[test]
+fn a_diffuse_surface_has_rank_1_whatever_lies_outside_of_the_disc() {
+    for outside in [OutsideDisc::Zero, OutsideDisc::Continued, OutsideDisc::Rim] {
+        for side in [4, 9] {
+            let sampling = FactorSampling { side, outside, ..FactorSampling::default() };
+            let table = sampling.table(&Brdf::Lambert { albedo: 0.7 }, &mut |_, _| ()).expect("a table");
+            assert_eq!(Factorization::new(&table, 1).expect("a term").rank(), 1, "{outside:?} {side}");
+            let refused = Factorization::new(&table, 2);
+            assert_eq!(refused, Err(FactorizationError::Terms { found: 2, rank: 1 }));
+            assert_eq!(Factorization::up_to(&table, 10).expect("a term").terms(), 1);
+        }
+    }
+}
+
+/// View and light exchanged: the factors change sides, up to a sign that no product shows.
+#[test]
+fn exchanging_view_and_light_exchanges_the_factors() {
+    for table in tables() {
+        let exchanged = NumberTable {
+            columns: table.view().texels(),
+            values: table.values().transposed().rows().flatten().map(|&value| value as f32).collect(),
+        };
+        // Numbers of a table are f32: the same for both.
+        let rounded = NumberTable {
+            columns: table.light().texels(),
+            values: table.values().rows().flatten().map(|&value| value as f32).collect(),
+        };
+        let [one, other] = [&rounded, &exchanged]
+            .map(|numbers| ProductTable::of_numbers(numbers, "rounded".as_ref()).expect("a table"));
+        let [one, other] = [one, other].map(|table| Factorization::new(&table, 4).expect("terms"));
+        let largest = one.singular_values()[0];
+        for (a, b) in one.singular_values().iter().zip(other.singular_values()) {
+            assert!((a - b).abs() < 1e-13 * largest, "{a} {b}");
+        }
+        if one.split_pair(4).is_some() {
+            continue;
+        }
+        let [a, b] = [one.factors(4), other.factors(4)];
+        for (view, light) in (0..table.view().texels()).flat_map(|v| (0..table.light().texels()).map(move |s| (v, s))) {
+            let [there, back] =
+                [dot(a.view_texel(view), a.light_texel(light)), dot(b.view_texel(light), b.light_texel(view))];
+            assert!((there - back).abs() < 1e-9 * largest, "{there} {back}");
+        }
+    }
+}
+
+/// Without its cosine and with the same samples for both, a reciprocal reflectance is a symmetric table.
+#[test]
+fn reciprocity_makes_a_symmetric_table() {
+    struct WithoutCosine(Lobe);
+    impl ProductFunction for WithoutCosine {
+        fn value(&self, view: DVec3, light: DVec3) -> f64 {
+            self.0.value(view, light) / light.z
+        }
+        fn continues(&self) -> bool {
+            false
+        }
+        fn symmetry(&self) -> ProductSymmetry {
+            self.0.symmetry()
+        }
+        fn name(&self) -> &'static str {
+            "a reflectance"
+        }
+    }
+    for lobe in [COOK_TORRANCE, SCHLICK, Lobe { denominators: Denominators::Product, ..COOK_TORRANCE }] {
+        let table = sampled(8, &WithoutCosine(lobe));
+        let transposed = table.values().transposed();
+        for (a, b) in table.values().rows().flatten().zip(transposed.rows().flatten()) {
+            assert!((a - b).abs() <= 1e-12 * a.abs().max(1.0), "{a} {b}");
+        }
+    }
+}
+
+/// The paper's size, with sums on more and fewer threads.
+#[test]
+fn bits_do_not_depend_on_threads() {
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| {
+            let sampling = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
+            let table = sampling.table(&SCHLICK, &mut |_, _| ()).expect("a table");
+            let found = Factorization::new(&table, 10).expect("terms");
+            let errors = DiscSamples::new(&table).errors(&found.factors(10));
+            let factors = found.factors(10);
+            let texels = (0..1024).flat_map(|at| [factors.view_texel(at), factors.light_texel(at)]).flatten();
+            let bits: Vec<u64> = texels.chain(found.singular_values()).map(|value| value.to_bits()).collect();
+            (bits, errors.rms.to_bits(), errors.max.to_bits())
+        })
+    };
+    let one = on(1);
+    assert!(on(2) == one && on(5) == one);
+}
+
+/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first singular
+/// value that is left out times the length of the weights.
+#[test]
+fn a_white_furnace_shows_what_terms_lose() {
+    for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {
+        let (found, disc) = (all_terms(&table), DiscSamples::new(&table));
+        let [_, weights] = disc.solid_angles();
+        let texels: Vec<usize> = (0..144).filter(|at| table.light().direction(at % 12, at / 12).z > 0.0).collect();
+        let length = dot(&weights, &weights).sqrt();
+        for (kept, most) in [(terms, found.singular_values()[terms] * length), (found.rank(), 1e-11)] {
+            let factors = found.factors(kept);
+            for view in 0..144 {
+                let albedo = |of: &dyn Fn(usize) -> f64| {
+                    texels.iter().zip(&weights).map(|(&light, weight)| weight * of(light)).sum::<f64>()
+                };
+                let [whole, part] = [
+                    albedo(&|light| table.values().row(view)[light]),
+                    albedo(&|light| dot(factors.view_texel(view), factors.light_texel(light))),
+                ];
+                assert!((whole - part).abs() <= most, "{kept} terms: {whole} {part}");
+            }
+        }
+    }
+    // Exact for a diffuse surface: albedo.
+    let diffuse = DiffuseFactor { albedo: 0.6 };
+    let reflected = diffuse.view() * DirectionRule::hemisphere(9).integral(DiffuseFactor::light);
+    assert!((reflected - 0.6).abs() < 1e-14, "{reflected}");
+    assert_eq!(diffuse.view(), 0.6 / PI);
+}
+
+/// Isotropic lobes have their singular values in pairs; a number of terms that parts one is reported, another is not.
+#[test]
+fn split_pairs_are_found() {
+    let bare = Lobe {
+        denominators: Denominators::Product,
+        fresnel: FresnelForm::Constant,
+        shadowing: Shadowing::None,
+        ..COOK_TORRANCE
+    };
+    let sampling = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
+    let table = sampling.table(&bare, &mut |_, _| ()).expect("a table");
+    let found = Factorization::new(&table, 12).expect("terms");
+    let split: Vec<usize> = (1..=11).filter(|&terms| found.split_pair(terms).is_some()).collect();
+    assert_eq!(split, [2, 4, 6, 9, 11]);
+    let pair = found.split_pair(2).expect("a pair");
+    assert!(pair.values[0] >= pair.values[1] && pair.terms == 2);
+    assert_eq!(found.split_pair(0), None);
+}
+
+/// Means over finer and finer samples approach each other; a limit is kept.
+#[test]
+fn more_samples_agree_and_the_limit_holds() {
+    let table = |edge: usize, clamp: ProductClamp| {
+        let supersamples = Supersamples { view: edge, light: edge };
+        let sampling = FactorSampling { side: 6, supersamples, clamp, ..FactorSampling::default() };
+        sampling.table(&COOK_TORRANCE, &mut |_, _| ()).expect("a table")
+    };
+    let distance = |a: &ProductTable, b: &ProductTable| {
+        let pairs = a.values().rows().flatten().zip(b.values().rows().flatten());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    let [one, three, six] = [1, 3, 6].map(|edge| table(edge, ProductClamp::None));
+    assert!(distance(&three, &six) < 0.5 * distance(&one, &six));
+    for clamp in [ProductClamp::Samples(0.2), ProductClamp::Means(0.2)] {
+        let cut = table(3, clamp);
+        assert!(cut.values().rows().flatten().all(|&value| (0.0..=0.2).contains(&value)), "{clamp:?}");
+    }
+    // A mean of values that are cut off is not above a mean that is cut off.
+    let [samples, means] = [table(3, ProductClamp::Samples(0.2)), table(3, ProductClamp::Means(0.2))];
+    assert!(samples.values().rows().flatten().zip(means.values().rows().flatten()).all(|(a, b)| *a <= b + 1e-15));
+    assert_eq!(ParabolicMap::new(6).texels(), 36);
+}

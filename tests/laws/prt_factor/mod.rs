@@ -1,0 +1,5 @@
+//! Factors of reflectance: what singular values promise, measured files, tables.
+
+mod factors;
+mod merl;
+mod tables;

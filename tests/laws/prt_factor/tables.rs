@@ -1,0 +1,54 @@
+//! Tables of reflectance from files of any kind.
+
+use std::fs;
+use std::path::Path;
+
+use crossbar::prt::all_frequency::factor::{Factorization, FactorizationError, load_product_table};
+use proptest::prelude::*;
+
+/// What a file of these contents is.
+fn load(bytes: &[u8]) -> Result<[usize; 2], String> {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("q.csv");
+    fs::write(&path, bytes).expect("written");
+    let table = load_product_table(&path).map_err(|error| error.to_string())?;
+    Ok([table.view().side(), table.light().side()])
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_a_table_or_an_error(text in "[-0-9.,eEnaif \r\n\"]{0,200}") {
+        if let Ok([view, light]) = load(text.as_bytes()) {
+            prop_assert!((1..=48).contains(&view) && (1..=48).contains(&light));
+        }
+    }
+
+    #[test]
+    fn any_bytes_are_a_table_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..200), numpy in any::<bool>()) {
+        let bytes = if numpy { [&b"\x93NUMPY\x01\x00"[..], &bytes].concat() } else { bytes };
+        if let Err(error) = load(&bytes) {
+            prop_assert!(error.contains("q.csv"), "{error}");
+        }
+    }
+
+    /// Only square numbers of rows and columns are maps.
+    #[test]
+    fn squares_are_maps_and_nothing_else(rows in 1..30_usize, columns in 1..30_usize) {
+        let text = (vec!["0.5"; columns].join(",") + "\n").repeat(rows);
+        let is_square = |count: usize| count.isqrt() * count.isqrt() == count;
+        let found = load(text.as_bytes());
+        prop_assert_eq!(found.is_ok(), is_square(rows) && is_square(columns), "{:?}", found);
+    }
+}
+
+/// The example is factored; a table of zeros is dark.
+#[test]
+fn the_example_has_terms() {
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/reflectance.csv");
+    let table = load_product_table(&example).expect("a table");
+    let found = Factorization::new(&table, 4).expect("terms");
+    assert_eq!(([table.view().side(), table.light().side()], found.terms()), ([4, 4], 4));
+    let zeros = crossbar::io::NumberTable { columns: 4, values: vec![0.0; 16] };
+    let zeros = crossbar::prt::all_frequency::factor::ProductTable::of_numbers(&zeros, "0".as_ref()).expect("a table");
+    assert_eq!(Factorization::new(&zeros, 1), Err(FactorizationError::Dark { texels: 16 }));
+}
