@@ -41,7 +41,7 @@ pub use light::{HarmonicLight, LightError};
 pub use lookup::EnvironmentPicture;
 pub use parabolic::ParabolicMap;
 pub use projection::{HemisphereProjection, ProjectionErrors};
-pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError, check_rotation};
+pub use rotation::{HarmonicRotation, MAX_SKEW, RotationError, check_rotation, turn_around_z};
 pub use rule::{DirectionRule, MAX_DEGREE};
 pub use sky::{ClearSky, SUN_RADIUS};
 pub use window::BandWindow;

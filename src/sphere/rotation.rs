@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::harmonics::{MAX_ORDER, function_count, harmonics};
 use super::rule::DirectionRule;
+use crate::elementary::on_circle;
 use crate::linalg::dot;
 
 /// Largest distance of an element of R^T R from the identity's: frames made in f64 pass, those rounded to f32 do not.
@@ -149,6 +150,12 @@ pub fn check_rotation(rotation: &DMat3) -> Result<(), RotationError> {
         }
     }
     if rotation.determinant() < 0.0 { Err(RotationError::Reflection) } else { Ok(()) }
+}
+
+/// The rotation around +z by so many turns, from x to y.
+pub fn turn_around_z(turns: f64) -> DMat3 {
+    let [c, s] = on_circle(turns);
+    DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
 }
 
 #[cfg(test)]

@@ -30,7 +30,8 @@ fn rays() -> String {
 fn reflectance() -> String {
     let sampling = FactorSampling { side: 4, ..FactorSampling::default() };
     let table = sampling.table(&Lobe::cook_torrance(0.5, 0.5), &mut |_, _| ()).expect("a table");
-    let line = |row: &[f64]| row.iter().map(|&value| format!("{:e}", value as f32)).collect::<Vec<_>>().join(",") + "\n";
+    let line =
+        |row: &[f64]| row.iter().map(|&value| format!("{:e}", value as f32)).collect::<Vec<_>>().join(",") + "\n";
     table.values().rows().map(line).collect()
 }
 

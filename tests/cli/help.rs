@@ -7,8 +7,16 @@ pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices d
                         prt radiosity render reproduce run scene subsurface timeline";
 
 /// The verbs of the commands that have some.
-pub(crate) const VERBS: &[&str] =
-    &["prt card", "prt compress", "prt error", "prt factor", "prt precompute", "prt render", "prt show"];
+pub(crate) const VERBS: &[&str] = &[
+    "prt card",
+    "prt compress",
+    "prt error",
+    "prt factor",
+    "prt lighting",
+    "prt precompute",
+    "prt render",
+    "prt show",
+];
 
 #[test]
 fn program() {

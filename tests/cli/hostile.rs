@@ -50,21 +50,29 @@ const COMMANDS: &[(&str, &str)] = &[
         "--model --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
          --switch --executor --adapter --size --eye --target --up --tan-half-height --exposure --out",
     ),
-    ("prt compress nowhere.prt --out y.prt", "--clusters --vectors --method --iterations --seed --start --out"),
-    ("prt error nowhere.prt nowhere.prt", "--csv"),
+    (
+        "prt compress nowhere.prt --out y.prt",
+        "--clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
+         --weight-bits --scale",
+    ),
+    ("prt error nowhere.prt nowhere.prt", "--model --csv"),
     (
         "prt factor --table nowhere.csv",
         "--brdf --merl --table --roughness --fresnel --isotropy --exponent --albedo --denominators --fresnel-form \
          --shadowing --tangent --channel --side --supersamples --outside --clamp --clamp-when --terms --sweep-roughness --out",
     ),
     (
+        "prt lighting --light nowhere.hdr",
+        "--light --window --segments --keep --by --decimation --rotate --frames --out",
+    ),
+    (
         "prt precompute nowhere.obj --out x.prt",
-        "--kind --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
+        "--kind --factors --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
          --degree --bounces --bounce-tolerance --out",
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --original --light --window --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --original --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
     ("prt show nowhere.prt", "--vertex --at --model"),
     (
@@ -234,7 +242,7 @@ fn what_is_wrong_is_said() {
         ("prt precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
         ("prt precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
         ("prt precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
-        ("prt factor", "<--brdf <MODEL>|--merl <FILE>|--table <FILE>>"),
+        ("prt factor", "<--brdf <MODEL> --merl <FILE> --table <FILE>>"),
         ("prt factor --brdf phong --table q.csv", "cannot be used with"),
         ("prt factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
         ("prt factor --brdf schlick --isotropy 2", "expected a number from 0.001 to 1 for the isotropy, found 2"),
@@ -242,6 +250,21 @@ fn what_is_wrong_is_said() {
         ("prt factor --brdf lambert --side 8 --terms 2", "expected 1 to 1 terms, the rank of the table, found 2"),
         ("prt factor --brdf lambert --side 8 --albedo 0", "expected reflectance above 0 somewhere"),
         ("prt factor --brdf lambert --side 8 --sweep-roughness 0.2", "found Lambert's law"),
+        ("prt precompute white-box --kind all-frequency --factors nowhere --out x.prt", "nowhere/view_factors.npy"),
+        ("prt precompute white-box --factors nowhere --out x.prt", "add `--kind all-frequency`"),
+        ("prt lighting --keep 0", "0 is not in 1..=6144"),
+        ("prt lighting --window hann", "`--window` damps bands of harmonics"),
+        ("prt lighting --light disk:0,0,1:5 --segments 12", "[possible values: 24, 6]"),
+        ("prt compress docs/examples/signal.csv --bits 8 --out y.prt", "are for transfer of all frequencies"),
+        ("prt compress docs/examples/step_all.prt --out y.prt", "`--model` is missing"),
+        (
+            "prt compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out y.prt",
+            "expected visibility",
+        ),
+        ("prt error docs/examples/step_all.prt docs/examples/step_all_small.prt", "`--model` is missing"),
+        ("prt render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
+        ("prt show docs/examples/step_all.prt --vertex 0", "are for transfer of low frequency"),
+        ("prt error docs/examples/step.prt docs/examples/step_all_small.prt", "conventions: expected 1 to 1, found 2"),
         ("prt render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
         ("prt show x.prt --at 0,0,0", "--model <MODEL>"),
         ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),

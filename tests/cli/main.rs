@@ -1,5 +1,6 @@
 //! The program as a user meets it: arguments in; text, exit code and files out.
 
+mod all_frequency;
 mod alu;
 mod atlas;
 mod bad_input;

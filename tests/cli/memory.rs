@@ -99,7 +99,9 @@ fn a_limited_process_refuses_and_does_not_abort() {
     // With less than the first, the system may not even load the program.
     for kibibytes in ["500000", "1500000"] {
         let small = |arguments: &&[&str]| {
-            arguments[0] == "intersect" || ["compress", "factor"].contains(&arguments[1]) || arguments.contains(&"large.toml")
+            arguments[0] == "intersect"
+                || ["compress", "factor"].contains(&arguments[1])
+                || arguments.contains(&"large.toml")
         };
         for arguments in LARGE.iter().filter(|arguments| !small(arguments)) {
             let mut command = std::process::Command::new("sh");

@@ -369,7 +369,13 @@ fn said(name: &str) -> String {
 /// The book's figures are the program's.
 #[test]
 fn the_book_says_what_the_program_says() {
-    for path in ["README.md", "docs/papers/ray_engine.md", "docs/papers/radiosity.md", "docs/papers/cpca.md", "docs/papers/all_frequency.md"] {
+    for path in [
+        "README.md",
+        "docs/papers/ray_engine.md",
+        "docs/papers/radiosity.md",
+        "docs/papers/cpca.md",
+        "docs/papers/all_frequency.md",
+    ] {
         let text = std::fs::read_to_string(file(path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
         hold(path, &filled(&text, said));

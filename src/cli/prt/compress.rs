@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::all_frequency::{self, SegmentArgs};
+use super::segments::SegmentArgs;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::{ReadError, read_limited};
@@ -101,9 +101,6 @@ impl Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
-    if all_frequency::is_such(&args.signal) {
-        return all_frequency::compress::run(args, out);
-    }
     if args.segments != SegmentArgs::default() {
         let what = "`--points-per-cluster`, `--model`, `--bits`, `--weight-bits` and `--scale` are for transfer of all frequencies";
         return Err(Problem::usage(what, "name a file of `crossbar prt precompute --kind all-frequency`").into());

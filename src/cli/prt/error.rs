@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::all_frequency;
 use super::model::clusters;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
@@ -19,7 +18,9 @@ Examples:
   crossbar prt error docs/examples/step.prt docs/examples/step_small.prt
       squared error of all vertices, the largest, and how many have how much
   crossbar prt error docs/examples/step.prt docs/examples/step_small.prt --csv errors.csv --json
-      and a line per vertex: its cluster, its squared error, its squares";
+      and a line per vertex: its cluster, its squared error, its squares
+  crossbar prt error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj
+      transfer of all frequencies, its raw matrices computed again";
 
 /// Compare a compressed signal with the original: error of each point, largest, histogram
 #[derive(Debug, clap::Args)]
@@ -43,9 +44,6 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
-    if all_frequency::is_such(&args.signal) {
-        return all_frequency::error::run(args, out);
-    }
     if args.model.is_some() {
         let what = "`--model` is for transfer of all frequencies, which is computed again";
         return Err(Problem::usage(what, "leave it out").into());

@@ -3,19 +3,18 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use glam::{DMat3, DVec3};
 use serde_json::json;
 
 use super::light::LightArgs;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number};
-use crate::elementary::on_circle;
 use crate::io::{write_cube_table, write_file};
 use crate::prt::all_frequency::grid::{LIGHT_SIDE, Segmentation};
 use crate::prt::all_frequency::light::{
     CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority,
 };
 use crate::report::{Cell, Table};
+use crate::sphere::turn_around_z;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -94,7 +93,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let light = args.light.distant()?;
     let decimation = if args.decimation == DecimationArg::Plain { Decimation::Plain } else { Decimation::SolidAngle };
-    let cube = |turns: f64| light.cube(&around_z(turns), decimation).map_err(refused);
+    let cube = |turns: f64| light.cube(&turn_around_z(turns), decimation).map_err(refused);
     let first = cube(args.rotate / 360.0)?;
     let cut = args.cut(&first)?;
     let texels = cut.light.radiances();
@@ -161,11 +160,6 @@ impl Args {
         }
         Ok(if squares > 0.0 { (changes / squares).sqrt() } else { 0.0 })
     }
-}
-
-fn around_z(turns: f64) -> DMat3 {
-    let [c, s] = on_circle(turns);
-    DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)
 }
 
 fn refused(error: CubeLightError) -> Problem {

@@ -10,6 +10,7 @@ mod lighting;
 mod model;
 mod precompute;
 mod render;
+mod segments;
 mod show;
 mod values;
 
@@ -57,7 +58,9 @@ enum Verb {
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     match &args.verb {
         Verb::Card(args) => return study::run(args, command_line, out),
+        Verb::Compress(args) if all_frequency::is_such(&args.signal) => all_frequency::compress::run(args, out)?,
         Verb::Compress(args) => compress::run(args, out)?,
+        Verb::Error(args) if all_frequency::is_such(&args.signal) => all_frequency::error::run(args, out)?,
         Verb::Error(args) => error::run(args, out)?,
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Lighting(args) => lighting::run(args, out)?,

@@ -40,7 +40,8 @@ const SOLID_ANGLE: f64 = 0.05;
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
-    /// the paper: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons
+    /// the papers: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons, all-frequency-bunny,
+    /// all-frequency-teapot, all-frequency-tweety, all-frequency-buddha
     #[arg(value_name = "MODEL")]
     model: PathBuf,
 

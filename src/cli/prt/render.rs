@@ -22,6 +22,8 @@ Examples:
       beside the uncompressed transfer: differences, and the error of every vertex
   crossbar prt render docs/examples/step.prt --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
       uncompressed, the light turned around z in eight steps
+  crossbar prt render docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --keep 200 --size 64x48
+      transfer of all frequencies, with 200 coefficients of the light
 
 Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
 

@@ -20,7 +20,9 @@ Examples:
   crossbar prt show docs/examples/step_small.prt --vertex 12
       one vertex: its cluster, its weights, its transfer
   crossbar prt show docs/examples/step.prt --at 0.5,0,0 --model docs/examples/step.obj --json
-      the vertex nearest to a place of its model, for machines";
+      the vertex nearest to a place of its model, for machines
+  crossbar prt show docs/examples/step_all_small.prt
+      transfer of all frequencies: what is coded, in how many bytes";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;

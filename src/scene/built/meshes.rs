@@ -12,6 +12,22 @@ struct BuiltMesh {
 }
 
 const MESHES: &[BuiltMesh] = &[
+    BuiltMesh {
+        name: "all-frequency-buddha",
+        what: "54,100 vertices, closed, with many bumps",
+        build: || TransferModel::Buddha.mesh(1),
+    },
+    BuiltMesh {
+        name: "all-frequency-bunny",
+        what: "11,556 vertices, closed, smooth with a neck",
+        build: || TransferModel::Bunny.mesh(1),
+    },
+    BuiltMesh { name: "all-frequency-teapot", what: "51,361 vertices, 32 patches of 40 x 40 quads", build: teapot },
+    BuiltMesh {
+        name: "all-frequency-tweety",
+        what: "32,768 vertices, closed, smooth with a neck",
+        build: || TransferModel::Tweety.mesh(1),
+    },
     BuiltMesh { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: stand_ins::bunny },
     BuiltMesh {
         name: "stand-in-dolphin",
@@ -36,6 +52,11 @@ const MESHES: &[BuiltMesh] = &[
         build: || TransferModel::Smooth.mesh(1),
     },
 ];
+
+/// The teapot with about as many vertices as in the paper on all-frequency transfer (its Table 1).
+fn teapot() -> Mesh {
+    crate::geom::teapot::teapot(40).expect("a rate in range")
+}
 
 /// The names of all meshes, in alphabetical order.
 pub fn names() -> impl Iterator<Item = &'static str> {

@@ -1,5 +1,5 @@
-//! Models with as many vertices as those of the paper on compressed transfer (its Table 1), which are not at hand: one
-//! smooth, one bumpy, a head, and two polygons of which one shadows the other.
+//! Models with as many vertices as those of the papers on compressed transfer (Table 1 of each), which are not at hand:
+//! smooth ones, bumpy ones, a head, and two polygons of which one shadows the other.
 //!
 //! All have normals and texture coordinates. The first three are closed; where the texture's two ends meet, the mesh
 //! repeats vertices, which have the same position, normal and tangent and count once.
@@ -25,28 +25,41 @@ pub enum TransferModel {
     Head,
     /// A ground 4 units wide, and above it a blocker 1 unit wide, both looking up (Figure 6).
     Polygons,
+    /// The smooth body with the 11,556 vertices of the bunny in the paper on all-frequency transfer.
+    Bunny,
+    /// The smooth body with the 32,768 vertices of its bird.
+    Tweety,
+    /// The bumpy body with the 54,100 vertices of its Buddha.
+    Buddha,
 }
 
-/// Parts of an icosahedron's edge: 10 parts^2 + 2 vertices before the largest faces are divided.
-const SMOOTH_PARTS: u32 = 69;
-const BUMPY_PARTS: u32 = 70;
-const HEAD_PARTS: u32 = 70;
+/// Parts of an icosahedron's edge, which make 10 parts^2 + 2 vertices, and how many of the largest faces are divided,
+/// which adds a vertex each.
+const SMOOTH: [u32; 2] = [69, 1_076];
+const BUMPY: [u32; 2] = [70, 988];
+const HEAD: [u32; 2] = [70, 1_058];
+const BUNNY: [u32; 2] = [33, 664];
+const TWEETY: [u32; 2] = [57, 276];
+const BUDDHA: [u32; 2] = [73, 808];
 
 impl TransferModel {
     /// The mesh with edges about so many times as long: with 1, as many vertices as the paper's. More than 16 is as 16.
     pub fn mesh(self, coarser: u32) -> Mesh {
         let coarser = coarser.clamp(1, 16);
         match self {
-            Self::Smooth => smooth(coarser),
-            Self::Bumpy => bumpy(coarser),
+            Self::Smooth => smooth(SMOOTH, coarser),
+            Self::Bumpy => bumpy(BUMPY, coarser),
             Self::Head => head(coarser),
             Self::Polygons => polygons(coarser),
+            Self::Bunny => smooth(BUNNY, coarser),
+            Self::Tweety => smooth(TWEETY, coarser),
+            Self::Buddha => bumpy(BUDDHA, coarser),
         }
     }
 }
 
-/// 48,688 vertices.
-fn smooth(coarser: u32) -> Mesh {
+/// A body with a neck.
+fn smooth(size: [u32; 2], coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.55, 0.0, 0.85], height: 0.9, narrow: 14.0 },
         Lobe { toward: [1.0, 0.0, 0.75], height: 0.35, narrow: 60.0 },
@@ -60,11 +73,11 @@ fn smooth(coarser: u32) -> Mesh {
         // Bent, so that the head overhangs the breast.
         at + DVec3::X * (0.12 * at.z * at.z)
     };
-    closed([SMOOTH_PARTS, 1_076], coarser, &shape)
+    closed(size, coarser, &shape)
 }
 
-/// 49,990 vertices.
-fn bumpy(coarser: u32) -> Mesh {
+/// A body with bumps.
+fn bumpy(size: [u32; 2], coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, 0.0, 1.0], height: 0.45, narrow: 9.0 },
         Lobe { toward: [0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
@@ -77,7 +90,7 @@ fn bumpy(coarser: u32) -> Mesh {
         let bumps = wave(toward.x, 3.5) * wave(toward.y, 3.5) + wave(toward.y, 5.0) * wave(toward.z, 5.0);
         toward * (bumped(toward, &lobes) + 0.06 * bumps) * DVec3::new(0.9, 0.75, 1.1)
     };
-    closed([BUMPY_PARTS, 988], coarser, &shape)
+    closed(size, coarser, &shape)
 }
 
 /// 50,060 vertices.
@@ -94,7 +107,7 @@ fn head(coarser: u32) -> Mesh {
         Lobe { toward: [0.0, 0.35, -1.0], height: 0.4, narrow: 7.0 },
     ];
     let shape = |toward: DVec3| toward * bumped(toward, &lobes) * DVec3::new(0.78, 0.95, 1.05);
-    closed([HEAD_PARTS, 1_058], coarser, &shape)
+    closed(HEAD, coarser, &shape)
 }
 
 /// A ground of 240 x 240 vertices and a blocker of 32 x 32: 58,624 vertices.

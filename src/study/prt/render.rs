@@ -1,6 +1,6 @@
 //! Pictures of a model under distant light, from its transfer.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use miette::Diagnostic;
 use serde_json::json;
 use thiserror::Error;
@@ -8,7 +8,6 @@ use thiserror::Error;
 use super::compression_error::CompressionError;
 use super::exit_radiance::Lit;
 use super::interpolate::{Seen, linear_picture};
-use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
@@ -19,7 +18,7 @@ use crate::prt::transfer::Vertices;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError};
+use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError, turn_around_z};
 use crate::study::{ProgressFn, Study};
 
 /// Linear light seen as halfway between black and white.
@@ -147,8 +146,7 @@ impl Rendering {
 
     /// The pixels with light or camera carried round z, 1 being all the way.
     fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, RenderError> {
-        let [c, s] = on_circle(turns);
-        let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+        let turn = turn_around_z(turns);
         match self.turning {
             Turning::Light => {
                 let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);

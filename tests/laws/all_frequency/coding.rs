@@ -50,7 +50,7 @@ fn as_many_vectors_as_members_leave_the_matrices_themselves() {
     let maps = trace(&mesh, &vertices, &all(&vertices));
     for reflectance in [Reflectance::Diffuse, Reflectance::Factored(factors(4))] {
         let rows = reflectance.terms();
-        let transfer = compressed(&vertices, &maps, &reflectance, 256 * rows);
+        let transfer = compressed(&vertices, &maps, &reflectance, vertices.len());
         let light = light();
         let found = plain::transferred(&transfer, &light.coefficients()).expect("radiance");
         let mut expected = vec![[0.0; 3]; rows * vertices.len()];

@@ -17,7 +17,8 @@ const COOK_TORRANCE: Lobe = Lobe::cook_torrance(0.4, 0.5);
 const SCHLICK: Lobe = Lobe::schlick(0.2, 0.2, 0.8);
 
 fn sampled(side: usize, product: &dyn ProductFunction) -> ProductTable {
-    let sampling = FactorSampling { side, supersamples: Supersamples { view: 2, light: 2 }, ..FactorSampling::default() };
+    let sampling =
+        FactorSampling { side, supersamples: Supersamples { view: 2, light: 2 }, ..FactorSampling::default() };
     sampling.table(product, &mut |_, _| ()).expect("a table")
 }
 

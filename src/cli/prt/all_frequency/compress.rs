@@ -1,11 +1,10 @@
 //! `crossbar prt compress` of all-frequency transfer.
 
-use std::path::PathBuf;
-
 use serde_json::json;
 
-use super::{FileOfModel, ScaleArg};
+use super::FileOfModel;
 use crate::cli::prt::compress::{Args, MethodArg};
+use crate::cli::prt::segments::{ScaleArg, SegmentArgs};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
@@ -15,30 +14,6 @@ use crate::prt::all_frequency::visibility::SegmentCensus;
 use crate::prt::file::{AllFrequencyFile, save_all_frequency};
 use crate::report::{Cell, Table};
 use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
-
-/// How transfer of all frequencies is compressed and coded.
-#[derive(Clone, Debug, Default, PartialEq, clap::Args)]
-pub(in crate::cli::prt) struct SegmentArgs {
-    /// The model that transfer of all frequencies was made from
-    #[arg(long, value_name = "MODEL")]
-    model: Option<PathBuf>,
-
-    /// Vertices per cluster on average, for transfer of all frequencies [default: 200]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    points_per_cluster: Option<u32>,
-
-    /// Bits of the numbers of representatives, for transfer of all frequencies [default: 16]
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u8).range(2..=16))]
-    bits: Option<u8>,
-
-    /// Bits of weights, for transfer of all frequencies [default: 16]
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u8).range(2..=16))]
-    weight_bits: Option<u8>,
-
-    /// Which numbers share a step, for transfer of all frequencies [default: representative]
-    #[arg(long, value_enum, value_name = "OF")]
-    scale: Option<ScaleArg>,
-}
 
 pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.signal, 3, "name a smaller file")?;

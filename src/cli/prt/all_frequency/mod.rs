@@ -10,24 +10,10 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-
 use super::model::{load, vertices};
 use crate::cli::model_name::Model;
 use crate::prt::file::{AllFrequencyFile, MeshDigest, PrtFileError, is_all_frequency, load_all_frequency};
 use crate::prt::transfer::Vertices;
-
-pub(super) use compress::SegmentArgs;
-
-/// Which numbers share a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum ScaleArg {
-    /// Those of a representative, and the weights on it
-    #[default]
-    Representative,
-    /// All of a segment
-    Segment,
-}
 
 /// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
 pub(super) fn is_such(path: &Path) -> bool {

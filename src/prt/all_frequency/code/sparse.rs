@@ -44,8 +44,8 @@ impl SparseRows {
         sparse
     }
 
-    /// Of its parts: per column of each block how many numbers there are; all row numbers; all values. `None` if they do
-    /// not go together: a row beyond its block or out of order, a 0 among the values, too many numbers or too few.
+    /// Of its parts: per column of each block how many numbers there are; all row numbers; all values. `None` if they
+    /// do not go together: a row beyond its block or out of order, a 0 among the values, too many numbers or too few.
     pub fn from_parts(
         rows: usize,
         columns: usize,

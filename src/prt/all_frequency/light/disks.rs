@@ -36,13 +36,13 @@ impl From<LightSourceRow> for DiskSource {
 
 impl DiskSource {
     /// The source with a direction of length 1.
-    pub(super) fn checked(&self, source_number: usize) -> Result<Self, CubeLightError> {
-        let towards = unit(self.towards).ok_or(CubeLightError::Direction { source_number, found: self.towards })?;
+    pub(super) fn checked(&self, number: usize) -> Result<Self, CubeLightError> {
+        let towards = unit(self.towards).ok_or(CubeLightError::Direction { number, found: self.towards })?;
         if !(self.radius > 0.0 && self.radius <= std::f64::consts::PI) {
-            return Err(CubeLightError::Radius { source_number, found: self.radius });
+            return Err(CubeLightError::Radius { number, found: self.radius });
         }
         if !self.radiance.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
-            return Err(CubeLightError::Color { source_number, found: self.radiance });
+            return Err(CubeLightError::Color { number, found: self.radiance });
         }
         Ok(Self { towards, ..*self })
     }

@@ -21,14 +21,14 @@ pub enum CubeLightError {
     )]
     Radiance { found: f64, channel: &'static str, face: usize, row: usize, column: usize },
     /// A small source without a direction.
-    #[error("source {source_number}: expected a direction of finite length above 0, found {found}")]
-    Direction { source_number: usize, found: DVec3 },
+    #[error("source {number}: expected a direction of finite length above 0, found {found}")]
+    Direction { number: usize, found: DVec3 },
     /// A small source's radius.
-    #[error("source {source_number}: expected an angular radius above 0 and up to pi radians, found {found}")]
-    Radius { source_number: usize, found: f64 },
+    #[error("source {number}: expected an angular radius above 0 and up to pi radians, found {found}")]
+    Radius { number: usize, found: f64 },
     /// A small source's color.
-    #[error("source {source_number}: expected finite radiances of at least 0, found {found:?}")]
-    Color { source_number: usize, found: [f64; 3] },
+    #[error("source {number}: expected finite radiances of at least 0, found {found:?}")]
+    Color { number: usize, found: [f64; 3] },
     /// The number of priorities.
     #[error("expected {LIGHT_TEXELS} responses, one per coefficient of the light, found {found}")]
     Responses { found: usize },

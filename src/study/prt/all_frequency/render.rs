@@ -9,7 +9,6 @@ use thiserror::Error;
 
 use super::exact;
 use super::shading::radiance;
-use crate::elementary::on_circle;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
@@ -24,6 +23,7 @@ use crate::prt::transfer::{TransferError, Vertices};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
+use crate::sphere::turn_around_z;
 use crate::study::prt::{Seen, Turning, auto_exposure, linear_picture};
 use crate::study::{ProgressFn, Study};
 
@@ -311,7 +311,7 @@ impl AllFrequencyRendering {
             let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
             let caption =
-                format!("segment {}: {} clusters; black sees none of its light", part.segment, part.counts.len());
+                format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
             NamedPicture::new(name, image, caption)
         });
         let pictures: Vec<_> = pictures.collect();
@@ -334,8 +334,7 @@ impl AllFrequencyRendering {
         for frame in 0..self.frames {
             progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
             let turns = f64::from(frame) / f64::from(self.frames);
-            let [c, s] = on_circle(turns);
-            let turn = DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z);
+            let turn = turn_around_z(turns);
             let mut times = FrameTimes::default();
             let colors = match self.turning {
                 Turning::Light => {

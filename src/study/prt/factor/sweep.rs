@@ -97,11 +97,7 @@ pub(super) fn report(found: &mut Findings, rows: Vec<SweptRoughness>) {
         return;
     }
     found.heading("Roughness");
-    found.table(
-        FoundTable::from(roughness_table(&rows, TITLE))
-            .csv("roughness")
-            .field("roughness"),
-    );
+    found.table(FoundTable::from(roughness_table(&rows, TITLE)).csv("roughness").field("roughness"));
     if rows.len() > 1 {
         let line = |label: &str, of: fn(&SweptRoughness) -> f64| Series {
             label: label.to_owned(),

@@ -1,0 +1,106 @@
+//! `crossbar prt` on transfer of all frequencies, from the command line.
+
+use std::fs;
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use serde_json::Value;
+
+use crate::crossbar;
+
+const STEP: &str = "docs/examples/step.obj";
+const SIGHT: &str = "docs/examples/step_all.prt";
+const CODED: &str = "docs/examples/step_all_small.prt";
+
+fn document(arguments: &str) -> Value {
+    let arguments: Vec<&str> = arguments.split(' ').chain(["--json"]).collect();
+    let ran = crossbar(&arguments, "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+}
+
+fn place(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
+}
+
+#[test]
+fn the_examples_are_made_by_the_commands() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "out.prt");
+    for threads in [1, 3] {
+        let made = document(&format!("prt precompute {STEP} --kind all-frequency --out {out} --threads {threads}"));
+        assert_eq!(fs::read(&out).expect("written"), fs::read(SIGHT).expect("an example"), "{threads} threads");
+        assert_eq!((&made["segments_below_horizon"]["least"], &made["terms"]), (&Value::from(4), &Value::from(1)));
+        let options = format!("--points-per-cluster 40 --vectors 4 --out {out} --threads {threads}");
+        let made = document(&format!("prt compress {SIGHT} --model {STEP} {options}"));
+        assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"), "{threads} threads");
+        assert_eq!(made["bytes"]["raw"], 70 * 6144 * 4);
+        assert!(number(&made["bytes"]["coded"]) < number(&made["bytes"]["clustered"]));
+        let [before, after] = ["squared_error_before_coding", "squared_error"].map(|field| number(&made[field]));
+        assert!(before > 1e-4 && before < 2e-3 && (after - before).abs() < 1e-3 * before, "{before}, {after}");
+    }
+}
+
+/// What `error` finds by computing transfer again is what `compress` says, and a picture is as far off as it must be.
+#[test]
+fn errors_are_those_of_compression() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [out, csv, page] = ["out.prt", "errors.csv", "page"].map(|name| place(folder.path(), name));
+    let made =
+        document(&format!("prt compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --out {out}"));
+    let error = document(&format!("prt error {SIGHT} {CODED} --model {STEP} --csv {csv}"));
+    assert_relative_eq!(number(&error["relative_error"]), number(&made["squared_error"]), max_relative = 1e-12);
+    let text = fs::read_to_string(csv).expect("written");
+    let column = |at: usize| text.lines().skip(1).map(move |line| line.split(',').nth(at).expect("fields").to_owned());
+    let sum: f64 = column(1).map(|value| value.parse::<f64>().expect("a number")).sum();
+    assert_relative_eq!(sum, number(&error["squared_error"]), max_relative = 1e-12);
+    let options = format!("--light sky:1,-1,1 --size 32x24 --original {SIGHT} --out {page}");
+    let drawn = document(&format!("prt render {CODED} --model {STEP} {options}"));
+    let apart = number(&drawn["picture_rms_percent"]);
+    assert!(apart > 0.01 && apart < 5.0, "{apart} %");
+    assert_eq!(drawn["kept"], drawn["nonzero"]);
+    assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
+}
+
+/// Glossy transfer by the factors that another command wrote; all of a rank's terms beside few.
+#[test]
+fn factors_go_from_one_command_to_the_next() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [factors, sight, coded, page] = ["f", "sight.prt", "coded.prt", "page"].map(|name| place(folder.path(), name));
+    document(&format!("prt factor --brdf phong --side 8 --supersamples 1x1 --terms 4 --out {factors}"));
+    let model = "fixtures/models/square.obj";
+    let made =
+        document(&format!("prt precompute {model} --kind all-frequency --factors {factors} --hats one --out {sight}"));
+    assert_eq!(made["terms"], 4);
+    let made = document(&format!(
+        "prt compress {sight} --model {model} --bits 12 --weight-bits 14 --scale segment --out {coded}"
+    ));
+    assert_eq!(made["code"]["columns"], 1024);
+    let shown = document(&format!("prt show {coded}"));
+    assert_eq!((&shown["terms"], &shown["hats"]), (&Value::from(4), &Value::from("one-texel")));
+    assert_eq!(shown["coded"]["representative_bits"], 12);
+    let drawn = document(&format!("prt render {coded} --model {model} --light constant --size 16x16 --out {page}"));
+    assert!(number(&drawn["multiplies"]["vertices"]) > 0.0);
+    // The camera alone: light and clusters are not looked at again, and nothing else may change.
+    document(&format!("prt render {coded} --model {model} --turn camera --frames 2 --size 16x16 --out {page}"));
+}
+
+/// Light alone: its energy is that of what is kept and what is not; nothing flickers where all is kept.
+#[test]
+fn light_is_taken_apart() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let table = place(folder.path(), "light.csv");
+    let all = document(&format!("prt lighting --light disk:1,0,2:5 --frames 4 --out {table}"));
+    assert_eq!((&all["kept"], number(&all["kept_energy"])), (&all["nonzero"], 1.0));
+    assert!(number(&all["flicker"]) < 1e-14, "rounding of the transform and back");
+    let again = document(&format!("prt lighting --light {table}"));
+    assert_relative_eq!(number(&again["energy"]), number(&all["energy"]), max_relative = 1e-9);
+    let few = document("prt lighting --light disk:1,0,2:5 --frames 4 --keep 20 --by magnitude --segments 6");
+    let [kept, flicker] = ["kept_energy", "flicker"].map(|field| number(&few[field]));
+    assert!(kept > 0.5 && kept < 1.0 && flicker > 0.01, "{kept}, {flicker}");
+    assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
+}
