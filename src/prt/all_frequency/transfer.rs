@@ -6,8 +6,8 @@
 //!
 //! *Cost.* A vertex's sum takes one evaluation of F per visible direction and segment that shares it (hats of two
 //! texels reach over the borders of segments: 68 x 68 directions of 64 x 64, 13 % more). *Memory*: the visibility maps,
-//! 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and at most
-//! 512 MB.
+//! 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and at
+//! most 512 MB.
 
 use std::ops::Range;
 
