@@ -4,6 +4,7 @@ mod card;
 mod compress;
 mod error;
 mod factor;
+mod factor_values;
 mod light;
 mod model;
 mod precompute;
