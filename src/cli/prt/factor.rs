@@ -1,17 +1,19 @@
 //! `crossbar prt factor`: reflectance as a sum of products.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use clap::{ArgGroup, ValueEnum};
+use clap::ArgGroup;
 
+use super::factor_values::{
+    ChannelArg, ClampWhenArg, DenominatorsArg, FresnelArg, LimitArg, ModelArg, OutsideArg, ShadowingArg,
+    SupersamplesArg, TangentArg,
+};
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::number;
 use crate::cli::study::StudyArgs;
 use crate::prt::all_frequency::factor::{
-    Denominators, FacetDistribution, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, OutsideDisc,
-    ProductClamp, Shadowing, Supersamples, TangentCosine, load_merl, load_product_table,
+    FacetDistribution, FactorSampling, Lobe, MAX_MAP_SIDE, ProductClamp, load_merl, load_product_table,
 };
 use crate::prt::brdf::Brdf;
 use crate::study::prt::{BrdfFactors, FactorSubject};
@@ -31,118 +33,6 @@ Examples:
 
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
 docs/papers/all_frequency.md says what the options are.";
-
-/// Reflectance models.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ModelArg {
-    /// Cook and Torrance 1982
-    CookTorrance,
-    /// Schlick 1994, anisotropic
-    Schlick,
-    /// Phong, as MTL files have it
-    Phong,
-    /// The same radiance in all directions
-    Lambert,
-}
-
-/// What stands in front of a lobe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DenominatorsArg {
-    /// 1 / (4 pi v_z s_z)
-    Normalised,
-    /// 1 / (pi v_z s_z), as Cook and Torrance print it
-    #[value(name = "printed-1982")]
-    Printed1982,
-    /// 1
-    Product,
-    /// 1/4
-    Quarter,
-}
-
-/// Forms of Fresnel's term.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FresnelArg {
-    /// Fresnel's formula for dielectrics
-    Dielectric,
-    /// Schlick's approximation
-    Schlick,
-    /// The same at all angles
-    Constant,
-}
-
-/// Light that facets take from each other.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ShadowingArg {
-    /// As the model has it
-    Model,
-    /// None
-    None,
-}
-
-/// The w of Schlick's azimuth factor.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TangentArg {
-    /// Of the half vector's projection onto the surface
-    Projected,
-    /// Of the half vector itself
-    HalfVector,
-}
-
-/// Texels outside of the disc.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum OutsideArg {
-    /// 0
-    Zero,
-    /// The formula below the horizon
-    Continued,
-    /// The rim's value
-    Rim,
-}
-
-/// When f is cut off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ClampWhenArg {
-    /// Each sample, before the mean is taken
-    Before,
-    /// The mean
-    After,
-}
-
-/// A channel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ChannelArg {
-    Red,
-    Green,
-    Blue,
-}
-
-/// Where f is cut off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct LimitArg(Option<f64>);
-
-impl FromStr for LimitArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" { Ok(Self(None)) } else { number::positive(text).map(|limit| Self(Some(limit))) }
-    }
-}
-
-/// Samples along an edge of a texel: view and light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct SupersamplesArg(Supersamples);
-
-impl FromStr for SupersamplesArg {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let edge = |text: &str| text.parse::<usize>().ok().filter(|edge| (1..=16).contains(edge));
-        let found = text.split_once('x').and_then(|(view, light)| Some((edge(view)?, edge(light)?)));
-        let (view, light) =
-            found.ok_or_else(|| format!("expected two numbers from 1 to 16 as in 4x4, found `{text}`"))?;
-        Ok(Self(Supersamples { view, light }))
-    }
-}
 
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
 #[derive(Debug, clap::Args)]
@@ -237,15 +127,10 @@ pub(in crate::cli) struct Args {
 
 impl Args {
     fn sampling(&self) -> FactorSampling {
-        let Supersamples { view, light } = self.supersamples.0;
         FactorSampling {
             side: self.side as usize,
-            supersamples: Supersamples { view, light },
-            outside: match self.outside {
-                OutsideArg::Zero => OutsideDisc::Zero,
-                OutsideArg::Continued => OutsideDisc::Continued,
-                OutsideArg::Rim => OutsideDisc::Rim,
-            },
+            supersamples: self.supersamples.0,
+            outside: self.outside.into(),
             clamp: match (self.clamp.0, self.clamp_when) {
                 (None, _) => ProductClamp::None,
                 (Some(limit), ClampWhenArg::Before) => ProductClamp::Samples(limit),
@@ -256,35 +141,17 @@ impl Args {
 
     fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
         let distribution = match lobe.distribution {
-            FacetDistribution::Schlick { roughness, isotropy, .. } => FacetDistribution::Schlick {
-                roughness,
-                isotropy,
-                tangent: match self.tangent {
-                    TangentArg::Projected => TangentCosine::Projected,
-                    TangentArg::HalfVector => TangentCosine::HalfVector,
-                },
-            },
+            FacetDistribution::Schlick { roughness, isotropy, .. } => {
+                FacetDistribution::Schlick { roughness, isotropy, tangent: self.tangent.into() }
+            }
             beckmann @ FacetDistribution::Beckmann { .. } => beckmann,
         };
         let lobe = Lobe {
             albedo: self.albedo.unwrap_or(0.0),
             distribution,
-            fresnel: match self.fresnel_form {
-                None => lobe.fresnel,
-                Some(FresnelArg::Dielectric) => FresnelForm::Dielectric,
-                Some(FresnelArg::Schlick) => FresnelForm::Schlick,
-                Some(FresnelArg::Constant) => FresnelForm::Constant,
-            },
-            shadowing: match self.shadowing {
-                ShadowingArg::Model => Shadowing::Model,
-                ShadowingArg::None => Shadowing::None,
-            },
-            denominators: match self.denominators {
-                DenominatorsArg::Normalised => Denominators::Normalised,
-                DenominatorsArg::Printed1982 => Denominators::Printed1982,
-                DenominatorsArg::Product => Denominators::Product,
-                DenominatorsArg::Quarter => Denominators::Quarter,
-            },
+            fresnel: self.fresnel_form.map_or(lobe.fresnel, Into::into),
+            shadowing: self.shadowing.into(),
+            denominators: self.denominators.into(),
             ..lobe
         };
         lobe.check().map_err(|error| refused(&error))?;
@@ -346,13 +213,10 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<BrdfFactors> {
-        let channel = match self.channel {
-            ChannelArg::Red => MerlChannel::Red,
-            ChannelArg::Green => MerlChannel::Green,
-            ChannelArg::Blue => MerlChannel::Blue,
-        };
         let (name, subject) = match (&self.merl, &self.table, self.brdf) {
-            (Some(path), ..) => (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, channel)),
+            (Some(path), ..) => {
+                (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, self.channel.into()))
+            }
             (None, Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
             (None, None, model) => {
                 let model = model.unwrap_or(ModelArg::CookTorrance);
@@ -373,19 +237,5 @@ impl StudyArgs for Args {
             terms: self.terms.map(|terms| terms as usize),
             roughnesses: self.sweep_roughness.clone(),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn limits_and_supersamples_are_read_and_bad_ones_refused() {
-        assert_eq!("none".parse(), Ok(LimitArg(None)));
-        assert_eq!("2.5".parse(), Ok(LimitArg(Some(2.5))));
-        assert!("0".parse::<LimitArg>().is_err() && "-1".parse::<LimitArg>().is_err());
-        assert_eq!("16x1".parse(), Ok(SupersamplesArg(Supersamples::VIEW)));
-        assert!(["4", "0x4", "17x1", "4x4x4", "x"].iter().all(|text| text.parse::<SupersamplesArg>().is_err()));
     }
 }

@@ -5,6 +5,7 @@ mod card;
 mod compress;
 mod error;
 mod factor;
+mod factor_values;
 mod light;
 mod lighting;
 mod model;

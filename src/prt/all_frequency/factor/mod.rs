@@ -29,8 +29,8 @@ pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, Ta
 pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlError, MerlProduct, load_merl, parse_merl};
 pub use motion::ProductSymmetry;
 pub use product::ProductFunction;
-pub use sampling::{FactorSampling, MAX_MAP_SIDE, MAX_SUPERSAMPLES, OutsideDisc, ProductClamp, Supersamples};
-pub use table::{ProductTable, ProductTableError, load_product_table};
+pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, OutsideDisc, ProductClamp, Supersamples};
+pub use table::{MAX_MAP_SIDE, ProductTable, ProductTableError, load_product_table};
 
 #[cfg(doc)]
 use crate::prt::brdf::Brdf;

@@ -6,12 +6,10 @@ use rayon::prelude::*;
 use super::error::FactorizationError;
 use super::motion::{Motion, moved, moved_back};
 use super::product::ProductFunction;
-use super::table::ProductTable;
+use super::table::{MAX_MAP_SIDE, ProductTable};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
-/// Texels along an edge of the largest map.
-pub const MAX_MAP_SIDE: usize = 48;
 /// Samples along an edge of a texel, at most.
 pub const MAX_SUPERSAMPLES: usize = 16;
 

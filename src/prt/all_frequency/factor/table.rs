@@ -10,7 +10,8 @@ use crate::io::{
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
-use super::sampling::MAX_MAP_SIDE;
+/// Texels along an edge of the largest map.
+pub const MAX_MAP_SIDE: usize = 48;
 
 /// Q: f at a texel of the view's map (row) and one of the light's (column). Texels count row by row.
 #[derive(Clone, Debug, PartialEq)]

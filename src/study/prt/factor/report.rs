@@ -37,7 +37,9 @@ impl Study for BrdfFactors {
         found.table(FoundTable::from(terms::table(&by_terms, &all)).csv("terms").field("terms"));
         terms::charts(&all).into_iter().for_each(|chart| found.chart(chart));
         self.between(&mut found, &factors);
-        found.heading("Beside spherical harmonics");
+        if !harmonic.is_empty() {
+            found.heading("Beside spherical harmonics");
+        }
         found.table(FoundTable::from(harmonics::table(&harmonic)).csv("harmonics").field("harmonics"));
         found.heading("Directional albedo");
         found.table(FoundTable::from(self.albedos(&table, &factors)).csv("albedo").field("albedo"));
