@@ -178,6 +178,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: cpca::coherence,
     },
     ReproduceEntry {
+        id: "all-frequency-counts",
+        title: "Sizes, segments, equation 12 and what of Table 1 follows from sizes (all-frequency transfer, sections 1 and 4 to 7)",
+        work: |_| Ok(all_frequency::counts()),
+    },
+    ReproduceEntry {
         id: "all-frequency-factors",
         title: "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
         work: all_frequency::factors,

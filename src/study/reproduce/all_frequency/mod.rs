@@ -1,9 +1,11 @@
 //! "All-Frequency Precomputed Radiance Transfer for Glossy Objects" (Liu, Sloan, Shum, Snyder 2004).
 
+mod counts;
 mod factors;
 mod forms;
 mod roughness;
 
+pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
 
 use super::pipeline::failed;
