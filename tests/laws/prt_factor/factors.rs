@@ -17,7 +17,8 @@ const COOK_TORRANCE: Lobe = Lobe::cook_torrance(0.4, 0.5);
 const SCHLICK: Lobe = Lobe::schlick(0.2, 0.2, 0.8);
 
 fn sampled(side: usize, product: &dyn ProductFunction) -> ProductTable {
-    let sampling = FactorSampling { side, supersamples: Supersamples { view: 2, light: 2 }, ..FactorSampling::default() };
+    let sampling =
+        FactorSampling { side, supersamples: Supersamples { view: 2, light: 2 }, ..FactorSampling::default() };
     sampling.table(product, &mut |_, _| ()).expect("a table")
 }
 
@@ -210,8 +211,8 @@ fn bits_do_not_depend_on_threads() {
     assert!(on(2) == one && on(5) == one);
 }
 
-/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first singular
-/// value that is left out times the length of the weights.
+/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first
+/// singular value that is left out times the length of the weights.
 #[test]
 fn a_white_furnace_shows_what_terms_lose() {
     for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {
