@@ -69,8 +69,8 @@ impl Bidiagonal {
     }
 }
 
-/// What a step takes from the rows and columns behind it: from element (i, j) `left[i] beside[j] + product[i] right[j]`.
-/// Vectors count from the first row and column behind the step.
+/// What a step takes from the rows and columns behind it: from element (i, j) `left[i] beside[j] + product[i]
+/// right[j]`. Vectors count from the first row and column behind the step.
 struct Change {
     left: Vec<f64>,
     beside: Vec<f64>,

@@ -1,9 +1,9 @@
 //! All singular values of a matrix, with the vectors of the largest.
 //!
 //! Reflections of rows and columns make the matrix bidiagonal. Its singular values are the eigenvalues, each with both
-//! signs, of the symmetric tridiagonal matrix with zeros in the diagonal and the elements of the two diagonals beside it
-//! in turn (Golub and Kahan 1965), whose eigenvectors are right and left vector in turn. Nothing is squared: values are
-//! right to some roundings of the largest, where those by Q^T Q would lose half of the digits.
+//! signs, of the symmetric tridiagonal matrix with zeros in the diagonal and the elements of the two diagonals beside
+//! it in turn (Golub and Kahan 1965), whose eigenvectors are right and left vector in turn. Nothing is squared: values
+//! are right to some roundings of the largest, where those by Q^T Q would lose half of the digits.
 
 use rayon::prelude::*;
 
@@ -18,12 +18,13 @@ use super::{FactorError, Matrix, dot};
 pub struct LeadingSvd {
     /// All singular values, the largest first: as many as the matrix has rows or columns, whichever is fewer.
     pub values: Vec<f64>,
-    /// Values that are told from 0: those above the largest times 2^-52 times the number of rows or columns, whichever is
-    /// more.
+    /// Values that are told from 0: those above the largest times 2^-52 times the number of rows or columns, whichever
+    /// is more.
     pub rank: usize,
     /// Row k is the unit left vector of value k: an element per row of the matrix.
     pub left: Matrix,
-    /// Row k is the unit right vector of value k: an element per column. Its component of largest magnitude is positive.
+    /// Row k is the unit right vector of value k: an element per column. Its component of largest magnitude is
+    /// positive.
     pub right: Matrix,
 }
 

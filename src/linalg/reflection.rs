@@ -18,8 +18,8 @@ impl Reflection {
         vector.iter_mut().zip(&self.axis).for_each(|(value, axis)| *value -= along * axis);
     }
 
-    /// The reflection that leaves of a vector the first component alone, and what that becomes; `None` if the others are
-    /// 0, or the whole counts as 0.
+    /// The reflection that leaves of a vector the first component alone, and what that becomes; `None` if the others
+    /// are 0, or the whole counts as 0.
     pub(super) fn onto_first(mut axis: Vec<f64>) -> (Option<Self>, f64) {
         let Some((&first, others)) = axis.split_first() else { return (None, 0.0) };
         let rest = dot(others, others);

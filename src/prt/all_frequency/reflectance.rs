@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::factor::{DiffuseFactor, Factors};
+use super::factor::{DiffuseFactor, ProductFactors};
 
 /// f(v, s) = G(v) . F(s), without the color of the surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,7 +10,7 @@ pub enum Reflectance {
     /// The one term of a diffuse surface of albedo 1, exact.
     Diffuse,
     /// Factors by texels.
-    Factored(Factors),
+    Factored(ProductFactors),
 }
 
 impl Reflectance {

@@ -14,8 +14,8 @@ pub(crate) fn beckmann(half_cosine: f64, roughness: f64) -> f64 {
     exp(-slope) / (roughness * roughness * square * square)
 }
 
-/// Shadowing by V-grooves (Torrance and Sparrow 1967): `least` is the smaller cosine of view and light, `cosine` that of
-/// the angle between view and half vector.
+/// Shadowing by V-grooves (Torrance and Sparrow 1967): `least` is the smaller cosine of view and light, `cosine` that
+/// of the angle between view and half vector.
 pub(crate) fn groove(half_cosine: f64, least: f64, cosine: f64) -> f64 {
     (2.0 * half_cosine * least / cosine).min(1.0)
 }

@@ -14,7 +14,7 @@ use super::{MAGIC, MAX_BYTES, MeshDigest, PrtFileError, VERSION};
 use crate::io::{ReadError, WriteError, read_limited, write_file};
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
-use crate::prt::all_frequency::factor::Factors;
+use crate::prt::all_frequency::factor::ProductFactors;
 use crate::prt::all_frequency::grid::Segmentation;
 use crate::prt::all_frequency::hats::HatWidth;
 use crate::prt::all_frequency::visibility::{VISIBILITY_BYTES, VisibilityMaps};
@@ -147,7 +147,7 @@ impl AllFrequencyFile {
 }
 
 impl Reader<'_> {
-    fn factors(&mut self, terms: usize) -> Result<Factors, PrtFileError> {
+    fn factors(&mut self, terms: usize) -> Result<ProductFactors, PrtFileError> {
         let mut map = |what| {
             let side = self.integer(what)?;
             if !(1..=MAX_SIDE).contains(&side) {
@@ -160,7 +160,7 @@ impl Reader<'_> {
             Ok((ParabolicMap::new(side as usize), values))
         };
         let (view, light) = (map("the map of view factors")?, map("the map of light factors")?);
-        Ok(Factors::new(terms, view, light))
+        Ok(ProductFactors::new(terms, view, light))
     }
 
     fn visibility(&mut self, vertices: usize) -> Result<VisibilityMaps, PrtFileError> {

@@ -15,7 +15,7 @@ mod visibility;
 
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Factors, Lobe, Supersamples};
+use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFactors, Supersamples};
 use crossbar::prt::all_frequency::visibility::VisibilityMaps;
 use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::sphere::CUBE_FACES;
@@ -54,7 +54,7 @@ fn clutter(seed: u64, count: u64, size: f64) -> Mesh {
 }
 
 /// Factors of Cook and Torrance's model on small maps.
-fn factors(terms: usize) -> Factors {
+fn factors(terms: usize) -> ProductFactors {
     let sampling = FactorSampling { side: 8, supersamples: Supersamples::NONE, ..FactorSampling::default() };
     let table = sampling.table(&Lobe::cook_torrance(0.4, 0.5), &mut |_, _| ()).expect("a table");
     Factorization::new(&table, terms).expect("terms").factors(terms)

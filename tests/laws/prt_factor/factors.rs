@@ -211,8 +211,8 @@ fn bits_do_not_depend_on_threads() {
     assert!(on(2) == one && on(5) == one);
 }
 
-/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first singular
-/// value that is left out times the length of the weights.
+/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first
+/// singular value that is left out times the length of the weights.
 #[test]
 fn a_white_furnace_shows_what_terms_lose() {
     for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {

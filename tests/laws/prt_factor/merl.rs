@@ -28,8 +28,8 @@ static NUMBERED: LazyLock<MerlBrdf> = LazyLock::new(|| {
     parse_merl(&bytes, "numbered".as_ref()).expect("a measurement")
 });
 
-/// View and light of a half vector at an angle from the normal and an azimuth, of a light at an angle from it and around
-/// it.
+/// View and light of a half vector at an angle from the normal and an azimuth, of a light at an angle from it and
+/// around it.
 fn directions([half, turn]: [f64; 2], [difference, around]: [f64; 2]) -> [DVec3; 2] {
     let about = |axis: usize, angle: f64| {
         let (s, c) = sin_cos(angle);

@@ -10,7 +10,7 @@ use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
 use crate::io::{NumberTable, ReadError, npy, parse_npy, read_limited};
 use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::factor::Factors;
+use crate::prt::all_frequency::factor::ProductFactors;
 use crate::prt::all_frequency::hats::HatWidth;
 use crate::prt::all_frequency::visibility::VISIBILITY_BYTES;
 use crate::prt::file::save_all_frequency;
@@ -78,7 +78,7 @@ pub(in crate::cli::prt) fn run(
 }
 
 /// What `crossbar prt factor` wrote into a folder.
-fn load_factors(folder: &Path) -> miette::Result<Factors> {
+fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
     let [view, light] = ["view_factors.npy", "light_factors.npy"].map(|name| folder.join(name));
     let (view_table, light_table) = (table(&view)?, table(&light)?);
     let terms = view_table.columns;
@@ -91,7 +91,7 @@ fn load_factors(folder: &Path) -> miette::Result<Factors> {
         );
         return Err(Problem::usage(what, "name a folder that `crossbar prt factor` wrote").into());
     }
-    Ok(Factors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
+    Ok(ProductFactors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
 }
 
 fn table(path: &Path) -> miette::Result<NumberTable> {

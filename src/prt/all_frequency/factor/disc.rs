@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::factors::Factors;
+use super::factors::ProductFactors;
 use super::product::ProductFunction;
 use super::table::ProductTable;
 use crate::elementary::on_circle;
@@ -36,8 +36,8 @@ struct RowErrors {
 }
 
 impl ProductErrors {
-    /// Of `rows` views by `columns` lights; `row` gives f and the approximation at all lights of a view. Rows are added in
-    /// order.
+    /// Of `rows` views by `columns` lights; `row` gives f and the approximation at all lights of a view. Rows are added
+    /// in order.
     fn over([rows, columns]: [usize; 2], row: impl Fn(usize, &mut [f64], &mut [f64]) + Sync) -> Self {
         let of_row = |at: usize| {
             let [mut f, mut found] = [vec![0.0; columns], vec![0.0; columns]];
@@ -68,7 +68,7 @@ impl ProductErrors {
 
     /// Of factors at the directions of [`Self::directions`] for both, against f itself cut off at `limit`: what
     /// interpolation, the means over texels and the terms that are left out lose together.
-    pub fn between_texels(product: &dyn ProductFunction, limit: f64, factors: &Factors) -> Self {
+    pub fn between_texels(product: &dyn ProductFunction, limit: f64, factors: &ProductFactors) -> Self {
         let directions = Self::directions();
         let read = |of: &dyn Fn(DVec3, &mut [f64])| -> Vec<f64> {
             let mut values = vec![0.0; directions.len() * factors.terms()];
@@ -89,8 +89,8 @@ impl ProductErrors {
         })
     }
 
-    /// 1,024 directions of equal solid angles above the horizon, along a spiral: "1024 samples in both light direction and
-    /// view direction sampled over the hemisphere", where the paper does not say which.
+    /// 1,024 directions of equal solid angles above the horizon, along a spiral: "1024 samples in both light direction
+    /// and view direction sampled over the hemisphere", where the paper does not say which.
     pub fn directions() -> Vec<DVec3> {
         const COUNT: usize = 1024;
         /// The golden section.
@@ -151,7 +151,7 @@ impl DiscSamples {
     }
 
     /// Errors of factors at the texels.
-    pub fn errors(&self, factors: &Factors) -> ProductErrors {
+    pub fn errors(&self, factors: &ProductFactors) -> ProductErrors {
         ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));
             let g = factors.view_texel(self.view[at]);

@@ -1,7 +1,7 @@
 //! Singular values of a table of f, and what a number of terms keeps of it (equation 8).
 
 use super::error::FactorizationError;
-use super::factors::Factors;
+use super::factors::ProductFactors;
 use super::table::ProductTable;
 use crate::linalg::LeadingSvd;
 use crate::sphere::ParabolicMap;
@@ -69,8 +69,8 @@ impl Factorization {
         self.svd.right.row_count()
     }
 
-    /// The error of Figure 2: the sum of squared differences by the sum of squares, over all pairs of texels. It is that
-    /// of the squared singular values that are left out.
+    /// The error of Figure 2: the sum of squared differences by the sum of squares, over all pairs of texels. It is
+    /// that of the squared singular values that are left out.
     pub fn relative_squared_error(&self, terms: usize) -> f64 {
         // From the smallest.
         let squares = |values: &[f64]| values.iter().rev().map(|value| value * value).sum::<f64>();
@@ -85,17 +85,17 @@ impl Factorization {
         is_pair.then_some(SplitPair { terms, values })
     }
 
-    /// The factors of the largest singular values, the root of each in both (equation 9). The component of F_k of largest
-    /// magnitude is positive.
+    /// The factors of the largest singular values, the root of each in both (equation 9). The component of F_k of
+    /// largest magnitude is positive.
     ///
     /// # Panics
     /// If there are no vectors for so many terms.
-    pub fn factors(&self, terms: usize) -> Factors {
+    pub fn factors(&self, terms: usize) -> ProductFactors {
         assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
         let by_texel = |vectors: &crate::linalg::Matrix| {
             let texel = |at: usize| (0..terms).map(move |k| self.svd.values[k].sqrt() * vectors.row(k)[at]);
             (0..vectors.column_count()).flat_map(texel).collect()
         };
-        Factors::new(terms, (self.view, by_texel(&self.svd.left)), (self.light, by_texel(&self.svd.right)))
+        ProductFactors::new(terms, (self.view, by_texel(&self.svd.left)), (self.light, by_texel(&self.svd.right)))
     }
 }

@@ -9,7 +9,7 @@ use crate::sphere::ParabolicMap;
 
 /// f(v, s) as the sum over k of G_k(v) F_k(s), by texels of parabolic maps and bilinear between their centers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Factors {
+pub struct ProductFactors {
     terms: usize,
     view: FactorMap,
     light: FactorMap,
@@ -36,7 +36,7 @@ impl FactorMap {
     }
 }
 
-impl Factors {
+impl ProductFactors {
     pub(crate) fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));

@@ -1,7 +1,8 @@
 //! Measured reflectance in the files of Matusik, Pfister, Brand and McMillan 2003 (MERL): `.binary`.
 //!
-//! Three 32-bit integers, 90, 90 and 180, then three channels of as many 64-bit floats, all little-endian: by the angles
-//! of the half vector from the normal (denser near it), of the light from the half vector, and around that, 180 degrees.
+//! Three 32-bit integers, 90, 90 and 180, then three channels of as many 64-bit floats, all little-endian: by the
+//! angles of the half vector from the normal (denser near it), of the light from the half vector, and around that, 180
+//! degrees.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
@@ -125,8 +126,8 @@ impl MerlBrdf {
         MerlProduct { brdf: self, channel }
     }
 
-    /// The reflectance of a channel, per steradian: that of the nearest cell, as the measurement's own reader has it, not
-    /// interpolated. Both directions have length 1 and lie above the horizon.
+    /// The reflectance of a channel, per steradian: that of the nearest cell, as the measurement's own reader has it,
+    /// not interpolated. Both directions have length 1 and lie above the horizon.
     pub fn value(&self, channel: MerlChannel, view: DVec3, light: DVec3) -> f64 {
         let half = (view + light).normalize_or(DVec3::Z);
         let radius = (half.x * half.x + half.y * half.y).sqrt();

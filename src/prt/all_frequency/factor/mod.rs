@@ -3,7 +3,8 @@
 //! - [`ProductFunction`]: f of a reflectance; [`Lobe`] has the forms that the paper leaves open, [`Brdf`] are those of
 //!   `prt::brdf`, [`MerlBrdf`] measured ones;
 //! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`], with what the paper leaves open as named options;
-//! - [`Factorization`]: its singular values, and [`Factors`] of any number of terms, interpolated between texels;
+//! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
+//!   texels;
 //! - [`ProductErrors`], [`harmonic_errors`]: how far approximations are off, by terms and by spherical harmonics.
 //!
 //! Directions are local: z is the normal, x the tangent.
@@ -23,7 +24,7 @@ mod table;
 pub use disc::{DiscSamples, ProductErrors};
 pub use error::FactorizationError;
 pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
-pub use factors::{DiffuseFactor, Factors};
+pub use factors::{DiffuseFactor, ProductFactors};
 pub use harmonics::{HarmonicFit, HarmonicSides, harmonic_errors};
 pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, TangentCosine};
 pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlError, MerlProduct, load_merl, parse_merl};

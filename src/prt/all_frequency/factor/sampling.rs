@@ -16,8 +16,8 @@ pub const MAX_SUPERSAMPLES: usize = 16;
 /// Views whose rows are computed between two reports of progress.
 const BATCH: usize = 16;
 
-/// Samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor of 16 x 16"
-/// may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
+/// Samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor of 16 x
+/// 16" may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Supersamples {
     /// Along an edge of the view's texel.

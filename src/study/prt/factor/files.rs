@@ -6,12 +6,16 @@ use glam::DVec3;
 
 use super::subject::BrdfFactorsError;
 use crate::io::{NumberTable, write_npy};
-use crate::prt::all_frequency::factor::{Factorization, Factors};
+use crate::prt::all_frequency::factor::{Factorization, ProductFactors};
 use crate::report::{Findings, ReportError};
 use crate::sphere::ParabolicMap;
 
 /// Tables with a row per texel, as text with its direction, and as arrays of f32 without.
-pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &Factors) -> Result<(), BrdfFactorsError> {
+pub(super) fn keep(
+    found: &mut Findings,
+    all: &Factorization,
+    factors: &ProductFactors,
+) -> Result<(), BrdfFactorsError> {
     let mut values = "singular_value\n".to_owned();
     for value in all.singular_values() {
         // Writing to a string cannot fail.
@@ -20,8 +24,8 @@ pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &Factors)
     found.keep_file("singular_values.csv", values.into_bytes());
     let terms = factors.terms();
     let sides = [
-        ("view_factors", "g", factors.view_map(), Factors::view_texel as fn(&Factors, usize) -> &[f64]),
-        ("light_factors", "f", factors.light_map(), Factors::light_texel),
+        ("view_factors", "g", factors.view_map(), ProductFactors::view_texel as fn(&ProductFactors, usize) -> &[f64]),
+        ("light_factors", "f", factors.light_map(), ProductFactors::light_texel),
     ];
     for (name, letter, map, texel) in sides {
         let mut text = "x,y,z".to_owned();

@@ -6,7 +6,7 @@ use serde_json::json;
 use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
 use super::{files, harmonics, sphere, sweep, terms};
 use crate::prt::all_frequency::factor::{
-    DiscSamples, Factorization, Factors, HarmonicFit, HarmonicSides, ProductErrors, ProductTable,
+    DiscSamples, Factorization, HarmonicFit, HarmonicSides, ProductErrors, ProductFactors, ProductTable,
 };
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
@@ -118,7 +118,12 @@ impl BrdfFactors {
     }
 
     /// A sphere by f, by the table and by the terms.
-    fn pictures(&self, found: &mut Findings, table: &ProductTable, factors: &Factors) -> Result<(), BrdfFactorsError> {
+    fn pictures(
+        &self,
+        found: &mut Findings,
+        table: &ProductTable,
+        factors: &ProductFactors,
+    ) -> Result<(), BrdfFactorsError> {
         let limit = self.sampling.clamp.limit();
         let of_formula =
             self.subject.with_product(|product| sphere::radiance(&|view, light| product.value(view, light).min(limit)));
@@ -150,7 +155,7 @@ impl BrdfFactors {
     }
 
     /// Errors between texels, where f is known there.
-    fn between(&self, found: &mut Findings, factors: &Factors) {
+    fn between(&self, found: &mut Findings, factors: &ProductFactors) {
         let limit = self.sampling.clamp.limit();
         let Some(errors) = self.subject.with_product(|product| ProductErrors::between_texels(product, limit, factors))
         else {
@@ -172,7 +177,7 @@ impl BrdfFactors {
     }
 
     /// What of light from everywhere is reflected: a white furnace.
-    fn albedos(&self, table: &ProductTable, factors: &Factors) -> Table {
+    fn albedos(&self, table: &ProductTable, factors: &ProductFactors) -> Table {
         let mut rows =
             Table::of("Directional albedo: light of radiance 1 from everywhere", "view_degrees f table terms");
         let rule = DirectionRule::hemisphere(ALBEDO_DEGREE);

@@ -57,7 +57,7 @@ const PRINTED: [Printed; 2] = [
 const HOW: &str = "Reflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
     singular value decomposition, and spherical harmonics by integrals over the hemisphere for view and light. Errors are over the {} x {} pairs \
     of texels whose directions lie above the horizon. The paper names the models and their parameters, and none of their factors: the rows have \
-    the form of the textbooks, in which no energy is made; the tables beside them have forms that come nearer, listed before any was computed. \
+    the form of the textbooks, in which no energy is made; the tables beside them have the other printed denominators, and forms that a search beforehand had found nearer. \
     Forms at centers have one sample per pair.";
 const QUESTION: &str = "which denominators, Fresnel and shadowing terms the paper's two reflectances have, where on the hemisphere its errors are \
     taken, and whether the harmonics expand view, light or both.";
