@@ -104,3 +104,29 @@ fn light_is_taken_apart() {
     assert!(kept > 0.5 && kept < 1.0 && flicker > 0.01, "{kept}, {flicker}");
     assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
 }
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let cases = [
+        ("prt compress docs/examples/signal.csv --bits 8 --out OUT", "are for transfer of all frequencies"),
+        ("prt compress docs/examples/step_all.prt --out OUT", "`--model` is missing"),
+        ("prt error docs/examples/step_all.prt docs/examples/step_all_small.prt", "`--model` is missing"),
+        ("prt render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
+        ("prt show docs/examples/step_all.prt --vertex 0", "are for transfer of low frequency"),
+        ("prt error docs/examples/step.prt docs/examples/step_all_small.prt", "conventions: expected 1 to 1, found 2"),
+        (
+            "prt compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out OUT",
+            "expected visibility",
+        ),
+    ];
+    let out = place(folder.path(), "y.prt");
+    for (arguments, words) in cases {
+        let arguments: Vec<&str> = arguments.split(' ').map(|word| if word == "OUT" { &out } else { word }).collect();
+        let ran = crossbar(&arguments, "");
+        let flat = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(flat(&ran.stderr).contains(words), "{arguments:?}: {}", ran.stderr);
+        assert!(!Path::new(&out).exists(), "{arguments:?}");
+    }
+}

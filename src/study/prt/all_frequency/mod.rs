@@ -1,5 +1,6 @@
-//! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer segment by segment through compression
-//! and coding ([`SegmentedCompression`]), and pictures of it ([`AllFrequencyRendering`]).
+//! All-frequency transfer: visibility of a model ([`SightOfModel`]), its transfer segment by segment through
+//! compression and coding ([`SegmentedCompression`]), how far that is off ([`coded_errors`]), and pictures of it
+//! ([`AllFrequencyRendering`]).
 
 mod compress;
 mod errors;

@@ -7,7 +7,8 @@ use crate::geom::vector::wide;
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::transfer::Vertices;
 
-/// G(v) . T_p times the surface's color, per vertex. Truncated factors have negative lobes: what comes out below 0 stays.
+/// G(v) . T_p times the surface's color, per vertex. Truncated factors have negative lobes: what comes out below 0
+/// stays.
 pub(super) fn radiance(
     vertices: &Vertices,
     reflectance: &Reflectance,

@@ -14,7 +14,7 @@ const M: usize = 10;
 const N: usize = 16;
 const PER_CLUSTER: f64 = 200.0;
 /// Texels along an edge of the cube whose texels' centers are the normals that segments are counted for.
-const NORMALS: usize = 16;
+const NORMALS: usize = 48;
 
 /// A column of Table 1.
 struct Column {
