@@ -27,6 +27,15 @@ const FEW: u32 = 24;
 /// Writes one texel.
 pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &LaneFormats) {
     let main = formats.lane(Arith::Main);
+    if let Some(blender) = &rows.packing.blender {
+        let mut old = [0; 4];
+        old.iter_mut().zip(&rows.words).for_each(|(old, word)| *old = word[lane]);
+        let new = blender.blend(color, old, &rows.packing.channels, formats);
+        for ((word, new), &bits) in rows.words.iter_mut().zip(new).zip(&rows.packing.written) {
+            word[lane] = word[lane] & !bits | new;
+        }
+        return;
+    }
     for (word, &bits) in rows.words.iter_mut().zip(&rows.packing.written) {
         word[lane] &= !bits;
     }
@@ -38,14 +47,14 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
 
 /// Writes the texels of the lanes that are left.
 pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors: &Survivors, formats: &LaneFormats) {
-    if survivors.count <= FEW {
+    if survivors.count <= FEW || rows.packing.blender.is_some() {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
             write_lane(rows, &colors.map(|row| row[lane]), lane, formats);
         }
         return;
     }
     let (main, simd) = (formats.lane(Arith::Main), formats.simd());
-    let Packing { channels, written } = &rows.packing;
+    let Packing { channels, written, .. } = &rows.packing;
     let mut texels = [0; LANES];
     for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
         texels.fill(0);
@@ -84,6 +93,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
                 texels[i] |= single(lane, row[i]);
             }
         }
+        Coding::Blended => {}
     }
 }
 
@@ -92,6 +102,7 @@ fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
     match coding {
         Coding::Steps(scale, half) => steps(lane, raw, scale, half),
         Coding::Single => single(lane, raw),
+        Coding::Blended => 0,
     }
 }
 
