@@ -189,7 +189,7 @@ fn agrees(read: &Read) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 6000 } else { 400 }))]
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 30_000 } else { 2000 }))]
 
     #[test]
     fn filtered_reads_agree(read in read()) {

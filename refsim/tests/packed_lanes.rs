@@ -187,7 +187,7 @@ fn fine_triangles_are_drawn_alike() {
         }
         passed += expected.2.fragments.passed;
     }
-    assert!(passed > 100 * cases, "{passed} fragments reach a target");
+    assert!(passed > 50 * cases, "{passed} fragments reach a target");
 }
 
 /// The first fragment of many small triangles that does not end is the one that is reported.
@@ -197,7 +197,7 @@ fn overruns_in_fine_triangles_are_reported_alike() {
     let mut overruns = 0;
     for case in 0..60 {
         let fine = Fine { program: PROGRAMS[5], ..Fine::new(&mut r) };
-        for budget in [6, 8, 9, 11] {
+        for budget in [9, 12, 14, 15] {
             let expected = drawn(&fine, ExecutorKind::Scalar, 1, Some(budget)).map_err(|e| e.to_string());
             let found = drawn(&fine, ExecutorKind::Batch, 3, Some(budget)).map_err(|e| e.to_string());
             assert!(found == expected, "case {case}, budget {budget}: {:?}, {:?}", found.err(), expected.err());

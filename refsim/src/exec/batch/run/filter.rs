@@ -32,7 +32,7 @@ pub(crate) struct FilteredLevel {
     slice: u32,
     /// Fraction bits of weights; 0 takes the first texel alone.
     bits: u8,
-    components: [Component; 4],
+    components: [FilteredComponent; 4],
     /// By texel and component: the numerator, or the single; none of a large level.
     texels: Option<Vec<[u32; 4]>>,
     border: [u32; 4],
@@ -43,7 +43,7 @@ pub(crate) struct FilteredLevel {
 
 /// What a component of the result is made of.
 #[derive(Clone, Copy, Debug)]
-enum Component {
+enum FilteredComponent {
     /// As slots hold it.
     Constant(u32),
     /// Numerators over this.
@@ -51,7 +51,7 @@ enum Component {
     Single(Channel),
 }
 
-impl Component {
+impl FilteredComponent {
     fn new(source: ComponentSource, binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
         let channel = match source {
             ComponentSource::Zero => {
@@ -89,9 +89,9 @@ impl FilteredLevel {
             return None;
         }
         let record = image.format().record();
-        let mut components = [Component::Constant(0); 4];
+        let mut components = [FilteredComponent::Constant(0); 4];
         for (component, source) in components.iter_mut().zip(record.components) {
-            *component = Component::new(source, binding, rules, lane)?;
+            *component = FilteredComponent::new(source, binding, rules, lane)?;
         }
         let mixed = record.stored().iter().any(|c| matches!(c.class, ChannelClass::Float(_))) != record.is_float();
         if mixed {
@@ -176,7 +176,7 @@ impl FilteredLevel {
         // Units of weights of all axes; a power of two, and so is its reciprocal.
         let unit = 1.0 / (1u64 << (usize::from(self.bits) * AXES)) as f64;
         let mut weights = [[1.0; LANES]; CORNERS];
-        let integers = self.components.iter().any(|c| matches!(c, Component::Ratio(..)));
+        let integers = self.components.iter().any(|c| matches!(c, FilteredComponent::Ratio(..)));
         if CORNERS > 1 && integers {
             simd.run(
                 #[inline(always)]
@@ -187,11 +187,11 @@ impl FilteredLevel {
             let Some(to) = *to else { continue };
             let (mut row, mut result) = ([0; LANES], [0.0; LANES]);
             let divisor = match self.components[c] {
-                Component::Constant(raw) => {
+                FilteredComponent::Constant(raw) => {
                     slots.row_mut(to).fill(raw);
                     continue;
                 }
-                Component::Ratio(_, denominator) => {
+                FilteredComponent::Ratio(_, denominator) => {
                     for (numbers, weights) in numbers.iter().zip(&weights) {
                         source.gather(c, numbers, &mut row);
                         simd.run(
@@ -201,7 +201,7 @@ impl FilteredLevel {
                     }
                     denominator
                 }
-                Component::Single(_) => {
+                FilteredComponent::Single(_) => {
                     let mut corners = [[0; LANES]; CORNERS];
                     for (corner, numbers) in corners.iter_mut().zip(&numbers) {
                         source.gather(c, numbers, corner);

@@ -1,14 +1,21 @@
 //! Blending of targets that are kept in rows: fractions of equal width in integers, floats in the host's single
 //! precision. Signed fractions and channels of several widths go through the output room.
 
-use super::targets::PackedChannel;
 use crate::exec::batch::lanes::{AnyLane, Lane, LaneFormats, with_any_lane};
 use crate::exec::lower::Arith;
 use crate::output::{BlendEquation, BlendFactor, BlendOp, BlendState};
 use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat};
 
-/// Bits of the widest fractions: cubes of their range, doubled, are still integers of 64 bits.
+/// Bits of the widest fractions: multiples of the squares of their range are still integers of 64 bits.
 const WIDEST: u8 = 16;
+
+/// A stored channel that is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ChannelPlace {
+    pub(crate) word: usize,
+    pub(crate) shift: u32,
+    pub(crate) component: usize,
+}
 
 /// The blender of one target.
 #[derive(Clone, Debug)]
@@ -16,7 +23,7 @@ pub(crate) struct Blender {
     state: BlendState,
     values: BlendValues,
     /// Where the components of a stored texel come from.
-    components: [Stored; 4],
+    components: [StoredComponent; 4],
 }
 
 #[derive(Clone, Debug)]
@@ -29,7 +36,7 @@ enum BlendValues {
 
 /// A component of a stored texel.
 #[derive(Clone, Copy, Debug)]
-enum Stored {
+enum StoredComponent {
     Zero,
     One,
     /// Word, first bit, mask.
@@ -54,11 +61,11 @@ impl Blender {
             _ => return None,
         };
         let components = record.components.map(|source| match source {
-            ComponentSource::Zero => Stored::Zero,
-            ComponentSource::One => Stored::One,
+            ComponentSource::Zero => StoredComponent::Zero,
+            ComponentSource::One => StoredComponent::One,
             ComponentSource::Channel(i) => {
                 let shift = record.channels[usize::from(i)].shift;
-                Stored::Channel(usize::from(shift / 32), u32::from(shift % 32), mask)
+                StoredComponent::Channel(usize::from(shift / 32), u32::from(shift % 32), mask)
             }
         });
         Some(Self { state: *state, values, components })
@@ -70,18 +77,18 @@ impl Blender {
         &self,
         color: &[u32; 4],
         old: [u32; 4],
-        channels: &[PackedChannel],
+        channels: impl Iterator<Item = ChannelPlace>,
         formats: &LaneFormats,
     ) -> [u32; 4] {
         let main = formats.lane(Arith::Main);
         let source = color.map(|raw| with_any_lane!(main, |lane| { double(lane, raw) }));
         let mut new = [0; 4];
-        let mut put = |channel: &PackedChannel, bits: u32| new[channel.word] |= bits << channel.shift;
+        let mut put = |channel: ChannelPlace, bits: u32| new[channel.word] |= bits << channel.shift;
         let stored = |zero: u32, one: u32| {
             self.components.map(|component| match component {
-                Stored::Zero => zero,
-                Stored::One => one,
-                Stored::Channel(word, shift, mask) => old[word] >> shift & mask,
+                StoredComponent::Zero => zero,
+                StoredComponent::One => one,
+                StoredComponent::Channel(word, shift, mask) => old[word] >> shift & mask,
             })
         };
         match &self.values {

@@ -26,12 +26,12 @@ pub(super) trait FragmentSink {
 }
 
 /// Fragments go into the targets.
-pub(super) struct Merge<'s, 't> {
+pub(super) struct IntoTargets<'s, 't> {
     pub(super) output: &'s OutputStage,
     pub(super) targets: &'s mut Targets<'t>,
 }
 
-impl FragmentSink for Merge<'_, '_> {
+impl FragmentSink for IntoTargets<'_, '_> {
     fn stored_depths(&mut self) -> Option<&mut LaneRow> {
         self.targets.depth.as_deref_mut()
     }
@@ -43,9 +43,9 @@ impl FragmentSink for Merge<'_, '_> {
 
 /// Fragments are kept until it is their turn.
 #[derive(Default)]
-pub(super) struct Gather(pub(super) Vec<Fragment>);
+pub(super) struct KeptFragments(pub(super) Vec<Fragment>);
 
-impl FragmentSink for Gather {
+impl FragmentSink for KeptFragments {
     fn stored_depths(&mut self) -> Option<&mut LaneRow> {
         None
     }

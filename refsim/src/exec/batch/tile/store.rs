@@ -30,7 +30,7 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
     if let Some(blender) = &rows.packing.blender {
         let mut old = [0; 4];
         old.iter_mut().zip(&rows.words).for_each(|(old, word)| *old = word[lane]);
-        let new = blender.blend(color, old, &rows.packing.channels, formats);
+        let new = blender.blend(color, old, rows.packing.channels.iter().map(|channel| channel.place), formats);
         for ((word, new), &bits) in rows.words.iter_mut().zip(new).zip(&rows.packing.written) {
             word[lane] = word[lane] & !bits | new;
         }
@@ -40,8 +40,8 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
         word[lane] &= !bits;
     }
     for channel in &rows.packing.channels {
-        let value = with_any_lane!(main, |l| { code(l, color[channel.component], channel.coding) });
-        rows.words[channel.word][lane] |= value << channel.shift;
+        let value = with_any_lane!(main, |l| { code(l, color[channel.place.component], channel.coding) });
+        rows.words[channel.place.word][lane] |= value << channel.place.shift;
     }
 }
 
@@ -58,8 +58,8 @@ pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors:
     let mut texels = [0; LANES];
     for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
         texels.fill(0);
-        for channel in channels.iter().filter(|c| c.word == number) {
-            let row = colors[channel.component];
+        for channel in channels.iter().filter(|c| c.place.word == number) {
+            let row = colors[channel.place.component];
             with_any_lane!(main, |l| {
                 simd.run(
                     #[inline(always)]
@@ -85,7 +85,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
     match channel.coding {
         Coding::Steps(scale, half) => {
             for i in 0..LANES {
-                texels[i] |= steps(lane, row[i], scale, half) << channel.shift;
+                texels[i] |= steps(lane, row[i], scale, half) << channel.place.shift;
             }
         }
         Coding::Single => {

@@ -1,7 +1,7 @@
 //! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words.
 //! They stay in the first-level cache while all triangles of the tile go by, and are copied back once.
 
-use super::blend::Blender;
+use super::blend::{Blender, ChannelPlace};
 use super::raster::TileFrame;
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::output::{ColorTile, MAX_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
@@ -18,12 +18,10 @@ pub(crate) enum Coding {
     Blended,
 }
 
-/// A stored channel that is written.
+/// A stored channel that is written, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PackedChannel {
-    pub(crate) word: usize,
-    pub(crate) shift: u32,
-    pub(crate) component: usize,
+    pub(crate) place: ChannelPlace,
     pub(crate) coding: Coding,
 }
 
@@ -63,7 +61,8 @@ impl Packing {
             };
             if mask.has(channel.stored_from) {
                 packing.written[word] |= (u32::MAX >> (32 - channel.bits)) << shift;
-                packing.channels.push(PackedChannel { word, shift, component: channel.stored_from.into(), coding });
+                let place = ChannelPlace { word, shift, component: channel.stored_from.into() };
+                packing.channels.push(PackedChannel { place, coding });
             }
         }
         Some(packing)

@@ -7,7 +7,7 @@ use super::output::{Fragment, OutputStage};
 use super::pieces::Pieces;
 use super::round::{RoundCode, TileRound};
 use super::shader::TileShader;
-use super::shading::{Gather, Merge, TileShading};
+use super::shading::{IntoTargets, KeptFragments, TileShading};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
 use crate::exec::batch::lanes::{LaneFormats, SimdLevel};
@@ -128,7 +128,7 @@ impl<'a> BatchTiles<'a> {
             }
             let mut shading = self.shading(round, (region, depth));
             while let Some((_, piece)) = pieces.first() {
-                shading.shade(piece, &mut counts, &mut Merge { output: &self.output, targets: &mut targets })?;
+                shading.shade(piece, &mut counts, &mut IntoTargets { output: &self.output, targets: &mut targets })?;
             }
             shading.end();
             Ok(())
@@ -162,7 +162,7 @@ impl<'a> BatchTiles<'a> {
         let mut shading = None;
         while let Some((piece, order)) = pieces.last() {
             let shading = shading.get_or_insert_with(|| self.shading(round, tile));
-            let (mut counts, mut gathered) = (FragmentCounts::default(), Gather::default());
+            let (mut counts, mut gathered) = (FragmentCounts::default(), KeptFragments::default());
             let done = shading.shade(order, &mut counts, &mut gathered);
             let behind = Behind { piece, fragments: gathered.0, counts: done.map(|()| counts) };
             out.lock().unwrap_or_else(PoisonError::into_inner).push(behind);
