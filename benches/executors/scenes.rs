@@ -1,4 +1,7 @@
 //! Draws that are bound by one thing each.
+//!
+//! To beat, on two threads, batch executor, millions of fragments a second, machine as in docs/performance.md:
+//! `texture reads: 8 dependent, linear` FIGURE_LINEAR, `triangles: 2 pixels each, blended` FIGURE_FINE.
 
 use std::fmt::Write as _;
 
@@ -9,9 +12,9 @@ use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{
     AttributeStream, DepthId, DrawCall, ExecutorKind, Machine, StepRate, TextureId, VertexSource, VertexStreams,
 };
-use refsim::output::{CompareFunction, DepthFormat, DepthState};
+use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{PixelCenter, Primitive, Vertex};
-use refsim::texture::{Image, SamplerState, TexelFormat};
+use refsim::texture::{Filter, Image, SamplerState, TexelFormat};
 
 const ONE: u32 = 0x3f80_0000;
 
@@ -22,6 +25,9 @@ pub(crate) struct Scene {
     side: u32,
     pixel: CheckedProgram,
     geometry: Geometry,
+    filter: Filter,
+    /// Whether fragments are added to the target.
+    blended: bool,
     /// Whether vertices are counted instead of fragments.
     counts_vertices: bool,
 }
@@ -39,17 +45,33 @@ pub(crate) fn all(kind: ExecutorKind) -> Vec<Scene> {
         ExecutorKind::Scalar => (32, 3 * 1024),
         _ => (256, 3 * 65_536),
     };
-    let of =
-        |name, pixel: &str, geometry| Scene { name, side, pixel: program(pixel), geometry, counts_vertices: false };
+    let of = |name, pixel: &str, geometry| Scene {
+        name,
+        side,
+        pixel: program(pixel),
+        geometry,
+        filter: Filter::Nearest,
+        blended: false,
+        counts_vertices: false,
+    };
+    let shade = "ps_2_0\ndcl v0\nmov oC0, v0\n";
     vec![
         of("texture reads: 8 dependent", &dependent_reads(), Geometry::Triangles(screen())),
+        Scene {
+            filter: Filter::Linear,
+            ..of("texture reads: 8 dependent, linear", &dependent_reads(), Geometry::Triangles(screen()))
+        },
         of("1024 instructions", &long_program(), Geometry::Triangles(screen())),
-        of("triangles: 10 pixels each", "ps_2_0\ndcl v0\nmov oC0, v0\n", Geometry::Triangles(carpet(side))),
+        of("triangles: 10 pixels each", shade, Geometry::Triangles(carpet(side, 4.5))),
+        Scene {
+            blended: true,
+            ..of("triangles: 2 pixels each, blended", shade, Geometry::Triangles(carpet(side, 2.0)))
+        },
         Scene {
             counts_vertices: true,
             ..of(
                 "vertex program: 30 instructions",
-                "ps_2_0\ndcl v0\nmov oC0, v0\n",
+                shade,
                 Geometry::Program(Box::new(program(&vertex_program())), corners(vertices)),
             )
         },
@@ -118,9 +140,9 @@ fn screen() -> Vec<Vertex> {
     vec![a, b, c, a, c, d]
 }
 
-/// Triangles in squares of 4.5 pixels, two a square.
-fn carpet(side: u32) -> Vec<Vertex> {
-    let count = (side as f32 / 4.5) as u32;
+/// Triangles in squares of so many pixels, two per square.
+fn carpet(side: u32, pixels: f32) -> Vec<Vertex> {
+    let count = (side as f32 / pixels) as u32;
     let at = |i: u32| 2.0 * i as f32 / count as f32 - 1.0;
     let mut vertices = Vec::new();
     for y in 0..count {
@@ -178,8 +200,10 @@ impl Card {
                 VertexSource::Program { program, constants: &constants, streams: streams(data) }
             }
         };
+        let state = SamplerState { min: scene.filter, mag: scene.filter, ..SamplerState::NEAREST_CLAMP };
         let mut call = DrawCall::new(vertices, Primitive::TriangleList, &scene.pixel, &constants, self.target)
-            .with_texture(0, self.texture, SamplerState::NEAREST_CLAMP);
+            .with_texture(0, self.texture, state);
+        call.blend = scene.blended.then_some(BlendState::both(BlendFactor::One, BlendFactor::One, BlendOp::Add));
         call.center = PixelCenter::OpenGl;
         call.depth = DepthState { test: Some(CompareFunction::LessEqual), write: true };
         call.depth_buffer = Some(self.depth);

@@ -99,9 +99,11 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
         return SamplerState::NEAREST_CLAMP;
     }
     let mip = r.choose(&[MipFilter::None, MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
+    let (min, mag) = (filter(r), filter(r));
     SamplerState {
-        min: filter(r),
-        mag: filter(r),
+        min,
+        // Most filter alike near and far.
+        mag: if r.one_in(3) { min } else { mag },
         mip: if filtered || mip != MipFilter::Linear { mip } else { MipFilter::Nearest },
         address_u: mode(r),
         address_v: mode(r),

@@ -118,7 +118,7 @@ mod blending {
 
 /// Every kind of geometry.
 mod geometry {
-    suites! { ordinary flat layers clipped huge degenerate special }
+    suites! { ordinary flat layers clipped huge degenerate special fine }
 }
 
 /// Programs and cases that are files of the project. (`files` is the module that reads them.)

@@ -121,7 +121,7 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.texcrd_overflow = r.choose(TexcrdOverflow::ALL);
         rules.texdepth_denominator = r.choose(TexdepthDenominator::ALL);
         rules.signed_texel_minimum = r.choose(SignedTexelMinimum::ALL);
-        rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
+        rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8, 12]);
         rules.lod_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
     }
     if group.has(Group::Pipeline) {

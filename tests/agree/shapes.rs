@@ -22,11 +22,21 @@ pub(crate) enum Shape {
     Degenerate,
     /// Positions and values that are no numbers.
     Special,
+    /// Many triangles of a few pixels, beside and over one another.
+    Fine,
 }
 
 impl Shape {
-    pub(crate) const ALL: [Self; 7] =
-        [Self::Ordinary, Self::Flat, Self::Layers, Self::Clipped, Self::Huge, Self::Degenerate, Self::Special];
+    pub(crate) const ALL: [Self; 8] = [
+        Self::Ordinary,
+        Self::Flat,
+        Self::Layers,
+        Self::Clipped,
+        Self::Huge,
+        Self::Degenerate,
+        Self::Special,
+        Self::Fine,
+    ];
 
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -37,6 +47,7 @@ impl Shape {
             Self::Huge => "huge",
             Self::Degenerate => "degenerate",
             Self::Special => "special",
+            Self::Fine => "fine",
         }
     }
 }
@@ -80,6 +91,11 @@ pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry
         Primitive::TriangleStrip | Primitive::TriangleFan => 3 + r.below(2),
         _ => 4,
     };
+    if shape == Shape::Fine {
+        let vertices = fine(size, each, r);
+        let indices = r.one_in(3).then(|| (0..vertices.len() as u32).rev().collect());
+        return Geometry { vertices, indices, primitive };
+    }
     let groups = match shape {
         Shape::Layers => 3 + r.below(10),
         Shape::Flat => 1 + r.below(2),
@@ -92,6 +108,42 @@ pub(crate) fn geometry(shape: Shape, size: [u32; 2], r: &mut Random) -> Geometry
     let count = vertices.len();
     let indices = r.one_in(6).then(|| (0..count + r.below(4)).map(|i| ((i * 7 + r.below(2)) % count) as u32).collect());
     Geometry { vertices, indices, primitive }
+}
+
+/// Vertices of 10 to 120 primitives of a few pixels each, some of them far larger. Some share all that they do not
+/// vary with the ones before, some vary nothing but their position.
+fn fine(size: [u32; 2], each: usize, r: &mut Random) -> Vec<Vertex> {
+    let (flat, plane) = (r.one_in(2), r.one_in(2));
+    let mut shared = Vertex::default();
+    let mut center = [0.0; 2];
+    let mut out = Vec::new();
+    for number in 0..10 + r.below(110) {
+        if number == 0 || r.one_in(if flat { 12 } else { 3 }) {
+            shared.texcoords = std::array::from_fn(|_| r.vector());
+            shared.colors = [r.vector(), r.vector()];
+            shared.fog = r.number();
+        }
+        if number == 0 || !r.one_in(4) {
+            center = [0, 1].map(|_| r.below(2001) as f32 / 1000.0 - 1.0);
+        }
+        let reach = if r.one_in(16) { 40.0 } else { 1.0 + r.below(5) as f32 };
+        for _ in 0..each {
+            let mut v = shared;
+            if !flat {
+                v.texcoords[r.below(4)] = r.vector();
+                v.colors[r.below(2)] = r.vector();
+            }
+            let w = if plane { 1.0f32 } else { 0.5 + r.below(100) as f32 / 50.0 };
+            let near = |r: &mut Random, axis: usize| {
+                let offset = (r.below(2001) as f32 / 1000.0 - 1.0) * reach / size[axis] as f32;
+                ((center[axis] + offset) * w).to_bits()
+            };
+            let (x, y) = (near(r, 0), near(r, 1));
+            v.position = [x, y, (r.below(1000) as f32 / 1000.0 * w).to_bits(), w.to_bits()];
+            out.push(v);
+        }
+    }
+    out
 }
 
 /// One primitive's vertices: they share what they do not vary.

@@ -5,12 +5,13 @@
 
 use super::state::DrawState;
 use super::validate::Plan;
-use super::vertices::{VertexStage, set_up};
+use super::vertices::{VertexStage, raster_rules};
 use super::{DepthId, DrawCall, ExecutorKind, Machine, MachineError, TextureId, VertexSource};
 use crate::event::{
     DepthRecord, DrawEvents, DrawRecord, Event, FenceId, FilterKind, FlowConstants, HostWork, MipKind, ProgramWork,
     ReadBackMode, ResourceId, SAMPLERS, SamplerRecord, SamplerTraffic, TargetRecord, vertex_cache_misses,
 };
+use crate::exec::batch::{Instances, Surfaces};
 use crate::exec::{CheckedProgram, Constants, program};
 use crate::isa::{Opcode, RegisterFile};
 use crate::output::DepthSurface;
@@ -204,17 +205,21 @@ impl Machine {
         })
     }
 
-    /// Quads that ran the pixel program: found by setting the triangles up again, which costs little beside shading
-    /// them.
+    /// Quads that ran the pixel program: found by setting the triangles up again, in rows.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
-        let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), ComponentMask::NONE);
+        let needed = ComponentMask::NONE;
+        let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), needed);
+        let rules = raster_rules(&self.profile);
         let mut outlines = BTreeMap::new();
         let mut quads = 0;
         for round in plan.rounds() {
+            let (first, count) = (round.start, round.len());
             // The draw has been made: no vertex ran out of steps.
-            let Ok(batch) = stage.run(round.start, round.len(), plan) else { break };
-            let (setups, _) = set_up(&batch.vertices, round.len(), plan, &self.profile);
-            quads += setups.iter().map(|setup| covered(setup, &mut outlines)).sum::<u64>();
+            let Ok(rows) = stage.rows(first, count, plan, needed) else { break };
+            let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
+            let (surfaces, _) = Surfaces::build(&instances, &plan.raster, &rules, needed, self.batch.simd());
+            let shapes = (0..surfaces.len()).filter_map(|triangle| surfaces.geometry(triangle));
+            quads += shapes.map(|shape| covered(shape, &mut outlines)).sum::<u64>();
         }
         quads
     }

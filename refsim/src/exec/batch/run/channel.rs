@@ -4,7 +4,7 @@ use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, odd, with_any_lan
 use crate::num::Format;
 use crate::texture::{Channel, ChannelValue};
 
-/// Values divided by a number below 2^24, rounded into the format.
+/// Doubles divided by an integer below 2^24, rounded into the format.
 #[inline(always)]
 pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut LaneRow) {
     if divisor == 1.0 {

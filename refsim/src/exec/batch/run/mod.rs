@@ -2,10 +2,14 @@
 //!
 //! - `slots`: where values are kept; `ops`, `loops`, `pack`: lane operations on rows; `guard`: what fast
 //!   arithmetics leave to the general one; `steps`: blocks of operations.
-//! - `fetch`, `stored`, `channel`: texture reads; `flow`: programs with flow control.
+//! - Texture reads: `fetch` chooses; `table`, `stored`: nearest; `filter`: linear; `address`: from coordinates to
+//!   texels; `channel`: values of texels.
+//! - `flow`: programs with flow control.
 
+mod address;
 mod channel;
 mod fetch;
+mod filter;
 mod flow;
 mod guard;
 mod loops;
@@ -14,6 +18,7 @@ mod pack;
 mod slots;
 mod steps;
 mod stored;
+mod table;
 
 pub(crate) use fetch::{BatchTexture, TextureTables};
 pub(crate) use flow::{FlowObserver, FlowRun, fill_plan, first_lanes};

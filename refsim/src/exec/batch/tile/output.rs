@@ -1,6 +1,7 @@
 //! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets
 //! of signed or small float channels) goes through the output room, fragment by fragment.
 
+use super::packed::PackedLanes;
 use super::store::{Survivors, quantise, write_lane, write_rows};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
@@ -22,6 +23,10 @@ pub(crate) struct Shaded<'a> {
     pub(crate) covered: &'a LaneRow,
     /// Interpolated depth.
     pub(crate) depth: &'a LaneRow,
+    /// The lanes' pixels, where they are not those of the tile.
+    pub(crate) packed: Option<&'a PackedLanes>,
+    /// Whether the depth test has been made.
+    pub(crate) tested: bool,
 }
 
 /// A fragment that the tests before the depth test left.
@@ -40,11 +45,21 @@ impl Shaded<'_> {
         Fragment { lane: lane as u8, depth, colors: self.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value))) }
     }
 
+    /// The packed fragments that are left, in the order of submission.
+    fn packed(self, packed: &PackedLanes, survivors: &Survivors) -> impl Iterator<Item = Fragment> {
+        let alive = packed.fragments().filter(|(lane, _)| survivors.alive[*lane] != 0);
+        alive.map(move |(lane, at)| Fragment { lane: at.tile_lane, ..self.fragment(lane, survivors.depth[lane]) })
+    }
+
     /// Appends the fragments that are left.
     pub(crate) fn gather(&self, survivors: &Survivors, out: &mut Vec<Fragment>) {
-        if survivors.count > 0 {
-            let alive = (0..LANES).filter(|&lane| survivors.alive[lane] != 0);
-            out.extend(alive.map(|lane| self.fragment(lane, survivors.depth[lane])));
+        match self.packed {
+            _ if survivors.count == 0 => {}
+            Some(packed) => out.extend(self.packed(packed, survivors)),
+            None => {
+                let alive = (0..LANES).filter(|&lane| survivors.alive[lane] != 0);
+                out.extend(alive.map(|lane| self.fragment(lane, survivors.depth[lane])));
+            }
         }
     }
 }
@@ -99,7 +114,7 @@ impl OutputStage {
     }
 
     /// Counts the lanes again; gives how many are gone.
-    fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
+    pub(super) fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
         let left = simd.run(
             #[inline(always)]
             || population(&out.alive),
@@ -120,8 +135,14 @@ impl OutputStage {
         if survivors.count == 0 {
             return;
         }
+        if let Some(packed) = shaded.packed {
+            for fragment in shaded.packed(packed, survivors) {
+                self.merge_one(&fragment, shaded.tested, shaded.formats, targets, counts);
+            }
+            return;
+        }
         let simd = shaded.formats.simd();
-        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+        if let (Some(function), Some(stored), false) = (self.state.depth.test, &mut targets.depth, shaded.tested) {
             let (new, alive) = (&survivors.depth, &mut survivors.alive);
             simd.run(
                 #[inline(always)]
@@ -168,16 +189,17 @@ impl OutputStage {
         merge(targets.tile, targets.frame.pixel(fragment.lane.into()), &output, 0, &state, &self.rules);
     }
 
-    /// [`Self::merge`] for one fragment.
+    /// [`Self::merge`] for one fragment, without the depth test if that has been made.
     pub(crate) fn merge_one(
         &self,
         fragment: &Fragment,
+        tested: bool,
         formats: &LaneFormats,
         targets: &mut Targets<'_>,
         counts: &mut FragmentCounts,
     ) {
         let lane = usize::from(fragment.lane);
-        if let (Some(function), Some(stored)) = (self.state.depth.test, &mut targets.depth) {
+        if let (Some(function), Some(stored), false) = (self.state.depth.test, &mut targets.depth, tested) {
             if !function.holds(Some(fragment.depth.cmp(&stored[lane]))) {
                 counts.depth_failed += 1;
                 return;
@@ -222,7 +244,7 @@ impl OutputStage {
 
 /// Lanes in a mask.
 #[inline(always)]
-fn population(row: &LaneRow) -> u32 {
+pub(super) fn population(row: &LaneRow) -> u32 {
     row.iter().map(|&m| m & 1).sum()
 }
 
@@ -273,7 +295,13 @@ fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFu
 
 /// Takes lanes that fail out of `alive`; the others' depths are stored if `write` says so.
 #[inline(always)]
-fn depth_test(function: CompareFunction, write: bool, new: &LaneRow, alive: &mut LaneRow, stored: &mut LaneRow) {
+pub(super) fn depth_test(
+    function: CompareFunction,
+    write: bool,
+    new: &LaneRow,
+    alive: &mut LaneRow,
+    stored: &mut LaneRow,
+) {
     #[inline(always)]
     fn rows(new: &LaneRow, alive: &mut LaneRow, stored: &LaneRow, holds: impl Fn(u32, u32) -> bool) {
         for i in 0..LANES {

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::decoded::{DecodedPixel, PixelCode, plan};
 use super::shader::InputSlots;
+use crate::event::FragmentCounts;
 use crate::exec::batch::cache::Pool;
 use crate::exec::batch::lanes::LANES;
 use crate::exec::batch::run::{Slots, Surroundings, fill_constants, run_steps};
@@ -62,6 +63,28 @@ impl<'s> TileRound<'s> {
             position: wanted.iter().filter_map(|&(component, slot)| Some((axis(component)?, slot))).collect(),
         };
         Self { surfaces, constant, code, given, inputs }
+    }
+
+    /// Counts fragments that are shaded, with their texture reads. Programs with flow control count reads as they run.
+    pub(super) fn count(&self, fragments: u64, counts: &mut FragmentCounts) {
+        counts.generated += fragments;
+        counts.shaded += fragments;
+        if let RoundCode::Straight(program, _) = &self.code {
+            for &sampler in &program.fetches {
+                if let Some(count) = counts.fetches.get_mut(sampler) {
+                    *count += fragments;
+                }
+            }
+        }
+    }
+
+    /// Gives the plan's varying block the values of a triangle.
+    pub(super) fn give(&self, triangle: u32, slots: &mut Slots) {
+        if let RoundCode::Straight(_, plan) = &self.code {
+            for (&(_, slot), values) in plan.varying.given.iter().zip(&self.given) {
+                slots.give(slot, values[triangle as usize]);
+            }
+        }
     }
 
     pub(super) fn results(&self) -> &ResultSlots {

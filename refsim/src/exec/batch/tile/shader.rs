@@ -5,6 +5,7 @@
 //! halves of a quad, or neighbours of a mesh. Lanes are independent, so one pass of the program serves all of them,
 //! each lane with the components of the triangle that covers it. Bits and counts are those of the triangles one by one.
 
+use super::packed::PackedLanes;
 use super::raster::{TileFrame, TileShape, TileWeights, cover, lay_over, quads};
 use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, SimdLevel};
 use crate::exec::batch::run::Slots;
@@ -45,6 +46,8 @@ pub(crate) struct TileShader {
     pub(crate) depth: LaneRow,
     /// Whether the rows of components that vary are those of the part.
     inputs_hold: bool,
+    /// Lanes of small triangles.
+    pub(crate) packed: PackedLanes,
 }
 
 /// Where the rows of what varies go.
@@ -82,6 +85,7 @@ impl TileShader {
             run: [0; LANES],
             depth: [0; LANES],
             inputs_hold: false,
+            packed: PackedLanes::new(simd),
         }
     }
 
@@ -215,7 +219,7 @@ impl TileShader {
         true
     }
 
-    /// The program may have overwritten the rows of components that vary.
+    /// The rows of components that vary hold something else, or may.
     pub(crate) fn forget_inputs(&mut self) {
         self.inputs_hold = false;
     }

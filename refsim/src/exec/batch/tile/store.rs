@@ -27,30 +27,39 @@ const FEW: u32 = 24;
 /// Writes one texel.
 pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, formats: &LaneFormats) {
     let main = formats.lane(Arith::Main);
+    if let Some(blender) = &rows.packing.blender {
+        let mut old = [0; 4];
+        old.iter_mut().zip(&rows.words).for_each(|(old, word)| *old = word[lane]);
+        let new = blender.blend(color, old, rows.packing.channels.iter().map(|channel| channel.place), formats);
+        for ((word, new), &bits) in rows.words.iter_mut().zip(new).zip(&rows.packing.written) {
+            word[lane] = word[lane] & !bits | new;
+        }
+        return;
+    }
     for (word, &bits) in rows.words.iter_mut().zip(&rows.packing.written) {
         word[lane] &= !bits;
     }
     for channel in &rows.packing.channels {
-        let value = with_any_lane!(main, |l| { code(l, color[channel.component], channel.coding) });
-        rows.words[channel.word][lane] |= value << channel.shift;
+        let value = with_any_lane!(main, |l| { code(l, color[channel.place.component], channel.coding) });
+        rows.words[channel.place.word][lane] |= value << channel.place.shift;
     }
 }
 
 /// Writes the texels of the lanes that are left.
 pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors: &Survivors, formats: &LaneFormats) {
-    if survivors.count <= FEW {
+    if survivors.count <= FEW || rows.packing.blender.is_some() {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
             write_lane(rows, &colors.map(|row| row[lane]), lane, formats);
         }
         return;
     }
     let (main, simd) = (formats.lane(Arith::Main), formats.simd());
-    let Packing { channels, written } = &rows.packing;
+    let Packing { channels, written, .. } = &rows.packing;
     let mut texels = [0; LANES];
     for (number, word) in rows.words.iter_mut().enumerate().filter(|&(i, _)| written[i] != 0) {
         texels.fill(0);
-        for channel in channels.iter().filter(|c| c.word == number) {
-            let row = colors[channel.component];
+        for channel in channels.iter().filter(|c| c.place.word == number) {
+            let row = colors[channel.place.component];
             with_any_lane!(main, |l| {
                 simd.run(
                     #[inline(always)]
@@ -76,7 +85,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
     match channel.coding {
         Coding::Steps(scale, half) => {
             for i in 0..LANES {
-                texels[i] |= steps(lane, row[i], scale, half) << channel.shift;
+                texels[i] |= steps(lane, row[i], scale, half) << channel.place.shift;
             }
         }
         Coding::Single => {
@@ -84,6 +93,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
                 texels[i] |= single(lane, row[i]);
             }
         }
+        Coding::Blended => {}
     }
 }
 
@@ -92,6 +102,7 @@ fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
     match coding {
         Coding::Steps(scale, half) => steps(lane, raw, scale, half),
         Coding::Single => single(lane, raw),
+        Coding::Blended => 0,
     }
 }
 

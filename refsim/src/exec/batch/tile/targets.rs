@@ -1,6 +1,7 @@
 //! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words.
 //! They stay in the first-level cache while all triangles of the tile go by, and are copied back once.
 
+use super::blend::{Blender, ChannelPlace};
 use super::raster::TileFrame;
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::output::{ColorTile, MAX_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
@@ -13,40 +14,44 @@ pub(crate) enum Coding {
     Steps(f64, f64),
     /// Single precision.
     Single,
+    /// What the blender makes.
+    Blended,
 }
 
-/// A stored channel that is written.
+/// A stored channel that is written, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PackedChannel {
-    pub(crate) word: usize,
-    pub(crate) shift: u32,
-    pub(crate) component: usize,
+    pub(crate) place: ChannelPlace,
     pub(crate) coding: Coding,
 }
 
 /// How colours become texels of one target.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Packing {
     pub(crate) channels: Vec<PackedChannel>,
     /// By word: the bits that are written.
     pub(crate) written: Vec<u32>,
+    pub(crate) blender: Option<Blender>,
 }
 
 impl Packing {
-    /// `None` where the output room has to do it: blending, signed and small float channels.
+    /// `None` where the output room has to do it: signed channels, small floats that are not blended, and what the
+    /// blender does not do.
     pub(crate) fn new(
         format: TexelFormat,
         mask: WriteMask,
         state: &OutputState,
         rounding: TargetRounding,
     ) -> Option<Self> {
-        if state.blend.is_some() {
-            return None;
-        }
-        let mut packing = Self { channels: Vec::new(), written: vec![0; format.bytes().div_ceil(4)] };
+        let blender = match &state.blend {
+            Some(blend) => Some(Blender::new(format, blend, rounding)?),
+            None => None,
+        };
+        let mut packing = Self { channels: Vec::new(), written: vec![0; format.bytes().div_ceil(4)], blender };
         for channel in format.record().stored() {
             let (word, shift) = (usize::from(channel.shift / 32), u32::from(channel.shift % 32));
             let coding = match channel.class {
+                _ if packing.blender.is_some() => Coding::Blended,
                 ChannelClass::Unorm if channel.bits <= 24 && shift + u32::from(channel.bits) <= 32 => {
                     let half = if rounding == TargetRounding::Nearest { 0.5 } else { 0.0 };
                     Coding::Steps(f64::from((1u32 << channel.bits) - 1), half)
@@ -56,7 +61,8 @@ impl Packing {
             };
             if mask.has(channel.stored_from) {
                 packing.written[word] |= (u32::MAX >> (32 - channel.bits)) << shift;
-                packing.channels.push(PackedChannel { word, shift, component: channel.stored_from.into(), coding });
+                let place = ChannelPlace { word, shift, component: channel.stored_from.into() };
+                packing.channels.push(PackedChannel { place, coding });
             }
         }
         Some(packing)

@@ -3,18 +3,15 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::decoded::{DecodedPixel, PixelCode, PixelPrograms, decoded};
-use super::output::{Fragment, OutputStage, Shaded};
+use super::output::{Fragment, OutputStage};
 use super::pieces::Pieces;
-use super::raster::TileFrame;
 use super::round::{RoundCode, TileRound};
-use super::shader::{PartMode, TileShader};
-use super::store::Survivors;
+use super::shader::TileShader;
+use super::shading::{IntoTargets, KeptFragments, TileShading};
 use super::targets::Targets;
 use crate::event::FragmentCounts;
 use crate::exec::batch::lanes::{LaneFormats, SimdLevel};
-use crate::exec::batch::run::{
-    BatchTexture, FlowRun, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants, run_steps,
-};
+use crate::exec::batch::run::{BatchTexture, Surroundings, TextureTables, fill_constants, fill_plan, raw_constants};
 use crate::exec::batch::vertex::Surfaces;
 use crate::exec::budget::straight_exceeds;
 use crate::exec::lower::{Arith, Formats, has_flow};
@@ -131,9 +128,7 @@ impl<'a> BatchTiles<'a> {
             }
             let mut shading = self.shading(round, (region, depth));
             while let Some((_, piece)) = pieces.first() {
-                shading.shade(piece, &mut counts, |shaded, survivors, counts| {
-                    self.output.merge(shaded, survivors, &mut targets, counts);
-                })?;
+                shading.shade(piece, &mut counts, &mut IntoTargets { output: &self.output, targets: &mut targets })?;
             }
             shading.end();
             Ok(())
@@ -143,7 +138,7 @@ impl<'a> BatchTiles<'a> {
         for behind in others {
             counts += behind.counts?;
             for fragment in &behind.fragments {
-                self.output.merge_one(fragment, &self.formats, &mut targets, &mut counts);
+                self.output.merge_one(fragment, false, &self.formats, &mut targets, &mut counts);
             }
         }
         targets.store();
@@ -167,10 +162,9 @@ impl<'a> BatchTiles<'a> {
         let mut shading = None;
         while let Some((piece, order)) = pieces.last() {
             let shading = shading.get_or_insert_with(|| self.shading(round, tile));
-            let (mut counts, mut fragments) = (FragmentCounts::default(), Vec::new());
-            let done =
-                shading.shade(order, &mut counts, |shaded, survivors, _| shaded.gather(survivors, &mut fragments));
-            let behind = Behind { piece, fragments, counts: done.map(|()| counts) };
+            let (mut counts, mut gathered) = (FragmentCounts::default(), KeptFragments::default());
+            let done = shading.shade(order, &mut counts, &mut gathered);
+            let behind = Behind { piece, fragments: gathered.0, counts: done.map(|()| counts) };
             out.lock().unwrap_or_else(PoisonError::into_inner).push(behind);
         }
         shading.into_iter().for_each(TileShading::end);
@@ -180,11 +174,10 @@ impl<'a> BatchTiles<'a> {
         &'r self,
         round: &'r TileRound<'r>,
         (region, depth): (Region, Option<DepthFormat>),
-    ) -> TileShading<'r, 'a> {
+    ) -> TileShading<'r> {
         let mut shader = self.shader(round);
         shader.start(region);
-        let mode = self.manner(round, depth.is_some());
-        TileShading { tiles: self, round, depth, shader, survivors: Survivors::new(), mode }
+        TileShading::new(self.around(), (&self.output, &self.program), round, (region, depth), shader)
     }
 
     /// Rows for a plan, used before or new.
@@ -209,56 +202,6 @@ impl<'a> BatchTiles<'a> {
             }
         }
     }
-
-    fn manner(&self, round: &TileRound<'_>, has_depth: bool) -> PartMode {
-        let together = match &round.code {
-            RoundCode::Straight(program, _) => program.lanes_apart,
-            RoundCode::Flow(_) => false,
-        };
-        let tested = has_depth && self.output.state.depth.test.is_some();
-        PartMode { together, depth: tested && !round.results().decide_depth(), given: round.constant }
-    }
-
-    /// Runs the program for the part that the shader has taken, whose first triangle is `first`.
-    fn shade(
-        &self,
-        round: &TileRound<'_>,
-        first: u32,
-        shader: &mut TileShader,
-        counts: &mut FragmentCounts,
-    ) -> Result<(), Overrun> {
-        counts.generated += shader.covered_count;
-        counts.shaded += shader.covered_count;
-        let around = self.around();
-        match &round.code {
-            RoundCode::Straight(program, plan) => {
-                if shader.fill_inputs(round.surfaces, &round.inputs, &self.formats) {
-                    run_steps(&plan.invariant.steps, &around, &shader.run, &mut shader.slots);
-                }
-                for (&(_, slot), values) in plan.varying.given.iter().zip(&round.given) {
-                    shader.slots.give(slot, values[first as usize]);
-                }
-                run_steps(&plan.varying.steps, &around, &shader.run, &mut shader.slots);
-                for &sampler in &program.fetches {
-                    if let Some(count) = counts.fetches.get_mut(sampler) {
-                        *count += shader.covered_count;
-                    }
-                }
-            }
-            RoundCode::Flow(plan) => {
-                shader.forget_inputs();
-                shader.fill_inputs(round.surfaces, &round.inputs, &self.formats);
-                let frame = shader.frame();
-                let TileShader { slots, run, covered, .. } = shader;
-                let mut run = FlowRun::new(plan, &around, run, covered);
-                run.run(slots, &mut counts.fetches);
-                if let Some(overrun) = overrun(&run.cut, frame, first) {
-                    return Err(overrun);
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 /// What was left of a piece that was shaded before its turn.
@@ -266,59 +209,4 @@ struct Behind {
     piece: usize,
     fragments: Vec<Fragment>,
     counts: Result<FragmentCounts, Overrun>,
-}
-
-/// A thread's work on one tile.
-struct TileShading<'r, 'a> {
-    tiles: &'r BatchTiles<'a>,
-    round: &'r TileRound<'r>,
-    depth: Option<DepthFormat>,
-    shader: TileShader,
-    survivors: Survivors,
-    mode: PartMode,
-}
-
-impl TileShading<'_, '_> {
-    /// Runs the program for some triangles, part after part; `merge` gets what the tests before the depth test leave.
-    fn shade(
-        &mut self,
-        order: &[u32],
-        counts: &mut FragmentCounts,
-        mut merge: impl FnMut(Shaded<'_>, &mut Survivors, &mut FragmentCounts),
-    ) -> Result<(), Overrun> {
-        let Self { tiles, round, depth, shader, survivors, mode } = self;
-        let mut at = 0;
-        while at < order.len() {
-            let part = &order[at..];
-            at += shader.take(round.surfaces, part, *mode).max(1);
-            if shader.covered_count == 0 {
-                continue;
-            }
-            tiles.shade(round, part[0], shader, counts)?;
-            let shaded = Shaded {
-                results: round.results(),
-                formats: &tiles.formats,
-                slots: &shader.slots,
-                covered: &shader.covered,
-                depth: &shader.depth,
-            };
-            tiles.output.test(shaded, *depth, survivors, counts);
-            merge(shaded, survivors, counts);
-        }
-        Ok(())
-    }
-
-    /// Keeps the rows for the next tile.
-    fn end(self) {
-        self.tiles.program.shaders.keep((self.round.constant, self.shader));
-    }
-}
-
-/// The first of the fragments of a triangle that were cut off, given by lane.
-pub(crate) fn overrun(cut: &[(usize, usize)], frame: TileFrame, triangle: u32) -> Option<Overrun> {
-    let of = |&(lane, instruction): &(usize, usize)| {
-        let (x, y) = frame.pixel(lane);
-        Overrun { triangle, y, x, instruction }
-    };
-    cut.iter().map(of).min()
 }

@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use super::raster::{TileFrame, TileShape, TileWeights, cover, quads};
-use super::tiles::{BatchTiles, overrun};
+use super::shading::overrun;
+use super::tiles::BatchTiles;
 use crate::event::{FragmentCounts, SAMPLERS};
 use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow};
 use crate::exec::batch::run::{

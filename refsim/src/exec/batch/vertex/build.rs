@@ -154,6 +154,16 @@ impl Surfaces {
             }
             let mut constant = vec![0u8; total];
             (row.base, row.d1, row.d2) = (vec![0; total], vec![0; total], vec![0; total]);
+            if format == Format::FP32 && count == 1 {
+                let corner =
+                    |k: usize| instances.triangles.iter().map(|corners| values[corners[k]]).collect::<Vec<_>>();
+                let (corners, to) = ([corner(0), corner(1), corner(2)], (&mut *row.base, &mut *row.d1, &mut *row.d2));
+                simd.run(
+                    #[inline(always)]
+                    || single_planes(corners.each_ref().map(Vec::as_slice), to, &mut constant),
+                );
+                return Some(constant);
+            }
             for (j, corners) in instances.triangles.iter().enumerate() {
                 let of = |k: usize| part(corners[k]);
                 let here = j * count..(j + 1) * count;

@@ -14,4 +14,4 @@ pub(crate) use program::VertexPrograms;
 pub use program::{AttributeRows, BatchVertices};
 pub use rows::VertexRows;
 pub use surfaces::Surfaces;
-pub(crate) use surfaces::Triangle;
+pub(crate) use surfaces::{PlaneRows, Triangle};

@@ -1,0 +1,158 @@
+//! Texture addressing in rows: from coordinates to texel numbers and filter weights, in doubles that hold every step
+//! exactly.
+
+use crate::exec::batch::lanes::{LANES, LaneRow};
+use crate::texture::AddressMode;
+
+/// Coordinates from here on are even integers and address alike: stands for the larger ones.
+const FAR: f64 = 16_777_216.0;
+
+/// An axis of a level.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct TexelAxis {
+    /// Texels.
+    pub(crate) size: u32,
+    /// What a coordinate of 1 is in texels.
+    pub(crate) scale: f64,
+    pub(crate) mode: AddressMode,
+}
+
+/// The two texels of linear filtering along an axis, -1 for the border, and the weight of the second in units of the
+/// filter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisTaps {
+    pub(crate) texels: [[i32; LANES]; 2],
+    pub(crate) weight: [i32; LANES],
+}
+
+impl AxisTaps {
+    pub(crate) const ZERO: Self = Self { texels: [[0; LANES]; 2], weight: [0; LANES] };
+}
+
+/// Texel numbers along one axis, nearest; -1 for the border.
+///
+/// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of
+/// less than 2^15 can't be rounded up to an integer that it doesn't reach.
+#[inline(always)]
+pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LANES]) {
+    let (n, scale) = (f64::from(axis.size), axis.scale);
+    match axis.mode {
+        AddressMode::Clamp if scale == 1.0 => clamped(coordinate, axis.size, out),
+        AddressMode::Wrap => each(coordinate, scale, out, |p| wrap(p, n)),
+        AddressMode::Mirror => each(coordinate, scale, out, |p| mirror(p, n)),
+        AddressMode::Clamp => each(coordinate, scale, out, |p| clamp(p, n)),
+        AddressMode::Border => each(coordinate, scale, out, |p| border(p, n)),
+    }
+}
+
+/// Texels and weight of linear filtering along one axis, `bits` fraction bits of the weight, at most 12. Without
+/// fraction bits the first texel is the nearest one, and all weights are 0.
+///
+/// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`. In doubles:
+///
+/// - p has 24 + 15 bits and is at most 2^(24 + 14 + 12): the product is exact.
+/// - From 2^-13 on the last bit of p is at least 2^-52, and below 2^51 one half is no less than the last bit of the
+///   sum's double: `p + 1/2` is exact. A smaller p is added to one half with an error of at most 2^-54, and neither
+///   sum reaches 0 or 1, so that the floor is 0 in both.
+/// - The rest is made of integers of at most 2^51 and powers of two; [`nearest`] says why the address modes are exact.
+#[inline(always)]
+pub(crate) fn linear(coordinate: &LaneRow, axis: TexelAxis, bits: u8, out: &mut AxisTaps) {
+    let n = f64::from(axis.size);
+    match axis.mode {
+        AddressMode::Wrap => each_tap(coordinate, axis.scale, bits, out, |p| wrap(p, n)),
+        AddressMode::Mirror => each_tap(coordinate, axis.scale, bits, out, |p| mirror(p, n)),
+        AddressMode::Clamp => each_tap(coordinate, axis.scale, bits, out, |p| clamp(p, n)),
+        AddressMode::Border => each_tap(coordinate, axis.scale, bits, out, |p| border(p, n)),
+    }
+}
+
+/// Texel numbers of a rectangle's axis, clamped: coordinates are positions, and singles hold what becomes of them
+/// exactly.
+#[inline(always)]
+fn clamped(coordinate: &LaneRow, size: u32, out: &mut [i32; LANES]) {
+    // Less than 2^24, so exact.
+    let last = (size - 1) as f32;
+    for i in 0..LANES {
+        let c = f32::from_bits(coordinate[i]);
+        let finite = if c.abs() < f32::INFINITY { c } else { 0.0 };
+        let above = if finite > 0.0 { finite } else { 0.0 };
+        // Between 0 and the last, where cutting off is rounding down.
+        out[i] = (if above < last { above } else { last }) as i32;
+    }
+}
+
+/// Texel numbers by the position of a coordinate in texels, rounded down.
+#[inline(always)]
+fn each(coordinate: &LaneRow, scale: f64, out: &mut [i32; LANES], number: impl Fn(f64) -> f64) {
+    for i in 0..LANES {
+        out[i] = number((tamed(coordinate[i]) * scale).floor()) as i32;
+    }
+}
+
+#[inline(always)]
+fn each_tap(coordinate: &LaneRow, scale: f64, bits: u8, out: &mut AxisTaps, number: impl Fn(f64) -> f64) {
+    let one = f64::from(1u32 << bits);
+    let (up, back) = if bits == 0 { (0.0, 0.0) } else { (0.5, 0.5 * one) };
+    let (scale, share) = (scale * one, 1.0 / one);
+    let AxisTaps { texels: [first, second], weight } = out;
+    for i in 0..LANES {
+        let position = (tamed(coordinate[i]) * scale + up).floor() - back;
+        let whole = (position * share).floor();
+        weight[i] = (position - whole * one) as i32;
+        first[i] = number(whole) as i32;
+        second[i] = number(whole + 1.0) as i32;
+    }
+}
+
+/// A coordinate that addresses as this one does and is small enough; NaN and infinities address as 0.
+#[inline(always)]
+fn tamed(coordinate: u32) -> f64 {
+    let c = f64::from(f32::from_bits(coordinate));
+    let finite = if c.abs() < f64::INFINITY { c } else { 0.0 };
+    let low = if finite > -FAR { finite } else { -FAR };
+    if low < FAR { low } else { FAR }
+}
+
+#[inline(always)]
+fn wrap(p: f64, n: f64) -> f64 {
+    p - (p / n).floor() * n
+}
+
+#[inline(always)]
+fn mirror(p: f64, n: f64) -> f64 {
+    let folded = p - (p / (2.0 * n)).floor() * (2.0 * n);
+    if folded < n { folded } else { 2.0 * n - 1.0 - folded }
+}
+
+#[inline(always)]
+fn clamp(p: f64, n: f64) -> f64 {
+    let above = if p > 0.0 { p } else { 0.0 };
+    if above < n - 1.0 { above } else { n - 1.0 }
+}
+
+#[inline(always)]
+fn border(p: f64, n: f64) -> f64 {
+    if (p >= 0.0) & (p < n) { p } else { -1.0 }
+}
+
+/// The face of a cube that each direction meets, in the order of its slices, and the coordinates on it: one step of
+/// single precision after the other. NaN and infinite components count as 0.
+#[inline(always)]
+pub(crate) fn cube([x, y, z]: [&LaneRow; 3], face: &mut LaneRow, [u, v]: [&mut LaneRow; 2]) {
+    let finite = |bits: u32| if bits & 0x7f80_0000 == 0x7f80_0000 { 0 } else { bits };
+    let (size, flip) = (|c: u32| c & 0x7fff_ffff, |c: u32| c ^ 0x8000_0000);
+    let place = |c: u32, m: u32| ((f32::from_bits(c) / f32::from_bits(m) + 1.0) * 0.5).to_bits();
+    for i in 0..LANES {
+        let [x, y, z] = [finite(x[i]), finite(y[i]), finite(z[i])];
+        let below = |c: u32| c >> 31;
+        // The last of equal magnitudes wins.
+        let of_x = (below(x), if below(x) == 1 { z } else { flip(z) }, flip(y), size(x));
+        let of_y = (2 + below(y), x, if below(y) == 1 { flip(z) } else { z }, size(y));
+        let of_z = (4 + below(z), if below(z) == 1 { flip(x) } else { x }, flip(y), size(z));
+        let side = if size(y) >= size(x) { of_y } else { of_x };
+        let chosen = if (size(z) >= size(y)) & (size(z) >= size(x)) { of_z } else { side };
+        face[i] = chosen.0;
+        u[i] = place(chosen.1, chosen.3);
+        v[i] = place(chosen.2, chosen.3);
+    }
+}

@@ -1,0 +1,167 @@
+//! Nearest texels in rows: a plane whose texels have been decoded.
+
+use super::address::{TexelAxis, nearest};
+use super::channel::{channel_in_slot, channel_of, ratios};
+use crate::exec::SamplerBinding;
+use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel, with_any_lane};
+use crate::num::Format;
+use crate::texture::{
+    AddressMode, Channel, ChannelValue, ComponentSource, Image, SampleRules, SamplerState, TextureKind, decode_channel,
+    fetch_nearest,
+};
+
+/// Texels of the largest image that gets a table: 4 MiB of it. Those of larger ones are decoded as they are read.
+pub(crate) const MAX_TABLE_TEXELS: usize = 1 << 18;
+/// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded
+/// once.
+const FEW_TEXELS: usize = 1024;
+
+/// A plane that is read in rows.
+#[derive(Debug)]
+pub(crate) struct TexelTable {
+    /// All texels in the register format, as slots hold them, the border texel last; of a large image the border texel
+    /// alone.
+    pub(crate) texels: Vec<[u32; 4]>,
+    pub(crate) large: bool,
+    axes: [TexelAxis; 2],
+}
+
+impl TexelTable {
+    /// Whether a binding can be read out of a table.
+    pub(crate) fn fits(binding: &SamplerBinding<'_>) -> bool {
+        let image = binding.image;
+        let plane = matches!(image.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
+        binding.is_plain() && plane
+    }
+
+    pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Self {
+        let image = binding.image;
+        let kind = image.kind();
+        let (width, height) = (image.width(), image.height());
+        let large = is_large(image);
+        let mut texels = if large { Vec::new() } else { all_texels(image, rules, lane) };
+        let state = &binding.state;
+        let modes = match kind {
+            TextureKind::Rectangle => [state.address_u, state.address_v]
+                .map(|m| if m == AddressMode::Border { m } else { AddressMode::Clamp }),
+            _ => [state.address_u, state.address_v],
+        };
+        if modes.contains(&AddressMode::Border) {
+            // NaN addresses as 0: a read far outside gets the border colour.
+            let outside = [0x4b80_0000, 0x4b80_0000, 0, 0];
+            let bordered = SamplerState {
+                address_u: AddressMode::Border,
+                address_v: if kind == TextureKind::D1 { state.address_v } else { AddressMode::Border },
+                ..*state
+            };
+            texels.push(fetch_nearest(image, &bordered, rules, outside).map(|bits| lane.decode(bits)));
+        }
+        let scale = match kind {
+            TextureKind::Rectangle => [1.0, 1.0],
+            TextureKind::D1 => [f64::from(width), 0.0],
+            _ => [f64::from(width), f64::from(height)],
+        };
+        let axis = |i: usize, size| TexelAxis { size, scale: scale[i], mode: modes[i] };
+        Self { texels, large, axes: [axis(0, width), axis(1, height)] }
+    }
+
+    /// The index of each lane's texel.
+    #[inline(always)]
+    pub(crate) fn indices(&self, u: &LaneRow, v: &LaneRow, out: &mut LaneRow) {
+        let (mut x, mut y) = ([0i32; LANES], [0i32; LANES]);
+        let [across, down] = self.axes;
+        nearest(u, across, &mut x);
+        nearest(v, down, &mut y);
+        let (width, border) = (across.size.cast_signed(), (across.size * down.size).cast_signed());
+        for i in 0..LANES {
+            let inside = (x[i] >= 0) & (y[i] >= 0);
+            out[i] = (if inside { y[i] * width + x[i] } else { border }).cast_unsigned();
+        }
+    }
+}
+
+/// Whether a table of an image's texels would be too large.
+pub(crate) fn is_large(image: &Image) -> bool {
+    image.width() as usize * image.height() as usize > MAX_TABLE_TEXELS
+}
+
+/// All texels of level 0 in the register format, as slots hold them, row by row.
+fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4]> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let record = image.format().record();
+    let mut texels = Vec::with_capacity(width * height + 1);
+    texels.resize(width * height, [0; 4]);
+    for (c, source) in record.components.into_iter().enumerate() {
+        let channel = match source {
+            ComponentSource::Channel(i) => record.channels[usize::from(i)],
+            ComponentSource::Zero | ComponentSource::One => {
+                let value = if source == ComponentSource::One { ChannelValue::ONE } else { ChannelValue::ZERO };
+                let raw = channel_in_slot(value, rules.format, lane);
+                texels.iter_mut().for_each(|texel| texel[c] = raw);
+                continue;
+            }
+        };
+        // Rows stand one after the other without a gap.
+        let size = image.format().bytes();
+        let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
+        let bytes = image.bytes().get(start..).unwrap_or_default();
+        if channel.bits <= 8 && texels.len() > FEW_TEXELS {
+            let value =
+                |bits| channel_in_slot(decode_channel(channel, bits, rules.signed_texel_minimum), rules.format, lane);
+            let values: Vec<u32> = (0..1 << channel.bits).map(value).collect();
+            for (texel, bytes) in texels.iter_mut().zip(bytes.chunks_exact(size)) {
+                let bits = channel_of(channel, bytes) as usize & (values.len() - 1);
+                texel[c] = values[bits];
+            }
+            continue;
+        }
+        for (texels, bytes) in texels.chunks_mut(LANES).zip(bytes.chunks(LANES * size)) {
+            decode_block(channel, bytes.chunks_exact(size), rules, lane, |i, raw| {
+                if let Some(texel) = texels.get_mut(i) {
+                    texel[c] = raw;
+                }
+            });
+        }
+    }
+    texels
+}
+
+/// One channel of up to 256 texels: ratios of up to 24 bits and single precision in rows, the rest one by one.
+fn decode_block<'t>(
+    channel: Channel,
+    texels: impl Iterator<Item = &'t [u8]>,
+    rules: &SampleRules,
+    lane: &AnyLane,
+    mut put: impl FnMut(usize, u32),
+) {
+    let mut values = [0.0; LANES];
+    let mut raw = [0; LANES];
+    let mut divisor = 1.0;
+    let narrow = channel.bits <= 24;
+    for (i, texel) in texels.take(LANES).enumerate() {
+        let bits = channel_of(channel, texel);
+        match decode_channel(channel, bits, rules.signed_texel_minimum) {
+            ChannelValue::Ratio { numerator, denominator } if narrow => {
+                values[i] = numerator as f64;
+                divisor = f64::from(denominator);
+            }
+            ChannelValue::Float { format: Format::FP32, bits } => values[i] = f64::from(f32::from_bits(bits)),
+            other => {
+                put(i, channel_in_slot(other, rules.format, lane));
+                continue;
+            }
+        }
+        raw[i] = u32::MAX;
+    }
+    // Bits do not depend on the level, so the table is made with the widest there is.
+    let mut rounded = [0; LANES];
+    with_any_lane!(lane, |lane| {
+        SimdLevel::widest().run(
+            #[inline(always)]
+            || ratios(lane, &values, divisor, &mut rounded),
+        )
+    });
+    for (i, &value) in rounded.iter().enumerate().filter(|&(i, _)| raw[i] != 0) {
+        put(i, value);
+    }
+}

@@ -1,0 +1,205 @@
+//! Blending of targets that are kept in rows: fractions of equal width in integers, floats in the host's single
+//! precision. Signed fractions and channels of several widths go through the output room.
+
+use crate::exec::batch::lanes::{AnyLane, Lane, LaneFormats, with_any_lane};
+use crate::exec::lower::Arith;
+use crate::output::{BlendEquation, BlendFactor, BlendOp, BlendState};
+use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat};
+
+/// Bits of the widest fractions: multiples of the squares of their range are still integers of 64 bits.
+const WIDEST: u8 = 16;
+
+/// A stored channel that is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ChannelPlace {
+    pub(crate) word: usize,
+    pub(crate) shift: u32,
+    pub(crate) component: usize,
+}
+
+/// The blender of one target.
+#[derive(Clone, Debug)]
+pub(crate) struct Blender {
+    state: BlendState,
+    values: BlendValues,
+    /// Where the components of a stored texel come from.
+    components: [StoredComponent; 4],
+}
+
+#[derive(Clone, Debug)]
+enum BlendValues {
+    /// In units of one over this; whether results are rounded to the nearest, halves up, or cut.
+    Steps(i64, bool),
+    /// Patterns of a format.
+    Floats(Box<AnyLane>),
+}
+
+/// A component of a stored texel.
+#[derive(Clone, Copy, Debug)]
+enum StoredComponent {
+    Zero,
+    One,
+    /// Word, first bit, mask.
+    Channel(usize, u32, u32),
+}
+
+impl Blender {
+    /// `None` where the output room has to blend.
+    pub(crate) fn new(format: TexelFormat, state: &BlendState, rounding: TargetRounding) -> Option<Self> {
+        let record = format.record();
+        let first = record.stored().first()?;
+        let like_first = |c: &crate::texture::Channel| c.class == first.class && c.bits == first.bits;
+        if !record.stored().iter().all(like_first) {
+            return None;
+        }
+        let mask = u32::MAX >> (32 - first.bits);
+        let values = match first.class {
+            ChannelClass::Unorm if first.bits <= WIDEST => {
+                BlendValues::Steps(mask.into(), rounding == TargetRounding::Nearest)
+            }
+            ChannelClass::Float(format) => BlendValues::Floats(Box::new(AnyLane::new(format))),
+            _ => return None,
+        };
+        let components = record.components.map(|source| match source {
+            ComponentSource::Zero => StoredComponent::Zero,
+            ComponentSource::One => StoredComponent::One,
+            ComponentSource::Channel(i) => {
+                let shift = record.channels[usize::from(i)].shift;
+                StoredComponent::Channel(usize::from(shift / 32), u32::from(shift % 32), mask)
+            }
+        });
+        Some(Self { state: *state, values, components })
+    }
+
+    /// The bits of `channels` of a texel after a color, as slots hold it, has been blended over it: each word's, with
+    /// zeros around them.
+    pub(crate) fn blend(
+        &self,
+        color: &[u32; 4],
+        old: [u32; 4],
+        channels: impl Iterator<Item = ChannelPlace>,
+        formats: &LaneFormats,
+    ) -> [u32; 4] {
+        let main = formats.lane(Arith::Main);
+        let source = color.map(|raw| with_any_lane!(main, |lane| { double(lane, raw) }));
+        let mut new = [0; 4];
+        let mut put = |channel: ChannelPlace, bits: u32| new[channel.word] |= bits << channel.shift;
+        let stored = |zero: u32, one: u32| {
+            self.components.map(|component| match component {
+                StoredComponent::Zero => zero,
+                StoredComponent::One => one,
+                StoredComponent::Channel(word, shift, mask) => old[word] >> shift & mask,
+            })
+        };
+        match &self.values {
+            BlendValues::Steps(one, nearest) => {
+                let half = if *nearest { 0.5 } else { 0.0 };
+                let source = source.map(|x| (clamped(x) * *one as f64 + half) as i64);
+                let destination = stored(0, *one as u32).map(i64::from);
+                for channel in channels {
+                    let code = self.steps((*one, *nearest), source, destination, channel.component);
+                    put(channel, code);
+                }
+            }
+            BlendValues::Floats(lane) => {
+                let source = source.map(|x| x as f32);
+                // Patterns of 0 are 0; that of 1 depends on the format.
+                let one = with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(1.0)) });
+                let destination = stored(0, one)
+                    .map(|bits| with_any_lane!(&**lane, |lane| { lane.to_f64(lane.decode(bits)) as f32 }));
+                for channel in channels {
+                    let value = f64::from(self.floats(source, destination, channel.component));
+                    put(channel, with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(value)) }));
+                }
+            }
+        }
+        new
+    }
+
+    fn equation(&self, component: usize) -> &BlendEquation {
+        if component == 3 { &self.state.alpha } else { &self.state.color }
+    }
+
+    /// In units of 1 / one: with products over the square of that, everything is exact.
+    fn steps(&self, (one, nearest): (i64, bool), source: [i64; 4], destination: [i64; 4], component: usize) -> u32 {
+        let equation = self.equation(component);
+        let (s, d) = (source[component], destination[component]);
+        let term = |value: i64, factor| {
+            value
+                * match factor {
+                    BlendFactor::Zero => 0,
+                    BlendFactor::One => one,
+                    BlendFactor::SrcColor => s,
+                    BlendFactor::InvSrcColor => one - s,
+                    BlendFactor::SrcAlpha => source[3],
+                    BlendFactor::InvSrcAlpha => one - source[3],
+                    BlendFactor::DestAlpha => destination[3],
+                    BlendFactor::InvDestAlpha => one - destination[3],
+                    BlendFactor::DestColor => d,
+                    BlendFactor::InvDestColor => one - d,
+                    BlendFactor::SrcAlphaSat if component == 3 => one,
+                    BlendFactor::SrcAlphaSat => source[3].min(one - destination[3]),
+                }
+        };
+        let (from, to) = (term(s, equation.source), term(d, equation.destination));
+        let squares = match equation.op {
+            BlendOp::Add => from + to,
+            BlendOp::Subtract => from - to,
+            BlendOp::ReverseSubtract => to - from,
+            BlendOp::Min => return s.min(d) as u32,
+            BlendOp::Max => return s.max(d) as u32,
+        };
+        let half = if nearest { one } else { 0 };
+        ((2 * squares.clamp(0, one * one) + half) / (2 * one)) as u32
+    }
+
+    /// Steps of single precision. A factor of 0 takes its term out and 1 leaves it alone.
+    fn floats(&self, source: [f32; 4], destination: [f32; 4], component: usize) -> f32 {
+        let equation = self.equation(component);
+        let (s, d) = (source[component], destination[component]);
+        match equation.op {
+            BlendOp::Min => return if d < s { d } else { s },
+            BlendOp::Max => return if s < d { d } else { s },
+            BlendOp::Add | BlendOp::Subtract | BlendOp::ReverseSubtract => {}
+        }
+        let term = |value: f32, factor| {
+            let factor = match factor {
+                BlendFactor::Zero => return None,
+                BlendFactor::One => return Some(value),
+                BlendFactor::SrcColor => s,
+                BlendFactor::InvSrcColor => 1.0 - s,
+                BlendFactor::SrcAlpha => source[3],
+                BlendFactor::InvSrcAlpha => 1.0 - source[3],
+                BlendFactor::DestAlpha => destination[3],
+                BlendFactor::InvDestAlpha => 1.0 - destination[3],
+                BlendFactor::DestColor => d,
+                BlendFactor::InvDestColor => 1.0 - d,
+                BlendFactor::SrcAlphaSat if component == 3 => return Some(value),
+                BlendFactor::SrcAlphaSat => {
+                    let free = 1.0 - destination[3];
+                    if free < source[3] { free } else { source[3] }
+                }
+            };
+            Some(value * factor)
+        };
+        match (equation.op, term(s, equation.source), term(d, equation.destination)) {
+            (BlendOp::Subtract, Some(s), Some(d)) => s - d,
+            (BlendOp::Subtract, None, Some(d)) => 0.0 - d,
+            (BlendOp::ReverseSubtract, Some(s), Some(d)) => d - s,
+            (BlendOp::ReverseSubtract, Some(s), None) => 0.0 - s,
+            (_, Some(s), Some(d)) => s + d,
+            (_, Some(one), None) | (_, None, Some(one)) => one,
+            (_, None, None) => 0.0,
+        }
+    }
+}
+
+fn double<L: Lane>(lane: &L, raw: u32) -> f64 {
+    lane.to_f64(L::load(raw))
+}
+
+/// A value clamped to [0, 1]; NaN gives 0.
+fn clamped(x: f64) -> f64 {
+    let low = if x > 0.0 { x } else { 0.0 };
+    if low < 1.0 { low } else { 1.0 }
+}

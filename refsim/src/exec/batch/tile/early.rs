@@ -1,0 +1,65 @@
+//! The depth test before the program has run, where the program has no say in it.
+
+use super::output::{OutputStage, depth_test, population};
+use super::packed::PackedLanes;
+use super::store::{Survivors, quantise};
+use crate::event::FragmentCounts;
+use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow};
+use crate::exec::batch::schedule::ResultSlots;
+use crate::exec::lower::{Arith, TRUE};
+use crate::output::DepthFormat;
+
+impl OutputStage {
+    /// Whether the outcome of the depth test does not depend on the program: it neither kills nor has a depth of its
+    /// own, and no alpha is tested before.
+    pub(crate) fn tests_early(&self, results: &ResultSlots) -> bool {
+        results.killed.is_none() && results.depth.is_none() && self.state.alpha.is_none()
+    }
+
+    /// The depth test of lanes of the tile that no program has run for.
+    pub(crate) fn test_part(
+        &self,
+        (covered, depth): (&LaneRow, &LaneRow),
+        (formats, buffer): (&LaneFormats, DepthFormat),
+        (stored, out): (&mut LaneRow, &mut Survivors),
+        counts: &mut FragmentCounts,
+    ) {
+        let Some(function) = self.state.depth.test else { return };
+        let simd = formats.simd();
+        out.alive = *covered;
+        out.count = simd.run(
+            #[inline(always)]
+            || population(covered),
+        );
+        quantise((formats, Arith::Single), buffer, self.rules.depth_rounding, depth, out);
+        let (new, alive) = (&out.depth, &mut out.alive);
+        simd.run(
+            #[inline(always)]
+            || depth_test(function, self.state.depth.write, new, alive, stored),
+        );
+        counts.depth_failed += self.recount(simd, out);
+    }
+
+    /// The depth test of packed fragments that no program has run for, in the order of submission.
+    pub(crate) fn test_packed(
+        &self,
+        packed: &mut PackedLanes,
+        (formats, buffer): (&LaneFormats, DepthFormat),
+        stored: &mut LaneRow,
+        counts: &mut FragmentCounts,
+    ) {
+        let Some(function) = self.state.depth.test else { return };
+        let mut new = Survivors { alive: [TRUE; LANES], count: LANES as u32, depth: [0; LANES] };
+        let depths = packed.untested_depths();
+        quantise((formats, Arith::Single), buffer, self.rules.depth_rounding, &depths, &mut new);
+        packed.retain(|at, fragment| {
+            let (new, stored) = (new.depth[at], &mut stored[usize::from(fragment.tile_lane)]);
+            let passes = function.holds(Some(new.cmp(stored)));
+            if passes && self.state.depth.write {
+                *stored = new;
+            }
+            counts.depth_failed += u64::from(!passes);
+            passes
+        });
+    }
+}

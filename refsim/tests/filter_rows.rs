@@ -1,0 +1,221 @@
+//! Filtered texture reads, which the batch executor makes in rows where the level of detail decides nothing: the bits
+//! of the scalar executor, for every texel format, kind of texture, address mode, number of weight bits and register
+//! format, at coordinates of any kind.
+
+use proptest::prelude::*;
+use proptest::sample::select;
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::{Profile, SignedTexelMinimum};
+use refsim::exec::Constants;
+use refsim::exec::batch::SimdLevel;
+use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
+use refsim::num::Format;
+use refsim::raster::{PixelCenter, Primitive, Vertex};
+use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
+
+/// Pixels a side: a tile and a few more.
+const SIDE: u32 = 18;
+const ONE: u32 = 0x3f80_0000;
+const FORMATS: [&str; 14] = [
+    "fp32",
+    "fp24",
+    "fp16",
+    "s3.12",
+    "s7.24",
+    "fp32:rtz",
+    "fp32:rna:ftz",
+    "fp24:rdn",
+    "fp16:nvovf:nv",
+    "fp16:sat",
+    "s1.10:rtz",
+    "s0.31",
+    "s3.12:wrap",
+    "bf16",
+];
+const MODES: [AddressMode; 4] = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
+const KINDS: [TextureKind; 5] =
+    [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
+
+/// A read of one texture at coordinates that lie in another, a texel per pixel.
+#[derive(Clone, Debug)]
+struct Read {
+    texture: Image,
+    state: SamplerState,
+    /// Single precision, row by row.
+    coordinates: Vec<[u32; 4]>,
+    register: &'static str,
+    weight_bits: u8,
+    minimum: SignedTexelMinimum,
+}
+
+/// Coordinates between texels and far beyond, some of no size at all.
+fn coordinate() -> impl Strategy<Value = u32> {
+    prop_oneof![
+        6 => (-2.5f32..2.5).prop_map(f32::to_bits),
+        3 => (-20.0f32..20.0).prop_map(f32::to_bits),
+        // Texel centres and edges, and next to them.
+        4 => (-24i32..24, 1u32..10, -1i32..2).prop_map(|(i, n, ulps)| {
+            (i as f32 / (2 * n) as f32).to_bits().wrapping_add_signed(ulps)
+        }),
+        1 => any::<u32>(),
+        1 => select(vec![0, 0x8000_0000, 0x7f80_0000, 0xff80_0000, 0x7fc0_0000, 0xffc0_0001, 1, 0x8000_0001, 0x7f7f_ffff,
+            0xff7f_ffff, 0x4b80_0000, 0xcb80_0001, 0x3f7f_ffff]),
+    ]
+}
+
+fn texture(kind: TextureKind) -> impl Strategy<Value = Image> {
+    let side = prop_oneof![1u32..10, Just(1)];
+    let formats = TexelFormat::ALL.to_vec();
+    (select(formats), [side.clone(), side.clone(), side], any::<bool>(), any::<u64>()).prop_map(
+        move |(format, [w, h, d], chain, seed)| {
+            let extents = match kind {
+                TextureKind::D1 => [w, 1, 1],
+                TextureKind::Cube => [w, w, 1],
+                TextureKind::Volume => [w, h, d],
+                TextureKind::D2 | TextureKind::Rectangle => [w, h, 1],
+            };
+            let most = Image::most_levels(kind, extents);
+            let mut image = Image::new(format, kind, extents, if chain { most } else { 1 }).unwrap();
+            let mut state = seed | 1;
+            for byte in image.bytes_mut() {
+                state ^= state << 13;
+                state ^= state >> 7;
+                state ^= state << 17;
+                // Some codes at the ends of their range, infinities and NaN among them.
+                *byte =
+                    if state & 7 == 0 { [0, 0xff, 0x7f, 0x80][(state >> 3 & 3) as usize] } else { (state >> 16) as u8 };
+            }
+            image
+        },
+    )
+}
+
+fn read() -> impl Strategy<Value = Read> {
+    select(KINDS.to_vec()).prop_flat_map(|kind| {
+        let state = (
+            [select(MODES.to_vec()), select(MODES.to_vec()), select(MODES.to_vec())],
+            // Some nearest: of cubes, of volumes, of a level that is not the first.
+            prop_oneof![4 => Just(Filter::Linear), 1 => Just(Filter::Nearest)],
+            [coordinate(), coordinate(), coordinate(), coordinate()],
+            0u8..4,
+        );
+        let pixels = (SIDE * SIDE) as usize;
+        let place = [coordinate(), coordinate(), coordinate()].prop_map(|[x, y, z]| [x, y, z, ONE]);
+        let coordinates = proptest::collection::vec(place, pixels);
+        let minimum = select(SignedTexelMinimum::ALL.to_vec());
+        (texture(kind), state, coordinates, select(FORMATS.to_vec()), 0u8..=12, minimum).prop_map(
+            |(texture, (modes, filter, border, level), coordinates, register, weight_bits, minimum)| {
+                let state = SamplerState {
+                    min: filter,
+                    mag: filter,
+                    mip: MipFilter::None,
+                    address_u: modes[0],
+                    address_v: modes[1],
+                    address_w: modes[2],
+                    border,
+                    lod_bias: 0,
+                    max_mip_level: level,
+                };
+                Read { texture, state, coordinates, register, weight_bits, minimum }
+            },
+        )
+    })
+}
+
+fn vertex(x: f32, y: f32, s: f32, t: f32) -> Vertex {
+    let mut vertex = Vertex { position: [x.to_bits(), y.to_bits(), 0x3f00_0000, ONE], ..Vertex::default() };
+    vertex.texcoords[0] = [s.to_bits(), t.to_bits(), 0, ONE];
+    vertex
+}
+
+/// The colours of all pixels.
+fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u8> {
+    let mut profile = Profile::named("ideal-fp32").unwrap();
+    // Coordinates are computed in single precision whatever the register format is.
+    profile.set_format(read.register.parse::<Format>().unwrap());
+    profile.rules.filter_fraction_bits = read.weight_bits;
+    profile.rules.signed_texel_minimum = read.minimum;
+    let side = match read.texture.kind() {
+        TextureKind::D1 => "1D",
+        TextureKind::D2 => "2D",
+        TextureKind::Rectangle => "RECT",
+        TextureKind::Cube => "CUBE",
+        TextureKind::Volume => "3D",
+    };
+    // The first result goes through the register format, which takes from coordinates what it does not hold.
+    let text = format!("!!FP1.0\nTEX R0, f[TEX0], TEX0, 2D;\nTEX R1, R0, TEX1, {side};\nMOVR o[COLR], R1;\nEND");
+    let program = check(assemble(&text).unwrap(), &profile).unwrap();
+    let mut machine = Machine::new(profile, kind);
+    machine.set_simd_level(level);
+    let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
+    let values = Image::from_values(
+        TexelFormat::Rgba32f,
+        TextureKind::D2,
+        [SIDE, SIDE, 1],
+        Format::FP32,
+        &read.coordinates,
+        TargetRounding::Nearest,
+    );
+    let coordinates = machine.create_texture(values.unwrap()).unwrap();
+    let texture = machine.create_texture(read.texture.clone()).unwrap();
+    let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
+    let vertices = corners.map(|(x, y, s, t)| vertex(x, y, s, t));
+    let constants = Constants::default();
+    let source = VertexSource::Transformed(&vertices);
+    let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target)
+        .with_texture(0, coordinates, SamplerState::NEAREST_CLAMP)
+        .with_texture(1, texture, read.state);
+    call.center = PixelCenter::OpenGl;
+    machine.draw(&call).unwrap();
+    machine.read_back(target).unwrap().bytes().to_vec()
+}
+
+fn agrees(read: &Read) {
+    let expected = drawn(read, (ExecutorKind::Scalar, None));
+    for level in SimdLevel::available() {
+        let found = drawn(read, (ExecutorKind::Batch, Some(level)));
+        let differing = found.chunks_exact(16).zip(expected.chunks_exact(16)).position(|(a, b)| a != b);
+        let Some(pixel) = differing else { continue };
+        let at = 16 * pixel..16 * pixel + 16;
+        panic!(
+            "{}, pixel {pixel}, coordinates {:x?}: {:x?} instead of {:x?}",
+            level.name(),
+            read.coordinates[pixel],
+            &found[at.clone()],
+            &expected[at]
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(if std::env::var_os("CROSSBAR_FULL").is_some() { 30_000 } else { 2000 }))]
+
+    #[test]
+    fn filtered_reads_agree(read in read()) {
+        agrees(&read);
+    }
+}
+
+/// The same for a texture that is too large for a table.
+#[test]
+fn textures_without_a_table_are_filtered_alike() {
+    let mut state = 1u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 32) as u32
+    };
+    let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rgba16Snorm, TexelFormat::Bgra5551];
+    for (format, mode) in formats.into_iter().zip(MODES) {
+        let mut texture = Image::new_2d(format, 601, 600).unwrap();
+        texture.bytes_mut().iter_mut().for_each(|byte| *byte = next() as u8);
+        let filter = Filter::Linear;
+        let border = [0x3e80_0000, 0x3f00_0000, 0x3f40_0000, ONE];
+        let modes = SamplerState { address_u: mode, address_v: mode, border, ..SamplerState::NEAREST_CLAMP };
+        let state = SamplerState { min: filter, mag: filter, ..modes };
+        let mut coordinate = || ((next() >> 8) as f32 / 4_194_304.0 - 1.5).to_bits();
+        let coordinates = (0..SIDE * SIDE).map(|_| [coordinate(), coordinate(), 0, ONE]).collect();
+        let minimum = SignedTexelMinimum::Clamp;
+        agrees(&Read { texture, state, coordinates, register: "fp32", weight_bits: 8, minimum });
+    }
+}
