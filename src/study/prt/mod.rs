@@ -8,7 +8,7 @@ mod interpolate;
 mod precompute;
 mod render;
 
-pub use card::{CardError, OnCard};
+pub use card::{CardError, FactoredPrecision, OnCard, factored_precision, factored_precision_table};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
 pub(super) use interpolate::{Seen, linear_picture};

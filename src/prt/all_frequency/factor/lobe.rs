@@ -1,7 +1,7 @@
 //! Microfacet lobes in the forms that the paper leaves open.
 //!
-//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three figures each, and prints errors; it does not
-//! say which factors of these models it took. [`Lobe`] has each factor as an option.
+//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three figures each, and prints errors; it does
+//! not say which factors of these models it took. [`Lobe`] has each factor as an option.
 
 use std::f64::consts::PI;
 
@@ -185,7 +185,8 @@ impl ProductFunction for Lobe {
         let sum = view + light;
         let half = sum / sum.length();
         let diffuse = self.albedo / PI * light.z;
-        if !(half.z > 0.0) {
+        // Opposite directions have no half vector.
+        if half.z.is_nan() || half.z <= 0.0 {
             return diffuse;
         }
         let cosine = half.dot(view).min(1.0);
@@ -269,7 +270,7 @@ mod tests {
         for lobe in [Lobe::cook_torrance(0.4, 0.5), Lobe { albedo: 0.3, ..Lobe::schlick(0.2, 1.0, 0.8) }] {
             let at = |z: f64| lobe.value(VIEW, DVec3::new(-(1.0_f64 - z * z).sqrt(), 0.0, z));
             assert!((at(1e-9) - at(-1e-9)).abs() < 1e-6, "{} {}", at(1e-9), at(-1e-9));
-            assert_eq!(lobe.value(VIEW, -VIEW).is_finite(), true);
+            assert!(lobe.value(VIEW, -VIEW).is_finite());
         }
     }
 
