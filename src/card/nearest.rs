@@ -44,3 +44,35 @@ impl NearestTarget {
         call.depth_buffer = Some(self.depth);
     }
 }
+
+/// The target of pictures: kept from one to the next while format and size stay.
+#[derive(Debug, Default)]
+pub struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
+
+impl ViewTarget {
+    /// The target for a picture, with a depth buffer of 24 bits: the last one, if that is like it.
+    ///
+    /// # Errors
+    /// As [`NearestTarget::new`].
+    pub fn of(
+        &mut self,
+        machine: &mut Machine,
+        format: TexelFormat,
+        size: [u32; 2],
+    ) -> Result<NearestTarget, MachineError> {
+        match self.0.take() {
+            Some(last) if (last.1, last.2) == (format, size) => {
+                self.0 = Some(last);
+                return Ok(last.0);
+            }
+            Some((last, ..)) => {
+                machine.release_texture(last.color)?;
+                machine.release_depth(last.depth)?;
+            }
+            None => {}
+        }
+        let target = NearestTarget::new(machine, (format, DepthFormat::Unorm24), size)?;
+        self.0 = Some((target, format, size));
+        Ok(target)
+    }
+}

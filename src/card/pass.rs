@@ -5,12 +5,21 @@ use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{DrawCall, Machine, MachineError, TextureId, VertexSource};
 use refsim::output::WriteMask;
 use refsim::raster::{PixelCenter, Primitive, Viewport, full_screen_quad};
-use refsim::texture::{SamplerState, TexelFormat};
+use refsim::texture::{AddressMode, Filter, SamplerState, TexelFormat};
 
 use super::new_target;
 
 /// A texture and how it is read.
 pub type ReadTexture = (TextureId, SamplerState);
+
+/// Linear within a level, clamped at the border.
+pub const BILINEAR: SamplerState = SamplerState {
+    min: Filter::Linear,
+    mag: Filter::Linear,
+    address_u: AddressMode::Clamp,
+    address_v: AddressMode::Clamp,
+    ..SamplerState::NEAREST_CLAMP
+};
 
 /// Textures that are read without filtering and clamped at their borders.
 pub fn nearest<const N: usize>(textures: [TextureId; N]) -> [ReadTexture; N] {

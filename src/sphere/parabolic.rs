@@ -31,14 +31,22 @@ impl ParabolicMap {
 
     /// The direction of a texel's center, of length 1.
     pub fn direction(self, column: usize, row: usize) -> DVec3 {
-        let [s, t] = [column, row].map(|at| (2 * at + 1) as f64 / self.side as f64 - 1.0);
-        let square = s * s + t * t;
-        DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)
+        direction_of([column, row].map(|at| (2 * at + 1) as f64 / self.side as f64 - 1.0))
+    }
+
+    /// The direction at texture coordinates, of length 1; beyond the horizon below it.
+    pub fn direction_at(coordinates: [f64; 2]) -> DVec3 {
+        direction_of(coordinates.map(|at| 2.0 * at - 1.0))
     }
 
     /// The texture coordinates of a direction of length 1: within [0, 1] above the horizon; at -z infinite or no
     /// number.
     pub fn coordinates(self, direction: DVec3) -> [f64; 2] {
+        Self::coordinates_of(direction)
+    }
+
+    /// The same, which is so for maps of any size.
+    pub fn coordinates_of(direction: DVec3) -> [f64; 2] {
         [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
     }
 
@@ -77,6 +85,12 @@ impl ParabolicMap {
     }
 }
 
+/// The direction at s and t.
+fn direction_of([s, t]: [f64; 2]) -> DVec3 {
+    let square = s * s + t * t;
+    DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)
+}
+
 /// The solid angle of the rectangle from (0, 0) to (s, t).
 fn corner(s: f64, t: f64) -> f64 {
     let [a, b] = [(1.0 + s * s).sqrt(), (1.0 + t * t).sqrt()];
@@ -98,6 +112,8 @@ mod tests {
             let found = map.coordinates(direction);
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?} {expected:?}");
         }
+        let below = DVec3::new(0.6, -0.48, -0.64);
+        assert!((ParabolicMap::direction_at(map.coordinates(below)) - below).length() < 1e-15);
         assert_eq!(map.coordinates(DVec3::X), [1.0, 0.5], "columns run along x");
         assert_eq!(map.coordinates(DVec3::Y), [0.5, 1.0], "rows along y");
         assert_eq!(map.coordinates(DVec3::Z), [0.5, 0.5]);

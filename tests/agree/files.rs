@@ -39,6 +39,7 @@ pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let mut all = Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))));
     let written = crossbar::subsurface::kernels::programs().into_iter();
     let written = written.chain(crossbar::prt::kernels::programs());
+    let written = written.chain(crossbar::prt::all_frequency::kernels::programs());
     all.0.extend(written.filter_map(|(name, text)| Program::new(name, &text)));
     all
 });

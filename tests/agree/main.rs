@@ -7,6 +7,7 @@
 //! minutes.
 
 mod agreement;
+mod all_frequency;
 mod blame;
 mod constants;
 mod coverage;

@@ -11,6 +11,7 @@ mod culling;
 mod engine;
 mod engine_devices;
 mod engine_modes;
+mod factored_card;
 mod geometry;
 mod gltf;
 mod ground_truth;

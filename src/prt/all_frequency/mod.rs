@@ -7,6 +7,7 @@
 //! - [`compressed`]: each lighting segment's transfer by clusters of linear combinations (section 5);
 //! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
 //! - [`shade`]: transferred radiance from coded transfer and light (section 6);
+//! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);
 //! - [`mod@reference`]: all of it by plain loops, without compression.
 
 pub mod code;
@@ -15,7 +16,9 @@ pub mod factor;
 pub mod grid;
 pub mod haar;
 pub mod hats;
+pub mod kernels;
 pub mod light;
+pub mod on_card;
 pub mod reference;
 mod reflectance;
 pub mod shade;

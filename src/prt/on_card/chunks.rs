@@ -5,13 +5,12 @@ use std::mem::take;
 use super::products::Products;
 use super::transfer::CompressedTransfer;
 use super::weights::CardWeights;
+use crate::card::{Attribute, attribute};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::prt::coherence::Superclusters;
 use crate::prt::kernels::{VertexKernel, VertexShading};
-
-/// An attribute of vertices, as bits of single precision.
-pub(super) type Attribute = Vec<[u32; 4]>;
+use crate::prt::transfer::Vertices;
 
 /// Triangles that are drawn at once, with the attributes of their vertices.
 #[derive(Clone, Debug, Default)]
@@ -46,8 +45,8 @@ impl Chunk {
 }
 
 /// Positions of all vertices in a frame, w = 1.
-pub(super) fn positions(transfer: &CompressedTransfer<'_>, frame: &UnitFrame) -> Attribute {
-    let positions = transfer.vertices.positions().iter();
+pub(crate) fn positions(vertices: &Vertices, frame: &UnitFrame) -> Attribute {
+    let positions = vertices.positions().iter();
     positions.map(|&position| attribute(frame.of_scene(wide(position)).to_array(), 1.0)).collect()
 }
 
@@ -124,8 +123,4 @@ impl VertexSourceData<'_> {
         }
         all
     }
-}
-
-fn attribute([x, y, z]: [f64; 3], w: f32) -> [u32; 4] {
-    [x as f32, y as f32, z as f32, w].map(f32::to_bits)
 }

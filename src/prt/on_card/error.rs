@@ -56,7 +56,7 @@ pub enum PrtCardError {
 
 impl PrtCardError {
     /// An error if a device does not run programs of a version.
-    pub(super) fn check_version(profile: &Profile, needed: Version, what: &'static str) -> Result<(), Self> {
+    pub(crate) fn check_version(profile: &Profile, needed: Version, what: &'static str) -> Result<(), Self> {
         let runs = |profile: &Profile| profile.limits.versions.contains(&needed);
         if runs(profile) {
             return Ok(());

@@ -61,29 +61,37 @@ impl FrameCounts {
         log
     }
 
-    /// A draw of triangles of which no pixel is seen, with the slots and attributes of a vertex.
-    fn draw(&self, triangles: u64, (slots, attributes): (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
+    fn draw(&self, triangles: u64, vertex: (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
-        let mut counts = DrawEvents {
-            draws: 1,
-            instances: 1,
-            vertices: run,
-            vertex_instructions: slots * run,
-            primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
-            ..DrawEvents::default()
-        };
-        counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
-        Event::Draw(Box::new(DrawRecord {
-            counts,
-            vertices_run: [run; 3],
-            quads: 0,
-            pixel: pixel.clone(),
-            vertex: None,
-            samplers: Vec::new(),
-            targets: Vec::new(),
-            depth: None,
-            alpha_test: false,
-            blend: true,
-        }))
+        unseen_draw([triangles, run], vertex, pixel)
     }
+}
+
+/// A draw of triangles of which no pixel is seen: triangles and vertices run, slots and attributes of a vertex.
+pub(crate) fn unseen_draw(
+    [triangles, run]: [u64; 2],
+    (slots, attributes): (u64, u64),
+    pixel: &Arc<ProgramWork>,
+) -> Event {
+    let mut counts = DrawEvents {
+        draws: 1,
+        instances: 1,
+        vertices: run,
+        vertex_instructions: slots * run,
+        primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
+        ..DrawEvents::default()
+    };
+    counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
+    Event::Draw(Box::new(DrawRecord {
+        counts,
+        vertices_run: [run; 3],
+        quads: 0,
+        pixel: pixel.clone(),
+        vertex: None,
+        samplers: Vec::new(),
+        targets: Vec::new(),
+        depth: None,
+        alpha_test: false,
+        blend: true,
+    }))
 }

@@ -2,7 +2,7 @@
 
 use refsim::machine::{Machine, MachineError, TextureId};
 use refsim::num::Format;
-use refsim::texture::{AddressMode, Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::texture::{Image, TargetRounding, TexelFormat, TextureKind};
 
 use crate::prt::brdf::ExitBasis;
 use crate::sphere::ParabolicMap;
@@ -12,15 +12,6 @@ use crate::sphere::ParabolicMap;
 pub(super) struct ExitMaps {
     pub(super) textures: Vec<TextureId>,
 }
-
-/// Linear within a level, clamped at the border.
-pub(super) const SAMPLER: SamplerState = SamplerState {
-    min: Filter::Linear,
-    mag: Filter::Linear,
-    address_u: AddressMode::Clamp,
-    address_v: AddressMode::Clamp,
-    ..SamplerState::NEAREST_CLAMP
-};
 
 /// What functions are divided by in a format: 1, or a power of two that brings all texels of signed fractions within
 /// [-1, 1].
@@ -48,15 +39,22 @@ impl ExitMaps {
         (map, format, scale): (ParabolicMap, TexelFormat, f64),
     ) -> Result<Self, MachineError> {
         let all: Vec<Vec<f64>> = texels(basis, map).collect();
-        let extents = [map.side() as u32, map.side() as u32, 1];
         let texture = |first: usize| {
-            let four =
-                |y: &Vec<f64>| [0, 1, 2, 3].map(|at| y.get(first + at).map_or(0, |y| ((y / scale) as f32).to_bits()));
-            let texels: Vec<[u32; 4]> = all.iter().map(four).collect();
-            let rounding = TargetRounding::Nearest;
-            let image = Image::from_values(format, TextureKind::D2, extents, Format::FP32, &texels, rounding)?;
-            machine.create_texture(image)
+            let four = |y: &Vec<f64>| [0, 1, 2, 3].map(|at| y.get(first + at).map_or(0.0, |y| (y / scale) as f32));
+            map_texture(machine, (map, format), all.iter().map(four))
         };
         Ok(Self { textures: (0..basis.len()).step_by(4).map(texture).collect::<Result<_, _>>()? })
     }
+}
+
+/// A map as a texture: four numbers per texel, row by row, each rounded into the format once.
+pub(crate) fn map_texture(
+    machine: &mut Machine,
+    (map, format): (ParabolicMap, TexelFormat),
+    texels: impl Iterator<Item = [f32; 4]>,
+) -> Result<TextureId, MachineError> {
+    let extents = [map.side() as u32, map.side() as u32, 1];
+    let texels: Vec<[u32; 4]> = texels.map(|texel| texel.map(f32::to_bits)).collect();
+    let rounding = TargetRounding::Nearest;
+    machine.create_texture(Image::from_values(format, TextureKind::D2, extents, Format::FP32, &texels, rounding)?)
 }

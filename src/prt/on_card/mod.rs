@@ -21,8 +21,8 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::event::Event;
-use refsim::machine::{AttributeStream, DrawCall, Executor, Machine, StepRate, VertexSource, VertexStreams};
-use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask};
+use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
+use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthState, WriteMask};
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::TexelFormat;
 use refsim::timing::host::HostOperation;
@@ -33,15 +33,17 @@ pub use products::Products;
 pub use transfer::CompressedTransfer;
 pub use weights::{CardWeights, WeightFormat};
 
-use crate::card::{NearestTarget, Texels, constants};
+use crate::card::{Attribute, BILINEAR, NearestTarget, Texels, ViewTarget, constants, vertex_streams};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::picture::Picture;
 use crate::prt::coherence::Superclusters;
 use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, ParabolicMap};
-use chunks::{Attribute, Chunk, chunks, positions};
-use exit_map::{ExitMaps, SAMPLER, map_scale};
+pub(crate) use chunks::positions;
+use chunks::{Chunk, chunks};
+pub(crate) use exit_map::map_texture;
+use exit_map::{ExitMaps, map_scale};
 use model::TransferSize;
 use programs::{Programs, kernel, registers};
 
@@ -80,7 +82,7 @@ pub struct PrtCard<'a> {
     maps: Option<ExitMaps>,
     /// What the functions in the maps are divided by.
     map_scale: f64,
-    target: Option<(NearestTarget, TexelFormat, [u32; 2])>,
+    target: ViewTarget,
 }
 
 impl<'a> PrtCard<'a> {
@@ -115,11 +117,11 @@ impl<'a> PrtCard<'a> {
             maps = Some(ExitMaps::new(&mut machine, transfer.basis, (map, options.map_format, scale))?);
         }
         let frame = UnitFrame::new(transfer.vertices.positions().iter().copied().map(wide));
-        let positions = positions(&transfer, &frame);
+        let positions = positions(transfer.vertices, &frame);
         let weights = CardWeights::new(transfer.clustering, options.weights);
         let chunks = chunks((&transfer, &weights), &superclusters, &programs.kernel, &positions);
         let indices = triangles.as_flattened().to_vec();
-        let (map_scale, target) = (scale, None);
+        let (map_scale, target) = (scale, ViewTarget::default());
         Ok(Self {
             machine,
             transfer,
@@ -192,7 +194,8 @@ impl<'a> PrtCard<'a> {
         }
         let products = Products::new(&self.transfer, &self.weights, light, view.exposure * self.map_scale)?;
         self.machine.host_work(HostOperation::MultiplyAdd.name(), self.size.host_multiply_adds() as u64);
-        let target = self.target(view)?;
+        let size = [view.camera.width(), view.camera.height()];
+        let target = self.target.of(&mut self.machine, view.format, size)?;
         target.clear(&mut self.machine)?;
         let mut head = view.camera.clip_rows(&self.frame).to_vec();
         self.draw_depth(target, &head)?;
@@ -212,7 +215,7 @@ impl<'a> PrtCard<'a> {
     /// The whole mesh into the depth buffer alone.
     fn draw_depth(&mut self, target: NearestTarget, head: &[[f32; 4]]) -> Result<(), PrtCardError> {
         let (vertex_constants, pixel_constants) = (constants(head.iter().copied()), constants([]));
-        let streams = streams(std::slice::from_ref(&self.positions));
+        let streams = vertex_streams([&self.positions]);
         let program = &self.programs.depth;
         let source = VertexSource::Program { program, constants: &vertex_constants, streams };
         let pixel = &self.programs.unseen;
@@ -238,7 +241,8 @@ impl<'a> PrtCard<'a> {
         }
         let (vertex_constants, pixel_constants) = (constants(vertex_constants), constants([]));
         let program = &self.programs.vertex;
-        let source = VertexSource::Program { program, constants: &vertex_constants, streams: streams(attributes) };
+        let source =
+            VertexSource::Program { program, constants: &vertex_constants, streams: vertex_streams(attributes) };
         let pixel = &self.programs.pixel;
         let mut call = DrawCall::new(source, Primitive::TriangleList, pixel, &pixel_constants, target.color);
         call.center = PixelCenter::OpenGl;
@@ -248,35 +252,9 @@ impl<'a> PrtCard<'a> {
         call.blend = Some(ADD);
         call.masks[0] = mask;
         for (sampler, &texture) in self.maps.iter().flat_map(|maps| &maps.textures).enumerate() {
-            call = call.with_texture(sampler, texture, SAMPLER);
+            call = call.with_texture(sampler, texture, BILINEAR);
         }
         self.machine.draw(&call)?;
         Ok(())
     }
-
-    /// The target for a view: the last one, if that is like it.
-    fn target(&mut self, view: &PrtView) -> Result<NearestTarget, PrtCardError> {
-        let size = [view.camera.width(), view.camera.height()];
-        match self.target.take() {
-            Some(last) if (last.1, last.2) == (view.format, size) => {
-                self.target = Some(last);
-                return Ok(last.0);
-            }
-            Some((last, ..)) => {
-                self.machine.release_texture(last.color)?;
-                self.machine.release_depth(last.depth)?;
-            }
-            None => {}
-        }
-        let target = NearestTarget::new(&mut self.machine, (view.format, DepthFormat::Unorm24), size)?;
-        self.target = Some((target, view.format, size));
-        Ok(target)
-    }
-}
-
-/// Attributes from register 0 on.
-fn streams(attributes: &[Attribute]) -> VertexStreams<'_> {
-    let of = |(register, data)| AttributeStream { register, step: StepRate::Vertex, data };
-    let streams = attributes.iter().map(Vec::as_slice).enumerate().map(of).collect();
-    VertexStreams { vertex_count: attributes.first().map_or(0, Vec::len), instance_count: 1, streams }
 }

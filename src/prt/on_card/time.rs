@@ -43,6 +43,8 @@ pub struct FrameTime {
     pub host: Picoseconds,
     /// The host's products alone.
     pub products: Picoseconds,
+    /// Data on their way to the card beside constants.
+    pub uploads: Picoseconds,
     /// State that changes, constants among it.
     pub state: Picoseconds,
     /// Draws one after the other, into the depth buffer and of chunks.
@@ -99,6 +101,7 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
                 let operation = HostOperation::named(&work.kind)?;
                 time.products += host.time_of(operation, work.operations);
             }
+            Event::Upload { bytes, .. } => time.uploads += model.upload(*bytes),
             Event::StateChange { changes, constants } => {
                 time.state += model.state_change(*changes, *constants);
                 time.constants += u64::from(*constants);

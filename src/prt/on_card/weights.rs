@@ -1,7 +1,6 @@
 //! Weights as a vertex holds them. The paper does not say; fewer bits make vertices smaller.
 
-use refsim::num::{Format, ops};
-
+use crate::card::through_half;
 use crate::prt::cpca::Clustering;
 
 /// The format of a weight in a vertex.
@@ -86,10 +85,7 @@ impl CardWeights {
         match (self.format, self.format.largest_code()) {
             (_, Some(largest)) if extent > 0.0 => (((weight - low) / extent * largest).round() / largest) as f32,
             (_, Some(_)) => 0.0,
-            (WeightFormat::Fp16, None) => {
-                let half = ops::convert(&Format::FP32, Format::FP16, (weight as f32).to_bits()).bits;
-                f32::from_bits(ops::convert(&Format::FP16, Format::FP32, half).bits)
-            }
+            (WeightFormat::Fp16, None) => through_half(weight as f32),
             (_, None) => weight as f32,
         }
     }

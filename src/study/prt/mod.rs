@@ -16,7 +16,7 @@ pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, SegmentTally, SegmentedCompression,
     SegmentedError, SightOfModel, coded_errors,
 };
-pub use card::{CardError, OnCard};
+pub use card::{CardError, FactoredPrecision, OnCard, factored_precision, factored_precision_table};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};

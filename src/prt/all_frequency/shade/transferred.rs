@@ -12,6 +12,15 @@ pub struct TransferredRadiance {
 }
 
 impl TransferredRadiance {
+    /// From numbers: per vertex its rows of 3 channels.
+    ///
+    /// # Panics
+    /// If there are no rows, or not whole vertices.
+    pub fn new(rows: usize, values: Vec<[f32; 3]>) -> Self {
+        assert!(rows > 0 && values.len().is_multiple_of(rows), "{} numbers are no rows of {rows}", values.len());
+        Self { rows, stride: 3 * rows, values: values.into_flattened() }
+    }
+
     /// The rows m.
     pub fn rows(&self) -> usize {
         self.rows

@@ -1,9 +1,11 @@
 //! Compressed transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
 
+mod factored;
 mod picture;
 mod precision;
 mod report;
 mod subject;
 mod tables;
 
+pub use factored::{FactoredPrecision, factored_precision, factored_precision_table};
 pub use subject::{CardError, OnCard};

@@ -1,0 +1,46 @@
+//! Attributes of vertices, as bits of single precision.
+
+use refsim::machine::{AttributeStream, StepRate, VertexStreams};
+use refsim::num::{Format, ops};
+
+/// The values of an attribute register, one per vertex.
+pub type Attribute = Vec<[u32; 4]>;
+
+/// Three numbers, rounded once, and a fourth.
+pub fn attribute([x, y, z]: [f64; 3], w: f32) -> [u32; 4] {
+    [x as f32, y as f32, z as f32, w].map(f32::to_bits)
+}
+
+/// Attributes from register 0 on, of one instance. The first says how many vertices there are.
+pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -> VertexStreams<'a> {
+    let of = |(register, data): (usize, &'a Attribute)| AttributeStream { register, step: StepRate::Vertex, data };
+    let streams: Vec<_> = attributes.into_iter().enumerate().map(of).collect();
+    VertexStreams { vertex_count: streams.first().map_or(0, |first| first.data.len()), instance_count: 1, streams }
+}
+
+/// A number that a vertex holds in half precision, as programs read it.
+pub fn through_half(value: f32) -> f32 {
+    let half = ops::convert(&Format::FP32, Format::FP16, value.to_bits()).bits;
+    f32::from_bits(ops::convert(&Format::FP16, Format::FP32, half).bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn registers_are_numbered_in_order() {
+        let all = [vec![attribute([1.0, 2.0, 3.0], 1.0); 5], vec![[0; 4]; 5]];
+        let streams = vertex_streams(&all);
+        assert_eq!((streams.vertex_count, streams.instance_count), (5, 1));
+        assert_eq!(streams.streams.iter().map(|stream| stream.register).collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(streams.streams[0].data[4], [1.0, 2.0, 3.0, 1.0].map(f32::to_bits));
+    }
+
+    #[test]
+    fn halves_have_eleven_bits() {
+        assert_eq!(through_half(1.0 / 3.0), 0.333_251_95);
+        assert_eq!([0.0, 1.5, -2048.0].map(through_half), [0.0, 1.5, -2048.0]);
+        assert_eq!(through_half(1e6), f32::INFINITY);
+    }
+}

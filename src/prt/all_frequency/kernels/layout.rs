@@ -1,0 +1,111 @@
+//! Where the numbers of a vertex stand among sets of texture coordinates.
+
+/// What is interpolated for the view (section 6 says "compute the local view direction", not where).
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[strum(serialize_all = "kebab-case")]
+pub enum ViewNumbers {
+    /// The two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.
+    #[default]
+    Coordinates,
+    /// The local view vector, not normalised at the vertices. The pixel program divides by its length plus z, so that on
+    /// a flat triangle of one frame the direction is exact.
+    Vector,
+}
+
+impl ViewNumbers {
+    /// How many there are.
+    pub fn count(self) -> usize {
+        match self {
+            Self::Coordinates => 2,
+            Self::Vector => 3,
+        }
+    }
+}
+
+/// Components of a set.
+pub(super) const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
+
+/// The places of m numbers of some channels and of the view: per channel whole sets of four, then the view, then what is
+/// left of each channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SetLayout {
+    /// Terms m.
+    pub terms: usize,
+    /// Channels in a pass: 1 or 3.
+    pub channels: usize,
+    /// What is interpolated for the view.
+    pub view: ViewNumbers,
+}
+
+impl SetLayout {
+    /// Whole sets per channel.
+    pub fn quads(&self) -> usize {
+        self.terms / 4
+    }
+
+    /// Terms of a channel that fill no set.
+    pub fn loose(&self) -> usize {
+        self.terms % 4
+    }
+
+    /// Numbers that are interpolated.
+    pub fn numbers(&self) -> usize {
+        self.channels * self.terms + self.view.count()
+    }
+
+    /// Sets of coordinates.
+    pub fn sets(&self) -> usize {
+        self.numbers().div_ceil(4)
+    }
+
+    /// The set in whose first components the view stands.
+    pub fn view_set(&self) -> usize {
+        self.channels * self.quads()
+    }
+
+    /// The set and component of a term.
+    ///
+    /// # Panics
+    /// If there is no such term or channel.
+    pub fn place(&self, term: usize, channel: usize) -> (usize, usize) {
+        assert!(term < self.terms && channel < self.channels, "term {term} of channel {channel}");
+        let quad = term / 4;
+        if quad < self.quads() {
+            return (channel * self.quads() + quad, term % 4);
+        }
+        let loose = self.view.count() + channel * self.loose() + term % 4;
+        (self.view_set() + loose / 4, loose % 4)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_number_has_a_place_of_its_own() {
+        for (terms, channels, view) in
+            [(10, 3, ViewNumbers::Coordinates), (9, 3, ViewNumbers::Vector), (7, 1, ViewNumbers::Vector)]
+        {
+            let layout = SetLayout { terms, channels, view };
+            let of_view = (0..view.count()).map(|component| (layout.view_set(), component));
+            let of_terms = (0..terms).flat_map(|term| (0..channels).map(move |channel| (term, channel)));
+            let places: BTreeSet<_> =
+                of_view.chain(of_terms.map(|(term, channel)| layout.place(term, channel))).collect();
+            assert_eq!(places.len(), layout.numbers());
+            assert!(places.iter().all(|&(set, component)| 4 * set + component < layout.numbers()));
+        }
+    }
+
+    /// "30 numbers and the 2 coordinates fill eight sets"; a view vector is one number too many.
+    #[test]
+    fn ten_terms_of_three_channels_fill_eight_sets() {
+        let layout = |view| SetLayout { terms: 10, channels: 3, view };
+        assert_eq!(layout(ViewNumbers::Coordinates).numbers(), 32);
+        assert_eq!(layout(ViewNumbers::Coordinates).sets(), 8);
+        assert_eq!(layout(ViewNumbers::Vector).sets(), 9);
+        assert_eq!(SetLayout { channels: 1, ..layout(ViewNumbers::Vector) }.sets(), 4);
+    }
+}

@@ -1,0 +1,116 @@
+//! The vertex program of section 6's proposal: transferred radiance goes through, and the local view is added.
+//!
+//! - v0 position, w = 1; v1 on the numbers of [`SetLayout`], a set each; where the program computes the view: then
+//!   tangent and normal.
+//! - c0 to c3 rows of the projection; c4 the eye.
+//! - oT0 on: the sets.
+
+use std::fmt::Write as _;
+
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
+
+use super::layout::{COMPONENTS, SetLayout, ViewNumbers};
+use crate::card::{KernelError, checked};
+
+/// |v| + z is taken to be at least this, in units of the body's frame: so that views along -z have coordinates.
+pub const LEAST_DENOMINATOR: f64 = 1.0 / 1_048_576.0;
+
+/// A vertex program that hands transferred radiance on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TransferredVertexKernel {
+    /// The places of the numbers.
+    pub layout: SetLayout,
+    /// Whether the program computes the view; otherwise the host has put it in its place.
+    pub computes_view: bool,
+    /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
+    pub version: Version,
+}
+
+impl TransferredVertexKernel {
+    /// Attributes of a vertex.
+    pub fn attributes(&self) -> usize {
+        1 + self.layout.sets() + if self.computes_view { 2 } else { 0 }
+    }
+
+    /// Instruction slots.
+    pub fn slots(&self) -> usize {
+        self.text().lines().filter(|line| !line.starts_with([';', 'v', 'd']) || line.starts_with("dp")).count()
+    }
+
+    /// A name for messages.
+    pub fn name(&self) -> String {
+        let SetLayout { terms, channels, view } = self.layout;
+        let who = if self.computes_view { "program" } else { "host" };
+        format!("transferred_{terms}x{channels}, {view} by the {who}, {}", self.version)
+    }
+
+    /// The program.
+    pub fn text(&self) -> String {
+        let sets = self.layout.sets();
+        let mut text = format!("{}\n; {}\n", self.version, self.name());
+        if self.computes_view && self.layout.view == ViewNumbers::Coordinates {
+            text.push_str("def c5, 0.00000095367431640625, 0.5, 0, 0\n");
+        }
+        text.push_str("dcl_position v0\n");
+        for set in 0..sets {
+            let _ = writeln!(text, "dcl_texcoord{set} v{}", 1 + set);
+        }
+        if self.computes_view {
+            let _ = writeln!(text, "dcl_tangent v{}\ndcl_normal v{}", 1 + sets, 2 + sets);
+        }
+        for (row, component) in COMPONENTS.iter().enumerate() {
+            let _ = writeln!(text, "dp4 oPos.{component}, v0, c{row}");
+        }
+        for set in 0..sets {
+            let _ = match self.rest_of(set) {
+                None => Ok(()),
+                Some(mask) => writeln!(text, "mov oT{set}{mask}, v{}", 1 + set),
+            };
+        }
+        if self.computes_view {
+            self.push_view(&mut text);
+        }
+        text
+    }
+
+    /// The components of a set that the view leaves, as a mask; `None`: none.
+    fn rest_of(&self, set: usize) -> Option<&'static str> {
+        match self.layout.view {
+            _ if !self.computes_view || set != self.layout.view_set() => Some(""),
+            _ if self.layout.loose() == 0 => None,
+            ViewNumbers::Coordinates => Some(".zw"),
+            ViewNumbers::Vector => Some(".w"),
+        }
+    }
+
+    /// The view along tangent, bitangent and normal.
+    fn push_view(&self, text: &mut String) {
+        let (tangent, normal, set) =
+            (1 + self.layout.sets(), 2 + self.layout.sets(), format!("oT{}", self.layout.view_set()));
+        let local = if self.layout.view == ViewNumbers::Vector { set.as_str() } else { "r3" };
+        let _ = write!(
+            text,
+            "; the view vector along tangent, bitangent and normal\nadd r0.xyz, c4, -v0\nmov r1.xyz, v{tangent}\n\
+             mul r2.xyz, r1.zxyw, v{normal}.yzxw\nmad r2.xyz, -r1.yzxw, v{normal}.zxyw, r2\n\
+             dp3 {local}.x, r0, r1\ndp3 {local}.y, r0, r2\ndp3 {local}.z, r0, v{normal}\n"
+        );
+        if self.layout.view == ViewNumbers::Coordinates {
+            let _ = write!(
+                text,
+                "; x and y over |v| + z, from [-1, 1] to [0, 1]\ndp3 r3.w, r3, r3\nrsq r4.x, r3.w\n\
+                 mad r4.x, r3.w, r4.x, r3.z\nmax r4.x, r4.x, c5.x\nrcp r4.x, r4.x\nmul r4.x, r4.x, c5.y\n\
+                 mad {set}.xy, r3, r4.x, c5.y\n"
+            );
+        }
+    }
+
+    /// The program, accepted by a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if it breaks a rule of the device.
+    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
+        checked(profile, format!("`{}`", self.name()), &self.text())
+    }
+}

@@ -1,0 +1,156 @@
+//! All-frequency transfer on a card: what pixels show, how far each choice is off f64, and the time of a frame.
+
+use approx::assert_relative_eq;
+use crossbar::prt::all_frequency::Reflectance;
+use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::prt::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
+use crossbar::prt::all_frequency::on_card::{
+    FactoredCard, ProductOptions, ProductPlace, TransferredMesh, VertexColors, seen_pixels,
+};
+use crossbar::prt::all_frequency::shade::{Multiplies, TransferredRadiance};
+use crossbar::prt::on_card::PrtView;
+use crossbar::prt::on_card::time::frame_time;
+use crossbar::prt::synthetic::{hills, signal_at};
+use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::scene::Camera;
+use crossbar::study::prt::{factored_precision, factored_precision_table};
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::{Executor, ExecutorKind};
+use refsim::texture::TexelFormat;
+use refsim::timing::host::HostOperation;
+use refsim::timing::{Level, Model};
+
+const SIZE: [u32; 2] = [48, 40];
+
+/// From above, so that the hills hide nothing of each other.
+fn camera() -> Camera {
+    Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
+}
+
+struct Hills {
+    vertices: Vertices,
+    reflectance: Reflectance,
+    transferred: TransferredRadiance,
+}
+
+impl Hills {
+    fn new() -> Self {
+        let sampling = FactorSampling { side: 16, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        let table = sampling.table(&Lobe::cook_torrance(0.4, 0.5), &mut |_, _| ()).expect("a table");
+        let reflectance = Reflectance::Factored(Factorization::new(&table, 10).expect("terms").factors(10));
+        let vertices = Vertices::new(&hills(8), Tangents::Any).expect("vertices");
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), 30, 5, place);
+        let transferred = TransferredRadiance::new(10, signal.values().as_chunks().0.to_vec());
+        Self { vertices, reflectance, transferred }
+    }
+
+    fn mesh(&self) -> TransferredMesh<'_> {
+        let Self { vertices, reflectance, transferred } = self;
+        TransferredMesh { vertices, reflectance, colors: &[[0.8, 0.7, 0.6]], transferred }
+    }
+}
+
+/// The point that a pixel's weights give lies on the pixel's ray, as near as vertices are put at fractions of a pixel.
+#[test]
+fn pixels_show_what_their_rays_meet() {
+    let hills = Hills::new();
+    let profile = Profile::named("ideal-fp32").expect("a device");
+    let seen = seen_pixels(&profile, &hills.vertices, &camera()).expect("pixels");
+    let eye = DVec3::from(camera().eye().map(f64::from));
+    let mut worst = 0.0_f64;
+    for (number, seen) in (0..).zip(&seen) {
+        let Some(seen) = seen else { continue };
+        let corners = seen.corners.map(|v| DVec3::from(hills.vertices.positions()[v as usize].map(f64::from)));
+        let point: DVec3 = corners.iter().zip(seen.weights).map(|(corner, weight)| weight * *corner).sum();
+        let ray = DVec3::from(camera().direction(number % SIZE[0], number / SIZE[0]).map(f64::from)).normalize();
+        let beside = (point - eye) - (point - eye).dot(ray) * ray;
+        let pixel = 2.0 * 0.4 / f64::from(SIZE[1]) * (point - eye).length();
+        worst = worst.max(beside.length() / pixel);
+        assert!(seen.weights.iter().all(|&weight| weight > -1e-5), "{seen:?}");
+    }
+    assert!(worst < 2.0 / f64::from(1 << profile.rules.subpixel_bits), "{worst} pixels");
+    assert!(seen.iter().flatten().count() > 700);
+}
+
+/// Two bits more are a quarter of the error; fp24 is nearer than fp16, sixteen bits nearer than eight on each card.
+#[test]
+fn what_is_coarser_is_farther_off() {
+    let hills = Hills::new();
+    let executor = Executor::from(ExecutorKind::Batch);
+    let ways = factored_precision(hills.mesh(), &executor, (camera(), 0.25)).expect("pictures");
+    let table = factored_precision_table(&ways);
+    println!("{}", table.text_within(100));
+    let rms = |choice: &str| {
+        let way = ways.iter().find(|way| way.choice == choice).unwrap_or_else(|| panic!("{choice}"));
+        way.off_255ths[0]
+    };
+    assert!(rms("fp32 throughout") < 1e-3);
+    for [coarse, fine] in [["8", "10"], ["10", "12"], ["12", "14"], ["14", "16"]] {
+        let ratio = rms(coarse) / rms(fine);
+        assert!((2.5..6.0).contains(&ratio), "{coarse} against {fine} bits: {ratio}");
+    }
+    assert!(rms("fp32 throughout") < rms("ideal-fp24") && 16.0 * rms("ideal-fp24") < rms("ideal-fp16"));
+    assert!(rms("r350: signed 16 bits, program") < rms("r350: signed 16 bits, sampler"));
+    assert!(4.0 * rms("r350: signed 16 bits, sampler") < rms("r350: signed 8 bits, sampler"));
+    assert!(rms("nv35: signed 16 bits, sampler, fp32") < rms("nv35: signed 16 bits, sampler, fp16"));
+    assert!(ways.iter().all(|way| way.below_zero > 0), "truncated factors have negative lobes");
+}
+
+/// One constant for six models: the rates that Table 1 prints ask for 0.57 to 1.08 G multiplications a second.
+#[test]
+fn the_host_is_that_of_table_1() {
+    let rates = TABLE_1.map(|model| model.multiplies_per_second() / 1e9);
+    let printed = [1.04, 1.08, 0.69, 0.89, 0.57, 0.72];
+    assert!(rates.iter().zip(printed).all(|(rate, printed)| (rate - printed).abs() < 0.006), "{rates:?}");
+    let bunny = TABLE_1[0].multiplies();
+    assert_eq!([bunny.per_cluster / 100_000, bunny.per_vertex / 100_000], [937, 741]);
+    let host = host_of_table_1().expect("a host");
+    let all: u64 = TABLE_1.iter().map(|model| model.multiplies().per_cluster + model.multiplies().per_vertex).sum();
+    let seconds: f64 = TABLE_1.iter().map(|model| 10.0 / model.frames_in_ten_seconds[1] as f64).sum();
+    assert_relative_eq!(host.time_of(HostOperation::MultiplyAdd, all).seconds(), seconds, max_relative = 1e-3);
+}
+
+/// What a frame asks for follows from its sizes, and its time from that: 30 floats per vertex cross the bus.
+#[test]
+fn a_frame_is_counted_and_timed() {
+    let hills = Hills::new();
+    let (vertices, triangles) = (hills.vertices.len() as u64, hills.vertices.triangles().len() as u64);
+    let (r350, host) = (Profile::named("r350").expect("a card"), host_of_table_1().expect("a host"));
+    let steps = Multiplies { per_cluster: 300_000, per_vertex: 200_000 };
+    let per_channel = ProductOptions { is_pass_per_channel: true, ..ProductOptions::default() };
+    for (place, bytes, passes) in [
+        (ProductPlace::Vertices(VertexColors::Bytes), 4, 1),
+        (ProductPlace::Pixels(ProductOptions::default()), 120, 1),
+        (ProductPlace::Pixels(per_channel), 120, 3),
+    ] {
+        assert_eq!(streamed_bytes(&place, 10), bytes);
+        let mut card = FactoredCard::new(r350.clone(), ExecutorKind::Batch, hills.mesh(), place).expect("a card");
+        let view = PrtView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let (texels, _, log) = card.logged_view(&view, steps).expect("a frame");
+        assert!(texels.texels == card.view_texels(&view).expect("a frame").texels);
+        let time = frame_time(&r350, &log, &host).expect("a time");
+        let multiplied = host.time_of(HostOperation::MultiplyAdd, 500_000 + 30 * vertices);
+        let sent = host.time_of(HostOperation::VertexSent, vertices);
+        assert_eq!(time.products, multiplied + sent, "{place:?}");
+        assert_eq!((time.calls, time.triangles), (passes, passes as u64 * triangles));
+        let model = Model::new(Level::Pipeline, &r350).expect("a model");
+        assert_eq!(time.uploads, model.upload(bytes as u64 * vertices));
+        assert!(time.frame >= time.host && time.host >= time.products, "{time:?}");
+        // From sizes alone: host and vertices take as long, and only pixels are missing.
+        let run_per_triangle = time.vertices_run as f64 / time.triangles as f64;
+        let frame = FactoredFrame { vertices, triangles, terms: 10, host: steps, run_per_triangle };
+        let estimate = frame_time(&r350, &frame.log(&place), &host).expect("a time");
+        assert_eq!(
+            (estimate.products, estimate.uploads, estimate.vertices_run),
+            (time.products, time.uploads, time.vertices_run)
+        );
+        let clocks = |log: &[Event]| -> u64 {
+            let of = |event: &Event| if let Event::Draw(draw) = event { model.clocks(draw).vertices.0 } else { 0 };
+            log.iter().map(of).sum()
+        };
+        assert_relative_eq!(clocks(&frame.log(&place)) as f64, clocks(&log) as f64, max_relative = 0.02);
+    }
+}
