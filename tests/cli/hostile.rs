@@ -234,7 +234,7 @@ fn what_is_wrong_is_said() {
         ("prt precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
         ("prt precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
         ("prt precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
-        ("prt factor", "<--brdf <MODEL>|--merl <FILE>|--table <FILE>>"),
+        ("prt factor", "<--brdf <MODEL> --merl <FILE> --table <FILE>>"),
         ("prt factor --brdf phong --table q.csv", "cannot be used with"),
         ("prt factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
         ("prt factor --brdf schlick --isotropy 2", "expected a number from 0.001 to 1 for the isotropy, found 2"),
