@@ -25,12 +25,15 @@ fn a_table_is_factored_into_files() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [one, three] = ["1", "3"].map(|threads| {
         let out = folder.path().join(threads);
-        let found = document(&["--table", TABLE, "--terms", "4", "--threads", threads, "--out", out.to_str().expect("UTF-8")]);
+        let found =
+            document(&["--table", TABLE, "--terms", "4", "--threads", threads, "--out", out.to_str().expect("UTF-8")]);
         assert_eq!(found["singular_values"].as_array().map(Vec::len), Some(16));
         for (name, lines) in [("view_factors.csv", 17), ("light_factors.csv", 17), ("singular_values.csv", 17)] {
             assert_eq!(fs::read_to_string(out.join(name)).expect("written").lines().count(), lines, "{name}");
         }
-        for name in ["index.html", "view_factors.npy", "light_factors.npy", "terms.csv", "spectrum.svg", "difference.png"] {
+        for name in
+            ["index.html", "view_factors.npy", "light_factors.npy", "terms.csv", "spectrum.svg", "difference.png"]
+        {
             assert!(out.join(name).is_file(), "{name}");
         }
         ["view_factors.csv", "light_factors.csv", "singular_values.csv", "terms.csv", "approximation.png"]
@@ -47,8 +50,8 @@ fn errors_follow_from_the_spectrum() {
     let found = |terms: &str| document(&["--table", TABLE, "--terms", terms, "--out", out.to_str().expect("UTF-8")]);
     let [two, five] = ["2", "5"].map(found);
     assert!(number(&five["rms"]) < number(&two["rms"]) && number(&five["max"]) < number(&two["max"]));
-    let squares: Vec<f64> =
-        two["singular_values"].as_array().expect("values").iter().map(|value| number(value).powi(2)).collect();
+    let square = |value: &Value| number(value) * number(value);
+    let squares: Vec<f64> = two["singular_values"].as_array().expect("values").iter().map(square).collect();
     let tail = squares[2..].iter().sum::<f64>() / squares.iter().sum::<f64>();
     assert!((number(&two["relative_squared_error"]) - tail).abs() < 1e-12);
     let rank = number(&two["rank"]) as u64;
