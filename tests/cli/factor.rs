@@ -50,8 +50,8 @@ fn errors_follow_from_the_spectrum() {
     let found = |terms: &str| document(&["--table", TABLE, "--terms", terms, "--out", out.to_str().expect("UTF-8")]);
     let [two, five] = ["2", "5"].map(found);
     assert!(number(&five["rms"]) < number(&two["rms"]) && number(&five["max"]) < number(&two["max"]));
-    let squares: Vec<f64> =
-        two["singular_values"].as_array().expect("values").iter().map(|value| number(value).powi(2)).collect();
+    let square = |value: &Value| number(value) * number(value);
+    let squares: Vec<f64> = two["singular_values"].as_array().expect("values").iter().map(square).collect();
     let tail = squares[2..].iter().sum::<f64>() / squares.iter().sum::<f64>();
     assert!((number(&two["relative_squared_error"]) - tail).abs() < 1e-12);
     let rank = number(&two["rank"]) as u64;

@@ -1,6 +1,6 @@
 //! MERL's files: cells by angles, and bytes of any kind.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
 use crossbar::elementary::sin_cos;
@@ -49,7 +49,7 @@ proptest! {
     /// and light exchanged read the same.
     #[test]
     fn the_middle_of_a_cell_reads_the_cell(
-        half in 0..MERL_CELLS[0], difference in 0..MERL_CELLS[1], azimuth in 0..MERL_CELLS[2], turn in 0.0..6.28,
+        half in 0..MERL_CELLS[0], difference in 0..MERL_CELLS[1], azimuth in 0..MERL_CELLS[2], turn in 0.0..TAU,
     ) {
         let share = (half as f64 + 0.5) / 90.0;
         let angles = [(difference as f64 + 0.5) / 90.0 * FRAC_PI_2, (azimuth as f64 + 0.5) / 180.0 * PI];
