@@ -100,17 +100,21 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     }
     let mip = r.choose(&[MipFilter::None, MipFilter::None, MipFilter::Nearest, MipFilter::Linear]);
     let (min, mag) = (filter(r), filter(r));
+    let [address_u, address_v, address_w] = [mode(r), mode(r), mode(r)];
+    let border = r.vector();
+    let lod_bias = if r.one_in(3) { r.number() } else { 0 };
+    let max_mip_level = r.below(3) as u8;
     SamplerState {
         min,
-        // Most filter alike near and far.
-        mag: if r.one_in(3) { min } else { mag },
+        // One in three surely filters alike near and far.
+        mag: if max_mip_level == 1 { min } else { mag },
         mip: if filtered || mip != MipFilter::Linear { mip } else { MipFilter::Nearest },
-        address_u: mode(r),
-        address_v: mode(r),
-        address_w: mode(r),
-        border: r.vector(),
-        lod_bias: if r.one_in(3) { r.number() } else { 0 },
-        max_mip_level: r.below(3) as u8,
+        address_u,
+        address_v,
+        address_w,
+        border,
+        lod_bias,
+        max_mip_level,
     }
 }
 
