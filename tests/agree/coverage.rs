@@ -318,6 +318,7 @@ fn every_suite_is_a_test_and_the_other_way_round() {
         "steps::",
         "subsurface::",
         "traces::",
+        "visibility::",
     ];
     let suites_of_tests: BTreeSet<&str> = tests.into_iter().filter(|t| !own.iter().any(|o| t.starts_with(o))).collect();
     assert_eq!(suites_of_tests, names);

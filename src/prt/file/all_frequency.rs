@@ -24,8 +24,8 @@ const CONVENTIONS: u32 = 2;
 const FACTORS: &[u8; 4] = b"FACT";
 const VISIBILITY: &[u8; 4] = b"VISI";
 const CODE: &[u8; 4] = b"CODE";
-/// Fields of 32 bits between the version and the axis of tangents.
-const FIELDS: usize = 9;
+/// Fields of 32 bits between the conventions and the axis of tangents.
+const FIELDS: usize = 8;
 /// Texels along an edge of a parabolic map, at most.
 const MAX_SIDE: u32 = 1 << 12;
 
@@ -74,15 +74,15 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
     reader.version()?;
+    reader.conventions(CONVENTIONS)?;
     let mut fields = [0; FIELDS];
     for field in &mut fields {
         *field = reader.integer("header")?;
     }
-    let [conventions, terms, hats, sections, digest @ .., tangents] = fields;
+    let [terms, hats, sections, digest @ .., tangents] = fields;
     let axis = reader.doubles(3, "axis of tangents")?;
     reader.checksum(0, "the header")?;
     for (field, found, expected) in [
-        ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
         ("terms of the reflectance", terms, 1..=1024),
         ("width of hats in texels", hats, 1..=2),
         ("number of sections", sections, 1..=3),

@@ -14,8 +14,8 @@ use crate::prt::Signal;
 use crate::prt::cpca::{AffineSubspace, Clustering};
 use crate::prt::transfer::Tangents;
 
-/// Fields of 32 bits between the version and the axis of tangents.
-const FIELDS: usize = 12;
+/// Fields of 32 bits between the conventions and the axis of tangents.
+const FIELDS: usize = 11;
 
 /// Reads a file; of `mesh`, if one is given.
 ///
@@ -171,13 +171,22 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The conventions, before the rest of the header, which depends on them.
+    pub(super) fn conventions(&mut self, expected: u32) -> Result<(), PrtFileError> {
+        match self.integer("header")? {
+            found if found == expected => Ok(()),
+            found => Err(self.field("conventions", format!("{expected} to {expected}"), found.to_string())),
+        }
+    }
+
     fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
         self.version()?;
+        self.conventions(CONVENTIONS)?;
         let mut fields = [0; FIELDS];
         for field in &mut fields {
             *field = self.integer("header")?;
         }
-        let [conventions, channels, rows, columns, albedo, points, sections, digest @ .., tangents] = fields;
+        let [channels, rows, columns, albedo, points, sections, digest @ .., tangents] = fields;
         let axis = self.doubles(3, "axis of tangents")?;
         let exit_functions = self.numbers(rows as usize, "exit functions")?;
         let exit_functions: Vec<u16> = exit_functions.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
@@ -185,7 +194,6 @@ impl<'a> Reader<'a> {
         // What is not used is 0, so that equal contents have equal bytes.
         let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
         let fields = [
-            ("conventions", conventions, CONVENTIONS..=CONVENTIONS),
             ("number of exit functions", rows, 0..=matrix * u32::MAX),
             ("albedo", albedo, 0..=matrix),
             ("tangents", tangents, 0..=AXIS_TANGENTS),
