@@ -1,7 +1,7 @@
 //! Draws that are bound by one thing each.
 //!
-//! To beat, on two threads, batch executor, millions of fragments a second, machine as in docs/performance.md:
-//! `texture reads: 8 dependent, linear` FIGURE_LINEAR, `triangles: 2 pixels each, blended` FIGURE_FINE.
+//! The figure to beat that `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` stand for is that
+//! of a glossy frame of 512 x 512 pixels on a mesh of 50,000 vertices: 1 s of two threads for `crossbar prt card`.
 
 use std::fmt::Write as _;
 

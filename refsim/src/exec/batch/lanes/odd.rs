@@ -47,9 +47,10 @@ pub(crate) fn head(x: f64) -> f64 {
 /// not 0 and of at most 26 significant bits, both far from the ends of the range.
 ///
 /// The quotient q, in [1, 2) units of 2^e, is split into 26 and 27 bits, whose products with `b` have 53 bits at most:
-/// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` less the larger product
-/// is a multiple of that or of 2^(e-25), whichever is smaller, and less than 2^(e+n-25): 29 bits or n. What is left of
-/// it, at most `b` half units of q, is a multiple of 2^(e-53) and less than 2^(e+n-52). Both differences are exact.
+/// they are exact. Let `b` be an integer of n bits, so that `a` is a multiple of 2^(e+n-54). `a` less the larger
+/// product is a multiple of that or of 2^(e-25), whichever is smaller, and less than 2^(e+n-25): 29 bits or n. What is
+/// left of it, at most `b` half units of q, is a multiple of 2^(e-53) and less than 2^(e+n-52). Both differences are
+/// exact.
 #[inline(always)]
 pub(crate) fn div_odd_long(a: f64, b: f64) -> f64 {
     let q = a / b;
