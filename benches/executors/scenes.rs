@@ -1,7 +1,7 @@
 //! Draws that are bound by one thing each.
 //!
-//! To beat, on two threads, batch executor, millions of fragments a second, machine as in docs/performance.md:
-//! `texture reads: 8 dependent, linear` FIGURE_LINEAR, `triangles: 2 pixels each, blended` FIGURE_FINE.
+//! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` stand for a glossy frame of 512 x 512
+//! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar prt card` on two threads.
 
 use std::fmt::Write as _;
 
