@@ -154,3 +154,25 @@ fn a_frame_is_counted_and_timed() {
         assert_relative_eq!(clocks(&frame.log(&place)) as f64, clocks(&log) as f64, max_relative = 0.02);
     }
 }
+
+/// Beside steps 2 and 3 on the host, 30 floats per vertex and the product per pixel take next to nothing.
+#[test]
+fn the_card_waits_for_the_host_of_table_1() {
+    let (r350, host) = (Profile::named("r350").expect("a card"), host_of_table_1().expect("a host"));
+    let teapot = TABLE_1[1];
+    // 32 patches of 40 x 40 quads.
+    let frame = FactoredFrame {
+        vertices: 100 * teapot.vertex_hundreds,
+        triangles: 2 * 32 * 40 * 40,
+        terms: 10,
+        host: teapot.multiplies(),
+        run_per_triangle: 1.1,
+    };
+    for place in [ProductPlace::Vertices(VertexColors::Bytes), ProductPlace::Pixels(ProductOptions::default())] {
+        let time = frame_time(&r350, &frame.log(&place), &host).expect("a time");
+        println!("{place:?} {time:?} {}", time.per_second());
+        assert!(time.frame >= time.host, "{time:?}");
+        let of_card = time.draws + time.uploads;
+        assert!(100.0 * of_card.seconds() < time.frame.seconds(), "{time:?}");
+    }
+}
