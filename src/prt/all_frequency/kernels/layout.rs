@@ -8,8 +8,8 @@ pub enum ViewNumbers {
     /// The two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.
     #[default]
     Coordinates,
-    /// The local view vector, not normalised at the vertices. The pixel program divides by its length plus z, so that on
-    /// a flat triangle of one frame the direction is exact.
+    /// The local view vector, not normalised at the vertices. The pixel program divides by its length plus z, so that
+    /// on a flat triangle of one frame the direction is exact.
     Vector,
 }
 
@@ -26,8 +26,8 @@ impl ViewNumbers {
 /// Components of a set.
 pub(super) const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
 
-/// The places of m numbers of some channels and of the view: per channel whole sets of four, then the view, then what is
-/// left of each channel.
+/// The places of m numbers of some channels and of the view: per channel whole sets of four, then the view, then what
+/// is left of each channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SetLayout {
     /// Terms m.

@@ -1,7 +1,7 @@
 //! Colors that a picture cannot show.
 
-/// What happened to colors. Truncated factors have negative lobes: targets and vertices of fractions clamp them, so they
-/// are counted.
+/// What happened to colors. Truncated factors have negative lobes: targets and vertices of fractions clamp them, so
+/// they are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FactoredCounts {
     /// Pixels that show the mesh; `None`: the device has no target of floats to count in.

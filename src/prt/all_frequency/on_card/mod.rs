@@ -1,8 +1,9 @@
 //! All-frequency transfer on an emulated card (section 6 of the paper, "Per-Vertex Computation").
 //!
-//! A [`FactoredCard`] holds a mesh. For each frame the host sends what [`ProductPlace`] says: colors of vertices, as the
-//! authors did, or transferred radiance, of which the card makes the product with G per pixel, as they proposed.
-//! [`draw`] makes a picture with counts and log; [`mod@reference`] is step 4 in f64; [`time`] says how long a frame takes.
+//! A [`FactoredCard`] holds a mesh. For each frame the host sends what [`ProductPlace`] says: colors of vertices, as
+//! the authors did, or transferred radiance, of which the card makes the product with G per pixel, as they proposed.
+//! [`draw`] makes a picture with counts and log; [`mod@reference`] is step 4 in f64; [`time`] says how long a frame
+//! takes.
 
 mod card;
 mod counts;

@@ -24,8 +24,8 @@ pub struct SeenPixel {
     pub weights: [f64; 3],
 }
 
-/// What each pixel of a camera shows, row by row: a draw in single precision with the fractions of a pixel that a device
-/// puts vertices at. `None`: nothing.
+/// What each pixel of a camera shows, row by row: a draw in single precision with the fractions of a pixel that a
+/// device puts vertices at. `None`: nothing.
 ///
 /// # Errors
 /// [`FactoredCardError`] if the draw is refused.

@@ -84,7 +84,8 @@ pub(super) struct RadianceStream<'a> {
 }
 
 impl RadianceStream<'_> {
-    /// The sets of a pass, register by register: T_p times exposure, color and scales, and the view if the host makes it.
+    /// The sets of a pass, register by register: T_p times exposure, color and scales, and the view if the host makes
+    /// it.
     pub(super) fn sets(
         &self,
         camera: &Camera,
