@@ -3,6 +3,8 @@
 use approx::assert_relative_eq;
 use crossbar::prt::all_frequency::Reflectance;
 use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::prt::all_frequency::kernels::ViewNumbers;
+use crossbar::prt::all_frequency::on_card::reference::pixel_of_products;
 use crossbar::prt::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
 use crossbar::prt::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, TransferredMesh, VertexColors, seen_pixels,
@@ -81,6 +83,13 @@ fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
     let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5)).expect("pictures");
+    let seen = seen_pixels(&Profile::named("r350").expect("a card"), &hills.vertices, &camera()).expect("pixels");
+    let brightest = seen.iter().flatten().flat_map(|seen| {
+        let view = (ViewNumbers::Coordinates, camera().eye());
+        pixel_of_products(&hills.mesh(), view, seen.corners, seen.weights).map(|value| 2.5 * value)
+    });
+    let brightest = brightest.fold(0.0, f64::max);
+    assert!((0.5..2.0).contains(&brightest), "{brightest}");
     let table = factored_precision_table(&ways);
     assert_eq!(table.rows().len(), ways.len());
     let rms = |choice: &str| {
