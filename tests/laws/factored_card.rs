@@ -3,6 +3,8 @@
 use approx::assert_relative_eq;
 use crossbar::prt::all_frequency::Reflectance;
 use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::prt::all_frequency::kernels::ViewNumbers;
+use crossbar::prt::all_frequency::on_card::reference::pixel_of_products;
 use crossbar::prt::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
 use crossbar::prt::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, TransferredMesh, VertexColors, seen_pixels,
@@ -80,9 +82,16 @@ fn pixels_show_what_their_rays_meet() {
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
-    let ways = factored_precision(hills.mesh(), &executor, (camera(), 0.25)).expect("pictures");
+    let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5)).expect("pictures");
+    let seen = seen_pixels(&Profile::named("r350").expect("a card"), &hills.vertices, &camera()).expect("pixels");
+    let brightest = seen.iter().flatten().flat_map(|seen| {
+        let view = (ViewNumbers::Coordinates, camera().eye());
+        pixel_of_products(&hills.mesh(), view, seen.corners, seen.weights).map(|value| 2.5 * value)
+    });
+    let brightest = brightest.fold(0.0, f64::max);
+    assert!((0.5..2.0).contains(&brightest), "{brightest}");
     let table = factored_precision_table(&ways);
-    println!("{}", table.text_within(100));
+    assert_eq!(table.rows().len(), ways.len());
     let rms = |choice: &str| {
         let way = ways.iter().find(|way| way.choice == choice).unwrap_or_else(|| panic!("{choice}"));
         way.off_255ths[0]
@@ -170,7 +179,6 @@ fn the_card_waits_for_the_host_of_table_1() {
     };
     for place in [ProductPlace::Vertices(VertexColors::Bytes), ProductPlace::Pixels(ProductOptions::default())] {
         let time = frame_time(&r350, &frame.log(&place), &host).expect("a time");
-        println!("{place:?} {time:?} {}", time.per_second());
         assert!(time.frame >= time.host, "{time:?}");
         let of_card = time.draws + time.uploads;
         assert!(100.0 * of_card.seconds() < time.frame.seconds(), "{time:?}");

@@ -54,8 +54,9 @@ struct FrameStreams {
 impl<'a> FactoredCard<'a> {
     /// Uploads a mesh, and maps of G.
     ///
-    /// # Errors [`FactoredCardError`] if the device lacks programs, coordinates, samplers or a way to filter, or the
-    /// parts of the mesh do not go together.
+    /// # Errors
+    /// [`FactoredCardError`] if the device lacks programs, coordinates, samplers or a way to filter, or the parts of
+    /// the mesh do not go together.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
