@@ -80,7 +80,7 @@ fn factors_go_from_one_command_to_the_next() {
         "prt compress {sight} --model {model} --bits 12 --weight-bits 14 --scale segment --out {coded}"
     ));
     assert_eq!(made["code"]["columns"], 1024);
-    let shown = document(&format!("prt show {coded}"));
+    let shown = document(&format!("prt show {coded} --kind all-frequency"));
     assert_eq!((&shown["terms"], &shown["hats"]), (&Value::from(4), &Value::from("one-texel")));
     assert_eq!(shown["coded"]["representative_bits"], 12);
     let drawn = document(&format!("prt render {coded} --model {model} --light constant --size 16x16 --out {page}"));
@@ -113,6 +113,14 @@ fn what_does_not_go_together_is_refused() {
         ("prt compress docs/examples/step_all.prt --out OUT", "`--model` is missing"),
         ("prt error docs/examples/step_all.prt docs/examples/step_all_small.prt", "`--model` is missing"),
         ("prt render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
+        (
+            "prt show docs/examples/step_all.prt --kind glossy",
+            "docs/examples/step_all.prt: expected transfer of low frequency, found all frequencies",
+        ),
+        (
+            "prt compress docs/examples/signal.csv --kind all-frequency --out OUT",
+            "expected transfer of all frequencies, found another file",
+        ),
         ("prt show docs/examples/step_all.prt --vertex 0", "are for transfer of low frequency"),
         ("prt error docs/examples/step.prt docs/examples/step_all_small.prt", "conventions: expected 1 to 1, found 2"),
         (

@@ -52,10 +52,10 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt compress nowhere.prt --out y.prt",
-        "--clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
+        "--kind --clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
          --weight-bits --scale",
     ),
-    ("prt error nowhere.prt nowhere.prt", "--model --csv"),
+    ("prt error nowhere.prt nowhere.prt", "--kind --model --csv"),
     (
         "prt factor --table nowhere.csv",
         "--brdf --merl --table --roughness --fresnel --isotropy --exponent --albedo --denominators --fresnel-form \
@@ -72,9 +72,9 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --original --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --original --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
-    ("prt show nowhere.prt", "--vertex --at --model"),
+    ("prt show nowhere.prt", "--kind --vertex --at --model"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \

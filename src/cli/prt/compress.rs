@@ -6,6 +6,7 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::segments::SegmentArgs;
+use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::{ReadError, read_limited};
@@ -38,6 +39,10 @@ pub(super) struct Args {
     /// A .prt file with transfer, a CSV table or an array of NumPy's (.npy)
     #[arg(value_name = "SIGNAL")]
     pub(super) signal: PathBuf,
+
+    /// What the file must hold [default: whatever it holds]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub(super) kind: Option<KindArg>,
 
     /// Clusters [default: 256; of transfer of all frequencies, by --points-per-cluster]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]

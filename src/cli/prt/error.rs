@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::model::clusters;
+use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
@@ -33,6 +34,10 @@ pub(super) struct Args {
     /// What it was compressed to
     #[arg(value_name = "Y.prt")]
     pub(super) compressed: PathBuf,
+
+    /// What the file must hold [default: whatever it holds]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub(super) kind: Option<KindArg>,
 
     /// The model of both, for transfer of all frequencies, which is computed again
     #[arg(long, value_name = "MODEL")]

@@ -57,16 +57,23 @@ enum Verb {
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    // Which of the two kinds of transfer the verb is about.
+    let all = match &args.verb {
+        Verb::Compress(args) => all_frequency::is_asked(args.kind, &args.signal)?,
+        Verb::Error(args) => all_frequency::is_asked(args.kind, &args.signal)?,
+        Verb::Render(args) => all_frequency::is_asked(args.kind, args.file())?,
+        _ => false,
+    };
     match &args.verb {
         Verb::Card(args) => return study::run(args, command_line, out),
-        Verb::Compress(args) if all_frequency::is_such(&args.signal) => all_frequency::compress::run(args, out)?,
+        Verb::Compress(args) if all => all_frequency::compress::run(args, out)?,
         Verb::Compress(args) => compress::run(args, out)?,
-        Verb::Error(args) if all_frequency::is_such(&args.signal) => all_frequency::error::run(args, out)?,
+        Verb::Error(args) if all => all_frequency::error::run(args, out)?,
         Verb::Error(args) => error::run(args, out)?,
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Lighting(args) => lighting::run(args, out)?,
         Verb::Precompute(args) => precompute::run(args, out)?,
-        Verb::Render(args) if all_frequency::is_such(args.file()) => {
+        Verb::Render(args) if all => {
             return study::run(&all_frequency::render::Args(args), command_line, out);
         }
         Verb::Render(args) => return study::run(args, command_line, out),

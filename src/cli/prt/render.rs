@@ -6,6 +6,7 @@ use clap::ValueEnum;
 
 use super::light::LightArgs;
 use super::model::{FileOfModel, light_order};
+use super::values::KindArg;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
@@ -47,6 +48,10 @@ pub(in crate::cli) struct Args {
     /// The model that the file was made from, as given to `crossbar prt precompute`
     #[arg(long, value_name = "MODEL")]
     pub(super) model: PathBuf,
+
+    /// What the file must hold [default: whatever it holds]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub(super) kind: Option<KindArg>,
 
     /// Uncompressed transfer of the same model, to compare with
     #[arg(long, value_name = "X.prt")]

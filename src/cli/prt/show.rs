@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::all_frequency;
 use super::model::FileOfModel;
+use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
 use crate::prt::cpca::Clustering;
@@ -35,6 +36,10 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.prt")]
     file: PathBuf,
 
+    /// What the file must hold [default: whatever it holds]
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub(super) kind: Option<KindArg>,
+
     /// A vertex, or another point, counted from 0
     #[arg(long, value_name = "N")]
     vertex: Option<u32>,
@@ -50,7 +55,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
-    if all_frequency::is_such(&args.file) {
+    if all_frequency::is_asked(args.kind, &args.file)? {
         if args.vertex.is_some() || args.at.is_some() {
             let what = "`--vertex` and `--at` are for transfer of low frequency";
             return Err(Problem::usage(what, "leave them out").into());

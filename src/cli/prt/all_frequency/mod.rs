@@ -11,6 +11,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::model::{load, vertices};
+use super::values::KindArg;
+use crate::cli::Problem;
 use crate::cli::model_name::Model;
 use crate::prt::file::{AllFrequencyFile, MeshDigest, PrtFileError, is_all_frequency, load_all_frequency};
 use crate::prt::transfer::Vertices;
@@ -21,6 +23,18 @@ pub(super) fn is_such(path: &Path) -> bool {
     path.is_file()
         && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
         && is_all_frequency(&head)
+}
+
+/// The same, held against the kind that was asked for.
+pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
+    let (found, asked) = (is_such(path), kind.map(|kind| kind == KindArg::AllFrequency));
+    if !path.is_file() || asked.is_none_or(|asked| asked == found) {
+        return Ok(found);
+    }
+    let (expected, other) =
+        if found { ("low frequency", "all frequencies") } else { ("all frequencies", "another file") };
+    let what = format!("{}: expected transfer of {expected}, found {other}", path.display());
+    Err(Problem::usage(what, "leave `--kind` out, or name another file"))
 }
 
 /// A file with the model that it was made from.
