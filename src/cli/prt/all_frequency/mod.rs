@@ -8,7 +8,7 @@ pub(super) mod show;
 
 use std::fs::File;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::model::{load, vertices};
 use super::values::KindArg;
@@ -46,13 +46,13 @@ pub(super) struct FileOfModel {
 }
 
 impl FileOfModel {
-    pub(super) fn load(path: &PathBuf, model: &Path) -> miette::Result<Self> {
+    pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
         let file = load_all_frequency(path, None)?;
         let model = load(model, file.mesh.tangents)?;
         let vertices = vertices(&model, file.mesh.tangents)?;
         let expected = MeshDigest::new(&vertices);
         if file.mesh != expected {
-            return Err(PrtFileError::OtherMesh { path: path.clone(), expected, found: Some(file.mesh) }.into());
+            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found: Some(file.mesh) }.into());
         }
         Ok(Self { file, model, vertices, digest: expected })
     }

@@ -35,7 +35,7 @@ impl StudyArgs for Args<'_> {
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
         let render::Args { model: name, original, light, keep, frames, size, eye, exposure, .. } = self.0;
         view::require_file(self.0.file(), 3, "name a smaller file")?;
-        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.0.file().to_owned(), name)?;
+        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.0.file(), name)?;
         let original = match original {
             None => None,
             Some(path) => {

@@ -140,7 +140,7 @@ mod tests {
         let random = CounterRng::new(4);
         for (rows, columns) in [(0, 3), (1, 1), (5, 7), (256, 3), (257, 2), (700, 5)] {
             let draw = |at: usize| match random.bits(at as u64, 0, 0) % 5 {
-                0 => (random.bits(at as u64, 1, 0) & 0xffff) as u16 as i16,
+                0 => ((random.bits(at as u64, 1, 0) & 0xffff) as u16).cast_signed(),
                 _ => 0,
             };
             let values: Vec<i16> = (0..rows * columns).map(draw).collect();

@@ -317,13 +317,13 @@ fn corner_weights<const AXES: usize, const CORNERS: usize>(
 ) {
     let one = 1i32 << bits;
     for (corner, out) in out.iter_mut().enumerate() {
-        for i in 0..LANES {
+        for (i, out) in out.iter_mut().enumerate() {
             let mut weight = 1.0;
-            for axis in 0..AXES {
-                let second = taps[axis].weight[i];
+            for (axis, taps) in taps.iter().enumerate() {
+                let second = taps.weight[i];
                 weight *= f64::from(if corner >> axis & 1 == 1 { second } else { one - second });
             }
-            out[i] = weight;
+            *out = weight;
         }
     }
 }
@@ -351,14 +351,15 @@ fn combine<const AXES: usize, const CORNERS: usize>(
     for taps in taps.iter().take(if CORNERS == 1 { 0 } else { AXES }) {
         left /= 2;
         for pair in 0..left {
-            for i in 0..LANES {
-                let (a, b) = (f32::from_bits(corners[2 * pair][i]), f32::from_bits(corners[2 * pair + 1][i]));
+            let (first, second) = (corners[2 * pair], corners[2 * pair + 1]);
+            for (i, into) in corners[pair].iter_mut().enumerate() {
+                let (a, b) = (f32::from_bits(first[i]), f32::from_bits(second[i]));
                 let between = a + taps.weight[i] as f32 * share * (b - a);
-                corners[pair][i] = (if taps.weight[i] == 0 { a } else { between }).to_bits();
+                *into = (if taps.weight[i] == 0 { a } else { between }).to_bits();
             }
         }
     }
-    for i in 0..LANES {
-        out[i] = f64::from(f32::from_bits(corners[0][i]));
+    for (out, &value) in out.iter_mut().zip(&corners[0]) {
+        *out = f64::from(f32::from_bits(value));
     }
 }
