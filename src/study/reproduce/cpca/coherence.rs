@@ -24,7 +24,7 @@ const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of
 const TIMES: &str = "Frames are timed on the {} from sizes, the printed overdraw, and the order of triangles in our models: products on the host, \
     constants, vertices, which a cache of finished ones spares; pixels take no time. Host and card work side by side.";
 const NEWER: &str =
-    "which Radeon 9700 and 9800 were compared: Pro against Pro, the core's clock alone is below what is printed.";
+    "which models of the two Radeons were compared: from Pro to Pro the clock of the core gains less than is printed.";
 const ORDER: &str = "the order of the authors' triangles: a good one runs half as many vertices as ours does.";
 const QUESTION: &str = "the models and their clusters: a smoother signal has smoother borders.";
 
