@@ -7,6 +7,7 @@ use approx::assert_relative_eq;
 use serde_json::Value;
 
 use crate::crossbar;
+use crate::prt::{number, place};
 
 const STEP: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.prt";
@@ -17,14 +18,6 @@ fn document(arguments: &str) -> Value {
     let ran = crossbar(&arguments, "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
     serde_json::from_str(&ran.stdout).expect("one JSON document")
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
-}
-
-fn place(folder: &Path, name: &str) -> String {
-    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
 }
 
 #[test]

@@ -18,12 +18,12 @@ fn document(arguments: &[&str]) -> Value {
     serde_json::from_str(&ran.stdout).expect("one JSON document")
 }
 
-fn number(value: &Value) -> f64 {
+pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
 }
 
 /// A place for a file in a folder, as an argument.
-fn place(folder: &Path, name: &str) -> String {
+pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().expect("a name in UTF-8").to_owned()
 }
 

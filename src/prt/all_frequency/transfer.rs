@@ -14,6 +14,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::Reflectance;
 use super::grid::{FineDirections, Segmentation};
 use super::haar::Haar;
 use super::hats::Hats;
@@ -45,6 +46,17 @@ pub struct FactoredTransfer<'a, F> {
     /// F: for a local direction of length 1 with z > 0 (normal z, tangent x) its `rows` components, which include the
     /// cosine z. It writes all of them.
     pub response: F,
+}
+
+/// The transfer of a reflectance: F is its light's side.
+pub fn transfer_of<'a>(
+    vertices: &'a Vertices,
+    maps: &'a VisibilityMaps,
+    hats: &'a Hats,
+    reflectance: &'a Reflectance,
+) -> FactoredTransfer<'a, impl Fn(DVec3, &mut [f64]) + Sync> {
+    let response = |direction: DVec3, into: &mut [f64]| reflectance.light(direction, into);
+    FactoredTransfer { vertices, maps, hats, rows: reflectance.terms(), response }
 }
 
 /// The transfer of one segment of the light at the vertices that see any of it.

@@ -8,10 +8,10 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::read::Reader;
+use super::read::{Reader, bytes_of};
 use super::write::{Section, digest_fields, tangent_fields};
-use super::{MAGIC, MAX_BYTES, MeshDigest, PrtFileError, VERSION};
-use crate::io::{ReadError, WriteError, read_limited, write_file};
+use super::{MAGIC, MeshDigest, PrtFileError, VERSION};
+use crate::io::{WriteError, write_file};
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTransfer, ScaleOf, SparseRows};
 use crate::prt::all_frequency::factor::ProductFactors;
@@ -55,16 +55,9 @@ pub fn is_all_frequency(bytes: &[u8]) -> bool {
 /// # Errors
 /// [`PrtFileError`].
 pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllFrequencyFile, PrtFileError> {
-    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
-    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
-    let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?;
-    let file = parse_all_frequency(&bytes, path)?;
-    match mesh {
-        Some(expected) if file.mesh != *expected => {
-            Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found: Some(file.mesh) })
-        }
-        _ => Ok(file),
-    }
+    let file = parse_all_frequency(&bytes_of(path)?, path)?;
+    mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
+    Ok(file)
 }
 
 /// Reads a file from bytes; `name` stands for it in messages.
@@ -123,6 +116,18 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
 }
 
 impl AllFrequencyFile {
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    ///
+    /// # Errors
+    /// [`PrtFileError::OtherMesh`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+        let found = self.mesh;
+        if found == *expected {
+            return Ok(());
+        }
+        Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found: Some(found) })
+    }
+
     /// Why the parts do not go together: the field, what was expected, what was found.
     fn fault(&self, terms: usize) -> Option<(&'static str, String, String)> {
         if self.reflectance.terms() != terms {

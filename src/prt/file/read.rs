@@ -22,12 +22,17 @@ const FIELDS: usize = 11;
 /// # Errors
 /// [`PrtFileError`].
 pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFileError> {
-    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
-    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
-    let bytes = bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?;
+    let bytes = bytes_of(path)?;
     let file = parse_prt(&bytes, path)?;
     mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
     Ok(file)
+}
+
+/// All bytes of a file of either kind.
+pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
+    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
+    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
+    Ok(bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?)
 }
 
 /// Reads a file from bytes; `name` stands for it in messages.

@@ -1,6 +1,6 @@
 //! Pictures of a model under distant light, from its transfer.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use miette::Diagnostic;
 use serde_json::json;
 use thiserror::Error;
@@ -112,10 +112,7 @@ impl Study for Rendering {
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }
         if !frames.is_empty() {
-            found.heading(match self.turning {
-                Turning::Light => "The light turned around z",
-                Turning::Camera => "The camera carried around the model",
-            });
+            found.heading(self.turning.heading());
             found.pictures(frames);
         }
         found.field("exposure", json!(exposure));
@@ -153,8 +150,7 @@ impl Rendering {
                 self.colors(seen, (&light, &self.camera), None)
             }
             Turning::Camera => {
-                let middle = self.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
-                let camera = self.camera.carried(middle, &turn);
+                let camera = carried(&self.camera, &self.mesh, &turn);
                 self.colors(&Seen::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
             }
         }
@@ -230,17 +226,37 @@ impl Rendering {
     /// The cluster of each pixel's nearest vertex.
     fn clusters(&self, seen: &Seen, found: &mut Findings) {
         let Some(clustering) = &self.file.clustering else { return };
-        let random = CounterRng::new(0);
         let color = |vertex: Option<u32>| {
             let Some(vertex) = vertex else { return [0; 3] };
-            let cluster = u64::from(clustering.of_point()[vertex as usize]);
-            [0, 1, 2].map(|channel| 64 + (random.bits(cluster, 0, channel) >> 56) as u8 / 4 * 3)
+            cluster_color(clustering.of_point()[vertex as usize])
         };
         let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
         found.heading("Clusters");
         let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());
         found.pictures(vec![NamedPicture::new("clusters", image, caption)]);
     }
+}
+
+impl Turning {
+    /// What stands above the frames.
+    pub(super) const fn heading(self) -> &'static str {
+        match self {
+            Self::Light => "The light turned around z",
+            Self::Camera => "The camera carried around the model",
+        }
+    }
+}
+
+/// A camera carried around the middle of a mesh.
+pub(super) fn carried(camera: &Camera, mesh: &Mesh, turn: &DMat3) -> Camera {
+    let middle = mesh.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
+    camera.carried(middle, turn)
+}
+
+/// The color that stands for a cluster.
+pub(super) fn cluster_color(cluster: u32) -> [u8; 3] {
+    let random = CounterRng::new(0);
+    [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
 }
 
 /// Pixels that show something at 18 % grey on average.

@@ -7,20 +7,17 @@ use crossbar::prt::all_frequency::grid::Segmentation;
 use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
 use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
 use crossbar::prt::all_frequency::shade::{Representatives, Shader, plain};
-use crossbar::prt::all_frequency::transfer::{FactoredTransfer, TransferSegment};
+use crossbar::prt::all_frequency::transfer::{TransferSegment, transfer_of};
 use crossbar::prt::all_frequency::visibility::VisibilityMaps;
 use crossbar::prt::cpca::{CpcaMethod, CpcaStep};
 use crossbar::prt::transfer::Vertices;
-use glam::DVec3;
 
 use super::{all, close, clutter, factors, in_threads, trace, vertices};
 
 /// All segments of the transfer of some maps.
 pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: &Reflectance) -> Vec<TransferSegment> {
     let hats = Hats::new(HatWidth::TwoTexels);
-    let response = |direction: DVec3, into: &mut [f64]| reflectance.light(direction, into);
-    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows: reflectance.terms(), response };
-    transfer.segments().map(|segment| segment.expect("transfer")).collect()
+    transfer_of(vertices, maps, &hats, reflectance).segments().map(|segment| segment.expect("transfer")).collect()
 }
 
 /// The same by clusters of 10 vertices.
@@ -81,8 +78,7 @@ fn open_diffuse_vertices_under_light_1_give_back_pi() {
     let transfer = compressed(&vertices, &maps, &Reflectance::Diffuse, 3);
     let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
     let light = HaarLight::new(&CubeLight::constant([1.0, 2.0, 0.0]).expect("a light"), Segmentation::Quarters);
-    let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
-    let radiance = Shader::new(&coded, Representatives::Sparse).transferred(&light).expect("radiance");
+    let radiance = Shader::new(&coded, Representatives::Sparse).transferred(&light.singles()).expect("radiance");
     for vertex in 0..vertices.len() {
         let [red, green, blue] = radiance.of(vertex)[0].map(f64::from);
         // 98,304 directions miss the integral of the cosine by up to a thousandth where the horizon cuts texels.

@@ -44,7 +44,7 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &Hats::new(file.hats));
     let raw = compression.raw_bytes();
-    let written = AllFrequencyFile { visibility: None, coded: Some(coded), ..file.clone() };
+    let written = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
     save_all_frequency(&written, &args.out).map_err(Problem::from)?;
     let Some(coded) = &written.coded else { return Ok(()) };
     if out.json() {

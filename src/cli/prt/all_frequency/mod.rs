@@ -14,7 +14,7 @@ use super::model::{load, vertices};
 use super::values::KindArg;
 use crate::cli::Problem;
 use crate::cli::model_name::Model;
-use crate::prt::file::{AllFrequencyFile, MeshDigest, PrtFileError, is_all_frequency, load_all_frequency};
+use crate::prt::file::{AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency};
 use crate::prt::transfer::Vertices;
 
 /// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
@@ -50,10 +50,8 @@ impl FileOfModel {
         let file = load_all_frequency(path, None)?;
         let model = load(model, file.mesh.tangents)?;
         let vertices = vertices(&model, file.mesh.tangents)?;
-        let expected = MeshDigest::new(&vertices);
-        if file.mesh != expected {
-            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found: Some(file.mesh) }.into());
-        }
-        Ok(Self { file, model, vertices, digest: expected })
+        let digest = MeshDigest::new(&vertices);
+        file.require_mesh(&digest, path)?;
+        Ok(Self { file, model, vertices, digest })
     }
 }

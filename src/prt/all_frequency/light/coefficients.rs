@@ -43,6 +43,11 @@ impl HaarLight {
         &self.channels
     }
 
+    /// [`Self::coefficients`] in single precision, as rendering takes them.
+    pub fn singles(&self) -> Vec<[f32; 3]> {
+        self.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect()
+    }
+
     /// All coefficients, segment by segment, each with its three channels.
     pub fn coefficients(&self) -> Vec<[f64; 3]> {
         (0..LIGHT_TEXELS).map(|at| self.channels.each_ref().map(|channel| channel[at])).collect()

@@ -5,13 +5,13 @@ use rayon::prelude::*;
 
 use super::error::FactoredCardError;
 use super::options::{ProductOptions, RadianceFormat, VertexColors, ViewMaker};
-use super::reference::vertex_radiance;
 use super::subject::TransferredMesh;
 use crate::card::{Attribute, attribute, through_half};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::kernels::{LEAST_DENOMINATOR, ViewNumbers};
+use crate::prt::all_frequency::shade::exit_radiance;
 use crate::scene::Camera;
 
 /// Colors of vertices, and what happened to them.
@@ -31,7 +31,7 @@ impl ColorStream {
         (camera, exposure): (&Camera, f64),
         format: VertexColors,
     ) -> Result<Self, FactoredCardError> {
-        Self::of(&vertex_radiance(mesh, camera.eye()), exposure, format)
+        Self::of(&radiance(mesh, camera.eye()), exposure, format)
     }
 
     /// The one term of a diffuse surface, whose G does not depend on the view.
@@ -135,4 +135,10 @@ impl RadianceStream<'_> {
             }
         }
     }
+}
+
+/// Step 4 per vertex, as colors of vertices are made.
+fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
+    let transferred = |vertex: usize, row: usize| mesh.transferred.of(vertex)[row].map(f64::from);
+    exit_radiance(mesh.vertices, mesh.reflectance, &|vertex| mesh.color(vertex), &transferred, wide(eye))
 }

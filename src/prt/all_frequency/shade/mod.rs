@@ -2,11 +2,14 @@
 //!
 //! - [`Shader`]: coded transfer laid out for that, by plain or sparse representatives;
 //! - [`TransferredRadiance`]: T_p of every vertex, equation 13;
+//! - [`exit_radiance`]: G(v) . T_p, equation 7;
 //! - [`plain`]: the same from transfer that is not coded, by plain loops in f64.
 
+mod exit;
 pub mod plain;
 mod shader;
 mod transferred;
 
+pub use exit::exit_radiance;
 pub use shader::{Representatives, Shader};
 pub use transferred::{LightSizeError, Multiplies, TransferredRadiance};

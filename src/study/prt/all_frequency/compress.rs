@@ -10,7 +10,7 @@ use crate::prt::all_frequency::code::{CodeOptions, CodeOptionsError, CodedSegmen
 use crate::prt::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::prt::all_frequency::grid::Segmentation;
 use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::transfer::{FactoredTransfer, TransferSegment};
+use crate::prt::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::cpca::CpcaError;
 use crate::prt::transfer::{TransferError, Vertices};
@@ -105,8 +105,7 @@ impl SegmentedCompression<'_> {
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), SegmentedError> {
         let hats = Hats::new(self.hats);
         let rows = self.reflectance.terms();
-        let response = |direction, into: &mut [f64]| self.reflectance.light(direction, into);
-        let transfer = FactoredTransfer { vertices: self.vertices, maps: self.maps, hats: &hats, rows, response };
+        let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let mut tally = CompressionTally { squared_errors: vec![0.0; self.vertices.len()], ..Default::default() };
         let count = Segmentation::Quarters.count();
         let (mut segments, coefficients) = (Vec::new(), Segmentation::Quarters.len());

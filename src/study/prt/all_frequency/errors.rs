@@ -3,7 +3,7 @@
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::code::CodedTransfer;
 use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::transfer::FactoredTransfer;
+use crate::prt::all_frequency::transfer::transfer_of;
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{TransferError, Vertices};
 use crate::study::ProgressFn;
@@ -33,9 +33,8 @@ pub fn coded_errors(
     progress: &mut ProgressFn<'_>,
 ) -> Result<CodedErrors, TransferError> {
     assert_eq!((coded.vertices, coded.rows), (vertices.len(), reflectance.terms()), "coded transfer of these vertices");
-    let (hats, rows) = (Hats::new(hats), reflectance.terms());
-    let response = |direction, into: &mut [f64]| reflectance.light(direction, into);
-    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows, response };
+    let hats = Hats::new(hats);
+    let transfer = transfer_of(vertices, maps, &hats, reflectance);
     let none = vec![0.0; vertices.len()];
     let mut found = CodedErrors { squared_errors: none.clone(), squares: none };
     for segment in transfer.segments() {

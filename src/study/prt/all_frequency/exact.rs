@@ -6,7 +6,7 @@ use crate::linalg::dot;
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::hats::{HatWidth, Hats};
 use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::transfer::FactoredTransfer;
+use crate::prt::all_frequency::transfer::transfer_of;
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{TransferError, Vertices};
 
@@ -18,8 +18,7 @@ pub(super) fn transferred(
     light: &HaarLight,
 ) -> Result<Vec<[f64; 3]>, TransferError> {
     let (hats, rows) = (Hats::new(hats), reflectance.terms());
-    let response = |direction, into: &mut [f64]| reflectance.light(direction, into);
-    let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows, response };
+    let transfer = transfer_of(vertices, maps, &hats, reflectance);
     let mut radiance = vec![[0.0; 3]; vertices.len() * rows];
     for segment in transfer.segments() {
         let segment = segment?;

@@ -7,7 +7,6 @@ mod errors;
 mod exact;
 mod precompute;
 mod render;
-mod shading;
 
 pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
 pub use errors::{CodedErrors, coded_errors};

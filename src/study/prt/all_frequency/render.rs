@@ -2,28 +2,29 @@
 
 use std::time::Instant;
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use miette::Diagnostic;
 use serde_json::json;
 use thiserror::Error;
 
 use super::exact;
-use super::shading::radiance;
 use crate::geom::Mesh;
-use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
 use crate::picture::{PictureError, rgb8};
 use crate::prt::all_frequency::grid::Segmentation;
 use crate::prt::all_frequency::light::{
     CubeLight, CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
 };
-use crate::prt::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance};
+use crate::prt::all_frequency::shade::{
+    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance,
+};
 use crate::prt::file::AllFrequencyFile;
 use crate::prt::transfer::{TransferError, Vertices};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
 use crate::sphere::turn_around_z;
+use crate::study::prt::render::{carried, cluster_color};
 use crate::study::prt::{Seen, Turning, auto_exposure, linear_picture};
 use crate::study::{ProgressFn, Study};
 
@@ -164,7 +165,7 @@ impl AllFrequencyRendering {
         times: &mut FrameTimes,
     ) -> Result<Transferred, AllFrequencyError> {
         let Some(shader) = shader else { return self.exact(&self.file, light) };
-        let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
+        let light = light.singles();
         let start = Instant::now();
         let products = shader.per_cluster(&light)?;
         times.clusters = start.elapsed().as_secs_f64();
@@ -191,7 +192,8 @@ impl AllFrequencyRendering {
             Transferred::Exact { rows, values } => values[vertex * rows + row],
         };
         let eye = wide(camera.eye());
-        let radiance = radiance(&self.vertices, &self.file.reflectance, &self.colors, &of, eye);
+        let color = |vertex: usize| self.colors[self.vertices.materials()[vertex] as usize];
+        let radiance = exit_radiance(&self.vertices, &self.file.reflectance, &color, &of, eye);
         times.view = start.elapsed().as_secs_f64();
         radiance
     }
@@ -223,7 +225,7 @@ impl AllFrequencyRendering {
 
     /// What rendering multiplies, and what it took here.
     fn time(&self, shader: &Shader, light: &HaarLight, times: FrameTimes, found: &mut Findings) {
-        let light: Vec<[f32; 3]> = light.coefficients().into_iter().map(|rgb| rgb.map(|value| value as f32)).collect();
+        let light = light.singles();
         let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
         let per_view = 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64;
         let mut table =
@@ -298,7 +300,6 @@ impl AllFrequencyRendering {
         let Some(coded) = &self.file.coded else { return };
         let mut largest: Vec<_> = coded.segments.iter().collect();
         largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
-        let random = CounterRng::new(0);
         let pictures = largest.into_iter().take(CLUSTER_PICTURES).map(|part| {
             let mut of_vertex = vec![None; self.vertices.len()];
             for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
@@ -306,7 +307,7 @@ impl AllFrequencyRendering {
             }
             let color = |vertex: Option<u32>| {
                 let Some(cluster) = vertex.and_then(|vertex| of_vertex[vertex as usize]) else { return [0; 3] };
-                [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
+                cluster_color(u32::from(cluster))
             };
             let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
@@ -344,9 +345,7 @@ impl AllFrequencyRendering {
                 }
                 // View alone changed: step 4 alone.
                 Turning::Camera => {
-                    let bounds = self.mesh.bounds();
-                    let middle = bounds.map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
-                    let camera = self.camera.carried(middle, &turn);
+                    let camera = carried(&self.camera, &self.mesh, &turn);
                     let seen = Seen::new(&self.mesh, &self.vertices, &camera);
                     seen.colors(&self.radiance(transferred, &camera, &mut times), [0.0; 3])
                 }
@@ -356,10 +355,7 @@ impl AllFrequencyRendering {
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }
         if !frames.is_empty() {
-            found.heading(match self.turning {
-                Turning::Light => "The light turned around z",
-                Turning::Camera => "The camera carried around the model",
-            });
+            found.heading(self.turning.heading());
             found.pictures(frames);
         }
         Ok(())

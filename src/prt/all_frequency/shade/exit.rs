@@ -7,12 +7,13 @@ use crate::geom::vector::wide;
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::transfer::Vertices;
 
-/// G(v) . T_p times the surface's color, per vertex. Truncated factors have negative lobes: what comes out below 0
+/// G(v) . T_p times the surface's color, per vertex: `color` says it of a vertex, `transferred` a vertex's row of T_p.
+/// `eye` is in the frame of the mesh. Truncated factors have negative lobes: what comes out below 0
 /// stays.
-pub(super) fn radiance(
+pub fn exit_radiance(
     vertices: &Vertices,
     reflectance: &Reflectance,
-    colors: &[[f64; 3]],
+    color: &(dyn Fn(usize) -> [f64; 3] + Sync),
     transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync),
     eye: DVec3,
 ) -> Vec<[f64; 3]> {
@@ -25,7 +26,7 @@ pub(super) fn radiance(
             let product = transferred(vertex, row);
             (0..3).for_each(|channel| sum[channel] += g * product[channel]);
         }
-        let color = colors[vertices.materials()[vertex] as usize];
+        let color = color(vertex);
         [0, 1, 2].map(|channel| sum[channel] * color[channel])
     };
     (0..vertices.len()).into_par_iter().map(of).collect()
