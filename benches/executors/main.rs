@@ -8,9 +8,10 @@
 //! One element is one fragment that the pixel program ran for (an intersection, in the crossbar's draws), one vertex
 //! where the vertex program is measured, one test of the yardsticks. Everything that a draw needs is in the time:
 //! textures, vertices, set-up, attributes, depth and colour, read-back; `resident` draws with the same textures,
-//! streams and targets again, cleared before. Cards, and formats with other rules than the ideal devices', are compared
-//! with the ideal device of their format: 1.5 times its time is the figure to beat.
+//! streams and targets again, cleared before. With `--table`, cards, and formats with other rules than the ideal
+//! devices', are measured besides, by turns (`devices`).
 
+mod devices;
 mod scenes;
 mod table;
 mod yardsticks;
@@ -22,7 +23,6 @@ use crossbar::scene::Camera;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
 use std::hint::black_box;
-use std::time::Duration;
 
 /// The formats of the speed figures.
 const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
@@ -30,19 +30,6 @@ const FORMATS: [&str; 4] = ["s3.12", "fp32", "fp16", "fp24"];
 const TRIANGLES: usize = 256;
 /// What the names of draws on a resident card have besides.
 const RESIDENT: &str = ", resident";
-/// What the names of draws on the devices of [`DEVICES`] and [`RULES`] begin with.
-const ON_DEVICE: &str = "4096 rays x 256 triangles, resident, device ";
-/// Cards that run the engine, each beside the format that its own is a variant of. To beat: 1.5 times the time of the
-/// ideal device of that format.
-const DEVICES: [(&str, &str); 6] =
-    [("r200", "s3.12"), ("r300", "fp24"), ("r350", "fp24"), ("nv30", "fp32"), ("nv35", "fp32"), ("gt200", "fp32")];
-/// Formats with each of their other rules. To beat: likewise.
-const RULES: [(&str, &[&str]); 4] = [
-    ("s3.12", &["rna", "rtz", "rdn", "wrap"]),
-    ("fp32", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
-    ("fp16", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
-    ("fp24", &["rna", "rtz", "rdn", "ftz", "sat", "nvovf", "nv"]),
-];
 /// Threads of the figures.
 const THREADS: usize = 2;
 
@@ -96,34 +83,6 @@ fn crossbar(criterion: &mut Criterion, name: &str, kind: ExecutorKind, rays: &Ra
     group.finish();
 }
 
-/// The devices of [`DEVICES`] and [`RULES`], each with the format of the ideal device beside it, and those
-/// ideal devices.
-fn devices() -> Vec<(String, &'static str)> {
-    let cards = DEVICES.map(|(card, format)| (card.to_owned(), format));
-    let ideal = |format: &str| format!("ideal-{format}");
-    let of_rules = RULES.iter().flat_map(|&(format, rules)| {
-        let with_rules = rules.iter().map(move |rule| (format!("{}:{rule}", ideal(format)), format));
-        std::iter::once((ideal(format), format)).chain(with_rules)
-    });
-    cards.into_iter().chain(of_rules).collect()
-}
-
-fn on_devices(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("executors");
-    group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
-    let (mesh, rays) = (mesh(), rays(64));
-    for (device, _) in devices() {
-        let card = Crossbar::new(Profile::named(&device).expect("a device"), ExecutorKind::Batch).all_pairs(true);
-        let mut resident = card.make_resident(&mesh, &rays, Sides::Front).expect("the card takes them");
-        let shaded = resident.intersect().expect("the card intersects").events.fragments.shaded;
-        group.throughput(Throughput::Elements(shaded));
-        group.bench_function(BenchmarkId::new(format!("{ON_DEVICE}{device}"), "batch"), |b| {
-            b.iter(|| black_box(resident.intersect().expect("the card intersects")));
-        });
-    }
-    group.finish();
-}
-
 fn draws(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("executors");
     group.sample_size(10);
@@ -144,18 +103,20 @@ fn executors(criterion: &mut Criterion) {
     crossbar(criterion, "256 rays x 256 triangles", ExecutorKind::Batch, &few);
     crossbar(criterion, "65536 rays x 256 triangles", ExecutorKind::Batch, &rays(256));
     crossbar(criterion, "256 rays x 256 triangles", ExecutorKind::Scalar, &few);
-    on_devices(criterion);
     draws(criterion);
     yardsticks::run(criterion, &mesh(), &few);
 }
 
+fn pool(threads: usize) -> std::io::Result<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(std::io::Error::other)
+}
+
 fn main() -> std::io::Result<()> {
     if std::env::args().any(|argument| argument == "--table") {
-        return table::write();
+        return pool(1)?.install(table::write);
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().map_err(std::io::Error::other)?;
     // From within, as the workers of a renderer call it: a call from outside would wait for one of them to wake up.
-    pool.install(|| {
+    pool(THREADS)?.install(|| {
         let mut criterion = Criterion::default().configure_from_args();
         executors(&mut criterion);
         criterion.final_summary();

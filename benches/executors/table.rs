@@ -1,11 +1,11 @@
-//! The table of docs/performance.md, from what criterion has written.
+//! The tables of docs/performance.md: what criterion has written, and what is measured by turns (`devices`).
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use crate::ON_DEVICE;
+use crate::devices;
 
 const BEGIN: &str = "<!-- measured: begin -->";
 const END: &str = "<!-- measured: end -->";
@@ -22,9 +22,6 @@ const GOALS: [(&str, f64); 8] = [
     ("256 rays x 256 triangles fp16", 150.0),
     ("256 rays x 256 triangles fp24", 100.0),
 ];
-
-/// Times of the ideal format that a card or a rule may take.
-const MOST: f64 = 1.5;
 
 /// Elements a second by what was measured, and by whom.
 type Figures = BTreeMap<String, BTreeMap<String, f64>>;
@@ -66,22 +63,6 @@ fn collect(folder: &Path, figures: &mut Figures) -> io::Result<()> {
     Ok(())
 }
 
-/// Cards and rules beside the ideal device of their format.
-fn on_devices(figures: &Figures, out: &mut String) {
-    out.push_str(
-        "\n| 4096 rays x 256 triangles, resident | batch | ideal format | its time / that of the format | to beat |\n",
-    );
-    out.push_str("|---|---|---|---|---|\n");
-    let batch = |device: &str| figures.get(&format!("{ON_DEVICE}{device}"))?.get("batch").copied();
-    for (device, format) in crate::devices() {
-        let (own, ideal) = (batch(&device), batch(&format!("ideal-{format}")));
-        if let Some((own, ideal)) = own.zip(ideal) {
-            let _: Result<(), std::fmt::Error> =
-                writeln!(out, "| {device} | {own:.1} | {format} | {:.2} | {MOST} |", ideal / own);
-        }
-    }
-}
-
 fn table(figures: &Figures) -> String {
     let mut out = String::from(
         "Millions of elements a second: criterion's median.\n\n\
@@ -102,10 +83,10 @@ fn table(figures: &Figures) -> String {
             ratio(batch, goal),
         );
     };
-    for (name, who) in figures.iter().filter(|(name, who)| who.contains_key("batch") && !name.starts_with(ON_DEVICE)) {
+    for (name, who) in figures.iter().filter(|(_, who)| who.contains_key("batch")) {
         line(name, who);
     }
-    on_devices(figures, &mut out);
+    out.push_str(&devices::table());
     out.push_str("\n| one thread, f32, 256 rays x 256 triangles | tests | batch fp32 / it | batch s3.12 / it |\n|---|---|---|---|\n");
     let batch = |format: &str| {
         figures.get(&format!("256 rays x 256 triangles, resident {format}")).and_then(|who| who.get("batch")).copied()
