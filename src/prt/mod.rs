@@ -1,6 +1,6 @@
 //! System 4: precomputed radiance transfer, compressed by clustered principal components.
 //!
-//! System 5 is [`all_frequency`].
+//! System 5 is [`all_frequency`], system 6 [`bi_scale`].
 //!
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
 //! - [`transfer`]: what each vertex makes of distant light; [`mod@reference`] by plain loops;
@@ -13,6 +13,7 @@
 //! - [`synthetic`]: signals made by a formula, for tests and measurements.
 
 pub mod all_frequency;
+pub mod bi_scale;
 pub mod brdf;
 pub mod coherence;
 pub mod cpca;

@@ -1,6 +1,7 @@
 //! Visibility maps of all-frequency transfer: cubes drawn from vertices, the same bits on every executor.
 
 use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
+use crossbar::prt::all_frequency::visibility::{Horizon, VisibilitySampling};
 use crossbar::prt::synthetic::hills;
 use crossbar::prt::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
@@ -12,11 +13,14 @@ use crate::system::executors;
 fn cubes_are_drawn_the_same_everywhere() {
     let vertices = Vertices::new(&hills(5), Tangents::Any).expect("vertices");
     let of: Vec<u32> = (0..vertices.len() as u32).step_by(7).collect();
-    for device in ["r350", "nv25", "gt200"] {
+    for (device, log2_samples, horizon) in
+        [("r350", 2, Horizon::Normal), ("nv25", 1, Horizon::Geometry), ("gt200", 0, Horizon::Normal)]
+    {
+        let sampling = VisibilitySampling { log2_samples, horizon };
         let mut reference = None;
         for (executor, how) in executors() {
             let profile = Profile::named(device).expect("a device");
-            let maps = CubeCard::new(profile, how).and_then(|mut card| card.draw(&vertices, &of));
+            let maps = CubeCard::new(profile, how, sampling).and_then(|mut card| card.draw(&vertices, &of));
             let maps = maps.unwrap_or_else(|e| panic!("{device}, {executor}: {e}"));
             assert!(maps.counts.visible > 0 && maps.counts.visible < maps.counts.above, "{device}, {executor}");
             assert!(reference.get_or_insert_with(|| maps.clone()) == &maps, "{device}, {executor}: other than scalar");

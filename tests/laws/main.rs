@@ -4,6 +4,7 @@ mod all_frequency;
 mod atlas;
 mod bad_geometry;
 mod beams;
+mod bi_scale;
 mod built;
 mod cases;
 mod comparing;

@@ -96,28 +96,51 @@ pub const fn light_texel(fine: usize) -> usize {
     (face * LIGHT_SIDE + row / SUPERSAMPLES) * LIGHT_SIDE + column / SUPERSAMPLES
 }
 
-/// The fine directions with their solid angles.
+/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. Their numbers are face (32 s)^2
+/// + row 32 s + column, with s of them along an edge of a texel.
 #[derive(Debug)]
 pub struct FineDirections {
+    samples: usize,
     directions: Vec<DVec3>,
     solid_angles: Vec<f64>,
 }
 
 impl FineDirections {
-    /// Computed once.
+    /// The fine directions, 4 x 4 a texel. Computed once.
     pub fn get() -> &'static Self {
-        static FINE: OnceLock<FineDirections> = OnceLock::new();
-        FINE.get_or_init(|| {
-            let at = |fine| face_row_column(fine, FINE_SIDE);
-            let direction = |[face, row, column]: [usize; 3]| FINE_MAP.direction(face, column, row);
-            let of_face: Vec<f64> = (0..FINE_SIDE * FINE_SIDE)
-                .map(|texel| FINE_MAP.solid_angle(texel % FINE_SIDE, texel / FINE_SIDE))
-                .collect();
-            Self {
-                directions: (0..FINE_DIRECTIONS).map(|fine| direction(at(fine))).collect(),
-                solid_angles: of_face.repeat(6),
-            }
-        })
+        Self::of(SUPERSAMPLES)
+    }
+
+    /// With 1, 2 or 4 directions along an edge of a texel. Computed once each.
+    ///
+    /// # Panics
+    /// If `samples` is another number.
+    pub fn of(samples: usize) -> &'static Self {
+        static ALL: [OnceLock<FineDirections>; 3] = [const { OnceLock::new() }; 3];
+        assert!([1, 2, 4].contains(&samples), "1, 2 or 4 directions along an edge of a texel, not {samples}");
+        ALL[samples.ilog2() as usize].get_or_init(|| Self::new(samples))
+    }
+
+    fn new(samples: usize) -> Self {
+        let side = LIGHT_SIDE * samples;
+        let map = CubeMap::new(side);
+        let direction = |[face, row, column]: [usize; 3]| map.direction(face, column, row);
+        let of_face: Vec<f64> = (0..side * side).map(|texel| map.solid_angle(texel % side, texel / side)).collect();
+        Self {
+            samples,
+            directions: (0..6 * side * side).map(|fine| direction(face_row_column(fine, side))).collect(),
+            solid_angles: of_face.repeat(6),
+        }
+    }
+
+    /// Directions along an edge of a texel.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Directions along an edge of the cube.
+    pub fn side(&self) -> usize {
+        LIGHT_SIDE * self.samples
     }
 
     /// The directions, of length 1, by number.
@@ -128,6 +151,14 @@ impl FineDirections {
     /// The solid angles of their texels in steradians, exact to rounding. They sum to 4 pi.
     pub fn solid_angles(&self) -> &[f64] {
         &self.solid_angles
+    }
+
+    /// The numbers of the directions in a light texel, row by row.
+    pub fn in_texel(&self, texel: usize) -> impl Iterator<Item = usize> + use<> {
+        let (samples, side) = (self.samples, self.side());
+        let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+        let first = (face * side + row * samples) * side + column * samples;
+        (0..samples * samples).map(move |sample| first + sample / samples * side + sample % samples)
     }
 }
 

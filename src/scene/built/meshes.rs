@@ -28,6 +28,26 @@ const MESHES: &[BuiltMesh] = &[
         what: "32,768 vertices, closed, smooth with a neck",
         build: || TransferModel::Tweety.mesh(1),
     },
+    BuiltMesh {
+        name: "bi-scale-armor",
+        what: "10,652 vertices, closed, with many bumps",
+        build: || TransferModel::BiScaleArmor.mesh(1),
+    },
+    BuiltMesh {
+        name: "bi-scale-bunny",
+        what: "3,286 vertices, closed, smooth with a neck",
+        build: || TransferModel::BiScaleBunny.mesh(1),
+    },
+    BuiltMesh {
+        name: "bi-scale-bunny-fine",
+        what: "the same with 47,960 vertices",
+        build: || TransferModel::BiScaleBunnyFine.mesh(1),
+    },
+    BuiltMesh {
+        name: "bi-scale-bunny-middle",
+        what: "the same with 12,380 vertices",
+        build: || TransferModel::BiScaleBunnyMiddle.mesh(1),
+    },
     BuiltMesh { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: stand_ins::bunny },
     BuiltMesh {
         name: "stand-in-dolphin",

@@ -31,6 +31,14 @@ pub enum TransferModel {
     Tweety,
     /// The bumpy body with the 54,100 vertices of its Buddha.
     Buddha,
+    /// The smooth body with the 3,286 vertices of the bunny in the paper on bi-scale transfer (its Tables I and II).
+    BiScaleBunny,
+    /// With 12,380 vertices (Table II).
+    BiScaleBunnyMiddle,
+    /// With 47,960 vertices (Table II).
+    BiScaleBunnyFine,
+    /// The bumpy body with the 10,652 vertices of its armor (Table I).
+    BiScaleArmor,
 }
 
 /// Parts of an icosahedron's edge, which make 10 parts^2 + 2 vertices, and how many of the largest faces are divided,
@@ -41,6 +49,10 @@ const HEAD: [u32; 2] = [70, 1_058];
 const BUNNY: [u32; 2] = [33, 664];
 const TWEETY: [u32; 2] = [57, 276];
 const BUDDHA: [u32; 2] = [73, 808];
+const BI_SCALE_BUNNY: [u32; 2] = [18, 44];
+const BI_SCALE_BUNNY_MIDDLE: [u32; 2] = [35, 128];
+const BI_SCALE_BUNNY_FINE: [u32; 2] = [69, 348];
+const BI_SCALE_ARMOR: [u32; 2] = [32, 410];
 
 impl TransferModel {
     /// The mesh with edges about so many times as long: with 1, as many vertices as the paper's. More than 16 is as 16.
@@ -54,6 +66,10 @@ impl TransferModel {
             Self::Bunny => smooth(BUNNY, coarser),
             Self::Tweety => smooth(TWEETY, coarser),
             Self::Buddha => bumpy(BUDDHA, coarser),
+            Self::BiScaleBunny => smooth(BI_SCALE_BUNNY, coarser),
+            Self::BiScaleBunnyMiddle => smooth(BI_SCALE_BUNNY_MIDDLE, coarser),
+            Self::BiScaleBunnyFine => smooth(BI_SCALE_BUNNY_FINE, coarser),
+            Self::BiScaleArmor => bumpy(BI_SCALE_ARMOR, coarser),
         }
     }
 }

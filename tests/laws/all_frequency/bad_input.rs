@@ -9,8 +9,8 @@ use crossbar::prt::all_frequency::light::{
     CubeLight, CubeLightError, Decimation, DiskSource, HaarLight, TruncationPriority,
 };
 use crossbar::prt::all_frequency::transfer::FactoredTransfer;
-use crossbar::prt::all_frequency::visibility::VisibilityMaps;
 use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
+use crossbar::prt::all_frequency::visibility::{VisibilityMaps, VisibilitySampling};
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
 use glam::{DMat3, DVec3};
@@ -69,7 +69,8 @@ fn what_is_no_transfer_is_refused() {
     let mut caster = HostTracer::new(&mesh, crossbar::geom::Sides::Both);
     let error = VisibilityMaps::trace(&vertices, &[0, 9], &mut caster, &mut |_, _| ()).expect_err("nine vertices");
     assert_eq!(error.to_string(), "expected one below the number of vertices for a vertex's number, found 9");
-    let card = |device: &str| CubeCard::new(Profile::named(device).expect("a device"), ExecutorKind::Scalar);
+    let profile = |device: &str| Profile::named(device).expect("a device");
+    let card = |device: &str| CubeCard::new(profile(device), ExecutorKind::Scalar, VisibilitySampling::default());
     assert!(card("r350").expect("a card").draw(&vertices, &[9]).is_err());
     let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), Hats::new(HatWidth::OneTexel));
     let other = super::vertices(&clutter(1, 1, 1.0));

@@ -6,7 +6,7 @@ use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
 use crossbar::prt::all_frequency::hats::HatWidth;
 use crossbar::prt::all_frequency::reference::AllFrequencyReference;
 use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
-use crossbar::prt::all_frequency::visibility::{VISIBILITY_BYTES, VisibilityMaps};
+use crossbar::prt::all_frequency::visibility::{Horizon, VISIBILITY_BYTES, VisibilityMaps, VisibilitySampling};
 use crossbar::prt::transfer::Vertices;
 use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
@@ -75,8 +75,9 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
     for (name, mesh) in meshes() {
         let vertices = vertices(&mesh);
         let of = some(&vertices);
-        let expected =
-            VisibilityMaps::trace_all(&vertices, &of, &mut HostTracer::new(&mesh, Sides::Both)).expect("maps");
+        let mut caster = HostTracer::new(&mesh, Sides::Both);
+        let expected = VisibilityMaps::trace_all(&vertices, &of, VisibilitySampling::default(), &mut caster);
+        let expected = expected.expect("maps");
         for threads in [1, 2, 5] {
             let found = in_threads(threads, || trace(&mesh, &vertices, &of));
             assert!(found.counts.traced < expected.counts.traced, "{name}");
@@ -88,6 +89,37 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
             assert_eq!(counts[0], counts[1], "{name}");
         }
         assert_eq!(expected.bits(0).len() * 8, VISIBILITY_BYTES);
+    }
+}
+
+/// Likewise with fewer directions, and without the plane of the normal as horizon: there vertices see more, and nothing
+/// else changes.
+#[test]
+fn other_samplings_are_those_of_casting_every_ray() {
+    for (name, mesh) in meshes() {
+        let vertices = vertices(&mesh);
+        let of = some(&vertices);
+        let mut caster = HostTracer::new(&mesh, Sides::Both);
+        for log2_samples in 0..3 {
+            let [by_normal, by_geometry] = [Horizon::Normal, Horizon::Geometry].map(|horizon| {
+                let sampling = VisibilitySampling { log2_samples, horizon };
+                let expected = VisibilityMaps::trace_all(&vertices, &of, sampling, &mut caster).expect("maps");
+                let found = VisibilityMaps::trace_sampled(&vertices, &of, sampling, &mut caster, &mut |_, _| ());
+                let found = found.expect("maps");
+                assert!(found.words() == expected.words(), "{name}, {sampling:?}");
+                found
+            });
+            let directions = by_normal.sampling().directions().directions();
+            assert_eq!(64 * by_normal.bits(0).len(), directions.len());
+            for (map, &vertex) in of.iter().enumerate() {
+                let normal = vertices.frames()[vertex as usize].normal();
+                for (fine, &direction) in directions.iter().enumerate() {
+                    let is_above = normal.dot(direction) > 0.0;
+                    let expected = is_above && by_geometry.is_visible(map, fine);
+                    assert_eq!(by_normal.is_visible(map, fine), expected, "{name}, {log2_samples}, {vertex}, {fine}");
+                }
+            }
+        }
     }
 }
 
@@ -135,7 +167,10 @@ fn the_card_draws_what_rays_see() {
         let traced = trace(&mesh, &vertices, &of);
         let draw = |device: &str, executor: ExecutorKind| {
             let profile = Profile::named(device).expect("a device");
-            CubeCard::new(profile, executor).expect("a card").draw(&vertices, &of).expect("maps")
+            CubeCard::new(profile, executor, VisibilitySampling::default())
+                .expect("a card")
+                .draw(&vertices, &of)
+                .expect("maps")
         };
         let drawn = draw("r350", ExecutorKind::Batch);
         assert_eq!(drawn, draw("r350", ExecutorKind::Scalar), "{name}");

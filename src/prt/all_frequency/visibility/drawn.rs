@@ -1,4 +1,4 @@
-//! Visibility by an emulated card: the six faces of a cube of 128 x 128 pixels, drawn from where a vertex's rays start.
+//! Visibility by an emulated card: the six faces of a cube, drawn from where a vertex's rays start.
 //!
 //! A pixel's center is a fine direction, and what covers it blocks the light: no depth is needed. Coordinates are taken
 //! relative to the eye in f64 and rounded once; the card snaps them to its subpixel grid, so that pixels near a
@@ -13,12 +13,11 @@ use refsim::machine::{DrawCall, Executor, Machine, MachineError, TextureId, Vert
 use refsim::raster::{PixelCenter, Primitive, Vertex, Viewport};
 use refsim::texture::{Region, TexelFormat};
 
-use super::maps::{VisibilityMaps, WORDS};
+use super::maps::{Horizon, VisibilityMaps, VisibilitySampling};
 use super::sight::{above, set};
 use super::traced::{check, unclear};
 use crate::card::{KernelError, Texels};
 use crate::geom::vector::wide;
-use crate::prt::all_frequency::grid::FINE_SIDE;
 use crate::prt::kernels;
 use crate::prt::transfer::{Occluders, TransferError, Vertices, origins};
 use crate::sphere::{CUBE_FACES, FaceAxes};
@@ -41,6 +40,7 @@ pub enum DrawnVisibilityError {
 /// A card with a target for the faces of one cube, each below the one before.
 #[derive(Debug)]
 pub struct CubeCard {
+    sampling: VisibilitySampling,
     machine: Machine,
     program: CheckedProgram,
     target: TextureId,
@@ -51,12 +51,17 @@ impl CubeCard {
     ///
     /// # Errors
     /// [`DrawnVisibilityError`] if the card refuses the program or the target.
-    pub fn new(profile: impl Into<Arc<Profile>>, executor: impl Into<Executor>) -> Result<Self, DrawnVisibilityError> {
+    pub fn new(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        sampling: VisibilitySampling,
+    ) -> Result<Self, DrawnVisibilityError> {
         let profile = profile.into();
         let program = kernels::SHADE_COLOR.checked(&profile)?;
         let mut machine = executor.into().machine(profile)?;
-        let target = machine.create_target(TexelFormat::Bgra8, FINE_SIDE as u32, 6 * FINE_SIDE as u32)?;
-        Ok(Self { machine, program, target })
+        let side = sampling.directions().side() as u32;
+        let target = machine.create_target(TexelFormat::Bgra8, side, 6 * side)?;
+        Ok(Self { sampling, machine, program, target })
     }
 
     /// The maps of some vertices of a mesh. Triangles of which nothing lies above the horizon of a vertex's normal are
@@ -67,13 +72,14 @@ impl CubeCard {
     pub fn draw(&mut self, vertices: &Vertices, of: &[u32]) -> Result<VisibilityMaps, DrawnVisibilityError> {
         check(vertices, of)?;
         let origins = origins(vertices, &Occluders::new(vertices));
-        let mut maps = VisibilityMaps::dark(of);
+        let mut maps = VisibilityMaps::dark(of, self.sampling);
         maps.counts.unclear = unclear(&origins, of);
         for (map, &vertex) in of.iter().enumerate() {
             let (frame, origin) = (&vertices.frames()[vertex as usize], &origins[vertex as usize]);
             let blocked = self.cube(vertices, wide(origin.at), frame.normal())?;
-            let (fine, below) = above(frame, origin);
-            let bits = &mut maps.words_mut()[map * WORDS..(map + 1) * WORDS];
+            let (fine, below) = above(frame, origin, self.sampling);
+            let words = self.sampling.words();
+            let bits = &mut maps.words_mut()[map * words..(map + 1) * words];
             fine.iter().filter(|&&fine| !blocked[fine as usize]).for_each(|&fine| set(bits, fine));
             maps.counts.above += fine.len() as u64 + below;
             maps.counts.below_triangles += below;
@@ -85,10 +91,11 @@ impl CubeCard {
     /// Which pixels of a cube around an eye are covered, by the number of the fine direction.
     fn cube(&mut self, vertices: &Vertices, eye: DVec3, normal: DVec3) -> Result<Vec<bool>, DrawnVisibilityError> {
         self.machine.clear_target(self.target, [0; 4])?;
+        let sees_below = self.sampling.horizon == Horizon::Geometry;
         let triangles = 0..vertices.triangles().len() as u32;
         let seen: Vec<[DVec3; 3]> = triangles
             .map(|triangle| vertices.corners(triangle).map(|corner| corner - eye))
-            .filter(|corners| corners.iter().any(|corner| normal.dot(*corner) > 0.0))
+            .filter(|corners| sees_below || corners.iter().any(|corner| normal.dot(*corner) > 0.0))
             .collect();
         for (face, axes) in CUBE_FACES.iter().enumerate() {
             let on_face: Vec<Vertex> = seen
@@ -100,7 +107,7 @@ impl CubeCard {
             if on_face.is_empty() {
                 continue;
             }
-            let (side, constants) = (FINE_SIDE as u32, Constants::default());
+            let (side, constants) = (self.sampling.directions().side() as u32, Constants::default());
             let place = Region { x: 0, y: face as u32 * side, width: side, height: side };
             let source = VertexSource::Transformed(&on_face);
             let mut call = DrawCall::new(source, Primitive::TriangleList, &self.program, &constants, self.target);

@@ -1,10 +1,50 @@
 //! The bits.
 
-use crate::prt::all_frequency::grid::FINE_DIRECTIONS;
+use crate::prt::all_frequency::grid::{FINE_DIRECTIONS, FineDirections};
 
-/// Words of bits per vertex.
-pub(super) const WORDS: usize = FINE_DIRECTIONS / 64;
-/// Memory of a vertex's map in bytes: 12 KiB. 50,000 vertices take 614 MB.
+/// Which directions a vertex looks in, and which of them count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VisibilitySampling {
+    /// m: 2^m x 2^m directions in each of the light's texels, 0 to 2.
+    pub log2_samples: u32,
+    /// What ends a vertex's view.
+    pub horizon: Horizon,
+}
+
+impl Default for VisibilitySampling {
+    /// 4 x 4 directions above the plane of the normal, as system 5 has them.
+    fn default() -> Self {
+        Self { log2_samples: 2, horizon: Horizon::Normal }
+    }
+}
+
+impl VisibilitySampling {
+    /// The directions.
+    ///
+    /// # Panics
+    /// If there are more than 4 x 4 in a texel.
+    pub fn directions(self) -> &'static FineDirections {
+        FineDirections::of(1 << self.log2_samples)
+    }
+
+    /// Words of bits per vertex.
+    pub(super) fn words(self) -> usize {
+        self.directions().directions().len() / 64
+    }
+}
+
+/// What ends the view of a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Horizon {
+    /// The plane of its normal, and triangles.
+    #[default]
+    Normal,
+    /// Triangles alone: where the surface curves away from the normal, a vertex sees below the normal's plane.
+    Geometry,
+}
+
+/// Memory of a vertex's map of 4 x 4 directions a texel in bytes: 12 KiB. 50,000 vertices take 614 MB.
 pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 
 /// Numbers of directions, and vertices that something is wrong with.
@@ -23,9 +63,10 @@ pub struct VisibilityCounts {
 }
 
 /// The visibility q_p of some vertices: a bit per vertex and fine direction, 1 where it sees the light. Directions that
-/// are not above the horizon of the vertex's normal are 0.
+/// are not above the vertex's horizon are 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VisibilityMaps {
+    sampling: VisibilitySampling,
     vertices: Vec<u32>,
     words: Vec<u64>,
     /// How many directions, and what is wrong.
@@ -34,21 +75,27 @@ pub struct VisibilityMaps {
 
 impl VisibilityMaps {
     /// All bits 0.
-    pub(super) fn dark(vertices: &[u32]) -> Self {
+    pub(super) fn dark(vertices: &[u32], sampling: VisibilitySampling) -> Self {
         let counts = VisibilityCounts::default();
-        Self { vertices: vertices.to_vec(), words: vec![0; vertices.len() * WORDS], counts }
+        Self { sampling, vertices: vertices.to_vec(), words: vec![0; vertices.len() * sampling.words()], counts }
     }
 
-    /// The maps of vertices 0, 1, 2 and so on, from all words, map by map; nothing is known of how they came about but
-    /// the number of bits. `None` if the last map is incomplete.
+    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map; nothing is known of
+    /// how they came about but the number of bits. `None` if the last map is incomplete.
     pub fn from_words(words: Vec<u64>) -> Option<Self> {
-        if !words.len().is_multiple_of(WORDS) {
+        let sampling = VisibilitySampling::default();
+        if !words.len().is_multiple_of(sampling.words()) {
             return None;
         }
-        let vertices = (0..u32::try_from(words.len() / WORDS).ok()?).collect();
-        let mut maps = Self { vertices, words, counts: VisibilityCounts::default() };
+        let vertices = (0..u32::try_from(words.len() / sampling.words()).ok()?).collect();
+        let mut maps = Self { sampling, vertices, words, counts: VisibilityCounts::default() };
         maps.count_visible();
         Some(maps)
+    }
+
+    /// Which directions the bits are of.
+    pub fn sampling(&self) -> VisibilitySampling {
+        self.sampling
     }
 
     /// All words, map by map.
@@ -77,7 +124,8 @@ impl VisibilityMaps {
     /// # Panics
     /// If there is no such map.
     pub fn bits(&self, map: usize) -> &[u64] {
-        &self.words[map * WORDS..(map + 1) * WORDS]
+        let words = self.sampling.words();
+        &self.words[map * words..(map + 1) * words]
     }
 
     /// Whether a map's vertex sees the light in a fine direction.
@@ -85,8 +133,9 @@ impl VisibilityMaps {
     /// # Panics
     /// If there is no such map or direction.
     pub fn is_visible(&self, map: usize, fine: usize) -> bool {
-        assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
-        self.bits(map)[fine / 64] >> (fine % 64) & 1 != 0
+        let bits = self.bits(map);
+        assert!(fine < 64 * bits.len(), "a fine direction, not {fine}");
+        bits[fine / 64] >> (fine % 64) & 1 != 0
     }
 
     pub(super) fn words_mut(&mut self) -> &mut [u64] {

@@ -11,5 +11,5 @@ mod sight;
 mod traced;
 
 pub use census::{SegmentCensus, segments_below_horizon};
-pub use maps::{VISIBILITY_BYTES, VisibilityCounts, VisibilityMaps};
+pub use maps::{Horizon, VISIBILITY_BYTES, VisibilityCounts, VisibilityMaps, VisibilitySampling};
 pub(in crate::prt::all_frequency) use traced::check;

@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
-use super::maps::WORDS;
+use super::maps::{Horizon, VisibilitySampling};
 use crate::geom::vector::wide;
-use crate::prt::all_frequency::grid::face_row_column;
-use crate::prt::all_frequency::grid::{FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES};
+use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
 use crate::prt::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart};
 
 /// The largest sine of the angle from a light texel's center to a fine direction in it: 3/4 of half a diagonal at the
@@ -24,33 +23,34 @@ pub(super) struct Asked {
 pub(super) fn look(
     (frame, origin): (&LocalFrame, &RayOrigin),
     occluders: &Occluders,
+    sampling: VisibilitySampling,
     waiting: &mut Vec<u32>,
     bits: &mut [u64],
 ) -> Asked {
     let skyline = occluders.skyline(wide(origin.at), frame, waiting);
-    let directions = FineDirections::get().directions();
-    let normal = frame.normal();
+    let (fine_directions, normal) = (sampling.directions(), frame.normal());
+    let sees_below = sampling.horizon == Horizon::Geometry;
     let mut asked = Asked::default();
     for texel in 0..LIGHT_TEXELS {
         let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
         let center = LIGHT_MAP.direction(face, column, row);
         let height = normal.dot(center);
-        if height <= -TEXEL_SINE {
+        if height <= -TEXEL_SINE && !sees_below {
             continue;
         }
         let is_high = height >= TEXEL_SINE && origin.planes.iter().any(|plane| plane.dot(center) >= TEXEL_SINE);
-        let may_be_blocked = skyline.may_block(frame.to_local(center), TEXEL_SINE);
-        let first = (face * FINE_SIDE + row * SUPERSAMPLES) * FINE_SIDE + column * SUPERSAMPLES;
-        for sample in 0..SUPERSAMPLES * SUPERSAMPLES {
-            let fine = first + sample / SUPERSAMPLES * FINE_SIDE + sample % SUPERSAMPLES;
-            let direction = directions[fine];
-            if !is_high && normal.dot(direction) <= 0.0 {
+        // Nothing is known of what stands below the plane of the normal.
+        let may_be_blocked = height < TEXEL_SINE && sees_below || skyline.may_block(frame.to_local(center), TEXEL_SINE);
+        for fine in fine_directions.in_texel(texel) {
+            let direction = fine_directions.directions()[fine];
+            let is_below = !is_high && normal.dot(direction) <= 0.0;
+            if is_below && !sees_below {
                 continue;
             }
             asked.above += 1;
             if !is_high && origin.is_below_horizon(direction) {
                 asked.below_triangles += 1;
-            } else if may_be_blocked && skyline.is_marked(SkyPart::of(frame.to_local(direction))) {
+            } else if is_below || may_be_blocked && skyline.is_marked(SkyPart::of(frame.to_local(direction))) {
                 asked.fine.push(fine as u32);
             } else {
                 bits[fine / 64] |= 1 << (fine % 64);
@@ -61,15 +61,15 @@ pub(super) fn look(
 }
 
 /// The fine directions above a vertex's horizons, in order: all those that may see the light.
-pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin) -> (Vec<u32>, u64) {
-    let is_above = |direction: &DVec3| frame.normal().dot(*direction) > 0.0;
-    let directions = (0..).zip(FineDirections::get().directions()).filter(|(_, direction)| is_above(direction));
-    let (below, open): (Vec<_>, Vec<_>) = directions.partition(|(_, direction)| origin.is_below_horizon(**direction));
+pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: VisibilitySampling) -> (Vec<u32>, u64) {
+    let sees_below = sampling.horizon == Horizon::Geometry;
+    let is_above = |direction: &DVec3| sees_below || frame.normal().dot(*direction) > 0.0;
+    let all = (0..).zip(sampling.directions().directions()).filter(|(_, direction)| is_above(direction));
+    let (below, open): (Vec<_>, Vec<_>) = all.partition(|(_, direction)| origin.is_below_horizon(**direction));
     (open.into_iter().map(|(fine, _)| fine).collect(), below.len() as u64)
 }
 
 /// Sets a bit of a map.
 pub(super) fn set(bits: &mut [u64], fine: u32) {
-    debug_assert_eq!(bits.len(), WORDS, "a whole map");
     bits[fine as usize / 64] |= 1 << (fine % 64);
 }

@@ -1,0 +1,121 @@
+//! How fast biclustering and its product are on the host, on one thread: the transfer of the stand-in of the paper's
+//! bunny (3,286 vertices, 6 x 32 x 32 light texels, 8 x 8 local directions).
+//!
+//! Figures to beat: light times the biclusters at least three times as fast as light times the matrix row by row, in
+//! f32; biclusters of some ten million non-zeros in 24 s (the paper took 12 minutes). Ratios are of one run. One element
+//! is one non-zero.
+//!
+//! `cargo bench -p crossbar-benches --bench bi_scale`; `-- --whole` biclusters once and says how long it took.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::{Criterion, Throughput};
+use crossbar::geom::Sides;
+use crossbar::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crossbar::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crossbar::prt::bi_scale::directions::LocalDirections;
+use crossbar::prt::bi_scale::matrix::SparseMatrix;
+use crossbar::prt::bi_scale::product::Gather;
+use crossbar::prt::bi_scale::transfer::transfer_matrix;
+use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::scene::built::transfer_models::TransferModel;
+use crossbar::tracer::HostTracer;
+
+/// T of a model with edges so many times as long.
+fn matrix(coarser: u32) -> SparseMatrix {
+    let mesh = TransferModel::BiScaleBunny.mesh(coarser);
+    let vertices = Vertices::new(&mesh, Tangents::Texture).expect("vertices");
+    let all: Vec<u32> = (0..vertices.len() as u32).collect();
+    let sampling = VisibilitySampling { log2_samples: 1, horizon: Horizon::Normal };
+    let mut caster = HostTracer::new(&mesh, Sides::Both);
+    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ()).expect("maps");
+    transfer_matrix(&vertices, &maps, &LocalDirections::new(8).expect("a side")).expect("a matrix")
+}
+
+/// Compressed rows in f32: columns and values of each row one after the other.
+struct Rows {
+    begins: Vec<u32>,
+    columns: Vec<u32>,
+    values: Vec<f32>,
+}
+
+impl Rows {
+    fn new(matrix: &SparseMatrix) -> Self {
+        let mut rows = Self { begins: vec![0], columns: Vec::new(), values: Vec::new() };
+        for entries in (0..matrix.rows()).map(|row| matrix.row(row)) {
+            rows.columns.extend(entries.iter().map(|entry| entry.index));
+            rows.values.extend(entries.iter().map(|entry| (matrix.unit() * f64::from(entry.value)) as f32));
+            rows.begins.push(rows.columns.len() as u32);
+        }
+        rows
+    }
+
+    fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
+        let row = |ends: &[u32]| {
+            let of = ends[0] as usize..ends[1] as usize;
+            let terms = self.columns[of.clone()].iter().zip(&self.values[of]);
+            terms.fold([0.0; C], |sum, (&column, value)| {
+                let light = light[column as usize];
+                std::array::from_fn(|channel| sum[channel] + value * light[channel])
+            })
+        };
+        self.begins.windows(2).map(row).collect()
+    }
+}
+
+fn biclusters(matrix: SparseMatrix) -> Biclustering {
+    bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("quarters")
+}
+
+/// One light of C channels by both ways.
+fn products<const C: usize>(criterion: &mut Criterion, rows: &Rows, gather: &Gather) {
+    let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
+    let mut group = criterion.benchmark_group(format!("light of {C} channels"));
+    group.sample_size(20).measurement_time(Duration::from_secs(3));
+    group.throughput(Throughput::Elements(rows.columns.len() as u64));
+    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply(black_box(&light)))));
+    group.bench_function("times biclusters", |b| b.iter(|| black_box(gather.multiply(black_box(&light)))));
+    group.finish();
+}
+
+fn benches(criterion: &mut Criterion, matrix: &SparseMatrix, found: &Biclustering) {
+    let (rows, gather) = (Rows::new(matrix), Gather::new(found));
+    products::<1>(criterion, &rows, &gather);
+    products::<3>(criterion, &rows, &gather);
+    products::<4>(criterion, &rows, &gather);
+    let small = self::matrix(4);
+    let mut group = criterion.benchmark_group("biclusters");
+    group.sample_size(10).throughput(Throughput::Elements(small.nonzeros() as u64));
+    group.bench_function("203 vertices", |b| b.iter(|| black_box(biclusters(small.clone()))));
+    group.finish();
+}
+
+fn main() -> Result<(), rayon::ThreadPoolBuildError> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    let start = Instant::now();
+    let matrix = matrix(1);
+    let (nonzeros, made) = (matrix.nonzeros(), start.elapsed());
+    let start = Instant::now();
+    let found = biclusters(matrix.clone());
+    let [rows, columns] = found.matrix_size();
+    #[expect(clippy::print_stdout, reason = "what is measured once is said once")]
+    {
+        println!("T: {rows} x {columns}, {nonzeros} non-zeros, made in {made:.2?}");
+        println!(
+            "{} biclusters in {:.2?}: cost {} of {}, {} entries of rows, {} of columns",
+            found.len(),
+            start.elapsed(),
+            found.cost(),
+            2 * nonzeros,
+            found.row_entries(),
+            found.column_entries()
+        );
+    }
+    if !std::env::args().any(|argument| argument == "--whole") {
+        let mut criterion = Criterion::default().configure_from_args();
+        benches(&mut criterion, &matrix, &found);
+        criterion.final_summary();
+    }
+    Ok(())
+}

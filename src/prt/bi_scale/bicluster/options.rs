@@ -1,0 +1,34 @@
+//! What may be chosen, and what may go wrong.
+
+use thiserror::Error;
+
+/// Choices of Algorithm 1 that the paper leaves open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BiclusterOptions {
+    /// Of the non-zeros that biclusters start at.
+    pub seed: u64,
+    /// Whether rows and columns are also taken out again (section IV-C: operations are insertions and deletions).
+    pub deletion: bool,
+}
+
+impl Default for BiclusterOptions {
+    fn default() -> Self {
+        Self { seed: 1, deletion: true }
+    }
+}
+
+/// Why a matrix cannot be biclustered.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum BiclusterError {
+    /// A residual that leaves the range of 32 bits.
+    #[error(
+        "expected residuals within 32 bits, found {value} units in row {row}, column {column} (counted from 0): \
+         give the matrix in fewer bits"
+    )]
+    Residual { row: u32, column: u32, value: i64 },
+    /// More non-zeros than 32 bits can count in a line, after residuals were added.
+    #[error("expected at most {} non-zeros, found {found}", u32::MAX)]
+    TooMany { found: u64 },
+}

@@ -1,0 +1,78 @@
+//! What the rows of a submatrix hold in each column.
+
+/// Values other than 0 of one column in the rows of a submatrix, each with how often it stands there.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tally {
+    /// In no order; counts may have come down to 0.
+    values: Vec<(i32, u32)>,
+    nonzeros: u32,
+    /// The highest count.
+    most: u32,
+}
+
+impl Tally {
+    pub(super) fn add(&mut self, value: i32) {
+        self.nonzeros += 1;
+        let count = match self.values.iter_mut().find(|(known, _)| *known == value) {
+            Some((_, count)) => {
+                *count += 1;
+                *count
+            }
+            None => {
+                self.values.push((value, 1));
+                1
+            }
+        };
+        self.most = self.most.max(count);
+    }
+
+    /// Takes back an [`Self::add`].
+    pub(super) fn remove(&mut self, value: i32) {
+        self.nonzeros -= 1;
+        let known = self.values.iter_mut().find(|(known, _)| *known == value);
+        known.expect("a value that was added").1 -= 1;
+        self.most = self.values.iter().map(|(_, count)| *count).max().unwrap_or(0);
+    }
+
+    /// Most frequent values and non-zeros: what a column gains by half, before its own cost, when it is inserted.
+    pub(super) fn most_and_nonzeros(&self) -> u32 {
+        self.most + self.nonzeros
+    }
+
+    /// The same for a column that has a value.
+    pub(super) fn matches_and_nonzeros(&self, value: i32) -> u32 {
+        self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
+    }
+
+    /// The most frequent value, the lowest of equally frequent ones.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub(super) fn most_frequent(&self) -> i32 {
+        let frequent = self.values.iter().filter(|(_, count)| *count == self.most && *count > 0);
+        frequent.map(|(value, _)| *value).min().expect("a column with a value")
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.values.clear();
+        (self.nonzeros, self.most) = (0, 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_of_the_most_frequent_values() {
+        let mut tally = Tally::default();
+        [3, -1, 3, -1, 2].into_iter().for_each(|value| tally.add(value));
+        assert_eq!((tally.most_frequent(), tally.most_and_nonzeros()), (-1, 7));
+        tally.remove(-1);
+        assert_eq!((tally.most_frequent(), tally.most_and_nonzeros()), (3, 6));
+        assert_eq!(tally.matches_and_nonzeros(2), 5);
+        assert_eq!(tally.matches_and_nonzeros(9), 4);
+        tally.clear();
+        assert_eq!(tally.most_and_nonzeros(), 0);
+    }
+}

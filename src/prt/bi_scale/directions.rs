@@ -1,0 +1,180 @@
+//! The M local directions that a bidirectional texture is sampled in, for light and for view.
+//!
+//! A square of k x k cells is mapped onto the hemisphere so that equal areas stay equal: the concentric map of Shirley
+//! and Chiu from the square to the disc, then Lambert's equal-area map from the disc to the hemisphere (section VI-A,
+//! reference 34, which the scan has lost: that it is Shirley and Chiu's is an inference). The directions are those of
+//! the cells' centers.
+
+use std::f64::consts::FRAC_PI_4;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::elementary;
+
+/// M = k x k directions of the upper hemisphere. Direction k v + u is that of cell (u, v).
+#[derive(Clone, Debug, PartialEq)]
+pub struct LocalDirections {
+    side: usize,
+    directions: Vec<DVec3>,
+}
+
+/// A number of cells that there cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("expected 1 to {} directions along an edge of the square, found {found}", LocalDirections::MOST)]
+pub struct DirectionsError {
+    /// What was asked for.
+    pub found: usize,
+}
+
+impl LocalDirections {
+    /// The most cells along an edge: 4096 directions.
+    pub const MOST: usize = 64;
+
+    /// The directions of a square of `side` x `side` cells.
+    ///
+    /// # Errors
+    /// [`DirectionsError`] unless there are 1 to [`Self::MOST`] along an edge.
+    pub fn new(side: usize) -> Result<Self, DirectionsError> {
+        if !(1..=Self::MOST).contains(&side) {
+            return Err(DirectionsError { found: side });
+        }
+        let center = |cell: usize| (2 * cell + 1) as f64 / side as f64 - 1.0;
+        let direction = |cell: usize| hemisphere([center(cell % side), center(cell / side)]);
+        Ok(Self { side, directions: (0..side * side).map(direction).collect() })
+    }
+
+    /// Cells along an edge of the square.
+    pub fn side(&self) -> usize {
+        self.side
+    }
+
+    /// The directions, of length 1, by number.
+    pub fn directions(&self) -> &[DVec3] {
+        &self.directions
+    }
+
+    /// The direction nearest to one in the local frame, which may lie below the horizon: that of the largest cosine, of
+    /// equal ones the lowest.
+    pub fn nearest(&self, direction: DVec3) -> usize {
+        // Cells are at most three times as long as wide, so that no center two cells away is nearer than the own one.
+        let around = square(direction).map(|at| {
+            let cell = ((at + 1.0) / 2.0 * self.side as f64) as usize;
+            cell.saturating_sub(2)..(cell + 3).min(self.side)
+        });
+        let [across, down] = around;
+        self.nearest_of(direction, down.flat_map(|v| across.clone().map(move |u| v * self.side + u)))
+    }
+
+    /// The same, with all directions looked at.
+    pub fn nearest_of_all(&self, direction: DVec3) -> usize {
+        self.nearest_of(direction, 0..self.directions.len())
+    }
+
+    fn nearest_of(&self, direction: DVec3, numbers: impl Iterator<Item = usize>) -> usize {
+        let mut best = (f64::NEG_INFINITY, 0);
+        for number in numbers {
+            let cosine = self.directions[number].dot(direction);
+            if cosine > best.0 {
+                best = (cosine, number);
+            }
+        }
+        best.1
+    }
+}
+
+/// The direction of a point of the square [-1, 1]^2. A half's width of the square is a quarter of a circle's turn.
+pub fn hemisphere([u, v]: [f64; 2]) -> DVec3 {
+    let (radius, angle) = if u == 0.0 && v == 0.0 {
+        (0.0, 0.0)
+    } else if u * u > v * v {
+        (u, FRAC_PI_4 * (v / u))
+    } else {
+        (v, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (u / v))
+    };
+    let (sine, cosine) = elementary::sin_cos(angle);
+    // Lambert: the height falls with the disc's area, and the radius over the ground follows from length 1.
+    let height = 1.0 - radius * radius;
+    let ground = radius * (2.0 - radius * radius).sqrt();
+    DVec3::new(ground * cosine, ground * sine, height)
+}
+
+/// The point of the square that a direction of the upper hemisphere comes from: the inverse of [`hemisphere`]. What
+/// lies below is taken for the horizon.
+pub fn square(direction: DVec3) -> [f64; 2] {
+    let radius = (1.0 - direction.z.clamp(0.0, 1.0)).sqrt();
+    let (x, y) = (direction.x, direction.y);
+    if x == 0.0 && y == 0.0 {
+        return [0.0, 0.0];
+    }
+    if x.abs() > y.abs() {
+        let across = elementary::atan2(y * x.signum(), x.abs()) / FRAC_PI_4;
+        [radius * x.signum(), radius * across * x.signum()]
+    } else {
+        let across = elementary::atan2(x * y.signum(), y.abs()) / FRAC_PI_4;
+        [radius * across * y.signum(), radius * y.signum()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::CounterRng;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn the_square_and_the_hemisphere_are_one_to_one() {
+        for (i, j) in (0..=40).flat_map(|i| (0..=40).map(move |j| (i, j))) {
+            let point = [i, j].map(|at| f64::from(at) / 20.0 - 1.0);
+            let direction = hemisphere(point);
+            assert_abs_diff_eq!(direction.length(), 1.0, epsilon = 1e-15);
+            assert!(direction.z >= 0.0);
+            let back = square(direction);
+            assert_abs_diff_eq!(back[0], point[0], epsilon = 1e-7);
+            assert_abs_diff_eq!(back[1], point[1], epsilon = 1e-7);
+        }
+    }
+
+    /// Solid angles of cells, by the triangles of fine grids, are equal.
+    #[test]
+    fn areas_are_kept() {
+        let (cells, fine) = (6, 40);
+        let at = |i: usize, j: usize| hemisphere([i, j].map(|at| 2.0 * at as f64 / (cells * fine) as f64 - 1.0));
+        let area = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).length() / 2.0;
+        let expected = std::f64::consts::TAU / (cells * cells) as f64;
+        for (u, v) in (0..cells).flat_map(|u| (0..cells).map(move |v| (u, v))) {
+            let corners = (0..fine * fine).map(|k| (u * fine + k % fine, v * fine + k / fine));
+            let sum: f64 = corners
+                .map(|(i, j)| {
+                    let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+                    area(a, b, c) + area(b, c, d)
+                })
+                .sum();
+            assert_abs_diff_eq!(sum / expected, 1.0, epsilon = 2e-3);
+        }
+    }
+
+    #[test]
+    fn the_nearest_is_that_of_all() {
+        let random = CounterRng::new(3);
+        for side in [1, 2, 3, 5, 8, 12, 16, 32] {
+            let directions = LocalDirections::new(side).unwrap();
+            for number in 0..20_000 {
+                let [x, y, z] = [0, 1, 2].map(|k| 2.0 * random.unit(number, side as u64, k) - 1.0);
+                let direction = DVec3::new(x, y, z).normalize();
+                assert_eq!(directions.nearest(direction), directions.nearest_of_all(direction), "{side}: {direction}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_center_is_its_own_nearest() {
+        for side in [1, 3, 8, 12] {
+            let directions = LocalDirections::new(side).unwrap();
+            for (number, &direction) in directions.directions().iter().enumerate() {
+                assert_eq!(directions.nearest(direction), number);
+            }
+        }
+        assert_eq!(LocalDirections::new(65), Err(DirectionsError { found: 65 }));
+    }
+}

@@ -1,0 +1,153 @@
+//! The transfer matrix T: sparse, of whole numbers of a power of two.
+//!
+//! Down-sampling 2^m x 2^m visibility samples leaves multiples of 2^-2m (section IV-A). As whole numbers they are
+//! subtracted from each other without error, so that "lossless" means equal.
+
+use thiserror::Error;
+
+/// An entry of a line: its place along the line, and its value in units of the matrix.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MatrixEntry {
+    /// The column of an entry of a row; the row of an entry of a column.
+    pub index: u32,
+    /// The value in units of [`SparseMatrix::unit`].
+    pub value: i32,
+}
+
+/// A sparse matrix, row by row. Columns increase along a row; no value is 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SparseMatrix {
+    columns: usize,
+    fraction_bits: u32,
+    begins: Vec<usize>,
+    entries: Vec<MatrixEntry>,
+}
+
+/// Why entries are no matrix. Rows and columns count from 0.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum SparseMatrixError {
+    /// More rows or columns than 32 bits can name, or none.
+    #[error("expected 1 to {} rows and columns, found {rows} x {columns}", u32::MAX)]
+    Size { rows: usize, columns: usize },
+    /// A place outside.
+    #[error("expected a column below {columns} in row {row}, found {column}")]
+    Column { row: usize, column: u32, columns: usize },
+    /// Entries out of order, or two for one place.
+    #[error("expected increasing columns in row {row}, found {column} after {before}: is an entry given twice?")]
+    Order { row: usize, column: u32, before: u32 },
+    /// A value of 0.
+    #[error("expected values other than 0, found 0 in row {row}, column {column}")]
+    Zero { row: usize, column: u32 },
+}
+
+impl SparseMatrix {
+    /// The largest number of bits behind the binary point: more than a difference of two numbers of single precision
+    /// between 0 and 1 needs.
+    pub const MOST_FRACTION_BITS: u32 = 30;
+
+    /// A matrix without rows yet, of this many columns and with units of 2^-`fraction_bits`.
+    ///
+    /// # Errors
+    /// [`SparseMatrixError::Size`] without columns, or with more than 32 bits can name.
+    ///
+    /// # Panics
+    /// If there are more than [`Self::MOST_FRACTION_BITS`].
+    pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, SparseMatrixError> {
+        assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
+        if columns == 0 || u32::try_from(columns).is_err() {
+            return Err(SparseMatrixError::Size { rows: 0, columns });
+        }
+        Ok(Self { columns, fraction_bits, begins: vec![0], entries: Vec::new() })
+    }
+
+    /// Adds a row below the others.
+    ///
+    /// # Errors
+    /// [`SparseMatrixError`]; the matrix is as before then.
+    pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), SparseMatrixError> {
+        let (number, columns) = (self.rows(), self.columns);
+        if u32::try_from(number + 1).is_err() {
+            return Err(SparseMatrixError::Size { rows: number + 1, columns });
+        }
+        let mut before = None;
+        for &MatrixEntry { index: column, value } in row {
+            match before {
+                _ if column as usize >= columns => {
+                    return Err(SparseMatrixError::Column { row: number, column, columns });
+                }
+                Some(before) if before >= column => {
+                    return Err(SparseMatrixError::Order { row: number, column, before });
+                }
+                _ if value == 0 => return Err(SparseMatrixError::Zero { row: number, column }),
+                _ => before = Some(column),
+            }
+        }
+        self.entries.extend_from_slice(row);
+        self.begins.push(self.entries.len());
+        Ok(())
+    }
+
+    /// Number of rows: M n, local directions of all vertices, for a transfer matrix.
+    pub fn rows(&self) -> usize {
+        self.begins.len() - 1
+    }
+
+    /// Number of columns: N, light texels, for a transfer matrix.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Bits behind the binary point.
+    pub fn fraction_bits(&self) -> u32 {
+        self.fraction_bits
+    }
+
+    /// What a value of 1 stands for.
+    pub fn unit(&self) -> f64 {
+        1.0 / f64::from(1_u32 << self.fraction_bits)
+    }
+
+    /// Number of entries: nnz(T).
+    pub fn nonzeros(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// The entries of a row, columns increasing.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn row(&self, row: usize) -> &[MatrixEntry] {
+        &self.entries[self.begins[row]..self.begins[row + 1]]
+    }
+
+    /// All entries row by row, and where each row begins and the last one ends.
+    pub(super) fn into_rows(self) -> (Vec<MatrixEntry>, Vec<usize>) {
+        (self.entries, self.begins)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_row_changes_nothing() {
+        let entry = |index, value| MatrixEntry { index, value };
+        let mut matrix = SparseMatrix::new(4, 2).unwrap();
+        matrix.push_row(&[entry(0, 4), entry(3, 1)]).unwrap();
+        let before = matrix.clone();
+        let wrong = [
+            (vec![entry(4, 1)], SparseMatrixError::Column { row: 1, column: 4, columns: 4 }),
+            (vec![entry(2, 1), entry(2, 3)], SparseMatrixError::Order { row: 1, column: 2, before: 2 }),
+            (vec![entry(1, 0)], SparseMatrixError::Zero { row: 1, column: 1 }),
+        ];
+        for (row, error) in wrong {
+            assert_eq!(matrix.push_row(&row), Err(error));
+            assert_eq!(matrix, before);
+        }
+        assert_eq!(SparseMatrix::new(0, 2), Err(SparseMatrixError::Size { rows: 0, columns: 0 }));
+        assert_eq!((matrix.unit(), matrix.nonzeros()), (0.25, 2));
+    }
+}

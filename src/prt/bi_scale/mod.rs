@@ -1,0 +1,12 @@
+//! System 6: all-frequency bi-scale radiance transfer by biclustering.
+//!
+//! - [`directions`]: the local directions that light is transferred to (section VI-A);
+//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of whole numbers;
+//! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
+//! - [`product`]: light times that sum (section V, Algorithm 2).
+
+pub mod bicluster;
+pub mod directions;
+pub mod matrix;
+pub mod product;
+pub mod transfer;

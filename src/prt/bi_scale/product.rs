@@ -1,0 +1,155 @@
+//! Light times the transfer: L~ = T L as the sum of B_i L (section V, Rendering; Algorithm 2).
+//!
+//! - [`by_rows`]: T L itself, row by row;
+//! - [`reference()`]: Algorithm 2 in f64;
+//! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of the reference's shape.
+//!
+//! Sums are taken in this order, one addition after the other, beginning with 0: of a bicluster over its columns,
+//! increasing; of a row over its biclusters, in the order in which they were found.
+
+use super::bicluster::Biclustering;
+use super::matrix::SparseMatrix;
+
+/// L~ = T L from the matrix itself, in f64, columns increasing.
+///
+/// # Panics
+/// If the light has not as many numbers as the matrix has columns.
+pub fn by_rows(matrix: &SparseMatrix, light: &[f64]) -> Vec<f64> {
+    assert_eq!(light.len(), matrix.columns(), "as many numbers as columns");
+    let unit = matrix.unit();
+    let row = |row| {
+        let terms = matrix.row(row).iter().map(|entry| unit * f64::from(entry.value) * light[entry.index as usize]);
+        terms.fold(0.0, |sum, term| sum + term)
+    };
+    (0..matrix.rows()).map(row).collect()
+}
+
+/// Algorithm 2 in f64, step by step.
+///
+/// # Panics
+/// If the light has not as many numbers as the matrix has columns.
+pub fn reference(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
+    let [rows, columns] = biclusters.matrix_size();
+    assert_eq!(light.len(), columns, "as many numbers as columns");
+    // Lines 1 to 3: the bicluster buffer P.
+    let mut buffer = vec![0.0; biclusters.len()];
+    for (bicluster, sum) in buffer.iter_mut().enumerate() {
+        for entry in biclusters.columns_of(bicluster) {
+            *sum += biclusters.unit() * f64::from(entry.value) * light[entry.index as usize];
+        }
+    }
+    // Lines 4 to 11, from the other side: rows take the biclusters in the same order.
+    let mut local = vec![0.0; rows];
+    for (bicluster, sum) in buffer.iter().enumerate() {
+        for &row in biclusters.rows_of(bicluster) {
+            local[row as usize] += sum;
+        }
+    }
+    local
+}
+
+/// Rows that are summed together.
+const LANES: usize = 8;
+
+/// Biclusters as Algorithm 2 reads them: rows with as many biclusters stand together, so that no loop ends sooner or
+/// later than the one before, and lists of eight rows are interleaved, so that eight sums go side by side.
+#[derive(Clone, Debug)]
+pub struct Gather {
+    columns: usize,
+    /// Per place of the buffer where the columns of its bicluster begin, and the last ones end.
+    column_begins: Vec<u32>,
+    /// Columns and their values t.
+    columns_of: Vec<(u32, f32)>,
+    /// Rows by the number of their biclusters, then by their own number.
+    rows: Vec<u32>,
+    /// How many biclusters rows have, increasing, and how many rows have so many.
+    lengths: Vec<[usize; 2]>,
+    /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of one length interleaved, what is left over row by row.
+    biclusters_of: Vec<u32>,
+}
+
+impl Gather {
+    /// The lists of some biclusters.
+    pub fn new(biclusters: &Biclustering) -> Self {
+        let [rows, columns] = biclusters.matrix_size();
+        let unit = biclusters.unit();
+        // Sums of as many terms stand together, so that no loop ends sooner or later than the one before.
+        let mut stored: Vec<usize> = (0..biclusters.len()).collect();
+        stored.sort_by_key(|&bicluster| biclusters.columns_of(bicluster).len());
+        let mut places = vec![0; biclusters.len()];
+        (0..).zip(&stored).for_each(|(place, &bicluster)| places[bicluster] = place);
+        let mut column_begins = vec![0];
+        let mut columns_of = Vec::with_capacity(biclusters.column_entries());
+        for bicluster in stored {
+            let value = |value: i32| (unit * f64::from(value)) as f32;
+            columns_of.extend(biclusters.columns_of(bicluster).iter().map(|entry| (entry.index, value(entry.value))));
+            column_begins.push(columns_of.len() as u32);
+        }
+        let (begins, mut of_row) = biclusters.by_row();
+        of_row.iter_mut().for_each(|bicluster| *bicluster = places[*bicluster as usize]);
+        let list = |row: u32| &of_row[begins[row as usize]..begins[row as usize + 1]];
+        let mut rows: Vec<u32> = (0..rows as u32).collect();
+        rows.sort_by_key(|&row| list(row).len());
+        let mut lengths = Vec::new();
+        let mut biclusters_of = Vec::with_capacity(of_row.len());
+        for class in rows.chunk_by(|&a, &b| list(a).len() == list(b).len()) {
+            let length = list(class[0]).len();
+            lengths.push([length, class.len()]);
+            let groups = class.chunks_exact(LANES);
+            let left_over = groups.remainder();
+            for group in groups {
+                (0..length).for_each(|at| biclusters_of.extend(group.iter().map(|&row| list(row)[at])));
+            }
+            left_over.iter().for_each(|&row| biclusters_of.extend(list(row)));
+        }
+        Self { columns, column_begins, columns_of, rows, lengths, biclusters_of }
+    }
+
+    /// Algorithm 2 in f32, for C lights or channels of one at once.
+    ///
+    /// # Panics
+    /// If the light has not as many numbers as the matrix has columns.
+    pub fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
+        assert_eq!(light.len(), self.columns, "as many numbers as columns");
+        let buffer = self.buffer(light);
+        let mut local = vec![[0.0; C]; self.rows.len()];
+        let (mut rows, mut lists) = (&self.rows[..], &self.biclusters_of[..]);
+        for &[length, count] in &self.lengths {
+            let (class, other_rows) = rows.split_at(count);
+            let (class_lists, other_lists) = lists.split_at(length * count);
+            (rows, lists) = (other_rows, other_lists);
+            if length == 0 {
+                continue;
+            }
+            let groups = class.chunks_exact(LANES);
+            let left_over = groups.remainder();
+            let (of_groups, of_left_over) = class_lists.split_at(length * (count - left_over.len()));
+            for (group, lists) in groups.zip(of_groups.chunks_exact(LANES * length)) {
+                let mut sums = [[0.0; C]; LANES];
+                for of_lanes in lists.as_chunks::<LANES>().0 {
+                    sums.iter_mut().zip(of_lanes).for_each(|(sum, &place)| *sum = plus(*sum, buffer[place as usize]));
+                }
+                group.iter().zip(sums).for_each(|(&row, sum)| local[row as usize] = sum);
+            }
+            for (&row, list) in left_over.iter().zip(of_left_over.chunks_exact(length)) {
+                let sum = list.iter().fold([0.0; C], |sum, &place| plus(sum, buffer[place as usize]));
+                local[row as usize] = sum;
+            }
+        }
+        local
+    }
+
+    /// P: per bicluster light times its columns.
+    fn buffer<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
+        let sum = |ends: &[u32]| {
+            let columns = &self.columns_of[ends[0] as usize..ends[1] as usize];
+            let term = |&(column, t): &(u32, f32)| light[column as usize].map(|light| t * light);
+            columns.iter().map(term).fold([0.0; C], plus)
+        };
+        self.column_begins.windows(2).map(sum).collect()
+    }
+}
+
+fn plus<const C: usize>(a: [f32; C], b: [f32; C]) -> [f32; C] {
+    std::array::from_fn(|channel| a[channel] + b[channel])
+}

@@ -1,0 +1,161 @@
+//! Biclusters: the fast search against Algorithm 1 word by word, and what must hold of any matrix.
+
+use crossbar::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
+use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::prt::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
+use proptest::prelude::*;
+
+/// A matrix of the values of its rows.
+fn matrix(rows: &[Vec<i32>], fraction_bits: u32) -> SparseMatrix {
+    let mut matrix = SparseMatrix::new(rows[0].len(), fraction_bits).expect("columns");
+    for row in rows {
+        let entries = (0..).zip(row).filter(|(_, value)| **value != 0);
+        let entries: Vec<MatrixEntry> = entries.map(|(index, &value)| MatrixEntry { index, value }).collect();
+        matrix.push_row(&entries).expect("a row");
+    }
+    matrix
+}
+
+fn quietly(matrix: &SparseMatrix, options: BiclusterOptions) -> crossbar::prt::bi_scale::bicluster::Biclustering {
+    bicluster(matrix.clone(), options, &mut |_| ()).expect("small values")
+}
+
+/// Rows of quarters that tend to form blocks: each row takes one of a few patterns and changes some of its values.
+fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
+    let value = || prop_oneof![5 => Just(0), 3 => Just(4), 1 => 1..4_i32];
+    (1..15_usize, 1..12_usize).prop_flat_map(move |(rows, columns)| {
+        let patterns = prop::collection::vec(prop::collection::vec(value(), columns), 1..4);
+        let changes = prop::collection::vec(prop_oneof![6 => Just(None), 1 => value().prop_map(Some)], rows * columns);
+        let choice = prop::collection::vec(any::<prop::sample::Index>(), rows);
+        (patterns, changes, choice).prop_map(move |(patterns, changes, choice)| {
+            let row = |row: usize| {
+                let pattern = &patterns[choice[row].index(patterns.len())];
+                (0..columns).map(|at| changes[row * columns + at].unwrap_or(pattern[at])).collect()
+            };
+            (0..rows).map(row).collect()
+        })
+    })
+}
+
+/// Values of any size and sign, few zeros.
+fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
+    let value = prop_oneof![2 => Just(0), 4 => -3..4_i32, 1 => -1_000_000..1_000_000_i32];
+    (1..10_usize, 1..10_usize).prop_flat_map(move |(rows, columns)| {
+        prop::collection::vec(prop::collection::vec(value.clone(), columns), rows)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn the_fast_search_decides_as_algorithm_1(
+        rows in prop_oneof![3 => blocks(), 1 => anything()],
+        seed: u64,
+        deletion: bool,
+    ) {
+        let (matrix, options) = (matrix(&rows, 2), BiclusterOptions { seed, deletion });
+        let expected = reference::bicluster(&matrix, options).expect("small values");
+        let found = quietly(&matrix, options);
+        for index in 0..expected.len().min(found.len()) {
+            prop_assert_eq!(expected.get(index), found.get(index), "bicluster {}", index);
+        }
+        prop_assert_eq!(expected, found);
+    }
+
+    #[test]
+    fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64, deletion: bool) {
+        let matrix = matrix(&rows, 2);
+        let mut left = vec![matrix.nonzeros() as u64];
+        let found = bicluster(matrix.clone(), BiclusterOptions { seed, deletion }, &mut |now| left.push(now)).unwrap();
+        prop_assert_eq!(found.sum(), matrix.clone());
+        // Each bicluster takes away at least half its cost in non-zeros, so the whole costs no more than the matrix.
+        for (index, step) in left.windows(2).enumerate() {
+            prop_assert!(2 * step[1] + found.get(index).cost() <= 2 * step[0], "bicluster {}", index);
+        }
+        prop_assert_eq!(left.last(), Some(&0));
+        prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
+    }
+
+    #[test]
+    fn light_is_transferred_exactly(rows in blocks(), seed: u64, light in prop::collection::vec(0..1000_u16, 12)) {
+        let matrix = matrix(&rows, 2);
+        let found = quietly(&matrix, BiclusterOptions { seed, deletion: true });
+        let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
+        let expected = by_rows(&matrix, &light);
+        prop_assert_eq!(&algorithm_2(&found, &light), &expected);
+        // Sums of whole quarters below 2^22 are exact in f32 too.
+        let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
+        prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
+    }
+
+    #[test]
+    fn any_light_is_transferred_within_the_rounding(
+        rows in blocks(), seed: u64, light in prop::collection::vec(0.0..1e4_f32, 12),
+    ) {
+        let matrix = matrix(&rows, 2);
+        let found = quietly(&matrix, BiclusterOptions { seed, deletion: true });
+        let light = &light[..matrix.columns()];
+        let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
+        let expected = algorithm_2(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
+        // Per row the magnitudes that are added, and how many operations a term goes through at most.
+        let [rows, _] = found.matrix_size();
+        let (mut magnitude, mut operations) = (vec![0.0; rows], vec![0; rows]);
+        for index in 0..found.len() {
+            let columns = found.columns_of(index);
+            let sum: f64 = columns
+                .iter()
+                .map(|entry| found.unit() * f64::from(entry.value.abs()) * f64::from(light[entry.index as usize]))
+                .sum();
+            for &row in found.rows_of(index) {
+                magnitude[row as usize] += sum;
+                operations[row as usize] += 1 + columns.len() + 1;
+            }
+        }
+        for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
+            // (1 + u)^n - 1 <= 2 n u for n u below a half; u = 2^-24. Twice: f64 errs less than as much again.
+            let bound = 4.0 * operations[row] as f64 * 2.0_f64.powi(-24) * magnitude[row];
+            prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
+        }
+    }
+}
+
+/// The example of section IV-C, whose second row is off by 2 in one place.
+#[test]
+fn a_residual_is_left_for_later() {
+    let rows = vec![vec![4, 3, 2, 1]; 6].into_iter().enumerate().map(|(row, mut values)| {
+        if row == 1 {
+            values[1] += 2;
+        }
+        values
+    });
+    let matrix = matrix(&rows.collect::<Vec<_>>(), 2);
+    let found = quietly(&matrix, BiclusterOptions::default());
+    assert_eq!(found.len(), 2);
+    assert_eq!((found.rows_of(0).len(), found.columns_of(0).len()), (6, 4));
+    assert_eq!((found.rows_of(1), found.columns_of(1)), (&[1][..], &[MatrixEntry { index: 1, value: 2 }][..]));
+    assert_eq!(found.cost(), (6 + 8 - 1) + 2);
+}
+
+#[test]
+fn a_matrix_of_nothing_has_no_biclusters() {
+    let matrix = matrix(&[vec![0, 0], vec![0, 0]], 0);
+    let found = quietly(&matrix, BiclusterOptions::default());
+    assert!(found.is_empty());
+    assert_eq!(algorithm_2(&found, &[1.0, 2.0]), [0.0, 0.0]);
+    assert_eq!(found.sum(), matrix);
+}
+
+/// A residual of 2^31 units does not fit.
+#[test]
+fn residuals_out_of_range_are_refused() {
+    let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
+    rows[0][0] = 0;
+    let matrix = matrix(&rows, 0);
+    let expected = reference::bicluster(&matrix, BiclusterOptions::default());
+    assert!(
+        matches!(expected, Err(BiclusterError::Residual { column: 0, row: 0, value: 0x8000_0000 })),
+        "{expected:?}"
+    );
+    assert_eq!(bicluster(matrix, BiclusterOptions::default(), &mut |_| ()), expected);
+}
