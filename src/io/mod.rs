@@ -7,6 +7,7 @@ pub mod gltf;
 pub mod irradiances;
 pub mod light_sources;
 mod lines;
+pub mod matrix_market;
 pub mod model;
 pub mod npy;
 mod number;
@@ -24,6 +25,9 @@ pub use error::{FilePlace, ModelError, ReadError};
 pub use gltf::parse_gltf;
 pub use irradiances::{IrradiancesError, load_irradiances, parse_irradiances};
 pub use light_sources::{LightSourceRow, LightSourcesError, load_light_sources, parse_light_sources};
+pub use matrix_market::{
+    CoordinateMatrix, MatrixMarketError, load_matrix_market, parse_matrix_market, write_matrix_market,
+};
 pub use model::{load_mesh, load_scene};
 pub use npy::{NpyError, parse_npy, write_npy};
 pub use number::{NumberError, parse_f32, to_f32};

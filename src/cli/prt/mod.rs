@@ -1,6 +1,7 @@
 //! `crossbar prt`: precomputed radiance transfer, one file a verb.
 
 mod all_frequency;
+mod bi_scale;
 mod card;
 mod compress;
 mod error;
@@ -46,11 +47,13 @@ pub(super) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Verb {
+    Bicluster(bi_scale::bicluster::Args),
     Card(card::Args),
     Compress(compress::Args),
     Error(error::Args),
     Factor(factor::Args),
     Lighting(lighting::Args),
+    Multiply(bi_scale::multiply::Args),
     Precompute(precompute::Args),
     Render(render::Args),
     Show(show::Args),
@@ -65,6 +68,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         _ => false,
     };
     match &args.verb {
+        Verb::Bicluster(args) => bi_scale::bicluster::run(args, out)?,
         Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compress(args) if all => all_frequency::compress::run(args, out)?,
         Verb::Compress(args) => compress::run(args, out)?,
@@ -72,6 +76,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Error(args) => error::run(args, out)?,
         Verb::Factor(args) => return study::run(args, command_line, out),
         Verb::Lighting(args) => lighting::run(args, out)?,
+        Verb::Multiply(args) => bi_scale::multiply::run(args, out)?,
         Verb::Precompute(args) => precompute::run(args, out)?,
         Verb::Render(args) if all => {
             return study::run(&all_frequency::render::Args(args), command_line, out);

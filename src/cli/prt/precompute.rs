@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::all_frequency;
+use super::bi_scale::precompute::BiScaleArgs;
 use super::model::{load, vertices};
 use super::values::{BrdfArg, ChannelsArg, ExitArg, HatsArg, IncidentArg, KindArg, RowsArg, TangentsArg};
+use super::{all_frequency, bi_scale};
 use crate::cli::materials::published;
 use crate::cli::model_name::Model;
 use crate::cli::words::counted;
@@ -27,6 +28,8 @@ Examples:
       an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
   crossbar prt precompute docs/examples/step.obj --kind all-frequency --out step.prt
       what each vertex sees, for light of all frequencies on a diffuse surface; `--factors` for a glossy one
+  crossbar prt precompute docs/examples/step.obj --kind bi-scale --directions 8 --matrix step.mtx --out step.prt
+      which light texels each vertex sees, and from which of its 64 local directions
   crossbar prt precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
       light that scatters below the surface, in three channels
 
@@ -41,7 +44,8 @@ const SOLID_ANGLE: f64 = 0.05;
 pub(super) struct Args {
     /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
     /// the papers: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons, all-frequency-bunny,
-    /// all-frequency-teapot, all-frequency-tweety, all-frequency-buddha
+    /// all-frequency-teapot, all-frequency-tweety, all-frequency-buddha, bi-scale-bunny, bi-scale-bunny-middle,
+    /// bi-scale-bunny-fine, bi-scale-armor
     #[arg(value_name = "MODEL")]
     model: PathBuf,
 
@@ -117,9 +121,19 @@ pub(super) struct Args {
     /// The file to write
     #[arg(long, value_name = "X.prt")]
     out: PathBuf,
+
+    #[command(flatten)]
+    bi_scale: BiScaleArgs,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    if args.kind == KindArg::BiScale {
+        return bi_scale::precompute::run((&args.model, args.tangents), &args.bi_scale, &args.out, out);
+    }
+    if args.bi_scale.is_given() {
+        let what = "`--directions`, `--horizon`, `--samples` and `--matrix` are for bi-scale transfer";
+        return Err(Problem::usage(what, "add `--kind bi-scale`").into());
+    }
     if args.kind == KindArg::AllFrequency {
         let &Args { ref model, ref factors, hats, tangents, out: ref path, .. } = args;
         return all_frequency::precompute::run((model, tangents), factors.as_deref(), hats, path, out);

@@ -21,6 +21,8 @@ pub(super) enum KindArg {
     Glossy,
     /// Visibility in 98,304 directions per vertex, for light of 6,144 coefficients
     AllFrequency,
+    /// Visibility of 6,144 light texels by local direction: a sparse matrix
+    BiScale,
 }
 
 /// How wide the hats of the light's texels are.

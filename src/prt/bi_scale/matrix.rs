@@ -5,6 +5,10 @@
 
 use thiserror::Error;
 
+use crate::io::CoordinateMatrix;
+
+const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
+
 /// An entry of a line: its place along the line, and its value in units of the matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MatrixEntry {
@@ -25,7 +29,7 @@ pub struct SparseMatrix {
 
 /// Why entries are no matrix. Rows and columns count from 0.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SparseMatrixError {
     /// More rows or columns than 32 bits can name, or none.
@@ -40,6 +44,19 @@ pub enum SparseMatrixError {
     /// A value of 0.
     #[error("expected values other than 0, found 0 in row {row}, column {column}")]
     Zero { row: usize, column: u32 },
+    /// A value that is no whole number of a small power of two.
+    #[error(
+        "expected multiples of 2^-{} in row {row}, column {column} (counted from 0), found {value}: residuals are \
+         exact for these alone",
+        SparseMatrix::MOST_FRACTION_BITS
+    )]
+    Fraction { row: u32, column: u32, value: f64 },
+    /// A value out of the range of whole numbers.
+    #[error(
+        "expected values that 32 bits hold in units of 2^-{bits}, the finest among them; found {value} in row {row}, \
+         column {column} (counted from 0)"
+    )]
+    Range { row: u32, column: u32, value: f64, bits: u32 },
 }
 
 impl SparseMatrix {
@@ -60,6 +77,43 @@ impl SparseMatrix {
             return Err(SparseMatrixError::Size { rows: 0, columns });
         }
         Ok(Self { columns, fraction_bits, begins: vec![0], entries: Vec::new() })
+    }
+
+    /// A matrix of real numbers, in the largest units that all of them are multiples of. Zeros are left out.
+    ///
+    /// # Errors
+    /// [`SparseMatrixError`] if it has no such units, or none in which its numbers fit 32 bits.
+    pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, SparseMatrixError> {
+        let finest = f64::from(1_u32 << Self::MOST_FRACTION_BITS);
+        let mut fraction_bits = 0;
+        for &(row, column, value) in &matrix.entries {
+            // Exact: a power of two, far from the ends of the range of what can be whole.
+            let scaled = value * finest;
+            if scaled.fract() != 0.0 {
+                return Err(SparseMatrixError::Fraction { row, column, value });
+            }
+            // Numbers beyond 64 bits are refused below, whatever the unit.
+            let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
+            fraction_bits = fraction_bits.max(Self::MOST_FRACTION_BITS.saturating_sub(zeros));
+        }
+        let mut sparse = Self::new(matrix.columns, fraction_bits)?;
+        let mut rows = matrix.entries.chunk_by(|a, b| a.0 == b.0).peekable();
+        let mut row = Vec::new();
+        for number in 0..matrix.rows {
+            row.clear();
+            for &(_, index, value) in rows.next_if(|entries| entries[0].0 as usize == number).unwrap_or_default() {
+                let units = value * f64::from(1_u32 << fraction_bits);
+                if units.abs() > f64::from(i32::MAX) {
+                    let row = number as u32;
+                    return Err(SparseMatrixError::Range { row, column: index, value, bits: fraction_bits });
+                }
+                if units != 0.0 {
+                    row.push(MatrixEntry { index, value: units as i32 });
+                }
+            }
+            sparse.push_row(&row)?;
+        }
+        Ok(sparse)
     }
 
     /// Adds a row below the others.
@@ -149,5 +203,20 @@ mod tests {
         }
         assert_eq!(SparseMatrix::new(0, 2), Err(SparseMatrixError::Size { rows: 0, columns: 0 }));
         assert_eq!((matrix.unit(), matrix.nonzeros()), (0.25, 2));
+    }
+
+    #[test]
+    fn real_numbers_get_the_largest_units() {
+        let of = |entries: &[(u32, u32, f64)]| {
+            SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 3, columns: 4, entries: entries.to_vec() })
+        };
+        let matrix = of(&[(0, 1, 0.5), (2, 0, -3.0), (2, 1, 0.0), (2, 3, 0.25)]).unwrap();
+        assert_eq!((matrix.fraction_bits(), matrix.nonzeros(), matrix.rows()), (2, 3, 3));
+        assert_eq!(matrix.row(2), [MatrixEntry { index: 0, value: -12 }, MatrixEntry { index: 3, value: 1 }]);
+        assert_eq!(of(&[(0, 1, 6e8)]).unwrap().fraction_bits(), 0);
+        assert_eq!(of(&[(1, 1, 0.1)]), Err(SparseMatrixError::Fraction { row: 1, column: 1, value: 0.1 }));
+        let range = |value, bits| Err(SparseMatrixError::Range { row: 0, column: 0, value, bits });
+        assert_eq!(of(&[(0, 0, 6e8), (0, 1, 0.25)]), range(6e8, 2));
+        assert_eq!(of(&[(0, 0, 1e300)]), range(1e300, 0));
     }
 }

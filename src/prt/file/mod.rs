@@ -4,6 +4,7 @@
 //! Checksums cover every byte; a file is read whole or refused. Equal contents have equal bytes.
 
 mod all_frequency;
+mod bi_scale;
 mod digest;
 mod error;
 mod read;
@@ -12,6 +13,9 @@ mod write;
 pub use all_frequency::{
     AllFrequencyFile, is_all_frequency, load_all_frequency, parse_all_frequency, save_all_frequency,
     write_all_frequency,
+};
+pub use bi_scale::{
+    BiScaleFile, BiScaleMeaning, is_bi_scale, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
 };
 pub use digest::MeshDigest;
 pub use error::PrtFileError;
@@ -28,7 +32,7 @@ pub const VERSION: u32 = 1;
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2. Real orthonormal harmonics, function
+/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2, [`BiScaleFile`] 3. Real orthonormal harmonics, function
 /// l(l+1)+m, no Condon-Shortley sign (l = 1 is y, z, x), light in the axes of the mesh, exit radiance in those of the
 /// vertex with its normal as z.
 const CONVENTIONS: u32 = 1;

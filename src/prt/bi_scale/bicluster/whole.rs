@@ -1,5 +1,6 @@
 //! Biclusters.
 
+use super::BiclusterError;
 use crate::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// A constant-column bicluster: in each of its columns all of its rows have the column's value (equation 4).
@@ -15,6 +16,14 @@ impl Bicluster {
     /// W = r + 2l - 1: multiplications and additions of its product (equation 7).
     pub fn cost(&self) -> u64 {
         self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
+    }
+
+    /// Whether it is one of a matrix of this size: rows and columns there, increasing, no value 0.
+    pub(in crate::prt) fn fits(&self, matrix_rows: usize, matrix_columns: usize) -> bool {
+        let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
+        let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
+        let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
     }
 }
 
@@ -32,13 +41,13 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// No bicluster of a matrix of this size.
-    pub(super) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
+    pub(in crate::prt) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
         Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
     }
 
-    pub(super) fn push(&mut self, bicluster: &Bicluster) {
+    pub(in crate::prt) fn push(&mut self, bicluster: &Bicluster) {
         self.rows.extend_from_slice(&bicluster.rows);
         self.row_begins.push(self.rows.len());
         self.columns.extend_from_slice(&bicluster.columns);
@@ -126,28 +135,28 @@ impl Biclustering {
         (begins, of_row)
     }
 
-    /// The sum of the biclusters. It is the matrix that they were made from, exactly.
+    /// The sum of the biclusters: the matrix that they were made from, exactly.
     ///
-    /// # Panics
-    /// If a value leaves 32 bits, which it does not for biclusters of a matrix.
-    pub fn sum(&self) -> SparseMatrix {
+    /// # Errors
+    /// [`BiclusterError::Residual`] if a value leaves 32 bits, as it may for biclusters that are of no matrix.
+    pub fn sum(&self) -> Result<SparseMatrix, BiclusterError> {
         let (begins, of_row) = self.by_row();
         let mut matrix = SparseMatrix::new(self.matrix_columns, self.fraction_bits).expect("the size of a matrix");
         let mut dense = vec![0_i64; self.matrix_columns];
-        for ends in begins.windows(2) {
+        for (row, ends) in begins.windows(2).enumerate() {
             let biclusters = &of_row[ends[0]..ends[1]];
             for entry in biclusters.iter().flat_map(|&bicluster| self.columns_of(bicluster as usize)) {
                 dense[entry.index as usize] += i64::from(entry.value);
             }
-            let value = |value: i64| i32::try_from(value).expect("a value of the matrix");
-            let row: Vec<MatrixEntry> = (0..)
-                .zip(&dense)
-                .filter(|(_, sum)| **sum != 0)
-                .map(|(index, &sum)| MatrixEntry { index, value: value(sum) })
-                .collect();
-            matrix.push_row(&row).expect("a row of a matrix");
+            let entry = |(index, &value): (u32, &i64)| match i32::try_from(value) {
+                Ok(value) => Ok(MatrixEntry { index, value }),
+                Err(_) => Err(BiclusterError::Residual { row: row as u32, column: index, value }),
+            };
+            let entries: Vec<MatrixEntry> =
+                (0..).zip(&dense).filter(|(_, sum)| **sum != 0).map(entry).collect::<Result<_, _>>()?;
+            matrix.push_row(&entries).expect("a row of a matrix");
             dense.fill(0);
         }
-        matrix
+        Ok(matrix)
     }
 }

@@ -1,0 +1,41 @@
+//! The verbs of `crossbar prt` for bi-scale transfer.
+
+pub(super) mod bicluster;
+pub(super) mod multiply;
+pub(super) mod precompute;
+
+use std::path::Path;
+
+use crate::cli::{Problem, view};
+use crate::io::{load_matrix_market, write_file, write_matrix_market};
+use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::prt::file::{BiScaleFile, load_bi_scale};
+
+/// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
+fn load(path: &Path) -> miette::Result<BiScaleFile> {
+    let is_text = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"));
+    // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.
+    view::require_file(path, if is_text { 4 } else { 6 }, "name a smaller matrix")?;
+    if !is_text {
+        return Ok(load_bi_scale(path)?);
+    }
+    let matrix = SparseMatrix::from_coordinates(&load_matrix_market(path)?).map_err(|reason| {
+        Problem::usage(
+            format!("{}: {reason}", path.display()),
+            "give values that are whole numbers of some power of two, such as quarters",
+        )
+    })?;
+    Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
+}
+
+/// Writes a matrix as text.
+fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) -> Result<(), Problem> {
+    let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
+    let value = |value: i32| matrix.unit() * f64::from(value);
+    write_file(path, |out| {
+        let entries = (0..matrix.rows())
+            .flat_map(|row| matrix.row(row).iter().map(move |entry| (row, entry.index as usize, value(entry.value))));
+        write_matrix_market(size, comment, entries, out)
+    })
+    .map_err(Problem::from)
+}

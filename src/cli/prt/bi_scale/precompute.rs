@@ -1,0 +1,153 @@
+//! `crossbar prt precompute --kind bi-scale`: the macro-scale transfer of a model's vertices.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde_json::json;
+
+use super::write_matrix;
+use crate::cli::prt::model::{load, refused, vertices};
+use crate::cli::prt::values::TangentsArg;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::geom::Sides;
+use crate::prt::all_frequency::grid::LIGHT_TEXELS;
+use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::transfer::transfer_matrix;
+use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest, save_bi_scale};
+use crate::tracer::HostTracer;
+
+/// What ends the view of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum HorizonArg {
+    /// The plane of its normal, and triangles
+    Normal,
+    /// Triangles alone
+    Geometry,
+}
+
+/// Visibility directions in a light texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SamplesArg {
+    /// Its center
+    #[value(name = "1")]
+    One,
+    /// 2 x 2: five values of visibility
+    #[value(name = "4")]
+    Four,
+    /// 4 x 4: 17 values
+    #[value(name = "16")]
+    Sixteen,
+}
+
+/// Options of bi-scale transfer.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Options of --kind bi-scale")]
+pub(in crate::cli::prt) struct BiScaleArgs {
+    /// Local directions along an edge of the square that is mapped to the hemisphere [default: 8]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
+    directions: Option<u8>,
+
+    /// What ends the view of a vertex [default: normal]
+    #[arg(long, value_enum, value_name = "WHAT")]
+    horizon: Option<HorizonArg>,
+
+    /// Directions in a light texel in which visibility is looked for [default: 4]
+    #[arg(long, value_enum, value_name = "N")]
+    samples: Option<SamplesArg>,
+
+    /// Write the matrix as text too, in the Matrix Market format
+    #[arg(long, value_name = "T.mtx")]
+    matrix: Option<PathBuf>,
+}
+
+impl BiScaleArgs {
+    /// Whether one of them was given.
+    pub(in crate::cli::prt) fn is_given(&self) -> bool {
+        let Self { directions, horizon, samples, matrix } = self;
+        directions.is_some() || horizon.is_some() || samples.is_some() || matrix.is_some()
+    }
+
+    fn sampling(&self) -> VisibilitySampling {
+        VisibilitySampling {
+            log2_samples: match self.samples.unwrap_or(SamplesArg::Four) {
+                SamplesArg::One => 0,
+                SamplesArg::Four => 1,
+                SamplesArg::Sixteen => 2,
+            },
+            horizon: match self.horizon.unwrap_or(HorizonArg::Normal) {
+                HorizonArg::Normal => Horizon::Normal,
+                HorizonArg::Geometry => Horizon::Geometry,
+            },
+        }
+    }
+}
+
+pub(in crate::cli::prt) fn run(
+    (model, tangents): (&Path, TangentsArg),
+    args: &BiScaleArgs,
+    path: &Path,
+    out: &mut Out,
+) -> miette::Result<()> {
+    let side = args.directions.unwrap_or(8);
+    let directions = LocalDirections::new(side.into())
+        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar prt precompute --help`"))?;
+    let model = load(model, tangents.0)?;
+    let vertices = vertices(&model, tangents.0)?;
+    let sampling = args.sampling();
+    // Entries of rows, at most one per texel of a hemisphere and some below it; the maps; what is written.
+    let bytes = (8 * LIGHT_TEXELS / 2 + sampling.directions().directions().len() / 8 + 400) as u64;
+    let what = format_args!("transfer of {} vertices, about {bytes} bytes each", vertices.len());
+    memory::require(what, bytes * vertices.len() as u64, "name a model of fewer vertices")?;
+    let bar = ProgressBar::new("visibility", 1);
+    let all: Vec<u32> = (0..vertices.len() as u32).collect();
+    let mut caster = HostTracer::new(&model.mesh, Sides::Both);
+    let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
+    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut show).map_err(refused)?;
+    let matrix = transfer_matrix(&vertices, &maps, &directions).map_err(|error| {
+        Problem::usage(error.to_string(), "name a model of fewer vertices, or ask for fewer `--directions`")
+    })?;
+    let counts = maps.counts.clone();
+    drop((bar, maps));
+    if let Some(path) = &args.matrix {
+        let comment = format!(
+            "row: vertex x {} + local direction, column: face x 1024 + row x 32 + column of a cube of light texels;\n\
+             both from 0 there, from 1 in this file. Values are the visible shares of texels.",
+            directions.directions().len()
+        );
+        write_matrix(&matrix, &comment, path)?;
+    }
+    let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: side.into(), horizon: sampling.horizon };
+    let (rows, nonzeros) = (matrix.rows(), matrix.nonzeros());
+    let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: None };
+    save_bi_scale(&file, path).map_err(Problem::from)?;
+    if out.json() {
+        return Ok(out.document(&json!({
+            "out": path, "matrix": args.matrix, "vertices": vertices.len(), "unused_vertices": vertices.unused,
+            "replaced_tangents": vertices.replaced_tangents, "rows": rows, "columns": LIGHT_TEXELS,
+            "nonzeros": nonzeros, "directions_above": counts.above, "rays_traced": counts.traced,
+            "directions_visible": counts.visible, "unclear_vertices": counts.unclear,
+        }))?);
+    }
+    out.line(format_args!("vertices  {}, {} local directions each", counted(vertices.len()), u32::from(side).pow(2)))?;
+    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
+    out.sentence(format_args!(
+        "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
+    ))?;
+    out.sentence(format_args!(
+        "transfer  {} x {}, {} values other than 0: {:.2} %",
+        counted(rows),
+        counted(LIGHT_TEXELS),
+        counted(nonzeros),
+        100.0 * nonzeros as f64 / (rows as f64 * LIGHT_TEXELS as f64)
+    ))?;
+    if !vertices.replaced_tangents.is_empty() {
+        let count = counted(vertices.replaced_tangents.len());
+        out.sentence(format_args!("note      {count} vertices had no tangent across their normal and got any"))?;
+    }
+    for path in args.matrix.iter().map(PathBuf::as_path).chain([path]) {
+        out.line(format_args!("written   {}", path.display()))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,275 @@
+//! Sparse matrices as Matrix Market files: `%%MatrixMarket matrix coordinate real general`, comments, a line with the
+//! numbers of rows, columns and entries, then a line `row column value` per entry, in any order, counted from 1.
+//!
+//! The fields `integer` and `pattern`, whose entries are 1, and the symmetries `symmetric` and `skew-symmetric` are
+//! read too. Arrays, which are dense, and complex and Hermitian matrices are refused.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::error::ReadError;
+use super::lines::words;
+use super::{quoted, read_limited};
+
+/// Longest file that is read, in bytes (4 GiB).
+pub const MAX_BYTES: u64 = 1 << 32;
+/// The shortest line of an entry, `1 1`, and its end.
+const SHORTEST: usize = 4;
+
+/// A sparse matrix by its entries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoordinateMatrix {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// Row and column from 0, and value; row by row, columns increasing, each place once. Values are finite, and may be
+    /// 0.
+    pub entries: Vec<(u32, u32, f64)>,
+}
+
+/// Why a file is no matrix. Lines, rows and columns count from 1.
+#[non_exhaustive]
+#[derive(Debug, Error, miette::Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MatrixMarketError {
+    /// The file is not there, or too long.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Read(#[from] ReadError),
+    /// The first line is not the banner of such a file.
+    #[error(
+        "{}:1: expected `%%MatrixMarket matrix coordinate` with `real`, `integer` or `pattern`, then `general`, \
+         `symmetric` or `skew-symmetric`; found {found}", path.display()
+    )]
+    #[diagnostic(code(crossbar::matrix_market::banner), help("write the matrix by its entries, in real numbers"))]
+    Banner { path: PathBuf, found: String },
+    /// No line of sizes, or a wrong one.
+    #[error("{}:{line}: expected the numbers of rows, columns and entries, found {found}", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::size))]
+    Size { path: PathBuf, line: usize, found: String },
+    /// A line that is no entry.
+    #[error("{}:{line}: expected {expected}, found {found}", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::entry), help("a line `row column value` per entry, counted from 1"))]
+    Entry { path: PathBuf, line: usize, expected: &'static str, found: String },
+    /// A place outside of the matrix.
+    #[error("{}:{line}: expected a {what} from 1 to {most}, found {found}", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::place), help("rows and columns count from 1"))]
+    Place { path: PathBuf, line: usize, what: &'static str, most: usize, found: String },
+    /// Fewer or more entries than the line of sizes says.
+    #[error("{}: expected {expected} entries as line {line} says, found {found}", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::count), help("is the file cut?"))]
+    Count { path: PathBuf, line: usize, expected: usize, found: usize },
+    /// Two entries for one place.
+    #[error("{}: expected one entry for row {row}, column {column}, found two", path.display())]
+    #[diagnostic(code(crossbar::matrix_market::twice), help("add the entries up, or leave one out"))]
+    Twice { path: PathBuf, row: u32, column: u32 },
+}
+
+/// Reads a matrix from a file.
+///
+/// # Errors
+/// [`MatrixMarketError`].
+pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
+    let unreadable = |source| ReadError::Unreadable { what: "matrix", path: path.into(), source };
+    match read_limited(path, MAX_BYTES).map_err(unreadable)? {
+        Some(bytes) => parse_matrix_market(&bytes, path),
+        None => Err(ReadError::TooLong { what: "matrix", path: path.into(), limit: MAX_BYTES }.into()),
+    }
+}
+
+/// Reads a matrix from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`MatrixMarketError`].
+pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix, MatrixMarketError> {
+    let mut lines = (1..).zip(bytes.split(|&byte| byte == b'\n'));
+    let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
+    let banner = Banner::parse(banner)
+        .ok_or_else(|| MatrixMarketError::Banner { path: name.into(), found: quoted(banner.trim_ascii()) })?;
+    // Comments may stand behind the banner, empty lines anywhere.
+    let mut lines = lines.filter(|(_, text)| !text.trim_ascii().is_empty());
+    let (size_line, size) = lines.by_ref().find(|(_, text)| !text.starts_with(b"%")).unwrap_or((2, &b""[..]));
+    let [rows, columns, count] = sizes(size).ok_or_else(|| MatrixMarketError::Size {
+        path: name.into(),
+        line: size_line,
+        found: quoted(size.trim_ascii()),
+    })?;
+    let reader = EntryReader { name, banner, size: [rows, columns] };
+    // Nothing is allocated that the file's bytes do not fill.
+    let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST) * banner.copies());
+    let mut found = 0;
+    for (line, text) in lines {
+        reader.read(line, text, &mut entries)?;
+        found += 1;
+    }
+    if found != count {
+        return Err(MatrixMarketError::Count { path: name.into(), line: size_line, expected: count, found });
+    }
+    entries.sort_unstable_by_key(|&(row, column, _)| (row, column));
+    if let Some(pair) = entries.windows(2).find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
+        return Err(MatrixMarketError::Twice { path: name.into(), row: pair[0].0 + 1, column: pair[0].1 + 1 });
+    }
+    Ok(CoordinateMatrix { rows, columns, entries })
+}
+
+/// The text of a matrix of entries `(row, column, value)`, counted from 0, row by row.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_matrix_market(
+    [rows, columns, count]: [usize; 3],
+    comment: &str,
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    writeln!(out, "%%MatrixMarket matrix coordinate real general")?;
+    comment.lines().try_for_each(|line| writeln!(out, "% {line}"))?;
+    writeln!(out, "{rows} {columns} {count}")?;
+    for (row, column, value) in entries {
+        writeln!(out, "{} {} {value}", row + 1, column + 1)?;
+    }
+    Ok(())
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Symmetry {
+    General,
+    Symmetric,
+    Skew,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Banner {
+    has_values: bool,
+    symmetry: Symmetry,
+}
+
+impl Banner {
+    fn parse(line: &[u8]) -> Option<Self> {
+        let line = String::from_utf8_lossy(line).to_lowercase();
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        let ["%%matrixmarket", "matrix", "coordinate", field, symmetry] = words[..] else { return None };
+        let has_values = match field {
+            "real" | "double" | "integer" => true,
+            "pattern" => false,
+            _ => return None,
+        };
+        let symmetry = match symmetry {
+            "general" => Symmetry::General,
+            "symmetric" => Symmetry::Symmetric,
+            "skew-symmetric" => Symmetry::Skew,
+            _ => return None,
+        };
+        Some(Self { has_values, symmetry })
+    }
+
+    /// Entries of the matrix that a line stands for, at most.
+    fn copies(self) -> usize {
+        if self.symmetry == Symmetry::General { 1 } else { 2 }
+    }
+}
+
+/// Rows, columns and entries; rows and columns that 32 bits can name.
+fn sizes(line: &[u8]) -> Option<[usize; 3]> {
+    let [rows, columns, count] = words(line)[..] else { return None };
+    let [rows, columns, count] = [whole(rows)?, whole(columns)?, whole(count)?];
+    let nameable = |size: usize| (1..=u32::MAX as usize).contains(&size);
+    (nameable(rows) && nameable(columns)).then_some([rows, columns, count])
+}
+
+fn whole(word: &[u8]) -> Option<usize> {
+    std::str::from_utf8(word).ok()?.parse().ok()
+}
+
+struct EntryReader<'a> {
+    name: &'a Path,
+    banner: Banner,
+    size: [usize; 2],
+}
+
+impl EntryReader<'_> {
+    fn read(&self, line: usize, text: &[u8], into: &mut Vec<(u32, u32, f64)>) -> Result<(), MatrixMarketError> {
+        let entry = |expected: &'static str, found: &[u8]| MatrixMarketError::Entry {
+            path: self.name.into(),
+            line,
+            expected,
+            found: quoted(found),
+        };
+        let mut words = text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let (row, column) = (words.next().unwrap_or_default(), words.next().unwrap_or_default());
+        let value = if self.banner.has_values { words.next() } else { Some(&b"1"[..]) };
+        let (Some(value), None) = (value, words.next()) else {
+            let expected = if self.banner.has_values { "a row, a column and a value" } else { "a row and a column" };
+            return Err(entry(expected, text.trim_ascii()));
+        };
+        let row = self.place(line, "row", row, self.size[0])?;
+        let column = self.place(line, "column", column, self.size[1])?;
+        let number = std::str::from_utf8(value).ok().and_then(|value| value.parse::<f64>().ok());
+        let number = number.filter(|number| number.is_finite()).ok_or_else(|| entry("a finite number", value))?;
+        into.push((row, column, number));
+        if self.banner.symmetry != Symmetry::General && row != column {
+            self.place(line, "row", (column + 1).to_string().as_bytes(), self.size[0])?;
+            self.place(line, "column", (row + 1).to_string().as_bytes(), self.size[1])?;
+            into.push((column, row, if self.banner.symmetry == Symmetry::Skew { -number } else { number }));
+        }
+        Ok(())
+    }
+
+    /// A place along an edge, from 0.
+    fn place(&self, line: usize, what: &'static str, found: &[u8], most: usize) -> Result<u32, MatrixMarketError> {
+        let place = whole(found).filter(|place| (1..=most).contains(place));
+        let wrong = || MatrixMarketError::Place { path: self.name.into(), line, what, most, found: quoted(found) };
+        place.map(|place| (place - 1) as u32).ok_or_else(wrong)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<CoordinateMatrix, String> {
+        parse_matrix_market(text.as_bytes(), Path::new("t.mtx")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let entries = vec![(0, 2, 0.25), (1, 0, -1.0), (1, 1, 7.5)];
+        let mut text = Vec::new();
+        let places = entries.iter().map(|&(row, column, value)| (row as usize, column as usize, value));
+        write_matrix_market([2, 3, 3], "a comment\nof two lines", places, &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert!(text.contains("% of two lines\n2 3 3\n1 3 0.25\n"));
+        assert_eq!(parse(&text), Ok(CoordinateMatrix { rows: 2, columns: 3, entries }));
+    }
+
+    #[test]
+    fn other_fields_and_symmetries_are_read() {
+        let symmetric = parse("%%MatrixMarket matrix coordinate integer symmetric\r\n2 2 2\r\n\r\n2 1 3\r\n2 2 4\r\n");
+        assert_eq!(symmetric.unwrap().entries, [(0, 1, 3.0), (1, 0, 3.0), (1, 1, 4.0)]);
+        let skew = parse("%%matrixmarket MATRIX coordinate real skew-symmetric\n2 2 1\n2 1 3\n");
+        assert_eq!(skew.unwrap().entries, [(0, 1, -3.0), (1, 0, 3.0)]);
+        assert_eq!(
+            parse("%%MatrixMarket matrix coordinate pattern general\n1 2 1\n1 2").unwrap().entries,
+            [(0, 1, 1.0)]
+        );
+    }
+
+    #[test]
+    fn what_is_no_matrix_is_refused() {
+        let real = |rest: &str| parse(&format!("%%MatrixMarket matrix coordinate real general\n{rest}")).unwrap_err();
+        assert!(parse("").unwrap_err().starts_with("t.mtx:1: expected `%%MatrixMarket"));
+        assert!(parse("%%MatrixMarket matrix array real general\n1 1\n2\n").is_err());
+        assert_eq!(real("% nothing"), "t.mtx:2: expected the numbers of rows, columns and entries, found ``");
+        assert_eq!(real("0 1 0"), "t.mtx:2: expected the numbers of rows, columns and entries, found `0 1 0`");
+        assert_eq!(real("2 2 1\n3 1 1"), "t.mtx:3: expected a row from 1 to 2, found `3`");
+        assert_eq!(real("2 2 1\n1 0 1"), "t.mtx:3: expected a column from 1 to 2, found `0`");
+        assert_eq!(real("2 2 1\n1 1"), "t.mtx:3: expected a row, a column and a value, found `1 1`");
+        assert_eq!(real("2 2 1\n1 1 NaN"), "t.mtx:3: expected a finite number, found `NaN`");
+        assert_eq!(real("2 2 2\n1 1 1"), "t.mtx: expected 2 entries as line 2 says, found 1");
+        assert_eq!(real("2 2 2\n1 2 1\n1 2 3"), "t.mtx: expected one entry for row 1, column 2, found two");
+        assert_eq!(real("2 2 99999999999999\n1 1 1"), "t.mtx: expected 99999999999999 entries as line 2 says, found 1");
+    }
+}
