@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crossbar::geom::teapot;
-use crossbar::io::{scene_files, write_obj};
+use crossbar::io::{scene_files, write_matrix_market, write_obj};
 use crossbar::prt::all_frequency::factor::{FactorSampling, Lobe};
 use crossbar::ray_engine::kernels;
 use crossbar::scene::built;
@@ -35,6 +35,22 @@ fn reflectance() -> String {
     table.values().rows().map(line).collect()
 }
 
+/// A sparse matrix of quarters that forms blocks, with some values off.
+fn quarters() -> String {
+    let value = |row: usize, column: usize| {
+        let in_block = (7 * (row / 8) + 3 * column) % 5 < 2;
+        let is_off = (5 * row + column).is_multiple_of(23);
+        if is_off { 0.25 * (1 + row % 3) as f64 } else { f64::from(u8::from(in_block)) }
+    };
+    let places = (0..40).flat_map(|row| (0..32).map(move |column| (row, column)));
+    let entries: Vec<_> = places.map(|(row, column)| (row, column, value(row, column))).collect();
+    let entries = entries.into_iter().filter(|entry| entry.2 != 0.0);
+    let mut text = Vec::new();
+    let size = [40, 32, entries.clone().count()];
+    write_matrix_market(size, "Blocks of ones, and some quarters.", entries, &mut text).expect("written");
+    String::from_utf8(text).expect("numbers")
+}
+
 #[test]
 fn examples_are_what_the_library_makes() {
     let mut mesh = Vec::new();
@@ -42,6 +58,7 @@ fn examples_are_what_the_library_makes() {
     let mut files = vec![
         ("teapot.obj".to_owned(), mesh),
         ("rays.csv".to_owned(), rays().into_bytes()),
+        ("quarters.mtx".to_owned(), quarters().into_bytes()),
         ("reflectance.csv".to_owned(), reflectance().into_bytes()),
         ("intersect.psa".to_owned(), kernels::ONE_ORIGIN_SIGNED.text.as_bytes().to_vec()),
     ];

@@ -8,11 +8,13 @@ pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices d
 
 /// The verbs of the commands that have some.
 pub(crate) const VERBS: &[&str] = &[
+    "prt bicluster",
     "prt card",
     "prt compress",
     "prt error",
     "prt factor",
     "prt lighting",
+    "prt multiply",
     "prt precompute",
     "prt render",
     "prt show",

@@ -45,6 +45,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     ("man nowhere", "--out"),
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
+    ("prt bicluster nowhere.mtx", "--seed --no-deletion --dump --out"),
     (
         "prt card nowhere.prt --model nowhere.obj",
         "--model --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
@@ -65,10 +66,11 @@ const COMMANDS: &[(&str, &str)] = &[
         "prt lighting --light nowhere.hdr",
         "--light --window --segments --keep --by --decimation --rotate --frames --out",
     ),
+    ("prt multiply nowhere.mtx", "--light --window --rotate --values"),
     (
         "prt precompute nowhere.obj --out x.prt",
         "--kind --factors --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
-         --degree --bounces --bounce-tolerance --out",
+         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --matrix",
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
@@ -252,6 +254,9 @@ fn what_is_wrong_is_said() {
         ("prt factor --brdf lambert --side 8 --sweep-roughness 0.2", "found Lambert's law"),
         ("prt precompute white-box --kind all-frequency --factors nowhere --out x.prt", "nowhere/view_factors.npy"),
         ("prt precompute white-box --factors nowhere --out x.prt", "add `--kind all-frequency`"),
+        ("prt precompute white-box --directions 4 --out x.prt", "add `--kind bi-scale`"),
+        ("prt precompute white-box --kind bi-scale --directions 65 --out x.prt", "65 is not in 1..=64"),
+        ("prt compress r.csv --kind bi-scale --out x.prt", "bi-scale transfer is for `crossbar prt precompute`"),
         ("prt lighting --keep 0", "0 is not in 1..=6144"),
         ("prt lighting --window hann", "`--window` damps bands of harmonics"),
         ("prt lighting --light disk:0,0,1:5 --segments 12", "[possible values: 24, 6]"),
@@ -292,7 +297,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 18] = [
+    let commands: [&[&str]; 20] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -301,6 +306,8 @@ fn hostile_files() {
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
+        &["prt", "bicluster", "IN"],
+        &["prt", "multiply", "IN"],
         &["prt", "compress", "IN", "--out", "y.prt"],
         &["prt", "error", "IN", "IN"],
         &["prt", "factor", "--table", "IN"],

@@ -4,6 +4,7 @@ mod all_frequency;
 mod alu;
 mod atlas;
 mod bad_input;
+mod bi_scale;
 mod case;
 mod check;
 mod commands;

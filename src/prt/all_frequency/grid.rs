@@ -96,8 +96,8 @@ pub const fn light_texel(fine: usize) -> usize {
     (face * LIGHT_SIDE + row / SUPERSAMPLES) * LIGHT_SIDE + column / SUPERSAMPLES
 }
 
-/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. Their numbers are face (32 s)^2
-/// + row 32 s + column, with s of them along an edge of a texel.
+/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. Their numbers are face (32
+/// s)^2 + row 32 s + column, with s of them along an edge of a texel.
 #[derive(Debug)]
 pub struct FineDirections {
     samples: usize,

@@ -177,8 +177,8 @@ impl SparseMatrix {
     }
 
     /// All entries row by row, and where each row begins and the last one ends.
-    pub(super) fn into_rows(self) -> (Vec<MatrixEntry>, Vec<usize>) {
-        (self.entries, self.begins)
+    pub(super) fn to_rows(&self) -> (Vec<MatrixEntry>, Vec<usize>) {
+        (self.entries.clone(), self.begins.clone())
     }
 }
 
@@ -217,6 +217,6 @@ mod tests {
         assert_eq!(of(&[(1, 1, 0.1)]), Err(SparseMatrixError::Fraction { row: 1, column: 1, value: 0.1 }));
         let range = |value, bits| Err(SparseMatrixError::Range { row: 0, column: 0, value, bits });
         assert_eq!(of(&[(0, 0, 6e8), (0, 1, 0.25)]), range(6e8, 2));
-        assert_eq!(of(&[(0, 0, 1e300)]), range(1e300, 0));
+        assert_eq!(of(&[(0, 0, 1e200)]), range(1e200, 0));
     }
 }

@@ -64,7 +64,8 @@ pub struct Gather {
     rows: Vec<u32>,
     /// How many biclusters rows have, increasing, and how many rows have so many.
     lengths: Vec<[usize; 2]>,
-    /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of one length interleaved, what is left over row by row.
+    /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of
+    /// one length interleaved, what is left over row by row.
     biclusters_of: Vec<u32>,
 }
 

@@ -32,9 +32,9 @@ pub const VERSION: u32 = 1;
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2, [`BiScaleFile`] 3. Real orthonormal harmonics, function
-/// l(l+1)+m, no Condon-Shortley sign (l = 1 is y, z, x), light in the axes of the mesh, exit radiance in those of the
-/// vertex with its normal as z.
+/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2, [`BiScaleFile`] 3. Real orthonormal
+/// harmonics, function l(l+1)+m, no Condon-Shortley sign (l = 1 is y, z, x), light in the axes of the mesh, exit
+/// radiance in those of the vertex with its normal as z.
 const CONVENTIONS: u32 = 1;
 
 /// Numbers of [`Tangents`](super::transfer::Tangents); 0 without a mesh.

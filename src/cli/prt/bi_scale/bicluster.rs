@@ -10,7 +10,7 @@ use super::load;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar};
 use crate::io::write_file;
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::file::{BiScaleFile, save_bi_scale};
 use crate::report::{Cell, Table};
@@ -19,8 +19,8 @@ const EXAMPLES: &str = "\
 Examples:
   crossbar prt bicluster docs/examples/quarters.mtx
       any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
-  crossbar prt bicluster docs/examples/step_bi_scale.prt --seed 7 --out step_biclusters.prt
-      the transfer of a model, for `crossbar prt multiply`
+  crossbar prt bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.prt
+      other start points; what is written is for `crossbar prt multiply`
   crossbar prt bicluster docs/examples/quarters.mtx --no-deletion --dump biclusters.csv --json
       every bicluster as a line; figures for machines";
 
@@ -69,11 +69,11 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
             bar.show("non-zeros".to_owned(), total.saturating_sub(left), total);
         }
     };
-    let biclusters = bicluster(matrix.clone(), options, &mut found).map_err(|error| refused(&args.file, &error))?;
+    let biclusters = bicluster(&matrix, options, &mut found).map_err(|error| refused(&args.file, &error))?;
     let seconds = start.elapsed().as_secs_f64();
     drop(bar);
-    let sum = biclusters.sum().map_err(|error| refused(&args.file, &error))?;
-    let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual: residual(&matrix, &sum), seconds };
+    let residual = residual(&matrix, &biclusters).map_err(|error| refused(&args.file, &error))?;
+    let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual, seconds };
     if let Some(path) = &args.dump {
         dump(&biclusters, path)?;
     }
@@ -99,13 +99,11 @@ fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "give the matrix in fewer bits")
 }
 
-/// Places at which two matrices differ.
-fn residual(matrix: &SparseMatrix, sum: &SparseMatrix) -> usize {
-    let differing = |row: usize| {
-        let (a, b) = (matrix.row(row), sum.row(row));
-        if a == b { 0 } else { a.len().max(b.len()) }
-    };
-    (0..matrix.rows()).map(differing).sum()
+/// Rows in which a matrix and the sum of its biclusters differ.
+fn residual(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<usize, BiclusterError> {
+    let mut differing = 0;
+    biclusters.sum_by_rows(&mut |row, entries| differing += usize::from(matrix.row(row) != entries))?;
+    Ok(differing)
 }
 
 /// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
@@ -139,8 +137,8 @@ impl Summary<'_> {
         2 * self.matrix.nonzeros() as u64
     }
 
-    /// Bytes by layout: dense in bytes and in floats; rows of columns of 2 bytes and values of 1, of 4 and 4; biclusters
-    /// of 4 bytes per row and 4 + 4 per column, as the paper's figures have it.
+    /// Bytes by layout: dense in bytes and in floats; rows of columns of 2 bytes and values of 1, of 4 and 4;
+    /// biclusters of 4 bytes per row and 4 + 4 per column, as the paper's figures have it.
     fn bytes(&self) -> [(&'static str, &'static str, u64); 5] {
         let (rows, columns) = (self.matrix.rows() as u64, self.matrix.columns() as u64);
         let nonzeros = self.matrix.nonzeros() as u64;
@@ -195,7 +193,7 @@ impl Summary<'_> {
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
         }
-        table.push(["places where the sum differs".into(), self.residual.into()]);
+        table.push(["rows where the sum differs".into(), self.residual.into()]);
         table.push(["seconds".into(), Cell::measured(self.seconds)]);
         table
     }

@@ -20,10 +20,12 @@ use crate::sphere::turn_around_z;
 
 const EXAMPLES: &str = "\
 Examples:
-  crossbar prt multiply docs/examples/step_bi_scale.prt --light sky:1,-1,1 --values local.csv
-      light that reaches each local direction of each vertex, row by row of the matrix
-  crossbar prt multiply docs/examples/step_biclusters.prt --light sky:1,-1,1 --rotate 90 --values local.csv --json
-      the same by biclusters (Algorithm 2), with the light turned";
+  crossbar prt multiply docs/examples/step_biclusters.prt --light sky:1,-1,1 --values local.csv
+      light that reaches each local direction of each vertex, by biclusters (Algorithm 2)
+  crossbar prt multiply docs/examples/step_biclusters.prt --light red-and-blue --rotate 90 --json
+      another light, turned; figures for machines
+
+Of a matrix the product is taken row by row, in double precision.";
 
 /// Multiply light with transfer: the light that reaches each local direction of each vertex
 #[derive(Debug, clap::Args)]

@@ -23,7 +23,7 @@ impl Submatrix {
                 residual_nonzeros += i64::from(value - t != 0);
             }
         }
-        let cost = self.rows.len() as i64 + 2 * self.columns.len() as i64 - 1;
+        let cost = (self.rows.len() + 2 * self.columns.len()).cast_signed() as i64 - 1;
         2 * nonzeros - cost - 2 * residual_nonzeros
     }
 

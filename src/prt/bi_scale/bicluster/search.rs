@@ -8,7 +8,7 @@
 use super::draw::{Counts, start};
 use super::lines::Lines;
 use super::queue::BucketQueue;
-use super::tally::Tally;
+use super::tally::ColumnTally;
 use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
 use crate::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
@@ -21,7 +21,7 @@ use crate::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 /// # Errors
 /// [`BiclusterError`].
 pub fn bicluster(
-    matrix: SparseMatrix,
+    matrix: &SparseMatrix,
     options: BiclusterOptions,
     found: &mut dyn FnMut(u64),
 ) -> Result<Biclustering, BiclusterError> {
@@ -38,7 +38,7 @@ pub fn bicluster(
 
 /// What is known of the lines of one direction: rows or columns.
 #[derive(Debug)]
-struct Side {
+struct SearchSide {
     lines: Lines,
     /// Matches or most frequent values, and non-zeros, within the submatrix.
     keys: Vec<u32>,
@@ -73,7 +73,7 @@ impl Operation {
     }
 }
 
-impl Side {
+impl SearchSide {
     fn new(lines: Lines) -> Self {
         let count = lines.len();
         Self {
@@ -151,7 +151,7 @@ impl Side {
         places: &[u32],
         t: impl Fn(u32) -> i32,
     ) -> Result<i64, (u32, i64)> {
-        let before = self.lines.get(line as usize).len() as i64;
+        let before = self.lines.get(line as usize).len().cast_signed() as i64;
         self.met.clear();
         self.met.resize(all.len(), false);
         let (met, mut too_large) = (&mut self.met, None);
@@ -181,7 +181,7 @@ impl Side {
             self.more.push(MatrixEntry { value, ..entry });
         }
         self.lines.add(line as usize, &self.more);
-        Ok(self.lines.get(line as usize).len() as i64 - before)
+        Ok(self.lines.get(line as usize).len().cast_signed() as i64 - before)
     }
 
     /// Sets all back but the lines' entries.
@@ -198,10 +198,10 @@ impl Side {
 #[derive(Debug)]
 struct Search {
     deletion: bool,
-    rows: Side,
-    columns: Side,
+    rows: SearchSide,
+    columns: SearchSide,
     /// Per column what its rows hold.
-    tallies: Vec<Tally>,
+    tallies: Vec<ColumnTally>,
     /// Per column inside its value.
     values: Vec<i32>,
     /// Non-zeros per row of what is left.
@@ -209,21 +209,21 @@ struct Search {
 }
 
 impl Search {
-    fn new(matrix: SparseMatrix, deletion: bool) -> Result<Self, BiclusterError> {
+    fn new(matrix: &SparseMatrix, deletion: bool) -> Result<Self, BiclusterError> {
         let width = matrix.columns();
         let nonzeros = matrix.nonzeros() as u64;
         if u32::try_from(nonzeros).is_err() {
             return Err(BiclusterError::TooMany { found: nonzeros });
         }
-        let (entries, begins) = matrix.into_rows();
+        let (entries, begins) = matrix.to_rows();
         let rows = Lines::new(entries, begins);
         let columns = rows.transposed(width);
         let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
         Ok(Self {
             deletion,
-            rows: Side::new(rows),
-            columns: Side::new(columns),
-            tallies: vec![Tally::default(); width],
+            rows: SearchSide::new(rows),
+            columns: SearchSide::new(columns),
+            tallies: vec![ColumnTally::default(); width],
             values: vec![0; width],
             left,
         })
@@ -245,7 +245,7 @@ impl Search {
 
     /// Lines 7 to 20: the best operation, if one gains.
     fn step(&mut self) -> bool {
-        let (r, l) = (self.rows.inside.len() as i64, self.columns.inside.len() as i64);
+        let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
         let row = self.rows.best(2 * l + 1, self.deletion).filter(|operation| operation.gain > 0);
         let column = self.columns.best(2 * r + 2, self.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
@@ -351,6 +351,6 @@ impl Search {
 
 /// Matches or most frequent values, and non-zeros, of a column: by its value if it is inside.
 #[inline]
-fn column_key(tally: &Tally, place: u32, value: i32) -> u32 {
+fn column_key(tally: &ColumnTally, place: u32, value: i32) -> u32 {
     if place == OUTSIDE { tally.most_and_nonzeros() } else { tally.matches_and_nonzeros(value) }
 }

@@ -2,7 +2,7 @@
 
 /// Values other than 0 of one column in the rows of a submatrix, each with how often it stands there.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct ColumnTally {
     /// In no order; counts may have come down to 0.
     values: Vec<(i32, u32)>,
     nonzeros: u32,
@@ -10,7 +10,7 @@ pub(super) struct Tally {
     most: u32,
 }
 
-impl Tally {
+impl ColumnTally {
     pub(super) fn add(&mut self, value: i32) {
         self.nonzeros += 1;
         let count = match self.values.iter_mut().find(|(known, _)| *known == value) {
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn the_lowest_of_the_most_frequent_values() {
-        let mut tally = Tally::default();
+        let mut tally = ColumnTally::default();
         [3, -1, 3, -1, 2].into_iter().for_each(|value| tally.add(value));
         assert_eq!((tally.most_frequent(), tally.most_and_nonzeros()), (-1, 7));
         tally.remove(-1);

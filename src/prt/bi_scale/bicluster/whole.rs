@@ -138,25 +138,42 @@ impl Biclustering {
     /// The sum of the biclusters: the matrix that they were made from, exactly.
     ///
     /// # Errors
-    /// [`BiclusterError::Residual`] if a value leaves 32 bits, as it may for biclusters that are of no matrix.
+    /// As [`Self::sum_by_rows`].
     pub fn sum(&self) -> Result<SparseMatrix, BiclusterError> {
-        let (begins, of_row) = self.by_row();
         let mut matrix = SparseMatrix::new(self.matrix_columns, self.fraction_bits).expect("the size of a matrix");
-        let mut dense = vec![0_i64; self.matrix_columns];
-        for (row, ends) in begins.windows(2).enumerate() {
-            let biclusters = &of_row[ends[0]..ends[1]];
-            for entry in biclusters.iter().flat_map(|&bicluster| self.columns_of(bicluster as usize)) {
-                dense[entry.index as usize] += i64::from(entry.value);
-            }
-            let entry = |(index, &value): (u32, &i64)| match i32::try_from(value) {
-                Ok(value) => Ok(MatrixEntry { index, value }),
-                Err(_) => Err(BiclusterError::Residual { row: row as u32, column: index, value }),
-            };
-            let entries: Vec<MatrixEntry> =
-                (0..).zip(&dense).filter(|(_, sum)| **sum != 0).map(entry).collect::<Result<_, _>>()?;
-            matrix.push_row(&entries).expect("a row of a matrix");
-            dense.fill(0);
-        }
+        self.sum_by_rows(&mut |_, entries| matrix.push_row(entries).expect("a row of a matrix"))?;
         Ok(matrix)
+    }
+
+    /// The same row by row: `take` is called with each row and its entries.
+    ///
+    /// # Errors
+    /// [`BiclusterError::Residual`] if a value leaves 32 bits, as it may for biclusters that are of no matrix.
+    pub fn sum_by_rows(&self, take: &mut dyn FnMut(usize, &[MatrixEntry])) -> Result<(), BiclusterError> {
+        let (begins, of_row) = self.by_row();
+        let mut sums = vec![0_i64; self.matrix_columns];
+        let (mut touched, mut entries) = (Vec::new(), Vec::new());
+        for (row, ends) in begins.windows(2).enumerate() {
+            for &bicluster in &of_row[ends[0]..ends[1]] {
+                for entry in self.columns_of(bicluster as usize) {
+                    sums[entry.index as usize] += i64::from(entry.value);
+                    touched.push(entry.index);
+                }
+            }
+            touched.sort_unstable();
+            touched.dedup();
+            entries.clear();
+            for column in touched.drain(..) {
+                let value = std::mem::take(&mut sums[column as usize]);
+                let residual = BiclusterError::Residual { row: row as u32, column, value };
+                match i32::try_from(value) {
+                    Ok(0) => {}
+                    Ok(value) => entries.push(MatrixEntry { index: column, value }),
+                    Err(_) => return Err(residual),
+                }
+            }
+            take(row, &entries);
+        }
+        Ok(())
     }
 }

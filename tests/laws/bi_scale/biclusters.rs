@@ -1,24 +1,11 @@
 //! Biclusters: the fast search against Algorithm 1 word by word, and what must hold of any matrix.
 
 use crossbar::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::prt::bi_scale::matrix::MatrixEntry;
 use crossbar::prt::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
 use proptest::prelude::*;
 
-/// A matrix of the values of its rows.
-fn matrix(rows: &[Vec<i32>], fraction_bits: u32) -> SparseMatrix {
-    let mut matrix = SparseMatrix::new(rows[0].len(), fraction_bits).expect("columns");
-    for row in rows {
-        let entries = (0..).zip(row).filter(|(_, value)| **value != 0);
-        let entries: Vec<MatrixEntry> = entries.map(|(index, &value)| MatrixEntry { index, value }).collect();
-        matrix.push_row(&entries).expect("a row");
-    }
-    matrix
-}
-
-fn quietly(matrix: &SparseMatrix, options: BiclusterOptions) -> crossbar::prt::bi_scale::bicluster::Biclustering {
-    bicluster(matrix.clone(), options, &mut |_| ()).expect("small values")
-}
+use super::{matrix, quietly};
 
 /// Rows of quarters that tend to form blocks: each row takes one of a few patterns and changes some of its values.
 fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
@@ -67,7 +54,7 @@ proptest! {
     fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64, deletion: bool) {
         let matrix = matrix(&rows, 2);
         let mut left = vec![matrix.nonzeros() as u64];
-        let found = bicluster(matrix.clone(), BiclusterOptions { seed, deletion }, &mut |now| left.push(now)).unwrap();
+        let found = bicluster(&matrix, BiclusterOptions { seed, deletion }, &mut |now| left.push(now)).unwrap();
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
         // Each bicluster takes away at least half its cost in non-zeros, so the whole costs no more than the matrix.
         for (index, step) in left.windows(2).enumerate() {
@@ -114,7 +101,7 @@ proptest! {
         }
         for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
             // (1 + u)^n - 1 <= 2 n u for n u below a half; u = 2^-24. Twice: f64 errs less than as much again.
-            let bound = 4.0 * operations[row] as f64 * 2.0_f64.powi(-24) * magnitude[row];
+            let bound = 4.0 * operations[row] as f64 * f64::from(f32::EPSILON) / 2.0 * magnitude[row];
             prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
         }
     }
@@ -157,5 +144,5 @@ fn residuals_out_of_range_are_refused() {
         matches!(expected, Err(BiclusterError::Residual { column: 0, row: 0, value: 0x8000_0000 })),
         "{expected:?}"
     );
-    assert_eq!(bicluster(matrix, BiclusterOptions::default(), &mut |_| ()), expected);
+    assert_eq!(bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()), expected);
 }

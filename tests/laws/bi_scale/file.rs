@@ -1,0 +1,149 @@
+//! Files of bi-scale transfer, and matrices as text: what is written is read, what is damaged is refused.
+
+use std::path::Path;
+
+use crossbar::io::{load_matrix_market, parse_matrix_market};
+use crossbar::prt::all_frequency::visibility::Horizon;
+use crossbar::prt::bi_scale::bicluster::BiclusterOptions;
+use crossbar::prt::bi_scale::directions::LocalDirections;
+use crossbar::prt::bi_scale::transfer::transfer_matrix;
+use crossbar::prt::file::{
+    BiScaleFile, BiScaleMeaning, MeshDigest, is_bi_scale, load_bi_scale, parse_bi_scale, parse_prt, save_bi_scale,
+    write_bi_scale,
+};
+use proptest::prelude::*;
+
+use super::{matrix, quietly, sight};
+
+fn bytes(file: &BiScaleFile) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_bi_scale(file, &mut bytes).expect("written");
+    bytes
+}
+
+fn parsed(bytes: &[u8]) -> Result<BiScaleFile, String> {
+    parse_bi_scale(bytes, Path::new("b.prt")).map_err(|error| error.to_string())
+}
+
+/// Any matrix with its biclusters.
+fn small(values: &[Vec<i32>]) -> BiScaleFile {
+    let matrix = matrix(values, 2);
+    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
+}
+
+/// Values of one byte, of two and of four.
+fn all_widths() -> [BiScaleFile; 3] {
+    let rows = |large: i32| small(&[vec![4, 4, 0, 1], vec![4, 4, large, 0], vec![0, 0, 0, 0]]);
+    [rows(-3), rows(300), rows(-70_000)]
+}
+
+/// The transfer of hills.
+fn transfer() -> BiScaleFile {
+    let (vertices, maps) = sight(1, Horizon::Geometry);
+    let matrix = transfer_matrix(&vertices, &maps, &LocalDirections::new(2).expect("a side")).expect("a matrix");
+    let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: 2, horizon: Horizon::Geometry };
+    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters }
+}
+
+#[test]
+fn what_is_written_is_read() {
+    let whole = transfer();
+    let matrix = BiScaleFile { biclusters: None, ..whole.clone() };
+    let biclusters = BiScaleFile { matrix: None, ..whole.clone() };
+    for file in all_widths().into_iter().chain([whole, matrix, biclusters]) {
+        let bytes = bytes(&file);
+        assert!(is_bi_scale(&bytes));
+        assert_eq!(parsed(&bytes), Ok(file.clone()));
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("b.prt");
+        save_bi_scale(&file, &path).expect("saved");
+        assert_eq!(load_bi_scale(&path).expect("read"), file);
+        let error = parse_prt(&bytes, Path::new("b.prt")).expect_err("another kind").to_string();
+        assert_eq!(error, "b.prt: conventions: expected 1 to 1, found 3");
+    }
+}
+
+#[test]
+fn every_flipped_bit_and_every_cut_is_seen() {
+    for file in all_widths() {
+        let whole = bytes(&file);
+        for length in 0..whole.len() {
+            assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
+        }
+        for at in 0..8 * whole.len() {
+            let mut damaged = whole.clone();
+            damaged[at / 8] ^= 1 << (at % 8);
+            assert!(parsed(&damaged).is_err(), "bit {at}");
+        }
+    }
+}
+
+#[test]
+fn parts_that_do_not_go_together_are_refused() {
+    let [one, other, _] = all_widths();
+    let nothing = BiScaleFile { meaning: None, matrix: None, biclusters: None };
+    let larger = small(&[vec![4, 4, 0, 1, 2], vec![4, 4, 0, 0, 1], vec![0, 0, 0, 0, 0]]);
+    let mixed = BiScaleFile { biclusters: larger.biclusters, ..one.clone() };
+    let meaning = transfer().meaning;
+    let of_no_mesh = BiScaleFile { meaning, ..other };
+    for (file, said) in [
+        (nothing, "contents: expected a matrix or biclusters, found neither"),
+        (mixed, "biclusters: expected 3 x 4 in 2^-2, found 3 x 5 in 2^-2"),
+        (of_no_mesh, "size of the transfer: expected 64 x 6144 in 2^-2, found 3 x 4 in 2^-2"),
+    ] {
+        let error = write_bi_scale(&file, &mut Vec::new()).expect_err("refused").to_string();
+        assert_eq!(error, said);
+    }
+}
+
+proptest! {
+    /// With the checksums made right again, what is read is read, and the rest refused; nothing panics.
+    #[test]
+    fn damaged_contents_never_panic(at in 100_usize..400, byte: u8) {
+        let mut damaged = bytes(&all_widths()[0]);
+        let at = at % damaged.len();
+        damaged[at] = byte;
+        // The header ends with its checksum, each section too.
+        let mut begin = 0;
+        let mut end = 8 + 4 * 13 + 24;
+        while end + 4 <= damaged.len() {
+            let crc = crc32fast::hash(&damaged[begin..end]);
+            damaged[end..end + 4].copy_from_slice(&crc.to_le_bytes());
+            begin = end + 4;
+            let Some(length) = damaged.get(begin + 4..begin + 12) else { break };
+            let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
+            end = (begin + 12).saturating_add(usize::try_from(length).unwrap_or(usize::MAX));
+            if end.checked_add(4).is_none_or(|end| end > damaged.len()) {
+                break;
+            }
+        }
+        if let Ok(file) = parsed(&damaged) {
+            prop_assert_eq!(bytes(&file), damaged);
+        }
+    }
+
+    #[test]
+    fn text_of_any_bytes_never_panics(text in "%%MatrixMarket matrix coordinate (real|pattern) (general|symmetric)\n(% x\n)?[0-4] [0-4] [0-3]\n([0-5] [0-5]( [-0-9.eE]{1,4})?\n){0,4}") {
+        if let Ok(matrix) = parse_matrix_market(text.as_bytes(), Path::new("t.mtx")) {
+            let is_there = |&(row, column, value): &(u32, u32, f64)| {
+                (row as usize) < matrix.rows && (column as usize) < matrix.columns && value.is_finite()
+            };
+            prop_assert!(matrix.entries.iter().all(is_there));
+            prop_assert!(matrix.entries.is_sorted_by(|a, b| (a.0, a.1) < (b.0, b.1)));
+        }
+    }
+
+    #[test]
+    fn bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        prop_assert!(parse_matrix_market(&bytes, Path::new("t.mtx")).is_err());
+        prop_assert!(parsed(&bytes).is_err());
+    }
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let error = load_matrix_market(Path::new("nowhere.mtx")).expect_err("no file").to_string();
+    assert!(error.contains("nowhere.mtx"), "{error}");
+}

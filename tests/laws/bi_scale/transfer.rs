@@ -1,0 +1,97 @@
+//! The matrix T: which texels a vertex sees, and where their light goes.
+
+use approx::assert_relative_eq;
+use crossbar::prt::all_frequency::visibility::Horizon;
+use crossbar::prt::bi_scale::directions::LocalDirections;
+use crossbar::prt::bi_scale::matrix::MatrixEntry;
+use crossbar::prt::bi_scale::product::by_rows;
+use crossbar::prt::bi_scale::transfer::{light_vector, transfer_matrix};
+use crossbar::prt::file::MeshDigest;
+use crossbar::sphere::CUBE_FACES;
+use glam::DVec3;
+
+use super::sight;
+
+/// The direction of a light texel's center, from the axes of its face.
+fn center(texel: usize) -> DVec3 {
+    let axes = CUBE_FACES[texel / 1024];
+    let place = |at: usize| (2 * at + 1) as f64 / 32.0 - 1.0;
+    (axes.center + place(texel % 32) * axes.right + place(texel / 32 % 32) * axes.down).normalize()
+}
+
+/// Texel by texel and direction by direction, as section IV-A has it.
+#[test]
+fn texels_go_to_the_nearest_local_direction() {
+    for (log2_samples, side, horizon) in [(0, 4, Horizon::Normal), (1, 8, Horizon::Geometry), (2, 5, Horizon::Normal)] {
+        let (vertices, maps) = sight(log2_samples, horizon);
+        let directions = LocalDirections::new(side).expect("a side");
+        let matrix = transfer_matrix(&vertices, &maps, &directions).expect("a matrix");
+        let (local, samples) = (side * side, 1 << log2_samples);
+        assert_eq!((matrix.rows(), matrix.columns()), (vertices.len() * local, 6144));
+        assert_eq!(matrix.fraction_bits(), 2 * log2_samples);
+        for vertex in 0..vertices.len() {
+            let frame = &vertices.frames()[vertex];
+            let mut expected = vec![Vec::new(); local];
+            for texel in 0..6144 {
+                let (face, row, column) = (texel / 1024, texel / 32 % 32, texel % 32);
+                let fine = |i: usize, j: usize| {
+                    (face * 32 * samples + row * samples + i) * 32 * samples + column * samples + j
+                };
+                let all = (0..samples).flat_map(|i| (0..samples).map(move |j| (i, j)));
+                let seen = all.filter(|&(i, j)| maps.is_visible(vertex, fine(i, j))).count();
+                if seen > 0 {
+                    let nearest = directions.nearest_of_all(frame.to_local(center(texel)));
+                    expected[nearest].push(MatrixEntry {
+                        index: texel as u32,
+                        value: i32::try_from(seen).expect("sixteen at most"),
+                    });
+                }
+            }
+            for (direction, expected) in expected.iter().enumerate() {
+                let differs = matrix.row(vertex * local + direction) != &expected[..];
+                assert!(!differs, "vertex {vertex}, direction {direction}, {side} x {side}");
+            }
+        }
+    }
+}
+
+/// What arrives at a vertex is what it sees: the rows of a vertex sum to the flux of its visible texels.
+#[test]
+fn light_arrives_once() {
+    let (vertices, maps) = sight(1, Horizon::Normal);
+    let matrix = transfer_matrix(&vertices, &maps, &LocalDirections::new(6).expect("a side")).expect("a matrix");
+    let radiance: Vec<f64> = (0..6144).map(|texel| (texel % 13) as f64).collect();
+    let light = light_vector(&radiance);
+    assert_relative_eq!(light_vector(&[1.0; 6144]).iter().sum::<f64>(), 4.0 * std::f64::consts::PI, epsilon = 1e-12);
+    let local = by_rows(&matrix, &light);
+    for (vertex, rows) in local.chunks(36).enumerate() {
+        let fine = maps.sampling().directions();
+        let share = |texel| fine.in_texel(texel).filter(|&fine| maps.is_visible(vertex, fine)).count() as f64 / 4.0;
+        let expected: f64 = (0..6144).map(|texel| share(texel) * light[texel]).sum();
+        assert_relative_eq!(rows.iter().sum::<f64>(), expected, max_relative = 1e-12);
+    }
+}
+
+/// One texel of the light, straight above: its light arrives in a direction near the normal of level ground, and turned
+/// to the side of the texel.
+#[test]
+fn a_texel_arrives_where_it_comes_from() {
+    let (vertices, maps) = sight(0, Horizon::Normal);
+    let directions = LocalDirections::new(8).expect("a side");
+    let matrix = transfer_matrix(&vertices, &maps, &directions).expect("a matrix");
+    for texel in (0..6144).step_by(5) {
+        for (vertex, frame) in vertices.frames().iter().enumerate() {
+            let arrives: Vec<usize> = (0..64)
+                .filter(|&local| matrix.row(64 * vertex + local).iter().any(|entry| entry.index as usize == texel))
+                .collect();
+            let sees = maps.is_visible(vertex, texel);
+            assert_eq!(arrives.len(), usize::from(sees), "texel {texel}, vertex {vertex}");
+            for &local in &arrives {
+                let direction = frame.to_global(directions.directions()[local]);
+                // A cell of 8 x 8 is at most 0.6 rad long.
+                assert!(direction.dot(center(texel)) > 0.9, "texel {texel}, vertex {vertex}, direction {local}");
+            }
+        }
+    }
+    assert_eq!(MeshDigest::new(&vertices).vertices as usize, vertices.len());
+}
