@@ -329,11 +329,12 @@ fn missed_by_place() -> String {
 }
 
 fn paper_of(id: &str) -> &'static str {
-    const PAPERS: [(&str, &str); 4] = [
+    const PAPERS: [(&str, &str); 5] = [
         ("radiosity", "radiosity"),
         ("subsurface", "subsurface"),
         ("cpca", "CPCA"),
         ("all-frequency", "all-frequency transfer"),
+        ("bi-scale", "bi-scale transfer"),
     ];
     PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
 }
@@ -375,6 +376,7 @@ fn the_book_says_what_the_program_says() {
         "docs/papers/radiosity.md",
         "docs/papers/cpca.md",
         "docs/papers/all_frequency.md",
+        "docs/papers/bi_scale.md",
     ] {
         let text = std::fs::read_to_string(file(path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");

@@ -5,6 +5,7 @@
 //! value ([`Sweep`]).
 
 mod all_frequency;
+mod bi_scale;
 mod cpca;
 mod entry;
 mod equation_11;
@@ -186,6 +187,16 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         id: "all-frequency-factors",
         title: "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
         work: all_frequency::factors,
+    },
+    ReproduceEntry {
+        id: "bi-scale-counts",
+        title: "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
+        work: |_| Ok(bi_scale::counts()),
+    },
+    ReproduceEntry {
+        id: "bi-scale-table-2",
+        title: "Biclusters of bunnies (bi-scale transfer, table II)",
+        work: bi_scale::table_2,
     },
 ];
 

@@ -1,0 +1,92 @@
+//! What of sections III and IV and of both tables follows from sizes.
+
+use super::printed::{PrintedScene, SCENES};
+use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
+use crate::prt::all_frequency::grid::LIGHT_TEXELS;
+use crate::report::{Cell, Table};
+
+const HOW: &str = "Nothing is run. Operations are two per value other than zero; a dense matrix takes {} byte per value, biclusters {} bytes per operation: \
+    {} per row, and {} for place and value of a column, which cost one operation and two.";
+const QUESTION: &str =
+    "why the small bunny's dense matrix is printed larger than its vertices make it, where the other five fit.";
+/// Bytes per value of a dense matrix, per row of a bicluster, and per column.
+const DENSE: f64 = 1.0;
+const PER_ROW: f64 = 4.0;
+const PER_COLUMN: f64 = 8.0;
+const NONZEROS: &str = "printed non-zeros";
+const OPERATIONS: &str = "printed operations";
+const VERTICES: &str = "printed vertices and local directions";
+/// The patch of Figure 3.
+const PATCH: f64 = 0.69;
+
+pub(in crate::study::reproduce) fn findings() -> EntryFindings {
+    let example = (15_000 * 64 * LIGHT_TEXELS) as f64;
+    let printed = PaperFigure::printed;
+    // A vertex that sees all of its hemisphere sends each of half the texels to one of its directions.
+    let open = 100.0 * 0.5 / 64.0;
+    let mut rows = vec![
+        PaperRow::new(
+            "values of T with 15,000 vertices",
+            (HOST, Method::Equation),
+            printed(6.0, 0, "thousand millions", "section 3"),
+            (1e-9 * example, Standing::Counted),
+            Bound::PREDICTION,
+        ),
+        PaperRow::new(
+            "values other than 0 where nothing is hidden",
+            (HOST, Method::Equation),
+            printed(PATCH, 2, "%", "section 4"),
+            (open, Standing::Counted),
+            Bound::PREDICTION,
+        ),
+    ];
+    let mut table = Table::of(
+        "Tables I and II, by sizes alone",
+        "scene vertices local_directions nonzeros_M dense_MB_printed dense_MB bytes_per_operation \
+         bytes_per_nonzero_printed",
+    );
+    for scene in &SCENES {
+        rows.extend(scene_rows(scene));
+        let [_, after] = scene.operations;
+        table.push([
+            scene.name.into(),
+            scene.vertices.into(),
+            (scene.side * scene.side).into(),
+            Cell::decimals(scene.nonzeros, 1),
+            Cell::decimals(scene.megabytes[0], 0),
+            Cell::decimals(scene.dense_megabytes(), 0),
+            Cell::measured(scene.megabytes[1] / after),
+            Cell::measured(scene.megabytes[1] / scene.nonzeros),
+        ]);
+    }
+    EntryFindings {
+        text: vec![Prose::new(HOW, [DENSE, PER_ROW, PER_ROW, PER_COLUMN].map(|bytes| number(bytes, 0)))],
+        rows,
+        questions: vec![QUESTION],
+        tables: vec![table],
+        ..EntryFindings::default()
+    }
+}
+
+impl PrintedScene {
+    fn dense_megabytes(&self) -> f64 {
+        1e-6 * DENSE * (self.vertices * self.side * self.side * LIGHT_TEXELS) as f64
+    }
+}
+
+fn scene_rows(scene: &PrintedScene) -> [PaperRow; 5] {
+    let row = |what: &str, (value, decimals, unit), found, from, bound| {
+        let target = PaperFigure::printed(value, decimals, unit, scene.place);
+        let name = format!("{}: {what}", scene.name);
+        PaperRow::new(name, (HOST, Method::Equation), target, (found, Standing::Predicted { from }), bound)
+    };
+    let ([before, after], [dense, biclusters]) = (scene.operations, scene.megabytes);
+    let (left, decimals) = scene.megabytes_left;
+    [
+        row("operations", (before, 1, "million"), 2.0 * scene.nonzeros, NONZEROS, Bound::PREDICTION),
+        row("operations left", (scene.operations_left, 1, "%"), 100.0 * after / before, OPERATIONS, Bound::PREDICTION),
+        row("dense matrix", (dense, 0, "MB"), scene.dense_megabytes(), VERTICES, Bound::PREDICTION),
+        row("biclusters", (biclusters, 1, "MB"), PER_ROW * after, OPERATIONS, Bound::PREDICTION),
+        row("bytes left", (left, decimals, "%"), 100.0 * biclusters / dense, "printed sizes", Bound::PREDICTION),
+    ]
+}
