@@ -13,6 +13,10 @@ const QUESTION: &str =
 const DENSE: f64 = 1.0;
 const PER_ROW: f64 = 4.0;
 const PER_COLUMN: f64 = 8.0;
+/// Texels along an edge of a patch, view directions along an edge, and bytes of a texel: three channels.
+const PATCHES: [usize; 2] = [64, 32];
+const VIEWS: usize = 12;
+const TEXEL_BYTES: usize = 3;
 const NONZEROS: &str = "printed non-zeros";
 const OPERATIONS: &str = "printed operations";
 const VERTICES: &str = "printed vertices and local directions";
@@ -47,6 +51,7 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     );
     for scene in &SCENES {
         rows.extend(scene_rows(scene));
+        rows.extend(texture_row(scene));
         let [_, after] = scene.operations;
         table.push([
             scene.name.into(),
@@ -72,6 +77,20 @@ impl PrintedScene {
     fn dense_megabytes(&self) -> f64 {
         1e-6 * DENSE * (self.vertices * self.side * self.side * LIGHT_TEXELS) as f64
     }
+}
+
+/// The sizes of bidirectional textures: which scenes have small patches is said of the temple alone.
+fn texture_row(scene: &PrintedScene) -> Option<PaperRow> {
+    let (counts, megabytes) = scene.textures?;
+    let texels: usize = counts.into_iter().zip(PATCHES).map(|(count, side)| count * side * side).sum();
+    let bytes = TEXEL_BYTES * texels * VIEWS * VIEWS * scene.side * scene.side;
+    Some(PaperRow::new(
+        format!("{}: bidirectional textures", scene.name),
+        (HOST, Method::Equation),
+        PaperFigure::printed(megabytes, 1, "MB", scene.place),
+        (1e-6 * bytes as f64, Standing::Predicted { from: "printed numbers of textures and directions" }),
+        Bound::Print,
+    ))
 }
 
 fn scene_rows(scene: &PrintedScene) -> [PaperRow; 5] {

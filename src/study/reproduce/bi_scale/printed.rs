@@ -17,6 +17,8 @@ pub(super) struct PrintedScene {
     pub(super) megabytes: [f64; 2],
     /// What is left of them in %, with its digits.
     pub(super) megabytes_left: (f64, u8),
+    /// Bidirectional textures with patches of 64 x 64 and of 32 x 32 texels, and their megabytes; Table I alone.
+    pub(super) textures: Option<([usize; 2], f64)>,
 }
 
 pub(super) const SCENES: [PrintedScene; 6] = [
@@ -30,6 +32,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 27.4,
         megabytes: [1400.0, 24.2],
         megabytes_left: (1.7, 1),
+        textures: Some(([1, 0], 113.2)),
     },
     PrintedScene {
         name: "armor",
@@ -41,6 +44,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 33.9,
         megabytes: [9500.0, 59.0],
         megabytes_left: (0.62, 2),
+        textures: Some(([1, 0], 255.2)),
     },
     PrintedScene {
         name: "chair",
@@ -52,6 +56,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 11.1,
         megabytes: [6300.0, 36.4],
         megabytes_left: (0.58, 2),
+        textures: Some(([1, 2], 169.9)),
     },
     PrintedScene {
         name: "temple",
@@ -63,6 +68,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 6.3,
         megabytes: [12_600.0, 32.9],
         megabytes_left: (0.26, 2),
+        textures: Some(([1, 4], 226.5)),
     },
     PrintedScene {
         name: "middle bunny",
@@ -74,6 +80,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 27.0,
         megabytes: [4868.0, 84.1],
         megabytes_left: (1.7, 1),
+        textures: None,
     },
     PrintedScene {
         name: "fine bunny",
@@ -85,6 +92,7 @@ pub(super) const SCENES: [PrintedScene; 6] = [
         operations_left: 26.7,
         megabytes: [18_859.0, 316.9],
         megabytes_left: (1.7, 1),
+        textures: None,
     },
 ];
 
