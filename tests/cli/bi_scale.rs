@@ -91,6 +91,18 @@ fn biclusters_are_dumped() {
 }
 
 #[test]
+fn what_is_lost_is_told() {
+    let exact = document("prt bicluster docs/examples/quarters.mtx");
+    assert_eq!((&exact["residual"], &exact["largest_residual"]), (&Value::from(0), &Value::from(0.0)));
+    let [quarter, half] =
+        ["0.25", "0.5"].map(|drop| document(&format!("prt bicluster docs/examples/quarters.mtx --drop {drop}")));
+    assert_eq!(([&quarter, &half].map(|found| number(&found["largest_residual"]))), [0.25, 0.5]);
+    let cost = |found: &Value| number(&found["flops_after"]);
+    assert!(cost(&half) < cost(&quarter) && cost(&quarter) < cost(&exact));
+    assert!(number(&quarter["squared_residual"]) < number(&half["squared_residual"]));
+}
+
+#[test]
 fn what_cannot_be_done_is_said() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let tenths = place(folder.path(), "tenths.mtx");

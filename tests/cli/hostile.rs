@@ -45,7 +45,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     ("man nowhere", "--out"),
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
-    ("prt bicluster nowhere.mtx", "--seed --no-deletion --dump --out"),
+    ("prt bicluster nowhere.mtx", "--seed --no-deletion --drop --dump --out"),
     (
         "prt card nowhere.prt --model nowhere.obj",
         "--model --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::load;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar};
+use crate::cli::{Out, Problem, ProgressBar, number};
 use crate::io::write_file;
 use crate::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
 use crate::prt::bi_scale::matrix::SparseMatrix;
@@ -22,7 +22,9 @@ Examples:
   crossbar prt bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.prt
       other start points; what is written is for `crossbar prt multiply`
   crossbar prt bicluster docs/examples/quarters.mtx --no-deletion --dump biclusters.csv --json
-      every bicluster as a line; figures for machines";
+      every bicluster as a line; figures for machines
+  crossbar prt bicluster docs/examples/quarters.mtx --drop 0.25
+      with loss: what is off by a quarter stays so";
 
 /// Values that a table has room for.
 const VALUES: usize = 17;
@@ -43,6 +45,10 @@ pub(in crate::cli::prt) struct Args {
     #[arg(long)]
     no_deletion: bool,
 
+    /// Leave out residuals of at most this size: what is left of the matrix is off by no more, place by place
+    #[arg(long, value_name = "ERROR", default_value_t = 0.0, value_parser = number::not_negative)]
+    drop: f64,
+
     /// Write the biclusters as a table: cost, rows, columns and values of each
     #[arg(long, value_name = "B.csv")]
     dump: Option<PathBuf>,
@@ -59,7 +65,7 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
         Problem::usage(what, "name the file that they were made from")
     })?;
     let total = matrix.nonzeros() as u64;
-    let options = BiclusterOptions { seed: args.seed, deletion: !args.no_deletion };
+    let options = BiclusterOptions { seed: args.seed, deletion: !args.no_deletion, drop: args.drop(&matrix) };
     let bar = ProgressBar::new("non-zeros", total);
     let start = Instant::now();
     let mut number = 0_u64;
@@ -72,7 +78,7 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     let biclusters = bicluster(&matrix, options, &mut found).map_err(|error| refused(&args.file, &error))?;
     let seconds = start.elapsed().as_secs_f64();
     drop(bar);
-    let residual = residual(&matrix, &biclusters).map_err(|error| refused(&args.file, &error))?;
+    let residual = Residual::new(&matrix, &biclusters).map_err(|error| refused(&args.file, &error))?;
     let summary = Summary { matrix: &matrix, biclusters: &biclusters, residual, seconds };
     if let Some(path) = &args.dump {
         dump(&biclusters, path)?;
@@ -95,15 +101,49 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     Ok(())
 }
 
+impl Args {
+    /// The largest residual that is left out, in units of the matrix.
+    fn drop(&self, matrix: &SparseMatrix) -> u32 {
+        (self.drop / matrix.unit()).min(f64::from(u32::MAX)) as u32
+    }
+}
+
 fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
     Problem::usage(format!("{}: {error}", path.display()), "give the matrix in fewer bits")
 }
 
-/// Rows in which a matrix and the sum of its biclusters differ.
-fn residual(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<usize, BiclusterError> {
-    let mut differing = 0;
-    biclusters.sum_by_rows(&mut |row, entries| differing += usize::from(matrix.row(row) != entries))?;
-    Ok(differing)
+/// What the sum of biclusters leaves of a matrix.
+#[derive(Clone, Copy, Debug, Default)]
+struct Residual {
+    /// Places where they differ.
+    count: usize,
+    /// By how much at most.
+    largest: f64,
+    /// The sum of squared differences.
+    squares: f64,
+}
+
+impl Residual {
+    fn new(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Self, BiclusterError> {
+        let mut residual = Self::default();
+        biclusters.sum_by_rows(&mut |row, entries| {
+            if matrix.row(row) != entries {
+                let mut differences: BTreeMap<u32, i64> = BTreeMap::new();
+                for (sign, entries) in [(1, matrix.row(row)), (-1, entries)] {
+                    for entry in entries {
+                        *differences.entry(entry.index).or_insert(0) += sign * i64::from(entry.value);
+                    }
+                }
+                differences.into_values().filter(|&units| units != 0).for_each(|units| {
+                    let difference = matrix.unit() * units.unsigned_abs() as f64;
+                    residual.count += 1;
+                    residual.largest = residual.largest.max(difference);
+                    residual.squares += difference * difference;
+                });
+            }
+        })?;
+        Ok(residual)
+    }
 }
 
 /// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
@@ -128,7 +168,7 @@ fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
 struct Summary<'a> {
     matrix: &'a SparseMatrix,
     biclusters: &'a Biclustering,
-    residual: usize,
+    residual: Residual,
     seconds: f64,
 }
 
@@ -171,7 +211,8 @@ impl Summary<'_> {
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
             "values": values, "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
-            "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual,
+            "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
+            "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
             "seconds": self.seconds, "out": args.out, "dump": args.dump,
         })
     }
@@ -193,7 +234,10 @@ impl Summary<'_> {
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
         }
-        table.push(["rows where the sum differs".into(), self.residual.into()]);
+        table.push(["places where the sum differs".into(), self.residual.count.into()]);
+        if self.residual.count > 0 {
+            table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
+        }
         table.push(["seconds".into(), Cell::measured(self.seconds)]);
         table
     }

@@ -9,11 +9,14 @@ pub struct BiclusterOptions {
     pub seed: u64,
     /// Whether rows and columns are also taken out again (section IV-C: operations are insertions and deletions).
     pub deletion: bool,
+    /// Residuals of at most so many units are left out, once at each place: 0 loses nothing. The sum of the biclusters
+    /// then differs from the matrix by no more than this, place by place (the paper's future work, section VII).
+    pub drop: u32,
 }
 
 impl Default for BiclusterOptions {
     fn default() -> Self {
-        Self { seed: 1, deletion: true }
+        Self { seed: 1, deletion: true, drop: 0 }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Algorithm 1 as it stands in the paper: a dense matrix, every operation tried, each judged by equation 9.
 
+use std::collections::BTreeSet;
+
 use super::draw::start;
 use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
 use crate::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
@@ -76,6 +78,7 @@ impl Submatrix {
 /// [`BiclusterError::Residual`] if a residual leaves 32 bits.
 pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Biclustering, BiclusterError> {
     let mut left = dense(matrix);
+    let mut dropped = BTreeSet::new();
     let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
     // Line 2: until no element is left.
     while let Some((row, column)) = choose(&left, options.seed, found.len()) {
@@ -90,7 +93,9 @@ pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Bic
             for &(column, t) in &submatrix.columns {
                 left[row][column] -= t;
                 let value = left[row][column];
-                if i32::try_from(value).is_err() {
+                if value != 0 && value.unsigned_abs() <= options.drop.into() && dropped.insert((row, column)) {
+                    left[row][column] = 0;
+                } else if i32::try_from(value).is_err() {
                     return Err(BiclusterError::Residual { row: row as u32, column: column as u32, value });
                 }
             }

@@ -5,6 +5,8 @@
 //! 2 (most frequent + non-zeros) - 2r - 2, and a deletion loses that. So a line's key is the number in brackets, which
 //! changes with the entries that cross it, not with r or l.
 
+use std::collections::HashSet;
+
 use super::draw::{Counts, start};
 use super::lines::Lines;
 use super::queue::BucketQueue;
@@ -26,7 +28,7 @@ pub fn bicluster(
     found: &mut dyn FnMut(u64),
 ) -> Result<Biclustering, BiclusterError> {
     let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
-    let mut search = Search::new(matrix, options.deletion)?;
+    let mut search = Search::new(matrix, options)?;
     while search.left.total() > 0 {
         search.begin(start(options.seed, biclustering.len() as u64, search.left.total()));
         while search.step() {}
@@ -143,13 +145,14 @@ impl SearchSide {
 
     /// Takes the bicluster's entries away from a line that is inside: `all` of them, where `places` are those of the
     /// lines across and `t` their values. Gives how many more entries the line has then, or the place and value of a
-    /// residual that leaves 32 bits.
+    /// residual that leaves 32 bits. What `goes` is left out.
     fn subtract(
         &mut self,
         line: u32,
         all: impl ExactSizeIterator<Item = MatrixEntry>,
         places: &[u32],
         t: impl Fn(u32) -> i32,
+        mut goes: impl FnMut(u32, i32) -> bool,
     ) -> Result<i64, (u32, i64)> {
         let before = self.lines.get(line as usize).len().cast_signed() as i64;
         self.met.clear();
@@ -166,7 +169,7 @@ impl SearchSide {
                 too_large = Some((entry.index, residual));
                 0
             });
-            (value != 0).then_some(MatrixEntry { value, ..entry })
+            (value != 0 && !goes(entry.index, value)).then_some(MatrixEntry { value, ..entry })
         };
         self.lines.change(line as usize, subtract);
         if let Some(residual) = too_large {
@@ -178,7 +181,9 @@ impl SearchSide {
         for entry in all.filter(is_new) {
             let residual = -i64::from(entry.value);
             let value = i32::try_from(residual).map_err(|_| (entry.index, residual))?;
-            self.more.push(MatrixEntry { value, ..entry });
+            if !goes(entry.index, value) {
+                self.more.push(MatrixEntry { value, ..entry });
+            }
         }
         self.lines.add(line as usize, &self.more);
         Ok(self.lines.get(line as usize).len().cast_signed() as i64 - before)
@@ -197,7 +202,7 @@ impl SearchSide {
 
 #[derive(Debug)]
 struct Search {
-    deletion: bool,
+    options: BiclusterOptions,
     rows: SearchSide,
     columns: SearchSide,
     /// Per column what its rows hold.
@@ -206,10 +211,12 @@ struct Search {
     values: Vec<i32>,
     /// Non-zeros per row of what is left.
     left: Counts,
+    /// Rows and columns of residuals that were left out.
+    dropped: HashSet<(u32, u32)>,
 }
 
 impl Search {
-    fn new(matrix: &SparseMatrix, deletion: bool) -> Result<Self, BiclusterError> {
+    fn new(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Self, BiclusterError> {
         let width = matrix.columns();
         let nonzeros = matrix.nonzeros() as u64;
         if u32::try_from(nonzeros).is_err() {
@@ -220,12 +227,13 @@ impl Search {
         let columns = rows.transposed(width);
         let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
         Ok(Self {
-            deletion,
+            options,
             rows: SearchSide::new(rows),
             columns: SearchSide::new(columns),
             tallies: vec![ColumnTally::default(); width],
             values: vec![0; width],
             left,
+            dropped: HashSet::new(),
         })
     }
 
@@ -246,8 +254,8 @@ impl Search {
     /// Lines 7 to 20: the best operation, if one gains.
     fn step(&mut self) -> bool {
         let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
-        let row = self.rows.best(2 * l + 1, self.deletion).filter(|operation| operation.gain > 0);
-        let column = self.columns.best(2 * r + 2, self.deletion).filter(|operation| operation.gain > 0);
+        let row = self.rows.best(2 * l + 1, self.options.deletion).filter(|operation| operation.gain > 0);
+        let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
             (Some(Operation { line, .. }), _) if gain(row) > gain(column) => {
@@ -319,16 +327,19 @@ impl Search {
     /// Lines 15 and 16: the bicluster, taken away from what is left.
     fn end(&mut self) -> Result<Bicluster, BiclusterError> {
         let bicluster = self.bicluster();
+        let (drop, dropped) = (self.options.drop, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
+            let goes = |row, value: i32| value.unsigned_abs() <= drop && !dropped.contains(&(row, column));
             self.columns
-                .subtract(column, all, &self.rows.places, |_| t)
+                .subtract(column, all, &self.rows.places, |_| t, goes)
                 .map_err(|(row, value)| BiclusterError::Residual { row, column, value })?;
         }
         for &row in &bicluster.rows {
             let (places, values) = (&self.columns.places, &self.values);
             let all = bicluster.columns.iter().copied();
-            let more = self.rows.subtract(row, all, places, |column| values[column as usize]);
+            let goes = |column, value: i32| value.unsigned_abs() <= drop && dropped.insert((row, column));
+            let more = self.rows.subtract(row, all, places, |column| values[column as usize], goes);
             let more = more.map_err(|(column, value)| BiclusterError::Residual { row, column, value })?;
             self.left.add(row as usize, more);
         }
