@@ -28,8 +28,8 @@ impl LogTable {
     /// For so many fraction bits, at most 8.
     ///
     /// The fraction at which the logarithm reaches `k 2^-bits` is rounded up from a product of at most eight roots of
-    /// 2, in doubles. It is off by less than 2^-24 units of a single, and none of the 255 numbers `2^(k/256)` is nearer to
-    /// a single than 2^-16.
+    /// 2, in doubles. It is off by less than 2^-24 units of a single, and none of the 255 numbers `2^(k/256)` is
+    /// nearer to a single than 2^-16.
     fn new(bits: u8) -> Self {
         let one = f64::from(1u32 << FRACTION);
         let steps = 1i32 << bits;
