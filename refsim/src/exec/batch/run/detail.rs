@@ -45,7 +45,7 @@ impl LogTable {
         let entry = |leading: u32| {
             let first = leading << (FRACTION - LEADING);
             let value = thresholds.partition_point(|&threshold| threshold <= first);
-            (value as i32, thresholds.get(value).copied().unwrap_or(u32::MAX))
+            ((value as u32).cast_signed(), thresholds.get(value).copied().unwrap_or(u32::MAX))
         };
         Self { bits, entries: (0..1 << LEADING).map(entry).collect() }
     }
@@ -101,7 +101,7 @@ impl LevelChoice {
             log: LogTable::new(rules.lod_fraction_bits.min(8)),
             state: *state,
             scales: sizes[..axes].iter().map(scale).collect(),
-            last: image.levels().len() as i32 - 1,
+            last: (image.levels().len() as u32).cast_signed() - 1,
         })
     }
 
@@ -239,7 +239,7 @@ mod tests {
             for exponent in [0, 1] {
                 let x = f32::from_bits(fraction | (127 + exponent) << FRACTION);
                 let found = table.half_log2(x) * 256.0;
-                assert_eq!(found as i32, (expected + (exponent << 8) as i32) >> 1, "{x}");
+                assert_eq!(found as i32, (expected + (exponent << 8).cast_signed()) >> 1, "{x}");
             }
         }
     }
