@@ -4,7 +4,8 @@
 //! Figures to beat: 16 fixed links per texel of 1024 x 1024 in the paper's 9 s on two threads; squares of texels
 //! together at least three times as fast as each texel by itself; pass 2 no slower than five times the loop. Ratios
 //! are of one run. One element is one texel. Once, on two cores: 6.9 s; one texel in 64 alone 0.47 s on one, so 2.2
-//! times as fast together; pass 2 153 ms against 14 ms, eleven times. Both ratios are missed.
+//! times as fast together. Pass 2 on one thread 70 ms against 5.3 ms (125 ms before reads at constant coordinates were
+//! made once per draw): with two threads about 6.6 times, still above five. Both ratios are missed.
 //!
 //! `cargo bench -p crossbar-benches --bench subsurface`
 

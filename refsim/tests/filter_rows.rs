@@ -1,6 +1,7 @@
-//! Filtered texture reads, which the batch executor makes in rows where the level of detail decides nothing: the bits
-//! of the scalar executor, for every texel format, kind of texture, address mode, number of weight bits and register
-//! format, at coordinates of any kind.
+//! Filtered texture reads, which the batch executor makes in rows, with levels of detail and without: the bits of the
+//! scalar executor, for every texel format, kind of texture, address mode, number of weight bits and register format,
+//! at coordinates and derivatives of any kind. Reads at coordinates that are the same for a draw or a triangle, which
+//! it makes once, likewise.
 
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -37,15 +38,32 @@ const MODES: [AddressMode; 4] = [AddressMode::Wrap, AddressMode::Mirror, Address
 const KINDS: [TextureKind; 5] =
     [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
 
+/// Where a read's coordinates and its level of detail come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Lookup {
+    /// Coordinates per pixel, the level of detail from neighbours.
+    Implicit,
+    /// Coordinates and derivatives per pixel.
+    Gradients,
+    /// The first pixel's coordinates, as a constant of the draw.
+    Constant,
+    /// Coordinates that are constant over each of two quads; derivatives too, as a program's constants.
+    PerTriangle,
+}
+
 /// A read of one texture at coordinates that lie in another, a texel per pixel.
 #[derive(Clone, Debug)]
 struct Read {
     texture: Image,
     state: SamplerState,
+    lookup: Lookup,
     /// Single precision, row by row.
     coordinates: Vec<[u32; 4]>,
+    /// Likewise: x and y of both directions, or those of one that the other permutes.
+    derivatives: Vec<[u32; 4]>,
     register: &'static str,
     weight_bits: u8,
+    lod_bits: u8,
     minimum: SignedTexelMinimum,
 }
 
@@ -117,10 +135,48 @@ fn read() -> impl Strategy<Value = Read> {
                     lod_bias: 0,
                     max_mip_level: level,
                 };
-                Read { texture, state, coordinates, register, weight_bits, minimum }
+                let (derivatives, lookup) = (vec![[0; 4]; coordinates.len()], Lookup::Implicit);
+                Read { texture, state, lookup, coordinates, derivatives, register, weight_bits, lod_bits: 8, minimum }
             },
         )
     })
+}
+
+/// Derivatives of nothing, of parts of a texel, of a whole texture and more.
+fn derivative() -> impl Strategy<Value = u32> {
+    prop_oneof![
+        // 2^-9 to 8, of either sign.
+        8 => (118u32..130, 0u32..1 << 23, 0u32..2).prop_map(|(exponent, fraction, sign)| sign << 31 | exponent << 23 | fraction),
+        1 => Just(0),
+        1 => coordinate(),
+    ]
+}
+
+/// Reads whose level of detail may decide.
+fn leveled() -> impl Strategy<Value = Read> {
+    let filter = || select(vec![Filter::Nearest, Filter::Linear]);
+    let mip = select(vec![MipFilter::None, MipFilter::Nearest, MipFilter::Linear, MipFilter::Linear]);
+    let lookup =
+        select(vec![Lookup::Implicit, Lookup::Gradients, Lookup::Gradients, Lookup::Constant, Lookup::PerTriangle]);
+    let bias = prop_oneof![2 => Just(0), 3 => (-3.0f32..3.0).prop_map(f32::to_bits), 1 => coordinate()];
+    // Smooth coordinates, so that neighbours ask for few levels.
+    let slope = (any::<bool>(), [-0.1f32..0.1, -0.1..0.1, -0.1..0.1], [-0.1f32..0.1, -0.1..0.1, -0.1..0.1]);
+    let pixels = (SIDE * SIDE) as usize;
+    let derivatives = proptest::collection::vec([derivative(), derivative(), derivative(), derivative()], pixels);
+    (read(), [filter(), filter()], mip, lookup, bias, slope, derivatives, 0u8..=8).prop_map(
+        |(mut read, [min, mag], mip, lookup, lod_bias, (smooth, across, down), derivatives, lod_bits)| {
+            if smooth {
+                for (pixel, coordinates) in (0..).zip(&mut read.coordinates) {
+                    let (x, y) = ((pixel % SIDE) as f32, (pixel / SIDE) as f32);
+                    for axis in 0..3 {
+                        coordinates[axis] = (x * across[axis] + y * down[axis]).to_bits();
+                    }
+                }
+            }
+            let state = SamplerState { min, mag, mip, lod_bias, ..read.state };
+            Read { state, lookup, derivatives, lod_bits, ..read }
+        },
+    )
 }
 
 fn vertex(x: f32, y: f32, s: f32, t: f32) -> Vertex {
@@ -129,13 +185,8 @@ fn vertex(x: f32, y: f32, s: f32, t: f32) -> Vertex {
     vertex
 }
 
-/// The colours of all pixels.
-fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u8> {
-    let mut profile = Profile::named("ideal-fp32").unwrap();
-    // Coordinates are computed in single precision whatever the register format is.
-    profile.set_format(read.register.parse::<Format>().unwrap());
-    profile.rules.filter_fraction_bits = read.weight_bits;
-    profile.rules.signed_texel_minimum = read.minimum;
+/// The program, which goes through the register format on its way from coordinates to the read.
+fn text(read: &Read) -> String {
     let side = match read.texture.kind() {
         TextureKind::D1 => "1D",
         TextureKind::D2 => "2D",
@@ -143,29 +194,56 @@ fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u
         TextureKind::Cube => "CUBE",
         TextureKind::Volume => "3D",
     };
-    // The first result goes through the register format, which takes from coordinates what it does not hold.
-    let text = format!("!!FP1.0\nTEX R0, f[TEX0], TEX0, 2D;\nTEX R1, R0, TEX1, {side};\nMOVR o[COLR], R1;\nEND");
-    let program = check(assemble(&text).unwrap(), &profile).unwrap();
+    let lookup = match read.lookup {
+        Lookup::Implicit => format!("TEX R1, R0, TEX1, {side};"),
+        Lookup::Gradients => {
+            format!("TEX R2, f[TEX0], TEX2, 2D;\nTXD R1, R0, R2, R2.zwxy, TEX1, {side};")
+        }
+        Lookup::Constant => format!("TEX R1, p[0], TEX1, {side};\nMADR R1, R1, R0, R1;"),
+        Lookup::PerTriangle => format!("TXD R1, f[TEX1], p[1], p[1].zwxy, TEX1, {side};\nMADR R1, R1, R0, R1;"),
+    };
+    format!("!!FP1.0\nTEX R0, f[TEX0], TEX0, 2D;\n{lookup}\nMOVR o[COLR], R1;\nEND")
+}
+
+/// Two quads, one beside the other; TEX1 is constant over each.
+fn quads(read: &Read) -> Vec<Vertex> {
+    let half = |left: f32, place: [u32; 4]| {
+        let corners = [(left, 1.0), (left + 1.0, 1.0), (left + 1.0, -1.0), (left, -1.0)];
+        corners.map(|(x, y)| {
+            let mut corner = vertex(x, y, (x + 1.0) / 2.0, (1.0 - y) / 2.0);
+            corner.texcoords[1] = place;
+            corner
+        })
+    };
+    [half(-1.0, read.coordinates[0]), half(0.0, read.coordinates[1])].concat()
+}
+
+/// The colours of all pixels.
+fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u8> {
+    let mut profile = Profile::named("ideal-fp32").unwrap();
+    // Coordinates are computed in single precision whatever the register format is.
+    profile.set_format(read.register.parse::<Format>().unwrap());
+    profile.rules.filter_fraction_bits = read.weight_bits;
+    profile.rules.lod_fraction_bits = read.lod_bits;
+    profile.rules.signed_texel_minimum = read.minimum;
+    let program = check(assemble(&text(read)).unwrap(), &profile).unwrap();
     let mut machine = Machine::new(profile, kind);
     machine.set_simd_level(level);
     let target = machine.create_target(TexelFormat::Rgba32f, SIDE, SIDE).unwrap();
-    let values = Image::from_values(
-        TexelFormat::Rgba32f,
-        TextureKind::D2,
-        [SIDE, SIDE, 1],
-        Format::FP32,
-        &read.coordinates,
-        TargetRounding::Nearest,
-    );
-    let coordinates = machine.create_texture(values.unwrap()).unwrap();
+    let mut table = |values: &[[u32; 4]]| {
+        let (format, extents) = (TexelFormat::Rgba32f, [SIDE, SIDE, 1]);
+        let image = Image::from_values(format, TextureKind::D2, extents, Format::FP32, values, TargetRounding::Nearest);
+        machine.create_texture(image.unwrap()).unwrap()
+    };
+    let [coordinates, derivatives] = [table(&read.coordinates), table(&read.derivatives)];
     let texture = machine.create_texture(read.texture.clone()).unwrap();
-    let corners = [(-1.0, 1.0, 0.0, 0.0), (1.0, 1.0, 1.0, 0.0), (1.0, -1.0, 1.0, 1.0), (-1.0, -1.0, 0.0, 1.0)];
-    let vertices = corners.map(|(x, y, s, t)| vertex(x, y, s, t));
-    let constants = Constants::default();
+    let vertices = quads(read);
+    let constants = Constants { float: vec![read.coordinates[0], read.derivatives[0]], ..Constants::default() };
     let source = VertexSource::Transformed(&vertices);
     let mut call = DrawCall::new(source, Primitive::QuadList, &program, &constants, target)
         .with_texture(0, coordinates, SamplerState::NEAREST_CLAMP)
-        .with_texture(1, texture, read.state);
+        .with_texture(1, texture, read.state)
+        .with_texture(2, derivatives, SamplerState::NEAREST_CLAMP);
     call.center = PixelCenter::OpenGl;
     machine.draw(&call).unwrap();
     machine.read_back(target).unwrap().bytes().to_vec()
@@ -195,6 +273,11 @@ proptest! {
     fn filtered_reads_agree(read in read()) {
         agrees(&read);
     }
+
+    #[test]
+    fn leveled_reads_agree(read in leveled()) {
+        agrees(&read);
+    }
 }
 
 /// The same for a texture that is too large for a table.
@@ -214,8 +297,17 @@ fn textures_without_a_table_are_filtered_alike() {
         let modes = SamplerState { address_u: mode, address_v: mode, border, ..SamplerState::NEAREST_CLAMP };
         let state = SamplerState { min: filter, mag: filter, ..modes };
         let mut coordinate = || ((next() >> 8) as f32 / 4_194_304.0 - 1.5).to_bits();
-        let coordinates = (0..SIDE * SIDE).map(|_| [coordinate(), coordinate(), 0, ONE]).collect();
-        let minimum = SignedTexelMinimum::Clamp;
-        agrees(&Read { texture, state, coordinates, register: "fp32", weight_bits: 8, minimum });
+        let coordinates: Vec<_> = (0..SIDE * SIDE).map(|_| [coordinate(), coordinate(), 0, ONE]).collect();
+        let (minimum, lookup) = (SignedTexelMinimum::Clamp, Lookup::Implicit);
+        let derivatives = vec![[0; 4]; coordinates.len()];
+        let register = "fp32";
+        let read =
+            Read { texture, state, lookup, coordinates, derivatives, register, weight_bits: 8, lod_bits: 8, minimum };
+        agrees(&read);
+        // Nearest texels, which are decoded in rows of their own.
+        let nearest = SamplerState { min: Filter::Nearest, mag: Filter::Nearest, ..read.state };
+        for register in ["fp32", "fp16", "fp24:rdn", "fp32:rna:ftz", "s3.12"] {
+            agrees(&Read { state: nearest, register, ..read.clone() });
+        }
     }
 }

@@ -151,6 +151,10 @@ impl Graph {
         self.kinds[node.0 as usize]
     }
 
+    pub(crate) fn kinds(&self) -> &[NodeKind] {
+        &self.kinds
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.kinds.len()
     }
@@ -169,8 +173,9 @@ impl Graph {
         live
     }
 
-    /// For each node whether it is the same in every lane, given which inputs are.
-    pub(crate) fn uniform(&self, input: impl Fn(u16) -> bool) -> Vec<bool> {
+    /// For each node whether it is the same in every lane, given which inputs are, and which kinds of node look at
+    /// other lanes.
+    pub(crate) fn uniform(&self, input: impl Fn(u16) -> bool, across: impl Fn(&NodeKind) -> bool) -> Vec<bool> {
         let mut uniform = Vec::with_capacity(self.kinds.len());
         for kind in &self.kinds {
             let same = match *kind {
@@ -179,7 +184,8 @@ impl Graph {
                 // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a
                 // zero, whose sign depends on the format.)
                 NodeKind::Difference(..) => false,
-                NodeKind::Held(_) | NodeKind::Fetch(..) | NodeKind::Relative(..) => false,
+                NodeKind::Held(_) | NodeKind::Relative(..) => false,
+                _ if across(kind) => false,
                 _ => {
                     let mut all = true;
                     kind.needs(|n| all &= uniform[n.0 as usize]);

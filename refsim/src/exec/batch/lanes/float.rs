@@ -149,6 +149,12 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     #[inline(always)]
+    fn round_single(&self, x: f32) -> f32 {
+        // Every single that is not flushed is a number of the format, whatever becomes of what overflows.
+        if PATH == HOST { self.single.flushed(x) } else { self.round_f64(f64::from(x)) }
+    }
+
+    #[inline(always)]
     fn is_guarded(&self) -> bool {
         self.guarded
     }

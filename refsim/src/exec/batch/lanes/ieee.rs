@@ -121,6 +121,11 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
         if PATH == HOST { x as f32 } else { self.narrow_double(x) as f32 }
     }
 
+    #[inline(always)]
+    fn round_single(&self, x: f32) -> f32 {
+        if PATH == HOST { x } else { self.round_f64(f64::from(x)) }
+    }
+
     fn general(&self) -> Option<GeneralLane> {
         self.general.general()
     }

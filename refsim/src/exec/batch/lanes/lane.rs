@@ -36,6 +36,11 @@ pub(crate) trait Lane: Copy + Send + Sync {
     fn to_f64(&self, x: Self::T) -> f64;
     /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
     fn round_f64(&self, x: f64) -> Self::T;
+    /// Rounds a single into the format.
+    #[inline(always)]
+    fn round_single(&self, x: f32) -> Self::T {
+        self.round_f64(f64::from(x))
+    }
 
     /// Whether results of this arithmetic are right only where they are finite: another must be asked for the rest.
     #[inline(always)]

@@ -18,6 +18,26 @@ pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out
     }
 }
 
+/// Singles rounded into the format.
+#[inline(always)]
+pub(crate) fn singles<L: Lane>(lane: &L, values: &LaneRow, out: &mut LaneRow) {
+    for i in 0..LANES {
+        out[i] = L::store(lane.round_single(f32::from_bits(values[i])));
+    }
+}
+
+/// A half float as a single: exact, subnormal numbers too.
+///
+/// The exponent and fraction, moved to their places in a single, are the number times 2^-112; a product with a power of
+/// two whose result is normal, or zero, is exact.
+#[inline(always)]
+pub(crate) fn half_to_single(bits: u32) -> u32 {
+    let (sign, rest) = ((bits & 0x8000) << 16, bits & 0x7fff);
+    let finite = (f32::from_bits(rest << 13) * f32::from_bits(0x7780_0000)).to_bits();
+    let special = rest << 13 | 0x7f80_0000;
+    sign | if rest & 0x7c00 == 0x7c00 { special } else { finite }
+}
+
 /// The bits of a channel.
 pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
     let first = usize::from(channel.shift / 8);

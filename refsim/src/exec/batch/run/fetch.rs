@@ -1,9 +1,10 @@
-//! Texture reads of a batch: whole rows of texels where the level of detail decides nothing, the texture room's own
-//! functions per lane otherwise.
+//! Texture reads of a batch: whole rows of texels wherever that is exact, the texture room's own functions per lane
+//! otherwise (levels of cubes, channels of more than 16 bits, three axes with the finest weights).
 
 use std::sync::Arc;
 
 use super::filter::FilteredLevel;
+use super::leveled::LeveledTexture;
 use super::slots::Slots;
 use super::stored::Stored;
 use super::table::TexelTable;
@@ -34,6 +35,7 @@ pub(crate) type TextureTables = Cache<TableKey, TextureTable>;
 pub(crate) enum TextureTable {
     Nearest(TexelTable),
     Filtered(FilteredLevel),
+    Leveled(LeveledTexture),
 }
 
 impl TextureTable {
@@ -42,14 +44,19 @@ impl TextureTable {
         if TexelTable::fits(binding) {
             return Some(Self::Nearest(TexelTable::new(binding, rules, lane)));
         }
+        if binding.needs_detail() {
+            return LeveledTexture::new(binding, rules, lane).map(Self::Leveled);
+        }
         FilteredLevel::new(binding, rules, lane).map(Self::Filtered)
     }
 
-    /// Whether there is much to keep.
+    /// Whether there is little to keep.
     fn is_small(&self) -> bool {
         match self {
             Self::Nearest(table) => !table.large,
             Self::Filtered(level) => !level.is_large(),
+            // Only levels that are small are kept, when they are first read.
+            Self::Leveled(_) => true,
         }
     }
 }
@@ -91,7 +98,10 @@ impl<'a> BatchTexture<'a> {
                 }
             }
             Some(TextureTable::Filtered(level)) => {
-                level.read((self.binding.image, &self.rules), step, formats, (run, slots));
+                level.read((self.binding.image, &self.binding.state), &self.rules, step, formats, (run, slots));
+            }
+            Some(TextureTable::Leveled(levels)) => {
+                levels.read((self.binding.image, &self.rules), step, formats, (run, slots));
             }
             None => self.read_lanes(step, formats, run, slots),
         }

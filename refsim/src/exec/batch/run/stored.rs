@@ -1,6 +1,6 @@
 //! Nearest texels of images that are too large for a table: decoded as they are read, those of the lanes that run.
 
-use super::channel::{channel_in_slot, channel_of, ratios};
+use super::channel::{channel_in_slot, channel_of, half_to_single, ratios, singles};
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, with_any_lane};
 use crate::exec::batch::schedule::FetchStep;
@@ -19,30 +19,57 @@ pub(crate) struct Stored<'a> {
 }
 
 /// Where a component comes from.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Component {
     Constant(ChannelValue),
     /// A single float at this byte of the texel.
     Single(usize),
+    /// A half float at this byte of the texel.
+    Half(usize),
+    /// A numerator over this, both below 2^24.
+    Ratio(Channel, f64),
     Other(Channel),
+}
+
+impl Component {
+    fn new(source: ComponentSource, image: &Image, rules: &SampleRules) -> Self {
+        let channel = match source {
+            ComponentSource::Zero => return Self::Constant(ChannelValue::ZERO),
+            ComponentSource::One => return Self::Constant(ChannelValue::ONE),
+            ComponentSource::Channel(i) => image.format().record().channels[usize::from(i)],
+        };
+        let byte = usize::from(channel.shift / 8);
+        match decode_channel(channel, 0, rules.signed_texel_minimum) {
+            ChannelValue::Float { format: Format::FP32, .. } if channel.shift.is_multiple_of(8) => Self::Single(byte),
+            ChannelValue::Float { format: Format::FP16, .. } if channel.shift.is_multiple_of(8) => Self::Half(byte),
+            ChannelValue::Ratio { denominator, .. } if channel.bits <= 24 => Self::Ratio(channel, denominator.into()),
+            _ => Self::Other(channel),
+        }
+    }
+
+    /// What is kept of a stored texel until whole rows are rounded: a single, or a numerator.
+    #[inline(always)]
+    fn kept(self, texel: &[u8], rules: &SampleRules) -> u32 {
+        match self {
+            Self::Single(at) => texel.get(at..).and_then(|b| b.first_chunk()).map_or(0, |&b| u32::from_le_bytes(b)),
+            Self::Half(at) => {
+                let bits = texel.get(at..).and_then(|b| b.first_chunk()).map_or(0, |&b| u16::from_le_bytes(b));
+                half_to_single(bits.into())
+            }
+            Self::Ratio(channel, _) => {
+                match decode_channel(channel, channel_of(channel, texel), rules.signed_texel_minimum) {
+                    ChannelValue::Ratio { numerator, .. } => (numerator as i32).cast_unsigned(),
+                    ChannelValue::Float { .. } => 0,
+                }
+            }
+            Self::Constant(_) | Self::Other(_) => 0,
+        }
+    }
 }
 
 impl<'a> Stored<'a> {
     pub(crate) fn new(image: &'a Image, rules: &'a SampleRules) -> Self {
-        let record = image.format().record();
-        let components = record.components.map(|source| match source {
-            ComponentSource::Zero => Component::Constant(ChannelValue::ZERO),
-            ComponentSource::One => Component::Constant(ChannelValue::ONE),
-            ComponentSource::Channel(i) => {
-                let channel = record.channels[usize::from(i)];
-                match decode_channel(channel, 0, rules.signed_texel_minimum) {
-                    ChannelValue::Float { format: Format::FP32, .. } if channel.shift.is_multiple_of(8) => {
-                        Component::Single(usize::from(channel.shift / 8))
-                    }
-                    _ => Component::Other(channel),
-                }
-            }
-        });
+        let components = image.format().record().components.map(|source| Component::new(source, image, rules));
         let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
         let bytes = image.bytes().get(start..).unwrap_or_default();
         let texels = image.width() as usize * image.height() as usize;
@@ -60,39 +87,48 @@ impl<'a> Stored<'a> {
         (run, slots): (&LaneRow, &mut Slots),
     ) {
         let lane = formats.lane(Arith::Main);
-        let mut singles = [[0.0_f64; LANES]; 4];
-        for (i, (&number, _)) in index.iter().zip(run).enumerate().filter(|(_, (_, run))| **run != 0) {
-            let at = number as usize * self.size;
-            let Some(texel) = self.bytes.get(at..at + self.size) else { continue };
-            for (component, singles) in self.components.iter().zip(&mut singles) {
-                if let Component::Single(at) = *component
-                    && let Some(&[a, b, c, d]) = texel.get(at..).and_then(|bytes| bytes.first_chunk())
-                {
-                    singles[i] = f64::from(f32::from_le_bytes([a, b, c, d]));
-                }
+        let mut kept = [[0; LANES]; 4];
+        use Component::{Half, Single};
+        match self.components {
+            [Single(0), Single(4), Single(8), Single(12)] if self.size == 16 => {
+                self.gather::<16>((index, run), &mut kept, |texel, c| {
+                    u32::from_le_bytes([texel[4 * c], texel[4 * c + 1], texel[4 * c + 2], texel[4 * c + 3]])
+                });
             }
+            [Half(0), Half(2), Half(4), Half(6)] if self.size == 8 => {
+                self.gather::<8>((index, run), &mut kept, |texel, c| {
+                    half_to_single(u16::from_le_bytes([texel[2 * c], texel[2 * c + 1]]).into())
+                });
+            }
+            _ => self.gather_any((index, run), &mut kept),
         }
         for (c, to) in step.to.iter().enumerate() {
             let Some(to) = *to else { continue };
-            let out = slots.row_mut(to);
+            let (kept, out) = (&kept[c], slots.row_mut(to));
             match self.components[c] {
                 Component::Constant(value) => out.fill(channel_in_slot(value, self.rules.format, lane)),
-                Component::Single(_) => with_any_lane!(lane, |lane| {
+                Single(_) | Half(_) => with_any_lane!(lane, |lane| {
                     formats.simd().run(
                         #[inline(always)]
-                        || ratios(lane, &singles[c], 1.0, out),
+                        || singles(lane, kept, out),
                     )
                 }),
+                Component::Ratio(_, denominator) => {
+                    let numerators = std::array::from_fn(|i| f64::from(kept[i].cast_signed()));
+                    with_any_lane!(lane, |lane| {
+                        formats.simd().run(
+                            #[inline(always)]
+                            || ratios(lane, &numerators, denominator, out),
+                        )
+                    });
+                }
                 Component::Other(channel) => {
                     out.fill(0);
-                    for (out, (&number, _)) in
-                        out.iter_mut().zip(index.iter().zip(run)).filter(|(_, (_, run))| **run != 0)
-                    {
-                        let at = number as usize * self.size;
-                        let Some(texel) = self.bytes.get(at..at + self.size) else { continue };
-                        let value =
-                            decode_channel(channel, channel_of(channel, texel), self.rules.signed_texel_minimum);
-                        *out = channel_in_slot(value, self.rules.format, lane);
+                    for i in (0..LANES).filter(|&i| run[i] != 0) {
+                        let Some(texel) = self.texel(index[i]) else { continue };
+                        let bits = channel_of(channel, texel);
+                        let value = decode_channel(channel, bits, self.rules.signed_texel_minimum);
+                        out[i] = channel_in_slot(value, self.rules.format, lane);
                     }
                 }
             }
@@ -101,6 +137,34 @@ impl<'a> Stored<'a> {
                     *out = border[c];
                 }
             }
+        }
+    }
+    fn texel(&self, number: u32) -> Option<&'a [u8]> {
+        self.bytes.get(number as usize * self.size..)?.get(..self.size)
+    }
+
+    /// What is kept of the texels of the lanes that run.
+    fn gather_any(&self, (index, run): (&LaneRow, &LaneRow), kept: &mut [LaneRow; 4]) {
+        for i in (0..LANES).filter(|&i| run[i] != 0) {
+            let Some(texel) = self.texel(index[i]) else { continue };
+            for (component, kept) in self.components.iter().zip(&mut *kept) {
+                kept[i] = component.kept(texel, self.rules);
+            }
+        }
+    }
+
+    /// Likewise, for texels of `SIZE` bytes whose components `part` gives.
+    #[inline(always)]
+    fn gather<const SIZE: usize>(
+        &self,
+        (index, run): (&LaneRow, &LaneRow),
+        [x, y, z, w]: &mut [LaneRow; 4],
+        part: impl Fn(&[u8; SIZE], usize) -> u32,
+    ) {
+        for i in 0..LANES {
+            let texel = self.bytes.get(index[i] as usize * SIZE..).and_then(<[u8]>::first_chunk);
+            let Some(texel) = texel.filter(|_| run[i] != 0) else { continue };
+            (x[i], y[i], z[i], w[i]) = (part(texel, 0), part(texel, 1), part(texel, 2), part(texel, 3));
         }
     }
 }

@@ -1,7 +1,8 @@
-//! Pixel programs without flow control: one graph, scheduled as three blocks.
+//! Pixel programs without flow control: one graph, scheduled as four blocks.
 //!
-//! - What is constant over a triangle (attributes that are, and what follows from them and constants) is computed for
-//!   256 triangles at a time, one lane per triangle.
+//! - What depends on constants alone, texels read at constant coordinates among it, is computed once per draw.
+//! - What is constant over a triangle (attributes that are, and what follows from them and constants, texels too) is
+//!   computed for 256 triangles at a time, one lane per triangle.
 //! - What depends only on the place in the tile (coordinates that vary, texels read at them) is computed for 256
 //!   fragments and kept as long as triangles have the same planes there: the crossbar reads its rays once per tile, not
 //!   per quad.
@@ -11,6 +12,7 @@ use std::collections::BTreeMap;
 
 use super::block::{ResultSlots, StepBlock, schedule};
 use crate::device::Rules;
+use crate::event::SAMPLERS;
 use crate::exec::lower::{Detail, Ends, Formats, Graph, NodeId, NodeKind, Slot, Translator, translate_straight};
 use crate::exec::{PixelBindings, ResolvedConstants};
 use crate::isa::Program;
@@ -25,15 +27,19 @@ pub(crate) struct StraightProgram {
     pub(crate) fetches: Vec<usize>,
     /// Whether no lane's result depends on another lane, so that lanes of different triangles can be run together.
     pub(crate) lanes_apart: bool,
+    /// Samplers whose level of detail, where the program does not give it, is found from neighbouring lanes.
+    detailed: [bool; SAMPLERS],
 }
 
 /// A straight program scheduled for triangles that have certain components constant.
 #[derive(Debug)]
 pub(crate) struct StraightPlan {
+    /// For a whole draw: without inputs, roots the values that `invariant` is given, the same in all lanes.
+    pub(crate) fixed: StepBlock,
     /// For 256 triangles: inputs are constant components, roots the values that the other block is given.
     pub(crate) uniform: StepBlock,
     /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they
-    /// are while `varying` runs.
+    /// are while `varying` runs; `given` slots in the order of `fixed.roots`.
     pub(crate) invariant: StepBlock,
     /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of
     /// `uniform.roots`.
@@ -52,8 +58,10 @@ impl StraightProgram {
     ) -> Self {
         let mut t = Translator::new(program, rules, formats, constants, Some(bindings));
         let ends = translate_straight(&mut t, program, |_, _| {});
-        let lanes_apart = !looks_at_neighbours(&t.make.graph, bindings);
-        Self { ends, fetches: t.fetches, lanes_apart, graph: t.make.graph }
+        let detailed = bindings.samplers.map(|s| s.is_some_and(|binding| binding.needs_detail()));
+        let graph = t.make.graph;
+        let lanes_apart = !graph.kinds().iter().any(|kind| looks_at_neighbours(kind, &detailed));
+        Self { ends, fetches: t.fetches, lanes_apart, detailed, graph }
     }
 
     /// Whether slots have numbers for all values at once: a plan may keep every one.
@@ -63,7 +71,9 @@ impl StraightProgram {
 
     /// Schedules the program for triangles whose components in `constant` are constant.
     pub(crate) fn plan(&self, constant: ComponentMask) -> StraightPlan {
-        let uniform = self.graph.uniform(|component| constant.has(component.into()));
+        let across = |kind: &NodeKind| looks_at_neighbours(kind, &self.detailed);
+        let uniform = self.graph.uniform(|component| constant.has(component.into()), across);
+        let fixed = self.graph.uniform(|_| false, across);
         let invariant = self.invariant(constant);
         let roots = self.ends.roots();
         let live = self.graph.live(roots.iter().copied());
@@ -78,13 +88,25 @@ impl StraightProgram {
         roots.iter().copied().for_each(want);
         let kept: Vec<NodeId> = self.nodes().filter(|n| wanted[n.0 as usize] && !uniform[n.0 as usize]).collect();
         let given: Vec<NodeId> = self.nodes().filter(|n| wanted[n.0 as usize] && uniform[n.0 as usize]).collect();
-        let invariant = schedule(&self.graph, &kept, |_| false, &BTreeMap::new(), 0);
+        let mut shared = vec![false; self.graph.len()];
+        let live = self.graph.live(kept.iter().copied());
+        for node in self.nodes().filter(|&n| live[n.0 as usize] && !fixed[n.0 as usize]) {
+            self.graph.kind(node).needs(|n| shared[n.0 as usize] |= fixed[n.0 as usize] && !is_constant(n));
+        }
+        let fixed: Vec<NodeId> = self.nodes().filter(|n| shared[n.0 as usize]).collect();
+        let invariant = schedule(&self.graph, &kept, |n| shared[n.0 as usize], &BTreeMap::new(), 0);
+        debug_assert_eq!(
+            invariant.given.iter().map(|g| g.0).collect::<Vec<_>>(),
+            fixed,
+            "one slot for each fixed value"
+        );
+        let fixed = schedule(&self.graph, &fixed, |_| false, &BTreeMap::new(), 0);
         let placed = kept.into_iter().zip(invariant.roots.iter().copied()).collect();
         let varying = schedule(&self.graph, &roots, |n| wanted[n.0 as usize], &placed, invariant.slots);
         debug_assert_eq!(varying.given.iter().map(|g| g.0).collect::<Vec<_>>(), given, "one slot for each given value");
         let uniform = schedule(&self.graph, &given, |_| false, &BTreeMap::new(), 0);
         let results = self.ends.results(&varying.roots);
-        StraightPlan { uniform, invariant, varying, results }
+        StraightPlan { fixed, uniform, invariant, varying, results }
     }
 
     fn nodes(&self) -> impl Iterator<Item = NodeId> {
@@ -108,16 +130,15 @@ impl StraightProgram {
     }
 }
 
-/// Whether a program takes differences across quads, for itself or to choose a texture's level of detail.
-fn looks_at_neighbours(graph: &Graph, bindings: &PixelBindings<'_>) -> bool {
-    (0..graph.len() as u32).any(|i| match graph.kind(NodeId(i)) {
+/// Whether a node takes differences across quads, for itself or to choose a texture's level of detail.
+fn looks_at_neighbours(kind: &NodeKind, detailed: &[bool; SAMPLERS]) -> bool {
+    match *kind {
         NodeKind::Difference(..) => true,
         NodeKind::Fetch(sampler, _, Detail::Implicit | Detail::Biased(_)) => {
-            let binding = bindings.samplers.get(usize::from(sampler)).and_then(Option::as_ref);
-            binding.is_some_and(|b| b.needs_detail())
+            detailed.get(usize::from(sampler)).is_some_and(|&detailed| detailed)
         }
         _ => false,
-    })
+    }
 }
 
 impl Ends {

@@ -9,7 +9,7 @@ use super::shader::InputSlots;
 use crate::event::FragmentCounts;
 use crate::exec::batch::cache::Pool;
 use crate::exec::batch::lanes::LANES;
-use crate::exec::batch::run::{Slots, Surroundings, fill_constants, run_steps};
+use crate::exec::batch::run::{Slots, Surroundings, fill_constants, first_lanes, run_steps};
 use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPlan, StraightProgram};
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::raster::{ComponentMask, POSITION_COMPONENT};
@@ -26,6 +26,8 @@ pub struct TileRound<'s> {
     pub(super) code: RoundCode<'s>,
     /// For each value that the plan's varying block is given, a row of values by triangle.
     pub(super) given: Vec<Vec<u32>>,
+    /// The values that the plan's invariant block is given.
+    fixed: Vec<u32>,
     pub(super) inputs: InputSlots,
 }
 
@@ -44,13 +46,14 @@ impl<'s> TileRound<'s> {
         around: &Surroundings<'_>,
     ) -> Self {
         let constant = surfaces.all_constant() & inputs.0;
-        let (code, given) = match &program.code {
+        let (code, fixed, given) = match &program.code {
             PixelCode::Straight(straight, plans) => {
                 let plan = plan(straight, plans, constant);
                 let given = uniforms(&program.uniforms, constant, &plan.uniform, surfaces, around);
-                (RoundCode::Straight(straight, plan), given)
+                let fixed = fixed_values(&plan.fixed, around);
+                (RoundCode::Straight(straight, plan), fixed, given)
             }
-            PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new()),
+            PixelCode::Flow(plan) => (RoundCode::Flow(plan), Vec::new(), Vec::new()),
         };
         let wanted = match &code {
             RoundCode::Straight(_, plan) => &plan.invariant.inputs,
@@ -62,7 +65,7 @@ impl<'s> TileRound<'s> {
             rows: wanted.iter().filter_map(|&(component, slot)| Some((row(component)?, slot))).collect(),
             position: wanted.iter().filter_map(|&(component, slot)| Some((axis(component)?, slot))).collect(),
         };
-        Self { surfaces, constant, code, given, inputs }
+        Self { surfaces, constant, code, given, fixed, inputs }
     }
 
     /// Counts fragments that are shaded, with their texture reads. Programs with flow control count reads as they run.
@@ -74,6 +77,15 @@ impl<'s> TileRound<'s> {
                 if let Some(count) = counts.fetches.get_mut(sampler) {
                     *count += fragments;
                 }
+            }
+        }
+    }
+
+    /// Gives the plan's invariant block what is the same for the whole draw.
+    pub(super) fn give_fixed(&self, slots: &mut Slots) {
+        if let RoundCode::Straight(_, plan) = &self.code {
+            for (&(_, slot), &value) in plan.invariant.given.iter().zip(&self.fixed) {
+                slots.give(slot, value);
             }
         }
     }
@@ -93,6 +105,17 @@ impl<'s> TileRound<'s> {
             RoundCode::Flow(plan) => plan.results(),
         }
     }
+}
+
+/// Computes what is the same for the whole draw, in one lane.
+fn fixed_values(block: &StepBlock, around: &Surroundings<'_>) -> Vec<u32> {
+    if block.roots.is_empty() {
+        return Vec::new();
+    }
+    let mut slots = Slots::new(block.slots);
+    fill_constants(block, &mut slots);
+    run_steps(&block.steps, around, &first_lanes(1), &mut slots);
+    block.roots.iter().map(|&root| slots.row(root)[0]).collect()
 }
 
 /// Computes what is constant over each triangle: for each root of the block a value by triangle.
@@ -122,7 +145,7 @@ fn uniforms(
                 *value = row.base[triangle.planes as usize];
             }
         }
-        run_steps(&block.steps, around, &[0; LANES], &mut slots);
+        run_steps(&block.steps, around, &first_lanes(group.len()), &mut slots);
         let values = block.roots.iter().map(|&root| slots.row(root)[..group.len()].to_vec()).collect::<Vec<_>>();
         idle.keep((constant, slots));
         values

@@ -135,6 +135,7 @@ impl<'r> TileShading<'r> {
         match &round.code {
             RoundCode::Straight(_, plan) => {
                 if shader.fill_inputs(round.surfaces, &round.inputs, around.formats) {
+                    round.give_fixed(&mut shader.slots);
                     run_steps(&plan.invariant.steps, around, &shader.run, &mut shader.slots);
                 }
                 round.give(first, &mut shader.slots);
@@ -210,6 +211,7 @@ impl<'r> TileShading<'r> {
         packed.fill(round.surfaces, &round.inputs, around.formats, &mut shader.slots);
         match &round.code {
             RoundCode::Straight(_, plan) => {
+                round.give_fixed(&mut shader.slots);
                 run_steps(&plan.invariant.steps, around, &packed.run, &mut shader.slots);
                 round.give(first, &mut shader.slots);
                 run_steps(&plan.varying.steps, around, &packed.run, &mut shader.slots);

@@ -137,23 +137,77 @@ fn lanes(region: Region) -> impl Iterator<Item = (usize, usize)> {
     pixels.map(move |(x, y)| frame.lane(x, y)).enumerate().map(|(index, lane)| (lane, index))
 }
 
+/// Runs of pixels whose lanes follow each other, 16 at most: the first lane, the first pixel's index, how many.
+fn runs(region: Region) -> impl Iterator<Item = (usize, usize, usize)> {
+    let frame = TileFrame::around(region);
+    let (width, end) = (region.width as usize, region.x + region.width);
+    (0..region.height).flat_map(move |row| {
+        let starts = (region.x & !15..end).step_by(16).map(move |x| x.max(region.x));
+        starts.map(move |x| {
+            let count = ((x & !15) + 16).min(end) - x;
+            let index = row as usize * width + (x - region.x) as usize;
+            (frame.lane(x, region.y + row), index, count as usize)
+        })
+    })
+}
+
 fn load_words(target: &ColorTile, region: Region, words: usize) -> Vec<LaneRow> {
     let mut rows = vec![[0; LANES]; words];
     let size = target.format.bytes();
-    for (texel, (lane, _)) in target.bytes.chunks_exact(size).zip(lanes(region)) {
-        for (row, bytes) in rows.iter_mut().zip(texel.chunks(4)) {
-            row[lane] = bytes.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b));
+    for (lane, index, count) in runs(region) {
+        let Some(bytes) = target.bytes.get(index * size..(index + count) * size) else { continue };
+        match size {
+            4 => load_run::<1>(bytes, lane, &mut rows),
+            8 => load_run::<2>(bytes, lane, &mut rows),
+            16 => load_run::<4>(bytes, lane, &mut rows),
+            _ => {
+                for (lane, texel) in (lane..).zip(bytes.chunks_exact(size)) {
+                    for (row, bytes) in rows.iter_mut().zip(texel.chunks(4)) {
+                        row[lane] = bytes.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b));
+                    }
+                }
+            }
         }
     }
     rows
 }
 
+/// Texels of `WORDS` whole words.
+fn load_run<const WORDS: usize>(bytes: &[u8], lane: usize, rows: &mut [LaneRow]) {
+    for (word, row) in rows.iter_mut().enumerate().take(WORDS) {
+        for (slot, texel) in row[lane..].iter_mut().zip(bytes.chunks_exact(4 * WORDS)) {
+            *slot = texel[4 * word..].first_chunk().map_or(0, |&bytes| u32::from_le_bytes(bytes));
+        }
+    }
+}
+
 fn store_words(target: &mut ColorTile, region: Region, rows: &[LaneRow]) {
     let size = target.format.bytes();
-    for (texel, (lane, _)) in target.bytes.chunks_exact_mut(size).zip(lanes(region)) {
-        for (row, bytes) in rows.iter().zip(texel.chunks_mut(4)) {
-            let count = bytes.len();
-            bytes.copy_from_slice(&row[lane].to_le_bytes()[..count]);
+    for (lane, index, count) in runs(region) {
+        let Some(bytes) = target.bytes.get_mut(index * size..(index + count) * size) else { continue };
+        match size {
+            4 => store_run::<1>(bytes, lane, rows),
+            8 => store_run::<2>(bytes, lane, rows),
+            16 => store_run::<4>(bytes, lane, rows),
+            _ => {
+                for (lane, texel) in (lane..).zip(bytes.chunks_exact_mut(size)) {
+                    for (row, bytes) in rows.iter().zip(texel.chunks_mut(4)) {
+                        let count = bytes.len();
+                        bytes.copy_from_slice(&row[lane].to_le_bytes()[..count]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Texels of `WORDS` whole words.
+fn store_run<const WORDS: usize>(bytes: &mut [u8], lane: usize, rows: &[LaneRow]) {
+    for (word, row) in rows.iter().enumerate().take(WORDS) {
+        for (&value, texel) in row[lane..].iter().zip(bytes.chunks_exact_mut(4 * WORDS)) {
+            if let Some(bytes) = texel[4 * word..].first_chunk_mut() {
+                *bytes = value.to_le_bytes();
+            }
         }
     }
 }

@@ -1,0 +1,157 @@
+//! Filtered reads in rows where the level of detail decides: every level that some lane reads is read for all of them,
+//! and each lane takes what it asked for.
+//!
+//! Most tiles need one level, or two neighbours. Values stay unrounded until levels are combined: of integers the exact
+//! sum, of floats singles.
+
+use super::detail::{LevelChoice, PickedLevels};
+use super::filter::{FilteredComponent, FilteredLevel, FilteredRows, TexelSource};
+use super::slots::Slots;
+use crate::exec::SamplerBinding;
+use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel};
+use crate::exec::batch::schedule::FetchStep;
+use crate::texture::{Image, MipFilter, SampleRules, TextureKind};
+
+/// Fraction bits of weights, along all axes and between levels, up to which sums are exact: numerators have 16 bits and
+/// a sign, their differences one more, a double 53.
+const EXACT_BITS: usize = 35;
+
+/// The levels of a texture, and how they are chosen.
+#[derive(Debug)]
+pub(crate) struct LeveledTexture {
+    choice: LevelChoice,
+    levels: Vec<FilteredLevel>,
+}
+
+impl LeveledTexture {
+    /// Prepares a binding; `None` for cubes, and where weights are too fine.
+    pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
+        let SamplerBinding { image, state } = binding;
+        let choice = LevelChoice::new(image, state, rules)?;
+        let axes = if image.kind() == TextureKind::Volume { 3 } else { 2 };
+        let bits = axes * usize::from(rules.filter_fraction_bits.min(12)) + usize::from(choice.bits());
+        if state.mip == MipFilter::Linear && bits > EXACT_BITS {
+            return None;
+        }
+        let level = |number| FilteredLevel::of_level(binding, number, rules, lane);
+        let levels = (0..image.levels().len()).map(level).collect::<Option<_>>()?;
+        Some(Self { choice, levels })
+    }
+
+    /// Reads texels into the slots of the step; a large level's for the lanes that run.
+    pub(crate) fn read(
+        &self,
+        (image, rules): (&Image, &SampleRules),
+        step: &FetchStep,
+        formats: &LaneFormats,
+        (run, slots): (&LaneRow, &mut Slots),
+    ) {
+        let simd = formats.simd();
+        let picked = self.choice.pick(step, slots, simd);
+        let source = TexelSource { image, rules, run };
+        let mut rows = [[0.0; LANES]; 4];
+        let sets = LevelSets::of(&picked, run);
+        for (level, smaller) in sets.keys(sets.first) {
+            let filter = self.choice.filter(smaller);
+            if sets.first.count_ones() == 1 {
+                self.levels[level].add_up(filter, source, step, (slots, simd), &mut rows);
+                continue;
+            }
+            let mut found = [[0.0; LANES]; 4];
+            self.levels[level].add_up(filter, source, step, (slots, simd), &mut found);
+            let wanted = |i: usize| key(&picked, i) == (level, smaller);
+            take(step, wanted, &found, &mut rows);
+        }
+        if sets.second != 0 {
+            self.combine(&picked, sets.second, (source, step), (slots, simd), &mut rows);
+        }
+        self.levels[0].round(&rows, step, formats, slots);
+    }
+
+    /// Adds the weighted difference of the second level of the lanes that have one.
+    fn combine(
+        &self,
+        picked: &PickedLevels,
+        seconds: u64,
+        (source, step): (TexelSource<'_>, &FetchStep),
+        (slots, simd): (&Slots, SimdLevel),
+        rows: &mut FilteredRows,
+    ) {
+        let mut second = [[0.0; LANES]; 4];
+        for (level, smaller) in LevelSets::keys_of(seconds) {
+            let mut found = [[0.0; LANES]; 4];
+            let next = (level + 1).min(self.levels.len() - 1);
+            self.levels[next].add_up(self.choice.filter(smaller), source, step, (slots, simd), &mut found);
+            take(step, |i| key(picked, i) == (level, smaller), &found, &mut second);
+        }
+        let share = 1.0 / f64::from(1u32 << self.choice.bits());
+        for c in (0..4).filter(|&c| step.to[c].is_some()) {
+            let (first, second) = (&mut rows[c], &second[c]);
+            match self.levels[0].component(c) {
+                FilteredComponent::Constant(_) => {}
+                FilteredComponent::Ratio(..) => simd.run(
+                    #[inline(always)]
+                    || {
+                        for i in 0..LANES {
+                            let weight = f64::from(picked.weight[i]) * share;
+                            let between = first[i] + weight * (second[i] - first[i]);
+                            first[i] = if picked.weight[i] == 0 { first[i] } else { between };
+                        }
+                    },
+                ),
+                FilteredComponent::Single(_) => simd.run(
+                    #[inline(always)]
+                    || {
+                        for i in 0..LANES {
+                            let (a, b) = (first[i] as f32, second[i] as f32);
+                            let between = a + picked.weight[i] as f32 * share as f32 * (b - a);
+                            first[i] = if picked.weight[i] == 0 { first[i] } else { f64::from(between) };
+                        }
+                    },
+                ),
+            }
+        }
+    }
+}
+
+/// The first level of a lane, and whether its filter is that of smaller texels.
+#[inline(always)]
+fn key(picked: &PickedLevels, lane: usize) -> (usize, bool) {
+    (picked.first[lane] as usize, picked.smaller[lane] != 0)
+}
+
+/// The keys that occur: bit 2 level + filter. A texture has at most 32 levels.
+struct LevelSets {
+    first: u64,
+    /// Of the lanes that read the next level too.
+    second: u64,
+}
+
+impl LevelSets {
+    fn of(picked: &PickedLevels, run: &LaneRow) -> Self {
+        let mut sets = Self { first: 0, second: 0 };
+        for i in (0..LANES).filter(|&i| run[i] != 0) {
+            let bit = 1 << (2 * picked.first[i] + picked.smaller[i]);
+            sets.first |= bit;
+            sets.second |= if picked.weight[i] == 0 { 0 } else { bit };
+        }
+        sets
+    }
+
+    fn keys(&self, set: u64) -> impl Iterator<Item = (usize, bool)> + use<> {
+        Self::keys_of(set)
+    }
+
+    fn keys_of(set: u64) -> impl Iterator<Item = (usize, bool)> + use<> {
+        (0..64).filter(move |bit| set >> bit & 1 == 1).map(|bit| (bit / 2, bit % 2 == 1))
+    }
+}
+
+/// Copies the lanes that are wanted of the components of a step.
+fn take(step: &FetchStep, wanted: impl Fn(usize) -> bool, from: &FilteredRows, to: &mut FilteredRows) {
+    for c in (0..4).filter(|&c| step.to[c].is_some()) {
+        for i in (0..LANES).filter(|&i| wanted(i)) {
+            to[c][i] = from[c][i];
+        }
+    }
+}
