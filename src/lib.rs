@@ -57,6 +57,8 @@ pub mod case;
 pub mod cli;
 pub mod compare;
 pub mod elementary;
+#[cfg(feature = "systems")]
+pub mod fresnel;
 pub mod geom;
 #[cfg(feature = "systems")]
 pub mod io;

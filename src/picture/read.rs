@@ -2,6 +2,7 @@
 
 use std::io::Cursor;
 
+use image::codecs::hdr::HdrDecoder;
 use image::{DynamicImage, ImageFormat, ImageReader};
 
 use super::channels::{ChannelUnit, Picture, Samples};
@@ -26,8 +27,8 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 
 impl Picture {
     /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB
-    /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones; of an EXR file the first layer is
-    /// read.
+    /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones, divided by
+    /// what its EXPOSURE and COLORCORR lines say that they were multiplied by; of an EXR file the first layer is read.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),
@@ -37,7 +38,9 @@ impl Picture {
                 let renamed = bytes.strip_prefix(RGBE).map(|rest| [RADIANCE, rest].concat());
                 let bytes = renamed.as_deref().unwrap_or(bytes);
                 let image = decoded(bytes, PictureFormat::Hdr, ImageFormat::Hdr)?.into_rgb32f();
-                let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| pixel.0).collect();
+                let scale = hdr_scale(bytes)?;
+                let radiance = |pixel: [f32; 3]| [0, 1, 2].map(|channel| pixel[channel] / scale[channel]);
+                let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| radiance(pixel.0)).collect();
                 Ok(Self::rgb(image.width(), image.height(), &pixels))
             }
             None => {
@@ -46,6 +49,19 @@ impl Picture {
                 Err(PictureError::Unrecognized { found })
             }
         }
+    }
+}
+
+/// What radiance was multiplied by, by channel, before it was written: the products of all EXPOSURE and COLORCORR lines
+/// of a Radiance HDR file.
+fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
+    let refused = |reason: String| PictureError::Decode { format: PictureFormat::Hdr, reason };
+    let header = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?.metadata();
+    let (red, green, blue) = header.color_correction.unwrap_or((1.0, 1.0, 1.0));
+    let scale = [red, green, blue].map(|correction| header.exposure.unwrap_or(1.0) * correction);
+    match scale.into_iter().find(|factor| !(factor.is_finite() && *factor > 0.0)) {
+        Some(found) => Err(refused(format!("expected EXPOSURE and COLORCORR of a positive product, found {found}"))),
+        None => Ok(scale),
     }
 }
 

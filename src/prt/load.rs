@@ -6,9 +6,7 @@ use thiserror::Error;
 
 use super::file::{self, MeshDigest, PrtFile, PrtFileError, PrtMeaning, parse_prt};
 use super::{Signal, SignalError};
-use crate::io::{
-    NpyError, NumberTableError, ReadError, npy, number_table, parse_npy, parse_number_table, read_limited,
-};
+use crate::io::{NumbersError, ReadError, number_table, parse_numbers, read_limited};
 
 /// Why a file is no signal.
 #[non_exhaustive]
@@ -27,14 +25,10 @@ pub enum SignalFileError {
     #[error("{}: expected transfer, found clusters alone", path.display())]
     #[diagnostic(code(crossbar::signal::compressed), help("name the file that it was compressed from"))]
     NoTransfer { path: PathBuf },
-    /// It is an array of NumPy's that cannot be read.
+    /// It is an array of NumPy's or a table that cannot be read.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Npy(#[from] NpyError),
-    /// It is a table that cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Table(#[from] NumberTableError),
+    Numbers(#[from] NumbersError),
     /// Its numbers are no signal.
     #[error("{}: {reason}", path.display())]
     #[diagnostic(code(crossbar::signal::numbers))]
@@ -64,8 +58,7 @@ pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDi
         let signal = transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() })?;
         return Ok((meaning, mesh, signal));
     }
-    let table =
-        if bytes.starts_with(npy::MAGIC) { parse_npy(&bytes, path)? } else { parse_number_table(&bytes, path)? };
+    let table = parse_numbers(&bytes, path)?;
     let meaning = PrtMeaning::Numbers { dimension: u32::try_from(table.columns).unwrap_or(u32::MAX) };
     let signal = Signal::new(table.columns, table.values);
     let signal = signal.map_err(|reason| SignalFileError::Signal { path: path.into(), reason })?;

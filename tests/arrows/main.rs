@@ -40,6 +40,7 @@ const CROSSBAR: Law = (
     &[
         ("linalg", &[]),
         ("elementary", &[]),
+        ("fresnel", &[]),
         ("names", &[]),
         ("quadrature", &["elementary"]),
         ("picture", &["elementary"]),
@@ -58,7 +59,19 @@ const CROSSBAR: Law = (
         ("radiosity", &["card", "tracer", "elementary", "quadrature", "picture", "geom", "scene", "linalg", "io"]),
         (
             "subsurface",
-            &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"],
+            &[
+                "card",
+                "tracer",
+                "elementary",
+                "fresnel",
+                "quadrature",
+                "picture",
+                "geom",
+                "atlas",
+                "scene",
+                "linalg",
+                "io",
+            ],
         ),
         (
             "prt",
@@ -66,6 +79,7 @@ const CROSSBAR: Law = (
                 "card",
                 "tracer",
                 "elementary",
+                "fresnel",
                 "quadrature",
                 "picture",
                 "sphere",
@@ -77,7 +91,7 @@ const CROSSBAR: Law = (
             ],
         ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
-        ("renderer", &["tracer", "elementary", "picture", "geom", "scene", "linalg"]),
+        ("renderer", &["tracer", "elementary", "fresnel", "picture", "geom", "scene", "linalg"]),
         (
             "study",
             &[

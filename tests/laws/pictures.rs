@@ -88,6 +88,29 @@ proptest! {
     }
 }
 
+/// Radiance's tools multiply pixels, and say by what in the header; several lines multiply.
+#[test]
+fn exposures_of_hdr_files_are_undone() {
+    let picture = Picture::rgb(2, 1, &[[1.0, 2.0, 4.0], [0.5, 0.25, 8.0]]);
+    let plain = hdr(&picture).expect("a file");
+    let with = |lines: &str| {
+        let end = plain.windows(2).position(|two| two == b"\n\n").expect("the end of the header") + 1;
+        [&plain[..end], lines.as_bytes(), &plain[end..]].concat()
+    };
+    let read = |lines: &str| Picture::decode(&with(lines));
+    assert_eq!(read(""), Ok(picture));
+    let divided = Picture::rgb(2, 1, &[[0.125, 0.25, 0.5], [0.0625, 0.03125, 1.0]]);
+    assert_eq!(read("EXPOSURE=2\nEXPOSURE= 4.0\n"), Ok(divided));
+    let corrected = Picture::rgb(2, 1, &[[0.5, 0.5, 1.0], [0.25, 0.0625, 2.0]]);
+    assert_eq!(read("COLORCORR=1 2 2\nEXPOSURE=2\n"), Ok(corrected));
+    for lines in
+        ["EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=NaN\n", "EXPOSURE=1e30\nEXPOSURE=1e30\n", "COLORCORR=1 0 1\n"]
+    {
+        let error = read(lines).expect_err("refused").to_string();
+        assert!(error.contains("positive product"), "{lines}: {error}");
+    }
+}
+
 #[test]
 fn what_is_wrong_is_said() {
     let said = |bytes: &[u8]| Picture::decode(bytes).expect_err("no picture").to_string();

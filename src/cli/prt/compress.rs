@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::segments::SegmentArgs;
 use super::values::KindArg;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, view};
+use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::io::{ReadError, read_limited};
 use crate::prt::cpca::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints,
@@ -80,6 +80,11 @@ pub(super) struct Args {
     pub(super) out: PathBuf,
 }
 
+/// How to ask for less memory.
+const HELP: &str = "name a smaller signal";
+/// Bytes of a point beside its numbers and weights.
+const POINT_BYTES: u64 = 64;
+
 /// How points are shared out to clusters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum MethodArg {
@@ -111,10 +116,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         return Err(Problem::usage(what, "name a file of `crossbar prt precompute --kind all-frequency`").into());
     }
     let (clusters, vectors) = (args.clusters.unwrap_or(256), args.vectors.unwrap_or(8));
-    // The signal, its estimates, and what is written.
-    view::require_file(&args.signal, 4, "name a smaller signal")?;
+    // The bytes, and numbers of four bytes while their list grows: a number takes two bytes of a table at least.
+    view::require_file(&args.signal, 8, HELP)?;
     let start = start(args)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
+    let need = memory_need(&signal, u64::from(clusters), u64::from(vectors));
+    let size = format_args!("compressing {} points", counted(signal.points())).to_string();
+    memory::require(size, need, HELP)?;
     let iterations = args.iterations as usize;
     let options = CpcaOptions {
         clusters: clusters as usize,
@@ -144,6 +152,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("error     {:.4e} of the signal's squares", error.relative()))?;
     out.line(format_args!("written   {}", args.out.display()))?;
     Ok(())
+}
+
+/// Bytes while a signal is compressed: its numbers, and in f64 those of a cluster, which may be all; per point
+/// its weights, where they begin, its cluster, its error and bounds of that; per cluster its vectors, the last and the
+/// next ones.
+fn memory_need(signal: &Signal, clusters: u64, vectors: u64) -> u64 {
+    let [values, points, dimension] = [signal.values().len(), signal.points(), signal.dimension()].map(|n| n as u64);
+    let of_points = points.saturating_mul(8 * vectors + POINT_BYTES);
+    let of_clusters = clusters.min(points).saturating_mul(vectors + 1).saturating_mul(24 * dimension);
+    (12 * values).saturating_add(of_points).saturating_add(of_clusters)
 }
 
 /// The start points of a file, else those of the seed.

@@ -4,10 +4,10 @@
 //! - [`ExitBasis`], [`brdf_matrix`]: the matrix B, and its least-squares forms.
 
 pub(crate) mod facets;
-pub(crate) mod fresnel;
 mod matrix;
 mod models;
 
+pub(crate) use crate::fresnel;
 pub use matrix::{BRDF_DEGREE, ExitBasis, brdf_matrix};
 pub(crate) use matrix::{Projector, exit_per_direction, integrals};
 pub use models::{Brdf, BrdfError};

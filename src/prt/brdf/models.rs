@@ -6,8 +6,8 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::facets;
-use super::fresnel::{dielectric, fifth_power, schlick};
 use crate::elementary::{exp, pow};
+use crate::fresnel::{dielectric, schlick};
 use crate::scene::Surface;
 
 /// How a surface reflects. All reflectances lie in [0, 1].
@@ -210,6 +210,12 @@ impl Brdf {
 
 fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), BrdfError> {
     if fits { Ok(()) } else { Err(BrdfError::OutOfRange { what, expected, found }) }
+}
+
+/// x^5.
+fn fifth_power(x: f64) -> f64 {
+    let square = x * x;
+    square * square * x
 }
 
 #[cfg(test)]

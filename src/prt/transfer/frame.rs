@@ -42,6 +42,11 @@ impl LocalFrame {
         self.axes[0]
     }
 
+    /// The global directions of the local axes.
+    pub(super) fn axes(&self) -> [DVec3; 3] {
+        self.axes
+    }
+
     /// A global direction in local coordinates.
     pub fn to_local(&self, direction: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;

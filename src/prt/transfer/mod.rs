@@ -9,9 +9,14 @@ mod error;
 mod frame;
 mod gather;
 mod origins;
+#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
+mod packets;
 mod rays;
 mod response;
 mod scattering;
+#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
+mod shadow_leaf;
+mod shadow_tree;
 mod shooter;
 mod skyline;
 mod vertices;

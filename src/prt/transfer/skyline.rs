@@ -149,13 +149,15 @@ fn turns(local: DVec3) -> f64 {
 
 /// A box over triangles, and where its first child or triangle is.
 #[derive(Clone, Copy, Debug)]
-struct BoxNode {
-    middle: DVec3,
-    half: DVec3,
+pub(super) struct BoxNode {
+    pub(super) middle: DVec3,
+    pub(super) half: DVec3,
     /// The second child, or the first triangle of a leaf; the first child follows its parent.
-    next: u32,
+    pub(super) next: u32,
     /// Triangles of a leaf; 0 for a node with children.
-    count: u32,
+    pub(super) count: u32,
+    /// The axis along which the children were parted: the first holds the lower ones.
+    pub(super) axis: u8,
 }
 
 /// The triangles of a mesh in a hierarchy of boxes.
@@ -178,6 +180,16 @@ impl Occluders {
         let part = |i: usize| SkyPart { ring: (i / COLUMNS) as u8, column: (i % COLUMNS) as u8 };
         let middles = (0..RINGS * COLUMNS).map(|i| part(i).middle()).collect();
         Self { nodes, triangles, middles, part_radii: std::array::from_fn(part_radius) }
+    }
+
+    /// The boxes, each before those that it holds.
+    pub(super) fn nodes(&self) -> &[BoxNode] {
+        &self.nodes
+    }
+
+    /// The corners of the triangles, leaf by leaf.
+    pub(super) fn triangles(&self) -> &[[DVec3; 3]] {
+        &self.triangles
     }
 
     /// The skyline of a point, in the local coordinates of a frame.
@@ -315,10 +327,9 @@ fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     let node = nodes.len();
     let count = triangles.len();
     if count <= LEAF {
-        nodes.push(BoxNode { middle, half, next: first, count: count as u32 });
+        nodes.push(BoxNode { middle, half, next: first, count: count as u32, axis: 0 });
         return;
     }
-    nodes.push(BoxNode { middle, half, next: 0, count: 0 });
     let axis = if half.x >= half.y && half.x >= half.z {
         0
     } else if half.y >= half.z {
@@ -326,6 +337,7 @@ fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     } else {
         2
     };
+    nodes.push(BoxNode { middle, half, next: 0, count: 0, axis: axis as u8 });
     let sum = |corners: &[DVec3; 3]| corners[0][axis] + corners[1][axis] + corners[2][axis];
     triangles.select_nth_unstable_by(count / 2, |one, other| sum(one).total_cmp(&sum(other)));
     let (lower, upper) = triangles.split_at_mut(count / 2);

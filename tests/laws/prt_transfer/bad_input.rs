@@ -89,7 +89,8 @@ impl Caster for Broken {
 #[test]
 fn a_failing_caster_is_reported() {
     let vertices = Vertices::new(&step(), Tangents::Any).expect("vertices");
-    let error = TracedRays::trace(&vertices, DirectionRule::hemisphere(6), &mut Broken, false).expect_err("refused");
+    // Which triangle a blocked ray hits is always asked.
+    let error = TracedRays::trace(&vertices, DirectionRule::hemisphere(6), &mut Broken, true).expect_err("refused");
     assert!(matches!(error, TransferError::Cast(_)));
 }
 

@@ -8,7 +8,7 @@ use crate::cli::prt::model::{load, refused, vertices};
 use crate::cli::prt::values::{HatsArg, TangentsArg};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
-use crate::io::{NumberTable, ReadError, npy, parse_npy, read_limited};
+use crate::io::{NumberTable, load_numbers};
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::factor::ProductFactors;
 use crate::prt::all_frequency::hats::HatWidth;
@@ -80,6 +80,7 @@ pub(in crate::cli::prt) fn run(
 /// What `crossbar prt factor` wrote into a folder.
 fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
     let [view, light] = ["view_factors.npy", "light_factors.npy"].map(|name| folder.join(name));
+    let table = |path: &Path| load_numbers(path, "array of factors", MAX_FACTORS);
     let (view_table, light_table) = (table(&view)?, table(&light)?);
     let terms = view_table.columns;
     if light_table.columns != terms {
@@ -92,18 +93,6 @@ fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
         return Err(Problem::usage(what, "name a folder that `crossbar prt factor` wrote").into());
     }
     Ok(ProductFactors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
-}
-
-fn table(path: &Path) -> miette::Result<NumberTable> {
-    let what = "array of factors";
-    let read =
-        read_limited(path, MAX_FACTORS).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit: MAX_FACTORS })?;
-    if !bytes.starts_with(npy::MAGIC) {
-        let what = format!("{}: expected an array of NumPy's, found another file", path.display());
-        return Err(Problem::usage(what, "name a folder that `crossbar prt factor` wrote").into());
-    }
-    Ok(parse_npy(&bytes, path)?)
 }
 
 fn map(path: &Path, table: NumberTable) -> Result<(ParabolicMap, Vec<f64>), Problem> {

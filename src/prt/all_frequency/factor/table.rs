@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::io::{
-    NpyError, NumberTable, NumberTableError, ReadError, npy, number_table, parse_npy, parse_number_table, read_limited,
-};
+use crate::io::{NumberTable, NumbersError, load_numbers, number_table};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
@@ -26,18 +24,10 @@ pub struct ProductTable {
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ProductTableError {
-    /// The file is not there, or too long.
+    /// There are no numbers.
     #[error(transparent)]
     #[diagnostic(transparent)]
-    Read(#[from] ReadError),
-    /// It is an array of NumPy's that cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Npy(#[from] NpyError),
-    /// It is a table that cannot be read.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Table(#[from] NumberTableError),
+    Numbers(#[from] NumbersError),
     /// Rows or columns that are no square map.
     #[error(
         "{}: expected a square number of {what} up to {most}, a texel of a square map each, found {found}", path.display(),
@@ -119,11 +109,7 @@ impl ProductTable {
 /// # Errors
 /// [`ProductTableError`].
 pub fn load_product_table(path: &Path) -> Result<ProductTable, ProductTableError> {
-    let (what, limit) = ("table of reflectance", number_table::MAX_BYTES);
-    let read = read_limited(path, limit).map_err(|source| ReadError::Unreadable { what, path: path.into(), source })?;
-    let bytes = read.ok_or_else(|| ReadError::TooLong { what, path: path.into(), limit })?;
-    let table =
-        if bytes.starts_with(npy::MAGIC) { parse_npy(&bytes, path)? } else { parse_number_table(&bytes, path)? };
+    let table = load_numbers(path, "table of reflectance", number_table::MAX_BYTES)?;
     ProductTable::of_numbers(&table, path)
 }
 

@@ -1,0 +1,101 @@
+//! How much unpolarised light a smooth boundary reflects and passes: Fresnel's equations for dielectrics in the forms
+//! that renderers and BRDF models take, and Schlick's approximation.
+//!
+//! Two of them are written out. [`reflectance`] is good where little passes, [`transmittance`] where little is
+//! reflected: neither is a difference of nearly equal numbers there. Their sum is 1 to rounding.
+
+/// How much a boundary reflects, in [0, 1]: the mean of both polarisations. `cosine` is that of the angle to the normal
+/// on the side of the light, `ratio` the index of that side over that of the other. 1 under total internal reflection.
+pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
+    let cosine = cosine.clamp(0.0, 1.0);
+    let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+    if square <= 0.0 {
+        return 1.0;
+    }
+    let beyond = square.sqrt();
+    let across = (ratio * cosine - beyond) / (ratio * cosine + beyond);
+    let along = (cosine - ratio * beyond) / (cosine + ratio * beyond);
+    (across * across + along * along) / 2.0
+}
+
+/// The fraction of light that passes the boundary, in [0, 1]: 1 less the mean of both polarisations' reflectances.
+///
+/// `eta` is the index of refraction of the far side relative to the near one: above 1 for light that enters the
+/// medium, below 1 for light that leaves it. `cosine` is that of the angle on the near side. 0 for light that runs
+/// along the surface or comes from behind it (cosine not above 0), and where it is reflected totally.
+pub fn transmittance(eta: f64, cosine: f64) -> f64 {
+    let c = cosine.min(1.0);
+    // The square of eta times the cosine on the far side.
+    let square = (eta - 1.0) * (eta + 1.0) + c * c;
+    // The cosine itself, because `min` drops NaN.
+    if !(cosine > 0.0 && square > 0.0) {
+        return 0.0;
+    }
+    let far = square.sqrt();
+    let across = c + far;
+    let along = eta * eta * c + far;
+    // 1 - ((c - far) / across)^2 = 4 c far / across^2, and so for the other polarisation: no difference of near values.
+    (2.0 * c * far * (1.0 / (across * across) + (eta / along) * (eta / along))).min(1.0)
+}
+
+/// [`reflectance`] as Cook and Torrance give it, from the reflectance at normal incidence, in [0, 1): the index follows
+/// from that. `cosine` is in [0, 1].
+pub fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
+    let root = normal_incidence.sqrt();
+    reflectance(cosine, (1.0 - root) / (1.0 + root))
+}
+
+/// Schlick's approximation, from the reflectance at normal incidence; `cosine` is in [0, 1].
+pub fn schlick(normal_incidence: f64, cosine: f64) -> f64 {
+    let left = 1.0 - cosine;
+    let square = left * left;
+    normal_incidence + (1.0 - normal_incidence) * (square * square * left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn fresnel_at_the_angles_that_have_a_name() {
+        // Head on: ((n - 1) / (n + 1))^2.
+        assert_abs_diff_eq!(reflectance(1.0, 1.0 / 1.5), 0.04, epsilon = 1e-15);
+        assert_abs_diff_eq!(reflectance(1.0, 1.5), 0.04, epsilon = 1e-15);
+        assert_eq!(reflectance(0.0, 1.0 / 1.5), 1.0);
+        // Brewster's angle, tan = n: one polarisation is not reflected, the other by ((n^2 - 1) / (n^2 + 1))^2.
+        let cosine = 1.0 / (1.0_f64 + 2.25).sqrt();
+        let other = (1.25 / 3.25) * (1.25 / 3.25);
+        assert_abs_diff_eq!(reflectance(cosine, 1.0 / 1.5), other / 2.0, epsilon = 1e-15);
+        assert_abs_diff_eq!(dielectric(0.04, cosine), other / 2.0, epsilon = 1e-15);
+        // Beyond the critical angle, sin = 1 / n.
+        assert_eq!(reflectance(0.7, 1.5), 1.0);
+        assert!(reflectance(0.8, 1.5) < 1.0);
+    }
+
+    /// What is not reflected passes, into the medium and out of it.
+    #[test]
+    fn reflectance_and_transmittance_sum_to_1() {
+        for eta in [1.0, 1.0 + 1e-9, 1.3, 1.5, 2.4, 1.0 / 1.3, 1.0 / 2.4] {
+            for step in 0..=200 {
+                let cosine = f64::from(step) / 200.0;
+                // Light along the surface does not pass, whatever the index; the quotients are of no use there.
+                let reflected = if step > 0 { reflectance(cosine, 1.0 / eta) } else { 1.0 };
+                assert_abs_diff_eq!(transmittance(eta, cosine) + reflected, 1.0, epsilon = 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn reflectance_rises_from_normal_incidence_to_1() {
+        for f0 in [0.0, 0.04, 0.5, 0.95] {
+            for fresnel in [schlick, dielectric] {
+                assert_abs_diff_eq!(fresnel(f0, 1.0), f0, epsilon = 1e-15);
+                // At an index of 1 the boundary is none, and its grazing reflectance is whatever a formula makes of it.
+                if f0 > 0.0 {
+                    assert_abs_diff_eq!(fresnel(f0, 0.0), 1.0, epsilon = 1e-12);
+                }
+            }
+        }
+    }
+}
