@@ -4,20 +4,20 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use crate::prt::all_frequency::kernels::{MapFilter, ViewNumbers};
-use crate::prt::all_frequency::on_card::reference::pixel_of_products;
+use super::pixels::{PixelErrors, exact_pixels};
+use crate::prt::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::prt::all_frequency::on_card::{
-    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, SeenPixel, TransferredMesh, draw, seen_pixels,
+    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw, seen_pixels,
 };
 use crate::prt::all_frequency::shade::Multiplies;
 use crate::prt::on_card::PrtView;
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
-/// Steps of a picture of 8 bits.
-const STEPS: f64 = 255.0;
 /// Bits of G that are tried.
 const BITS: [u32; 5] = [8, 10, 12, 14, 16];
+/// Sets of texture coordinates of ps_2_0.
+const SETS: usize = 8;
 
 /// A way to draw, and how far its picture is off.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,37 +29,63 @@ pub struct FactoredPrecision {
     /// The device.
     pub device: &'static str,
     /// How products are made.
-    pub options: ProductOptions,
-    /// Root mean square and largest difference of a channel, in 255ths of white.
-    pub off_255ths: [f64; 2],
-    /// Share of the pixels that show the mesh of which a channel is off by more than one 255th.
-    pub visible: f64,
+    pub place: ProductPlace,
+    /// How far off pixels are.
+    pub errors: PixelErrors,
     /// Pixels below 0.
     pub below_zero: u64,
 }
 
-/// Nothing made coarse: G in single precision, filtered by the program.
-fn fine() -> ProductOptions {
-    ProductOptions { map_format: TexelFormat::Rgba32f, filter: MapFilter::Program, ..ProductOptions::default() }
+/// A way to draw.
+struct Choice {
+    axis: &'static str,
+    label: String,
+    device: &'static str,
+    place: ProductPlace,
 }
 
-fn choices() -> Vec<(&'static str, String, &'static str, ProductOptions)> {
-    let mut all = vec![("none", "fp32 throughout".to_owned(), "ideal-fp32", fine())];
+impl Choice {
+    fn new(axis: &'static str, label: impl Into<String>, device: &'static str, place: ProductPlace) -> Self {
+        Self { axis, label: label.into(), device, place }
+    }
+
+    fn pixels(axis: &'static str, label: impl Into<String>, device: &'static str, options: ProductOptions) -> Self {
+        Self::new(axis, label, device, ProductPlace::Pixels(options))
+    }
+}
+
+/// Nothing made coarse: G in single precision, filtered by the program; a channel per pass where all three do not fit.
+fn fine(terms: usize) -> ProductOptions {
+    let all = SetLayout { terms, channels: 3, view: ViewNumbers::default() };
+    ProductOptions {
+        map_format: TexelFormat::Rgba32f,
+        filter: MapFilter::Program,
+        is_pass_per_channel: all.sets() > SETS,
+        ..ProductOptions::default()
+    }
+}
+
+/// Of a reflectance of several terms.
+fn choices_of_products(terms: usize) -> Vec<Choice> {
+    let fine = fine(terms);
+    let mut all = vec![Choice::pixels("none", "fp32 throughout", "ideal-fp32", fine)];
     for device in ["ideal-fp24", "ideal-fp16"] {
-        all.push(("pixel arithmetic", device.to_owned(), device, fine()));
+        all.push(Choice::pixels("pixel arithmetic", device, device, fine));
     }
     for bits in BITS {
-        let options = ProductOptions { map_bits: Some(bits), ..fine() };
-        all.push(("bits of G", bits.to_string(), "ideal-fp32", options));
+        let options = ProductOptions { map_bits: Some(bits), ..fine };
+        all.push(Choice::pixels("bits of G", bits.to_string(), "ideal-fp32", options));
     }
-    let half = ProductOptions { map_format: TexelFormat::Rgba16f, ..fine() };
-    all.push(("bits of G", "fp16".to_owned(), "ideal-fp32", half));
-    all.push(("T_p", "fp16".to_owned(), "ideal-fp32", ProductOptions { radiance: RadianceFormat::Fp16, ..fine() }));
-    let by_sampler = ProductOptions { filter: MapFilter::Sampler, ..fine() };
-    all.push(("filter", "sampler".to_owned(), "ideal-fp32", by_sampler));
-    let vector = ProductOptions { view: ViewNumbers::Vector, is_pass_per_channel: true, ..fine() };
-    all.push(("view", "vector".to_owned(), "ideal-fp32", vector));
-    let of_r350 = ProductOptions::default();
+    let half = ProductOptions { map_format: TexelFormat::Rgba16f, ..fine };
+    all.push(Choice::pixels("bits of G", "fp16", "ideal-fp32", half));
+    let half_radiance = ProductOptions { radiance: RadianceFormat::Fp16, ..fine };
+    all.push(Choice::pixels("T_p", "fp16", "ideal-fp32", half_radiance));
+    let by_sampler = ProductOptions { filter: MapFilter::Sampler, ..fine };
+    all.push(Choice::pixels("filter", "sampler", "ideal-fp32", by_sampler));
+    let vector = ProductOptions { view: ViewNumbers::Vector, is_pass_per_channel: true, ..fine };
+    all.push(Choice::pixels("view", "vector", "ideal-fp32", vector));
+    let is_pass_per_channel = fine.is_pass_per_channel;
+    let of_r350 = ProductOptions { is_pass_per_channel, ..ProductOptions::default() };
     let of_nv35 = ProductOptions { map_format: TexelFormat::Rg16Snorm, ..of_r350 };
     let in_8_bits = ProductOptions { map_format: TexelFormat::Rgba8Snorm, ..of_r350 };
     for (choice, device, options) in [
@@ -71,50 +97,60 @@ fn choices() -> Vec<(&'static str, String, &'static str, ProductOptions)> {
         ("signed 16 bits, sampler, fp16", "nv35", ProductOptions { is_partial: true, ..of_nv35 }),
         ("signed 8 bits, sampler, fp16", "nv35", ProductOptions { is_partial: true, ..in_8_bits }),
     ] {
-        all.push(("card", format!("{device}: {choice}"), device, options));
+        all.push(Choice::pixels("card", format!("{device}: {choice}"), device, options));
     }
     all
 }
 
+/// Colors of vertices. The one term of a diffuse surface has no other way.
+fn choices_of_colors() -> Vec<Choice> {
+    let floats = ProductPlace::Vertices(VertexColors::Floats);
+    let mut all = vec![Choice::new("vertex colors", "floats, fp32", "ideal-fp32", floats)];
+    for device in ["ideal-fp24", "ideal-fp16"] {
+        all.push(Choice::new("vertex colors", format!("floats, {device}"), device, floats));
+    }
+    for device in ["r350", "nv35"] {
+        let bytes = ProductPlace::Vertices(VertexColors::Bytes);
+        all.push(Choice::new("vertex colors", format!("{device}: bytes"), device, bytes));
+    }
+    all
+}
+
+fn choices(mesh: &TransferredMesh<'_>) -> Vec<Choice> {
+    let mut all = if mesh.terms() > 1 { choices_of_products(mesh.terms()) } else { Vec::new() };
+    all.extend(choices_of_colors());
+    all
+}
+
+/// How many pictures [`factored_precision`] draws.
+pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
+    choices(mesh).len() as u64
+}
+
 /// Draws a mesh into floats in many ways, and compares each picture with what the host computes in f64 of the same
-/// numbers, interpolated by the device's raster.
+/// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn.
 ///
 /// # Errors
-/// [`FactoredCardError`] for meshes that do not fit the cards: more than ten terms, parts that do not go together.
+/// [`FactoredCardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
 pub fn factored_precision(
     mesh: TransferredMesh<'_>,
     executor: &Executor,
     (camera, exposure): (Camera, f64),
+    done: &mut dyn FnMut(u64),
 ) -> Result<Vec<FactoredPrecision>, FactoredCardError> {
     let view = PrtView { camera, exposure, format: TexelFormat::Rgba32f };
     let mut found = Vec::new();
-    for (axis, choice, device, options) in choices() {
+    for Choice { axis, label: choice, device, place } in choices(&mesh) {
         let profile = Profile::named(device)?;
         let seen = seen_pixels(&profile, mesh.vertices, &camera)?;
-        let place = ProductPlace::Pixels(options);
         let drawing = draw(mesh, (profile, executor.clone()), place, &view, Multiplies::default())?;
-        let expected = |&SeenPixel { corners, weights }: &SeenPixel| {
-            pixel_of_products(&mesh, (options.view, camera.eye()), corners, weights).map(|value| exposure * value)
-        };
-        let off = drawing.texels.texels.iter().zip(&seen).filter_map(|(texel, seen)| {
-            let expected = expected(seen.as_ref()?);
-            Some([0, 1, 2].map(|channel| STEPS * (f64::from(texel[channel]) - expected[channel])))
-        });
-        let off: Vec<[f64; 3]> = off.collect();
-        let (pixels, all) = (off.len().max(1) as f64, off.as_flattened());
-        let largest = all.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let rms = (all.iter().map(|value| value * value).sum::<f64>() / (3.0 * pixels)).sqrt();
-        let visible = off.iter().filter(|pixel| pixel.iter().any(|value| value.abs() > 1.0)).count() as f64 / pixels;
+        let expected = exact_pixels(&mesh, &seen, &place, (camera.eye(), exposure));
+        let drawn: Vec<[f64; 3]> =
+            drawing.texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
+        let errors = PixelErrors::of(&seen, &drawn, &expected);
         let below_zero = drawing.counts.below_zero.unwrap_or(0);
-        found.push(FactoredPrecision {
-            axis,
-            choice,
-            device,
-            options,
-            off_255ths: [rms, largest],
-            visible,
-            below_zero,
-        });
+        found.push(FactoredPrecision { axis, choice, device, place, errors, below_zero });
+        done(found.len() as u64);
     }
     Ok(found)
 }
@@ -123,14 +159,14 @@ pub fn factored_precision(
 pub fn factored_precision_table(ways: &[FactoredPrecision]) -> Table {
     let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_% below_zero");
     for way in ways {
-        table.push([
-            way.axis.into(),
-            way.choice.clone().into(),
-            Cell::measured(way.off_255ths[0]),
-            Cell::measured(way.off_255ths[1]),
-            Cell::percent(100.0 * way.visible),
-            way.below_zero.into(),
-        ]);
+        let [rms, largest, visible] = way.errors.cells();
+        table.push([way.axis.into(), way.choice.clone().into(), rms, largest, visible, way.below_zero.into()]);
     }
     table
+}
+
+/// The same with a row for coarser codes, whose pictures the host makes.
+pub(super) fn push_errors(table: &mut Table, axis: &'static str, choice: String, errors: &PixelErrors) {
+    let [rms, largest, visible] = errors.cells();
+    table.push([axis.into(), choice.into(), rms, largest, visible, Cell::Empty]);
 }
