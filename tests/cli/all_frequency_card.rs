@@ -71,7 +71,8 @@ fn cards_draw_what_the_host_draws() {
     assert!(rms(&diffuse) < 0.8, "{}", rms(&diffuse));
     assert!(step(&diffuse, "light coefficients left out") > step(&diffuse, "single precision"));
     assert!(step(&diffuse, "compression and coding") > 0.0);
-    assert!(diffuse["blame"].as_array().expect("blame").iter().all(|row| row["step"] != "colors"));
+    let steps = diffuse["blame"].as_array().expect("blame").iter().map(|row| row["step"].to_string());
+    assert!(steps.into_iter().all(|step| !step.contains("not products")), "one term has no other way");
 }
 
 /// More bits are nearer, of everything that has bits; files and pages are where they are said to be.
@@ -117,11 +118,11 @@ fn what_no_card_takes_is_refused() {
         (CODED, "--kind diffuse", "expected transfer of low frequency, found all frequencies"),
         (CODED, "--original docs/examples/step_all_small.prt", "expected visibility with the same reflectance"),
         (&coded, "--original docs/examples/step_all.prt", "expected visibility with the same reflectance"),
-        (&coded, "--device r200", "no ps_2_0"),
+        (&coded, "--device r200", "runs no `ps_2_0` programs"),
         (&coded, "--device nv35 --map-format rgba16s", "nv35"),
         (&coded, "--map-format rgba32f", "filters no rgba32f textures"),
         (&coded, "--map-format rgba8", "expected maps in floats or signed fractions"),
-        (CODED, "--model white-box", "white-box"),
+        (CODED, "--model white-box", "expected transfer of a mesh with"),
     ] {
         let fixed = ["prt", "card", file, "--size", "8x8", "--out", &out];
         let model = ["--model", MODEL];

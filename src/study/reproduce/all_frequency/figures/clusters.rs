@@ -22,8 +22,8 @@ const VECTORS: [usize; 4] = [1, 4, 8, 16];
 /// Segments whose clusters are drawn.
 const SEGMENTS: usize = 3;
 
-const HOW: &str =
-    "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty.";
+const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} \
+    vertices each on average.";
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
@@ -37,7 +37,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let mut table = Table::of("Figure 5: representatives per cluster", "representatives squared_error rms_% flip");
     let (mut pictures, mut errors, mut last) = (Vec::new(), Vec::new(), None);
     for vectors in VECTORS {
-        let (coded, tally) = surface.coded(vectors)?;
+        let (coded, tally) = surface.coded(models::points_per_cluster(size), vectors)?;
         let found = scene.joined(&surface.of_code(&coded, &light)?, &dark);
         let error = scene.error(&found, &exact, exposure)?;
         let squared = tally.sum(|part| part.coded_squared_error) / tally.sum(|part| part.squares);
@@ -66,7 +66,11 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
         Bound::AtLeast,
     );
     let [clusters, segments] = coded.map_or([0, 0], |coded| [coded.clusters(), coded.segments.len()]);
-    let text = vec![Prose::new(HOW, [scene.of_model.len(), clusters, segments].map(|count| number(count as f64, 0)))];
+    let text = vec![Prose::new(
+        HOW,
+        [scene.of_model.len(), clusters, segments, models::points_per_cluster(size)]
+            .map(|count| number(count as f64, 0)),
+    )];
     Ok(FigureParts { text, rows: vec![row], tables: vec![table], pictures })
 }
 

@@ -20,14 +20,18 @@ pub(super) struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Compressed by so many representatives per cluster, and coded.
-    pub(super) fn coded(&self, vectors: usize) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
+    /// Compressed by so many vertices and representatives per cluster, and coded.
+    pub(super) fn coded(
+        &self,
+        points_per_cluster: usize,
+        vectors: usize,
+    ) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
         let compression = SegmentedCompression {
             vertices: &self.scene.vertices,
             maps: self.maps,
             hats: self.scene.hats.width(),
             reflectance: self.reflectance,
-            options: SegmentOptions { vectors, ..SegmentOptions::default() },
+            options: SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() },
             code: CodeOptions::default(),
         };
         compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))

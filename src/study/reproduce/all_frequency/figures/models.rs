@@ -9,22 +9,30 @@ use crate::scene::built::transfer_models::TransferModel;
 
 /// A bird that stands for tweety, and what stands for the Buddha.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
-    TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 6 })
+    TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }
 
 pub(super) fn buddha(models: ModelSize) -> Mesh {
-    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 7 })
+    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }
 
 pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, ReproduceError> {
-    teapot(if models == ModelSize::Printed { 40 } else { 5 }).map_err(|e| failed(super::HOST)(&e))
+    teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
 }
 
 /// Vertices along an edge of the ground.
 pub(super) const fn ground(models: ModelSize) -> u32 {
     match models {
         ModelSize::Printed => GROUND_SIDE,
-        ModelSize::Reduced => 40,
+        ModelSize::Reduced => 24,
+    }
+}
+
+/// Vertices per cluster: with few vertices fewer, so that there are some clusters.
+pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
+    match models {
+        ModelSize::Printed => 200,
+        ModelSize::Reduced => 60,
     }
 }
 

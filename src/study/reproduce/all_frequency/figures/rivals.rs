@@ -29,7 +29,7 @@ const VECTORS: usize = 16;
 pub(super) const COLORS: [[f64; 3]; 2] = [[0.9, 0.75, 0.5], [0.7; 3]];
 
 const HOW: &str = "Figure 1 draws a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: every direction of every vertex, the reflectance \
-    itself. Ours: {} terms, {} representatives per cluster, all light coefficients. Harmonics: order {} for light and for the light that \
+    itself. Ours: {} terms, {} representatives per cluster of {} vertices, all light coefficients. Harmonics: order {} for light and for the light that \
     arrives, and the reflectance's own coefficients towards the eye. Fixed view: exact transfer for this one eye, and a light cut to \
     a number of wavelets on six faces, by area times magnitude.";
 
@@ -42,7 +42,7 @@ struct Ways {
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
     let light = stand_in()?;
-    let ways = ways(&scene, &light)?;
+    let ways = ways(&scene, &light, models::points_per_cluster(size))?;
     let exposure = scene.exposure(&ways.exact);
     let caption = "exact: no factors, no compression, the whole light".to_owned();
     let mut pictures = vec![scene.picture(&ways.exact, exposure, ("figure-1-exact".to_owned(), caption))?];
@@ -54,7 +54,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
         pictures.push(scene.picture(colors, exposure, (format!("figure-1-{at}"), name.clone()))?);
         errors.push(error);
     }
-    let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, ORDER];
+    let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, models::points_per_cluster(size), ORDER];
     let rows = vec![
         order(format!("difference of harmonics of order {ORDER} over ours"), errors[1].rms / errors[0].rms),
         order(format!("difference of a fixed view's {} wavelets over ours", KEPT[0]), errors[2].rms / errors[0].rms),
@@ -70,7 +70,7 @@ fn order(what: String, ours: f64) -> PaperRow {
 }
 
 /// Model and ground by each method.
-fn ways(scene: &FigureScene, light: &CubeLight) -> Result<Ways, ReproduceError> {
+fn ways(scene: &FigureScene, light: &CubeLight, points_per_cluster: usize) -> Result<Ways, ReproduceError> {
     let lobe = models::schlick();
     let factors = models::factorization(&lobe, TERMS)?.factors(TERMS);
     let glossy = Reflectance::Factored(factors);
@@ -94,7 +94,7 @@ fn ways(scene: &FigureScene, light: &CubeLight) -> Result<Ways, ReproduceError> 
         };
         let mut all: Vec<Vec<[f64; 3]>> = all.into_iter().map(colored).collect();
         let surface = Surface { scene, maps, reflectance, color };
-        all.insert(1, surface.of_code(&surface.coded(VECTORS)?.0, &quarters)?);
+        all.insert(1, surface.of_code(&surface.coded(points_per_cluster, VECTORS)?.0, &quarters)?);
         by_part.push(all);
     }
     let ground = by_part.pop().unwrap_or_default();
