@@ -12,7 +12,6 @@ mod interpolate;
 mod precompute;
 mod render;
 
-pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
@@ -28,4 +27,4 @@ pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
 pub use render::{RenderError, Rendering, Turning};
-pub(super) use render::{auto_exposure, cluster_color};
+pub(super) use render::auto_exposure;

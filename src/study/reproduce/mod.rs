@@ -187,11 +187,6 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
         work: all_frequency::factors,
     },
-    ReproduceEntry {
-        id: "all-frequency-figures",
-        title: "Rivals, terms, clusters, representatives, truncation and frame rates (all-frequency transfer, figures 1, 2 and 4 to 7)",
-        work: all_frequency::figures,
-    },
 ];
 
 /// The entries' names.

@@ -2,13 +2,11 @@
 
 mod counts;
 mod factors;
-mod figures;
 mod forms;
 mod roughness;
 
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
-pub(super) use figures::findings as figures;
 
 use super::pipeline::failed;
 use super::shared::Shared;
