@@ -26,5 +26,5 @@ pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
-pub use render::{RenderError, Rendering, Turning};
 pub(super) use render::auto_exposure;
+pub use render::{RenderError, Rendering, Turning};
