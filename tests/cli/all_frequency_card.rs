@@ -25,7 +25,7 @@ fn glossy(folder: &Path) -> [String; 2] {
 }
 
 fn drawn(file: &str, out: &str, options: &[&str]) -> Value {
-    let fixed = ["prt", "card", file, "--model", MODEL, "--size", "48x36", "--out", out];
+    let fixed = ["prt", "card", file, "--model", MODEL, "--size", "48x36", "--exposure", "0.5", "--out", out];
     document(&[&fixed[..], options].concat())
 }
 
@@ -88,8 +88,9 @@ fn a_sweep_says_what_shows() {
         number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
     };
     for what in ["representatives", "weights"] {
-        for [coarse, fine] in [["8 bits", "10 bits"], ["10 bits", "12 bits"], ["12 bits", "14 bits"]] {
-            assert!(of(what, coarse) > 2.0 * of(what, fine), "{what}: {coarse} against {fine}");
+        // Four bits are a sixteenth in the mean; the few large coefficients of a sun make it more or less.
+        for [coarse, fine] in [["8 bits", "12 bits"], ["10 bits", "14 bits"]] {
+            assert!(of(what, coarse) > 3.0 * of(what, fine), "{what}: {coarse} against {fine}");
         }
     }
     assert!(of("bits of G", "8") > 4.0 * of("bits of G", "12") && of("bits of G", "12") > 4.0 * of("bits of G", "16"));

@@ -104,7 +104,11 @@ fn harmonics_of_a_furnace_are_the_albedo() {
         let rival = HarmonicTransfer::new(open.subject(&lambert), order);
         let light = rival.light(white.texels());
         close(light[0][0], (4.0 * PI).sqrt(), 1e-9, "the first harmonic of a furnace");
-        assert!(light[1..].iter().flatten().all(|value| value.abs() < 1e-9), "{light:?}");
+        // Up to l = 3 the cube's symmetry makes the sums over its directions 0; beyond, the rule has an error of the
+        // square of a fine texel's width, 1/64 of a face.
+        let (symmetric, others) = light[1..].split_at(light.len().min(16) - 1);
+        assert!(symmetric.iter().flatten().all(|value| value.abs() < 1e-9), "{light:?}");
+        assert!(others.iter().flatten().all(|value| value.abs() < 1.0 / (64.0 * 64.0)), "{light:?}");
         let found = rival.radiance(DVec3::new(0.3, -0.5, 0.9) * 4.0, &light)[0];
         for (found, radiance) in found.into_iter().zip([1.0, 2.0, 0.5]) {
             close(found, 0.7 * radiance, 2e-4, "an open vertex");
