@@ -50,10 +50,10 @@ pub(super) fn write(file: &AllFrequencyFile, vertex: Option<usize>, folder: &Pat
     Ok(set.commit()?)
 }
 
-fn segment<E>(
-    part: &CodedSegment,
-    put: &mut dyn FnMut(String, usize, &mut dyn Iterator<Item = f32>) -> Result<(), E>,
-) -> Result<(), E> {
+/// Writes numbers as an array with a name, in rows of so many.
+type Put<'a, E> = dyn FnMut(String, usize, &mut dyn Iterator<Item = f32>) -> Result<(), E> + 'a;
+
+fn segment<E>(part: &CodedSegment, put: &mut Put<'_, E>) -> Result<(), E> {
     let (name, columns) = (format!("segment_{:02}", part.segment), part.representatives.columns());
     let codes = part.representatives.decode();
     let rows = codes.chunks_exact(columns).zip(&part.representative_steps);

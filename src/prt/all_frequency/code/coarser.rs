@@ -80,8 +80,9 @@ mod tests {
                     let codes = [fine, coarse].map(|part| part.representatives.decode());
                     for row in 0..rows {
                         let steps = [fine, coarse].map(|part| f64::from(part.representative_steps[row]));
-                        for at in row * columns..(row + 1) * columns {
-                            let [a, b] = [0, 1].map(|side| f64::from(codes[side][at]) * steps[side]);
+                        let rows = codes.each_ref().map(|codes| &codes[row * columns..(row + 1) * columns]);
+                        for (&fine, &coarse) in rows[0].iter().zip(rows[1]) {
+                            let [a, b] = [f64::from(fine) * steps[0], f64::from(coarse) * steps[1]];
                             assert!((a - b).abs() <= steps[1] * (0.5 + 1e-9), "{bits} bits: {a} to {b}");
                         }
                     }
