@@ -75,9 +75,10 @@ fn main() {
     for (name, held) in [("sparse", Representatives::Sparse), ("dense", Representatives::Dense)] {
         let shader = Shader::new(&teapot, held);
         let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
-        println!("{name}: {} bytes of representatives and weights", shader.bytes());
+        // The size stands in the name, so that it is told beside the time.
+        let label = format!("{name}, {} MB", shader.bytes() / 1_000_000);
         group.throughput(Throughput::Elements(per_cluster));
-        group.bench_function(BenchmarkId::new("clusters", name), |bench| {
+        group.bench_function(BenchmarkId::new("clusters", label), |bench| {
             bench.iter(|| black_box(shader.per_cluster(&light).expect("products")));
         });
         if held == Representatives::Sparse {
