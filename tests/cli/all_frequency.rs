@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
+use crossbar::io::parse_npy;
 use serde_json::Value;
 
 use crate::crossbar;
@@ -82,6 +83,80 @@ fn factors_go_from_one_command_to_the_next() {
     document(&format!("prt render {coded} --model {model} --turn camera --frames 2 --size 16x16 --out {page}"));
 }
 
+/// A ground is precomputed, compressed and drawn with its model; each is in the other's light.
+#[test]
+fn a_model_stands_on_a_ground() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [out, ground, ground_model, small, page] =
+        ["on.prt", "on.ground.prt", "on.ground.obj", "small.prt", "page"].map(|name| place(folder.path(), name));
+    let alone = document(&format!("prt precompute {STEP} --kind all-frequency --out {out}"));
+    assert_eq!(alone["ground"], Value::Null);
+    let made = document(&format!("prt precompute {STEP} --kind all-frequency --ground 8 --out {out}"));
+    assert_eq!((&made["ground"]["vertices"], &made["ground"]["terms"]), (&Value::from(64), &Value::from(1)));
+    assert_eq!(
+        (made["ground"]["out"].as_str(), made["ground"]["model"].as_str()),
+        (Some(ground.as_str()), Some(ground_model.as_str()))
+    );
+    let sees = |found: &Value| number(&found["directions_visible"]);
+    assert!(sees(&made) <= sees(&alone), "a ground hides light");
+    // Half of all directions, less what the model hides.
+    assert!(sees(&made["ground"]) < 64.0 * 49_152.0 && sees(&made["ground"]) > 32.0 * 49_152.0);
+    document(&format!(
+        "prt compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
+    ));
+    let render = |options: &str| {
+        document(&format!("prt render {out} --model {STEP} --light constant --size 32x24 --out {page}{options}"))
+    };
+    let pictures = ["", &format!(" --ground {ground}"), &format!(" --ground {small} --ground-model {ground_model}")]
+        .map(|options| {
+            render(options);
+            fs::read(folder.path().join("page/picture.png")).expect("a picture")
+        });
+    assert!(pictures[0] != pictures[1], "the ground is drawn");
+    let other = crossbar(&["prt", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
+    assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
+}
+
+/// A vertex's weights and its decoded transfer are what arrays hold; what is shown of the whole file stays.
+#[test]
+fn a_vertex_is_shown() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let arrays = place(folder.path(), "arrays");
+    let shown = document(&format!("prt show {CODED} --vertex 12 --arrays {arrays}"));
+    assert_eq!((&shown["vertex"]["number"], &shown["vertex"]["directions_visible"]), (&Value::from(12), &Value::Null));
+    let segments = shown["vertex"]["segments"].as_array().expect("segments");
+    assert!(!segments.is_empty() && segments.len() <= 24);
+    let read = |name: &str| {
+        let bytes = fs::read(folder.path().join("arrays").join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        parse_npy(&bytes, Path::new(name)).expect("an array")
+    };
+    let transfer = read("vertex_12_transfer.npy");
+    assert_eq!((transfer.columns, transfer.values.len()), (6144, 6144));
+    for part in segments {
+        let segment = part["segment"].as_u64().expect("a number") as usize;
+        let of_segment = &transfer.values[256 * segment..256 * (segment + 1)];
+        let norm = of_segment.iter().map(|&value| f64::from(value) * f64::from(value)).sum::<f64>().sqrt();
+        assert_relative_eq!(norm, number(&part["norm"]), max_relative = 1e-6);
+        let [weights, clusters, rows] =
+            ["weights", "clusters", "representatives"].map(|what| read(&format!("segment_{segment:02}_{what}.npy")));
+        let at = clusters.values.chunks_exact(2).position(|pair| pair[0] == 12.0).expect("the vertex");
+        assert_eq!(f64::from(clusters.values[2 * at + 1]), number(&part["cluster"]));
+        assert_eq!(rows.columns, 256);
+        let given = part["weights"].as_array().expect("weights");
+        for (found, given) in weights.values[at * weights.columns..].iter().zip(given) {
+            assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-6);
+        }
+    }
+    let sees = document(&format!("prt show {SIGHT} --at 0,0,5 --model {STEP}"));
+    assert!(number(&sees["vertex"]["directions_visible"]) > 1000.0 && sees["vertex"]["segments"].is_null());
+    let ran = crossbar(&["prt", "show", CODED, "--vertex", "12"], "");
+    assert!(
+        ran.code == Some(0) && ran.stdout.contains("segments  ") && ran.stdout.contains("cluster"),
+        "{}",
+        ran.stdout
+    );
+}
+
 /// Light alone: its energy is that of what is kept and what is not; nothing flickers where all is kept.
 #[test]
 fn light_is_taken_apart() {
@@ -114,8 +189,14 @@ fn what_does_not_go_together_is_refused() {
             "prt compress docs/examples/signal.csv --kind all-frequency --out OUT",
             "expected transfer of all frequencies, found another file",
         ),
-        ("prt show docs/examples/step_all.prt --vertex 0", "are for transfer of low frequency"),
+        ("prt show docs/examples/step_all.prt --vertex 70", "expected a vertex below 70 (counted from 0), found 70"),
+        ("prt show docs/examples/step.prt --arrays OUT", "`--arrays` is for transfer of all frequencies"),
         ("prt error docs/examples/step.prt docs/examples/step_all_small.prt", "conventions: expected 1 to 1, found 2"),
+        ("prt precompute docs/examples/step.obj --ground 8 --out OUT", "`--ground` is for transfer of all frequencies"),
+        (
+            "prt render docs/examples/step.prt --model docs/examples/step.obj --ground docs/examples/step_all.prt",
+            "`--ground` is for transfer of all frequencies, found low frequency",
+        ),
         (
             "prt compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out OUT",
             "expected visibility",

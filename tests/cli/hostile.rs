@@ -48,8 +48,9 @@ const COMMANDS: &[(&str, &str)] = &[
     ("prt bicluster nowhere.mtx", "--seed --no-deletion --drop --dump --out"),
     (
         "prt card nowhere.prt --model nowhere.obj",
-        "--model --light --window --weights --map --map-format --target-format --vertex --alone --sweep --device \
-         --switch --executor --adapter --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --light --window --weights --map --map-format --way --filter --radiance --pass-per-channel \
+         --partial --keep --original --target-format --vertex --alone --sweep --device --switch --executor --adapter \
+         --size --eye --target --up --tan-half-height --exposure --out",
     ),
     (
         "prt compress nowhere.prt --out y.prt",
@@ -69,14 +70,14 @@ const COMMANDS: &[(&str, &str)] = &[
     ("prt multiply nowhere.mtx", "--light --window --rotate --values"),
     (
         "prt precompute nowhere.obj --out x.prt",
-        "--kind --factors --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
+        "--kind --factors --ground --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
          --degree --bounces --bounce-tolerance --out --directions --horizon --samples --matrix",
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --kind --original --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --original --ground --ground-model --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
-    ("prt show nowhere.prt", "--kind --vertex --at --model"),
+    ("prt show nowhere.prt", "--kind --vertex --at --model --arrays"),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \

@@ -1,6 +1,7 @@
 //! The program as a user meets it: arguments in; text, exit code and files out.
 
 mod all_frequency;
+mod all_frequency_card;
 mod alu;
 mod atlas;
 mod bad_input;

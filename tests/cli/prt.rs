@@ -12,7 +12,7 @@ use crate::{crossbar, crossbar_in};
 
 const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.prt", "docs/examples/step_small.prt"];
 
-fn document(arguments: &[&str]) -> Value {
+pub(crate) fn document(arguments: &[&str]) -> Value {
     let ran = crossbar(&[arguments, &["--json"]].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
     serde_json::from_str(&ran.stdout).expect("one JSON document")

@@ -2,17 +2,19 @@
 
 use approx::assert_relative_eq;
 use crossbar::prt::all_frequency::Reflectance;
+use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
 use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crossbar::prt::all_frequency::kernels::ViewNumbers;
 use crossbar::prt::all_frequency::on_card::reference::pixel_of_products;
 use crossbar::prt::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
 use crossbar::prt::all_frequency::on_card::{
-    FactoredCard, ProductOptions, ProductPlace, TransferredMesh, VertexColors, seen_pixels,
+    FactoredCard, ProductOptions, ProductPlace, SumCard, TransferredMesh, VertexColors, seen_pixels,
 };
-use crossbar::prt::all_frequency::shade::{Multiplies, TransferredRadiance};
+use crossbar::prt::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
 use crossbar::prt::on_card::PrtView;
 use crossbar::prt::on_card::time::frame_time;
-use crossbar::prt::synthetic::{hills, signal_at};
+use crossbar::prt::synthetic::{hills, signal_at, torus_signal};
 use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::Camera;
 use crossbar::study::prt::{factored_precision, factored_precision_table};
@@ -82,7 +84,7 @@ fn pixels_show_what_their_rays_meet() {
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
-    let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5)).expect("pictures");
+    let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5), &mut |_| ()).expect("pictures");
     let seen = seen_pixels(&Profile::named("r350").expect("a card"), &hills.vertices, &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
         let view = (ViewNumbers::Coordinates, camera().eye());
@@ -94,7 +96,7 @@ fn what_is_coarser_is_farther_off() {
     assert_eq!(table.rows().len(), ways.len());
     let rms = |choice: &str| {
         let way = ways.iter().find(|way| way.choice == choice).unwrap_or_else(|| panic!("{choice}"));
-        way.off_255ths[0]
+        way.errors.off_255ths[0]
     };
     assert!(rms("fp32 throughout") < 1e-3);
     for [coarse, fine] in [["8", "10"], ["10", "12"], ["12", "14"], ["14", "16"]] {
@@ -183,4 +185,69 @@ fn the_card_waits_for_the_host_of_table_1() {
         let of_card = time.draws + time.uploads;
         assert!(100.0 * of_card.seconds() < time.frame.seconds(), "{time:?}");
     }
+}
+
+/// Made-up transfer of 60 vertices in two segments.
+fn coded(rows: usize, vectors: usize) -> CodedTransfer {
+    let segment = |segment: usize, vertices: Vec<u32>| {
+        let options = SegmentOptions { points_per_cluster: 20, vectors, iterations: 3, ..SegmentOptions::default() };
+        let signal = torus_signal(vertices.len(), rows * 16, segment as u64);
+        CompressedSegment::new(segment, vertices, &signal, &options, |_| ()).expect("compressed")
+    };
+    let segments = vec![segment(1, (0..50).collect()), segment(2, (20..60).collect())];
+    let transfer = CompressedTransfer::new(rows, 60, segments).expect("transfer");
+    CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded")
+}
+
+/// Equation 13 by pixel programs is that of plain loops in f64 of the same code, to the rounding of each card's
+/// arithmetic; of clusters with more than sixteen representatives too.
+#[test]
+fn sums_by_a_card_are_those_of_plain_loops() {
+    let light: Vec<[f32; 3]> = (0..48).map(|at| [at % 3, at % 5, at % 7].map(|value| value as f32 - 1.75)).collect();
+    let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
+    for (rows, vectors) in [(1, 4), (10, 16), (3, 20)] {
+        let coded = coded(rows, vectors);
+        let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
+        let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+        // Sums of up to forty products, each rounded to a significand of 17, 24 and 11 bits.
+        for (device, bits) in [("r350", 17), ("nv35", 24), ("ideal-fp32", 24)] {
+            let profile = Profile::named(device).expect("a device");
+            let mut card = SumCard::new(profile, ExecutorKind::Batch, &coded).expect("a card");
+            let (found, log) = card.transferred(&light).expect("sums");
+            let again = card.transferred(&light).expect("sums").0;
+            assert_eq!(found, again, "{device}: what one light leaves must not reach the next");
+            let tolerance = most * 80.0 / f64::from(1 << bits);
+            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
+                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
+                    assert!((f64::from(*found) - expected).abs() < tolerance, "{device} {vertex}: {found} {expected}");
+                }
+            }
+            assert!(log.sent > 0 && log.returned > 0 && card.texture_bytes() > log.returned);
+        }
+    }
+}
+
+/// What does not fit is refused with the limit's name.
+#[test]
+fn sums_that_no_card_holds_are_refused() {
+    let refused = |profile: Profile, coded: &CodedTransfer| {
+        SumCard::new(profile, ExecutorKind::Batch, coded).expect_err("refused").to_string()
+    };
+    let few = coded(2, 4);
+    let named = |name: &str| Profile::named(name).expect("a device");
+    let language = refused(named("nv20"), &few);
+    assert!(language.contains("nv20") && language.contains("!!ARBfp1.0") && language.contains("r350"), "{language}");
+    let mut small = named("r350");
+    small.limits.samplers = Some(6);
+    assert!(refused(small, &few).contains("limits.samplers"));
+    let mut narrow = named("r350");
+    narrow.limits.max_texture_size = Some(7);
+    let error = refused(narrow, &few);
+    assert!(
+        error.contains("60 vertices need 9 rows of texels") && error.contains("limits.max_texture_size"),
+        "{error}"
+    );
+    let mut card = SumCard::new(named("r350"), ExecutorKind::Batch, &few).expect("a card");
+    let error = card.transferred(&[[1.0; 3]; 20]).expect_err("refused").to_string();
+    assert_eq!(error, "expected 48 light coefficients, found 20");
 }

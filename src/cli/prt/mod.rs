@@ -3,6 +3,7 @@
 mod all_frequency;
 mod bi_scale;
 mod card;
+mod card_values;
 mod compress;
 mod error;
 mod factor;
@@ -62,6 +63,7 @@ enum Verb {
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     // Which of the two kinds of transfer the verb is about.
     let all = match &args.verb {
+        Verb::Card(args) => all_frequency::is_asked(args.kind, args.file())?,
         Verb::Compress(args) => all_frequency::is_asked(args.kind, &args.signal)?,
         Verb::Error(args) => all_frequency::is_asked(args.kind, &args.signal)?,
         Verb::Render(args) => all_frequency::is_asked(args.kind, args.file())?,
@@ -69,6 +71,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     };
     match &args.verb {
         Verb::Bicluster(args) => bi_scale::bicluster::run(args, out)?,
+        Verb::Card(args) if all => return study::run(&all_frequency::card::Args(args), command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compress(args) if all => all_frequency::compress::run(args, out)?,
         Verb::Compress(args) => compress::run(args, out)?,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::all_frequency::precompute::Wanted;
 use super::bi_scale::precompute::BiScaleArgs;
 use super::model::{load, vertices};
 use super::values::{BrdfArg, ChannelsArg, ExitArg, HatsArg, IncidentArg, KindArg, RowsArg, TangentsArg};
@@ -30,10 +31,13 @@ Examples:
       what each vertex sees, for light of all frequencies on a diffuse surface; `--factors` for a glossy one
   crossbar prt precompute docs/examples/step.obj --kind bi-scale --directions 8 --matrix step.mtx --out step.prt
       which light texels each vertex sees, and from which of its 64 local directions
+  crossbar prt precompute docs/examples/step.obj --kind all-frequency --ground 24 --out step.prt
+      the same on a ground, which `crossbar prt render` draws with its `--ground`
   crossbar prt precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
       light that scatters below the surface, in three channels
 
-The file holds a matrix of 32-bit floats per vertex: `crossbar prt compress` makes it small.";
+The file holds a matrix of 32-bit floats per vertex: `crossbar prt compress` makes it small. It is written whole at the end: an interrupted \
+run leaves nothing, and cannot be resumed.";
 
 /// The solid angle below which vertices that scatter count as one point, in steradians.
 const SOLID_ANGLE: f64 = 0.05;
@@ -57,6 +61,11 @@ pub(super) struct Args {
     /// [default: the one term of a diffuse surface]
     #[arg(long, value_name = "DIR")]
     factors: Option<PathBuf>,
+
+    /// Put the model on a diffuse ground of N x N vertices, for --kind all-frequency; the paper has 192. Written beside
+    /// --out, with the endings ground.prt and ground.obj: the ground's own file and its model
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1024))]
+    ground: Option<u32>,
 
     /// Width in texels of the hats of the light's texels, for --kind all-frequency
     #[arg(long, value_enum, value_name = "WIDTH", default_value = "two")]
@@ -135,8 +144,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         return Err(Problem::usage(what, "add `--kind bi-scale`").into());
     }
     if args.kind == KindArg::AllFrequency {
-        let &Args { ref model, ref factors, hats, tangents, out: ref path, .. } = args;
-        return all_frequency::precompute::run((model, tangents), factors.as_deref(), hats, path, out);
+        let &Args { ref model, ref factors, hats, tangents, ground, out: ref path, .. } = args;
+        let factors = factors.as_deref();
+        return all_frequency::precompute::run(Wanted { model, tangents, factors, hats, ground, path }, out);
+    }
+    if args.ground.is_some() {
+        let what = "`--ground` is for transfer of all frequencies";
+        return Err(Problem::usage(what, "add `--kind all-frequency`").into());
     }
     if args.factors.is_some() {
         return Err(

@@ -57,6 +57,14 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X.prt")]
     pub(super) original: Option<PathBuf>,
 
+    /// The ground that `crossbar prt precompute --ground` wrote, compressed or not, for transfer of all frequencies
+    #[arg(long, value_name = "G.prt")]
+    pub(super) ground: Option<PathBuf>,
+
+    /// Its model [default: G.obj]
+    #[arg(long, value_name = "MODEL", requires = "ground")]
+    pub(super) ground_model: Option<PathBuf>,
+
     #[command(flatten)]
     pub(super) light: LightArgs,
 
@@ -123,7 +131,13 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
+        let files = [
+            Some(self.file.as_path()),
+            self.original.as_deref(),
+            self.ground.as_deref(),
+            self.ground_model.as_deref(),
+            self.light.file(),
+        ];
         files.into_iter().flatten().chain(model_name::named_file(&self.model)).collect()
     }
 
@@ -132,6 +146,10 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Rendering> {
+        if self.ground.is_some() {
+            let what = "`--ground` is for transfer of all frequencies, found low frequency";
+            return Err(Problem::usage(what, "leave it out").into());
+        }
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.model)?;
         let light_order = light_order(&file)?;
         let original = match &self.original {

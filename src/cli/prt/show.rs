@@ -11,7 +11,7 @@ use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
 use crate::prt::cpca::Clustering;
-use crate::prt::file::{PrtFile, PrtMeaning, load_prt};
+use crate::prt::file::{PrtFile, PrtMeaning, load_all_frequency, load_prt};
 use crate::report::{Cell, Table};
 
 const EXAMPLES: &str = "\
@@ -23,7 +23,9 @@ Examples:
   crossbar prt show docs/examples/step.prt --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
   crossbar prt show docs/examples/step_all_small.prt
-      transfer of all frequencies: what is coded, in how many bytes";
+      transfer of all frequencies: what is coded, in how many bytes
+  crossbar prt show docs/examples/step_all_small.prt --vertex 12 --arrays arrays
+      and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
@@ -52,15 +54,20 @@ pub(super) struct Args {
     /// The model that the file was made from, for --at
     #[arg(long, value_name = "MODEL", requires = "at")]
     model: Option<PathBuf>,
+
+    /// Write what the file holds to this folder as arrays of NumPy's: factors, each segment's representatives, weights
+    /// and clusters, and what the vertex sees and its transfer; for transfer of all frequencies
+    #[arg(long, value_name = "DIR")]
+    arrays: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if all_frequency::is_asked(args.kind, &args.file)? {
-        if args.vertex.is_some() || args.at.is_some() {
-            let what = "`--vertex` and `--at` are for transfer of low frequency";
-            return Err(Problem::usage(what, "leave them out").into());
-        }
-        return all_frequency::show::run(&args.file, out);
+        return show_all_frequency(args, out);
+    }
+    if args.arrays.is_some() {
+        let what = "`--arrays` is for transfer of all frequencies, found low frequency";
+        return Err(Problem::usage(what, "leave it out; `--json` has every number").into());
     }
     view::require_file(&args.file, 3, "name a smaller file")?;
     let file = load_prt(&args.file, None)?;
@@ -83,6 +90,20 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         Some(vertex) => one(&file, vertex, out),
         None => all(&file, out),
     }
+}
+
+/// The same of all frequencies.
+fn show_all_frequency(args: &Args, out: &mut Out) -> miette::Result<()> {
+    view::require_file(&args.file, 3, "name a smaller file")?;
+    let (file, nearest) = match (args.at, &args.model) {
+        (Some(at), Some(model)) => {
+            let of_model = all_frequency::FileOfModel::load(&args.file, model)?;
+            (of_model.file, nearest(of_model.vertices.positions(), at))
+        }
+        _ => (load_all_frequency(&args.file, None)?, None),
+    };
+    let vertex = args.vertex.map(|vertex| vertex as usize).or(nearest);
+    all_frequency::show::run((&file, vertex), args.arrays.as_deref(), out)
 }
 
 /// The vertex nearest to a place, of equals the first.

@@ -8,6 +8,7 @@
 //! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
 //! - [`shade`]: transferred radiance from coded transfer and light (section 6);
 //! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);
+//! - [`rivals`]: the methods that Figure 1 compares with;
 //! - [`mod@reference`]: all of it by plain loops, without compression.
 
 pub mod code;
@@ -21,6 +22,7 @@ pub mod light;
 pub mod on_card;
 pub mod reference;
 mod reflectance;
+pub mod rivals;
 pub mod shade;
 pub mod transfer;
 pub mod visibility;

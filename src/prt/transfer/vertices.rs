@@ -116,6 +116,28 @@ impl Vertices {
         Ok(Self { positions, frames, materials: materials_of, triangles, tangents, unused, replaced_tangents })
     }
 
+    /// These vertices and triangles, then others, each with the frame that it has: a scene of two meshes. Materials of
+    /// both are told apart by their meshes alone.
+    #[must_use]
+    pub fn joined(&self, others: &Self) -> Self {
+        let first = self.positions.len() as u32;
+        let moved = |vertex: &u32| vertex + first;
+        let triangles = others.triangles.iter().map(|corners| corners.map(|corner| corner + first));
+        Self {
+            positions: [&self.positions[..], &others.positions].concat(),
+            frames: [&self.frames[..], &others.frames].concat(),
+            materials: [&self.materials[..], &others.materials].concat(),
+            triangles: self.triangles.iter().copied().chain(triangles).collect(),
+            tangents: self.tangents,
+            unused: self.unused + others.unused,
+            replaced_tangents: [
+                &self.replaced_tangents[..],
+                &others.replaced_tangents.iter().map(moved).collect::<Vec<_>>(),
+            ]
+            .concat(),
+        }
+    }
+
     /// The number of vertices.
     pub fn len(&self) -> usize {
         self.positions.len()

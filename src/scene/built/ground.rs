@@ -29,18 +29,27 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite coordinates of a grid")
 }
 
-/// A model on a ground of [`GROUND_SIDE`] that touches its lowest point, twice as wide as the model is along its
-/// longest side of x and y: both in one mesh, and a material per triangle, 0 of the model and 1 of the ground.
+/// A ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along its
+/// longest side of x and y.
+///
+/// # Panics
+/// As [`ground`].
+pub fn ground_of(model: &Mesh, side: u32) -> Mesh {
+    let [low, high] = model.bounds().unwrap_or_default().map(wide);
+    let middle = (low / 2.0 + high / 2.0).with_z(low.z);
+    let width = (high - low).truncate().max_element();
+    ground(side, middle, if width > 0.0 { width } else { 1.0 })
+}
+
+/// A model on its ground ([`ground_of`]): both in one mesh, and a material per triangle, 0 of the model and 1 of the
+/// ground.
 ///
 /// The ground's vertices have normals; the model keeps its own, or is given the means of its triangles.
 ///
 /// # Errors
 /// [`MeshError::TooMany`] if there are too many triangles.
-pub fn on_ground(model: &Mesh) -> Result<(Mesh, Vec<u32>), MeshError> {
-    let [low, high] = model.bounds().unwrap_or_default().map(wide);
-    let middle = (low / 2.0 + high / 2.0).with_z(low.z);
-    let width = (high - low).truncate().max_element();
-    let ground = ground(GROUND_SIDE, middle, if width > 0.0 { width } else { 1.0 });
+pub fn on_ground(model: &Mesh, side: u32) -> Result<(Mesh, Vec<u32>), MeshError> {
+    let ground = ground_of(model, side);
     let first = model.positions().len() as u32;
     let positions = [model.positions(), ground.positions()].concat();
     let moved = ground.triangles().iter().map(|corners| corners.map(|corner| corner + first));
@@ -69,7 +78,7 @@ mod tests {
     #[test]
     fn a_model_stands_on_its_ground() {
         let model = crate::geom::teapot::teapot(2).expect("a teapot");
-        let (both, materials) = on_ground(&model).expect("a mesh");
+        let (both, materials) = on_ground(&model, GROUND_SIDE).expect("a mesh");
         assert_eq!(materials.iter().filter(|&&material| material == 0).count(), model.len());
         assert_eq!(both.positions().len(), model.positions().len() + 36_864);
         assert_eq!(both.bounds().map(|[low, _]| low[2]), model.bounds().map(|[low, _]| low[2]));

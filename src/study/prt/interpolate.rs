@@ -19,15 +19,34 @@ pub(in crate::study) struct Seen {
 impl Seen {
     /// From a camera, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
+        Self::of_parts(&[(mesh, vertices)], camera)
+    }
+
+    /// The nearest of several meshes; vertices of a mesh are counted after those of the meshes before it.
+    pub(super) fn of_parts(parts: &[(&Mesh, &Vertices)], camera: &Camera) -> Self {
         let rays = camera.rays();
-        let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
-        let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
-            let hit = hit.as_ref()?;
-            let corners = vertices.triangles()[hit.triangle as usize];
-            let places = corners.map(|corner| wide(vertices.positions()[corner as usize]));
-            Some((corners, weights(wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction()), places)))
-        };
-        Self { pixels: rays.par_iter().zip(&hits).map(pixel).collect() }
+        let mut nearest: Vec<Option<(f32, [u32; 3], DVec3)>> = vec![None; rays.len()];
+        let mut first = 0;
+        for (mesh, vertices) in parts {
+            let (hits, _) = HostTracer::new(mesh, Sides::Front).nearest_all(&rays);
+            let pixel = |(ray, hit): (&Ray, &Option<Hit>)| {
+                let hit = hit.as_ref()?;
+                let corners = vertices.triangles()[hit.triangle as usize];
+                let places = corners.map(|corner| wide(vertices.positions()[corner as usize]));
+                let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
+                Some((hit.t, corners.map(|corner| corner + first), weights(at, places)))
+            };
+            let found: Vec<_> = rays.par_iter().zip(&hits).map(pixel).collect();
+            for (nearest, found) in nearest.iter_mut().zip(found) {
+                let is_nearer = |&(t, ..): &(f32, [u32; 3], DVec3)| nearest.is_none_or(|(before, ..)| t < before);
+                if let Some(found) = found.filter(is_nearer) {
+                    *nearest = Some(found);
+                }
+            }
+            first += vertices.len() as u32;
+        }
+        let pixels = nearest.into_iter().map(|pixel| pixel.map(|(_, corners, weights)| (corners, weights)));
+        Self { pixels: pixels.collect() }
     }
 
     /// Pixels that show the model.

@@ -1,7 +1,7 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
-//! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and factors of a
-//! reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`], [`SegmentedCompression`],
-//! [`AllFrequencyRendering`].
+//! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and
+//! factors of a reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`],
+//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`].
 
 mod all_frequency;
 mod card;
@@ -13,10 +13,13 @@ mod precompute;
 mod render;
 
 pub use all_frequency::{
-    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, SegmentTally, SegmentedCompression,
-    SegmentedError, SightOfModel, coded_errors,
+    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
+    SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
-pub use card::{CardError, FactoredPrecision, OnCard, factored_precision, factored_precision_table};
+pub use card::{
+    AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
+    factored_precision_table,
+};
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};

@@ -8,6 +8,7 @@ mod haar;
 mod hats;
 mod light;
 mod orientation;
+mod rivals;
 mod shadows;
 mod symmetry;
 mod transfer;

@@ -4,7 +4,7 @@ use crossbar::geom::teapot::teapot;
 use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
 use crossbar::prt::all_frequency::visibility::SegmentCensus;
 use crossbar::prt::transfer::{Tangents, Vertices};
-use crossbar::scene::built::ground::on_ground;
+use crossbar::scene::built::ground::{GROUND_SIDE, on_ground};
 use glam::DVec3;
 
 use super::trace;
@@ -14,7 +14,7 @@ use super::trace;
 #[test]
 fn the_ground_receives_the_shadow_of_its_model() {
     let model = teapot(3).expect("a teapot");
-    let (mesh, materials) = on_ground(&model).expect("a mesh");
+    let (mesh, materials) = on_ground(&model, GROUND_SIDE).expect("a mesh");
     let vertices = Vertices::with_materials(&mesh, &materials, Tangents::Any).expect("vertices");
     let ground: Vec<u32> =
         (0..vertices.len() as u32).filter(|&vertex| vertices.materials()[vertex as usize] == 1).collect();

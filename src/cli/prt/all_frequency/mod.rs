@@ -1,5 +1,7 @@
 //! The verbs of `crossbar prt` for transfer of all frequencies.
 
+mod arrays;
+pub(super) mod card;
 pub(super) mod compress;
 pub(super) mod error;
 pub(super) mod precompute;
@@ -12,10 +14,11 @@ use std::path::Path;
 
 use super::model::{load, vertices};
 use super::values::KindArg;
-use crate::cli::Problem;
 use crate::cli::model_name::Model;
+use crate::cli::{Problem, view};
 use crate::prt::file::{AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency};
 use crate::prt::transfer::Vertices;
+use crate::scene::{Material, Surface};
 
 /// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
 pub(super) fn is_such(path: &Path) -> bool {
@@ -57,5 +60,24 @@ impl FileOfModel {
         let digest = MeshDigest::new(&vertices);
         file.require_mesh(&digest, path)?;
         Ok(Self { file, model, vertices, digest })
+    }
+}
+
+/// A file with visibility, of the same mesh and reflectance as another.
+fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
+    view::require_file(path, 3, "name a smaller file")?;
+    let original = load_all_frequency(path, Some(mesh))?;
+    if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
+        let what = format!("{}: expected visibility with the same reflectance, found other", path.display());
+        return Err(Problem::usage(what, "name the file that was compressed").into());
+    }
+    Ok(original)
+}
+
+/// What a surface's radiance is multiplied by: its albedo, or 1 if it has none.
+fn color(material: &Material) -> [f64; 3] {
+    match &material.surface {
+        Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
+        _ => [1.0; 3],
     }
 }

@@ -2,58 +2,135 @@
 
 use std::path::Path;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::cli::prt::model::{load, refused, vertices};
 use crate::cli::prt::values::{HatsArg, TangentsArg};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
-use crate::io::{NumberTable, load_numbers};
+use crate::geom::Mesh;
+use crate::io::{NumberTable, load_numbers, write_file, write_obj};
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::factor::ProductFactors;
 use crate::prt::all_frequency::hats::HatWidth;
 use crate::prt::all_frequency::visibility::VISIBILITY_BYTES;
 use crate::prt::file::save_all_frequency;
+use crate::prt::transfer::{Tangents, Vertices};
+use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
-use crate::study::prt::SightOfModel;
+use crate::study::prt::{FoundSight, SightOfModel};
 
 /// Longest array of factors, in bytes.
 const MAX_FACTORS: u64 = 256 << 20;
 /// Memory of rays that wait to be cast, and of the tree, in bytes.
 const RAYS: u64 = 128 << 20;
 
-pub(in crate::cli::prt) fn run(
-    (model, tangents): (&Path, TangentsArg),
-    factors: Option<&Path>,
-    hats: HatsArg,
-    path: &Path,
-    out: &mut Out,
-) -> miette::Result<()> {
-    let reflectance = factors.map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
-    let model = load(model, tangents.0)?;
+/// What is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::cli::prt) struct Wanted<'a> {
+    pub(in crate::cli::prt) model: &'a Path,
+    pub(in crate::cli::prt) tangents: TangentsArg,
+    pub(in crate::cli::prt) factors: Option<&'a Path>,
+    pub(in crate::cli::prt) hats: HatsArg,
+    /// Vertices along an edge of a ground.
+    pub(in crate::cli::prt) ground: Option<u32>,
+    pub(in crate::cli::prt) path: &'a Path,
+}
+
+pub(in crate::cli::prt) fn run(wanted: Wanted<'_>, out: &mut Out) -> miette::Result<()> {
+    let Wanted { tangents, path, .. } = wanted;
+    let reflectance = wanted.factors.map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
+    let model = load(wanted.model, tangents.0)?;
     let vertices = vertices(&model, tangents.0)?;
-    let maps = (VISIBILITY_BYTES + 200) as u64 * vertices.len() as u64;
-    let what = format_args!("visibility of {} vertices, {VISIBILITY_BYTES} bytes each", vertices.len());
-    memory::require(what, maps + RAYS + 100 * model.mesh.len() as u64, "name a model of fewer vertices")?;
-    let hats = if hats == HatsArg::One { HatWidth::OneTexel } else { HatWidth::TwoTexels };
+    let below = u64::from(wanted.ground.unwrap_or(0)).pow(2);
+    let count = vertices.len() as u64 + below;
+    let what = format_args!("visibility of {count} vertices, {VISIBILITY_BYTES} bytes each");
+    let help = "name a model of fewer vertices, or a smaller ground";
+    memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
+    let hats = if wanted.hats == HatsArg::One { HatWidth::OneTexel } else { HatWidth::TwoTexels };
+    let ground = wanted.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
     let bar = ProgressBar::new("", 1);
-    let sight = SightOfModel { mesh: &model.mesh, vertices: &vertices, hats, reflectance };
-    let (file, census) = sight.run(&mut |what, done, of| bar.show(what.to_owned(), done, of)).map_err(refused)?;
-    save_all_frequency(&file, path).map_err(Problem::from)?;
+    let sight = SightOfModel {
+        scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
+        vertices: &vertices,
+        hats,
+        reflectance,
+        ground: ground.as_ref().map(|ground| &ground.vertices),
+    };
+    let (found, below) = sight.run(&mut |what, done, of| bar.show(what.to_owned(), done, of)).map_err(refused)?;
+    save_all_frequency(&found.file, path).map_err(Problem::from)?;
+    let [ground_path, ground_mesh] = ["ground.prt", "ground.obj"].map(|ending| path.with_extension(ending));
+    if let (Some(ground), Some(below)) = (&ground, &below) {
+        save_all_frequency(&below.file, &ground_path).map_err(Problem::from)?;
+        write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
+    }
     drop(bar);
+    if out.json() {
+        let mut document = document(&found, path);
+        document["unused_vertices"] = json!(vertices.unused);
+        document["replaced_tangents"] = json!(vertices.replaced_tangents);
+        document["ground"] = json!(below.as_ref().map(|below| {
+            let mut ground = self::document(below, &ground_path);
+            ground["model"] = json!(ground_mesh);
+            ground
+        }));
+        return Ok(out.document(&document)?);
+    }
+    tell(&found, out)?;
+    for (count, what) in [
+        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
+        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
+    ] {
+        if count > 0 {
+            out.sentence(format_args!("note      {} {what}", counted(count)))?;
+        }
+    }
+    out.line(format_args!("written   {}", path.display()))?;
+    if let Some(below) = &below {
+        out.line("")?;
+        out.line("ground    below the model, diffuse")?;
+        tell(below, out)?;
+        out.line(format_args!("written   {}", ground_path.display()))?;
+        out.line(format_args!("written   {}, its model", ground_mesh.display()))?;
+    }
+    Ok(())
+}
+
+/// A ground below a model.
+struct Ground {
+    mesh: Mesh,
+    vertices: Vertices,
+    /// The model on it.
+    scene: Mesh,
+}
+
+impl Ground {
+    fn new(model: &Mesh, side: u32) -> miette::Result<Self> {
+        let mesh = ground_of(model, side);
+        let vertices = Vertices::new(&mesh, Tangents::Any).map_err(refused)?;
+        let help = "name a model of fewer triangles, or a smaller ground";
+        let (scene, _) = on_ground(model, side).map_err(|error| Problem::usage(error.to_string(), help))?;
+        Ok(Self { mesh, vertices, scene })
+    }
+}
+
+fn document(found: &FoundSight, path: &Path) -> Value {
+    let FoundSight { file, census } = found;
+    let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
+    json!({
+        "out": path, "vertices": file.mesh.vertices, "terms": file.reflectance.terms(), "omega": census.omega(),
+        "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
+        "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
+        "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
+        "unclear_vertices": counts.unclear,
+    })
+}
+
+fn tell(found: &FoundSight, out: &mut Out) -> miette::Result<()> {
+    let FoundSight { file, census } = found;
     let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
     let terms = file.reflectance.terms();
-    if out.json() {
-        return Ok(out.document(&json!({
-            "out": path, "vertices": vertices.len(), "unused_vertices": vertices.unused, "terms": terms,
-            "replaced_tangents": vertices.replaced_tangents, "omega": census.omega(),
-            "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
-            "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
-            "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
-            "unclear_vertices": counts.unclear,
-        }))?);
-    }
-    out.line(format_args!("vertices  {}, {terms} terms of reflectance", counted(vertices.len())))?;
+    out.line(format_args!("vertices  {}, {terms} terms of reflectance", counted(file.mesh.vertices as usize)))?;
     let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
     out.sentence(format_args!(
         "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
@@ -64,16 +141,10 @@ pub(in crate::cli::prt) fn run(
         census.least_below,
         census.mean_below()
     ))?;
-    for (count, what) in [
-        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
-        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
-        (counts.unclear.len(), "vertices lie on triangles that face each other"),
-    ] {
-        if count > 0 {
-            out.sentence(format_args!("note      {} {what}", counted(count)))?;
-        }
+    if !counts.unclear.is_empty() {
+        let count = counted(counts.unclear.len());
+        out.sentence(format_args!("note      {count} vertices lie on triangles that face each other"))?;
     }
-    out.line(format_args!("written   {}", path.display()))?;
     Ok(())
 }
 

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use super::FileOfModel;
+use super::{FileOfModel, color, original_of};
 use crate::cli::memory::MemoryNeed;
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
-use crate::cli::{Problem, view};
+use crate::cli::view;
 use crate::prt::all_frequency::light::Decimation;
-use crate::prt::file::load_all_frequency;
-use crate::scene::{Material, Surface};
-use crate::study::prt::AllFrequencyRendering;
+use crate::study::prt::{AllFrequencyRendering, RenderedGround};
 
 /// The options of `render`, for such a file.
 #[derive(Debug)]
@@ -36,23 +34,17 @@ impl StudyArgs for Args<'_> {
         let render::Args { model: name, original, light, keep, frames, size, eye, exposure, .. } = self.0;
         view::require_file(self.0.file(), 3, "name a smaller file")?;
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.0.file(), name)?;
-        let original = match original {
-            None => None,
-            Some(path) => {
-                view::require_file(path, 3, "name a smaller file")?;
-                let original = load_all_frequency(path, Some(&digest))?;
-                if original.visibility.is_none()
-                    || original.reflectance != file.reflectance
-                    || original.hats != file.hats
-                {
-                    let what =
-                        format!("{}: expected visibility with the same reflectance, found other", path.display());
-                    return Err(Problem::usage(what, "name the file that was compressed").into());
-                }
-                Some(original)
-            }
-        };
+        let original = original.as_ref().map(|path| original_of(&file, &digest, path)).transpose()?;
+        let ground = self.0.ground.as_ref().map(|path| {
+            let beside = path.with_extension("obj");
+            view::require_file(path, 3, "name a smaller file")?;
+            let FileOfModel { file, model, vertices, .. } =
+                FileOfModel::load(path, self.0.ground_model.as_ref().unwrap_or(&beside))?;
+            let colors = model.materials.iter().map(color).collect();
+            Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
+        });
         Ok(AllFrequencyRendering {
+            ground: ground.transpose()?,
             model: name.display().to_string(),
             camera: eye.framing(&model.mesh, *size)?,
             colors: model.materials.iter().map(color).collect(),
@@ -68,13 +60,5 @@ impl StudyArgs for Args<'_> {
             frames: *frames,
             turning: self.0.turning(),
         })
-    }
-}
-
-/// What a surface's radiance is multiplied by: its albedo, or 1 if it has none.
-fn color(material: &Material) -> [f64; 3] {
-    match &material.surface {
-        Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
-        _ => [1.0; 3],
     }
 }

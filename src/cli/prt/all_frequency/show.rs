@@ -2,31 +2,61 @@
 
 use std::path::Path;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
+use super::arrays;
 use crate::cli::words::counted;
-use crate::cli::{Out, view};
+use crate::cli::{Out, Problem};
 use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::CodedSegment;
 use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::file::load_all_frequency;
+use crate::prt::file::AllFrequencyFile;
+use crate::report::{Cell, Table};
 
-pub(in crate::cli::prt) fn run(path: &Path, out: &mut Out) -> miette::Result<()> {
-    view::require_file(path, 3, "name a smaller file")?;
-    let file = load_all_frequency(path, None)?;
-    let terms = file.reflectance.terms();
-    let visible = file.visibility.as_ref().map(|maps| maps.counts.visible);
-    if out.json() {
-        let coded = file.coded.as_ref().map(|coded| {
-            let (nonzeros, numbers) = coded.nonzeros();
-            json!({ "segments": coded.segments.len(), "clusters": coded.clusters(), "nonzeros": nonzeros,
-                    "numbers": numbers, "bytes": coded.size().total(),
-                    "representative_bits": coded.options.representative_bits, "weight_bits": coded.options.weight_bits })
-        });
-        return Ok(out.document(&json!({
-            "kind": "all-frequency", "mesh": file.mesh.to_string(), "vertices": file.mesh.vertices, "terms": terms,
-            "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
-        }))?);
+/// The whole file, or a vertex of it; arrays into a folder.
+pub(in crate::cli::prt) fn run(
+    (file, vertex): (&AllFrequencyFile, Option<usize>),
+    folder: Option<&Path>,
+    out: &mut Out,
+) -> miette::Result<()> {
+    let vertices = file.mesh.vertices as usize;
+    if let Some(vertex) = vertex.filter(|&vertex| vertex >= vertices) {
+        let what = format!("expected a vertex below {vertices} (counted from 0), found {vertex}");
+        return Err(Problem::usage(what, "`crossbar prt show` says how many there are").into());
     }
+    let written = folder.map(|folder| arrays::write(file, vertex, folder)).transpose()?;
+    if out.json() {
+        let mut document = header(file);
+        document["vertex"] = json!(vertex.map(|vertex| vertex_document(file, vertex)));
+        document["arrays"] = json!(written);
+        return Ok(out.document(&document)?);
+    }
+    match vertex {
+        None => all(file, out)?,
+        Some(vertex) => one(file, vertex, out)?,
+    }
+    if let (Some(written), Some(folder)) = (written, folder) {
+        out.line(format_args!("written   {} arrays in {}", written.len(), folder.display()))?;
+    }
+    Ok(())
+}
+
+fn header(file: &AllFrequencyFile) -> Value {
+    let visible = file.visibility.as_ref().map(|maps| maps.counts.visible);
+    let coded = file.coded.as_ref().map(|coded| {
+        let (nonzeros, numbers) = coded.nonzeros();
+        json!({ "segments": coded.segments.len(), "clusters": coded.clusters(), "nonzeros": nonzeros,
+                "numbers": numbers, "bytes": coded.size().total(),
+                "representative_bits": coded.options.representative_bits, "weight_bits": coded.options.weight_bits })
+    });
+    json!({
+        "kind": "all-frequency", "mesh": file.mesh.to_string(), "vertices": file.mesh.vertices,
+        "terms": file.reflectance.terms(), "hats": file.hats.to_string(), "directions_visible": visible, "coded": coded,
+    })
+}
+
+fn all(file: &AllFrequencyFile, out: &mut Out) -> miette::Result<()> {
+    let terms = file.reflectance.terms();
     out.line("kind      all-frequency transfer")?;
     out.sentence(format_args!("mesh      {}", file.mesh))?;
     let reflectance = match &file.reflectance {
@@ -59,5 +89,67 @@ pub(in crate::cli::prt) fn run(path: &Path, out: &mut Out) -> miette::Result<()>
             counted(coded.size().total() as usize)
         ))?;
     }
+    Ok(())
+}
+
+/// A segment's code at a vertex.
+struct CodedVertex {
+    segment: usize,
+    cluster: u16,
+    weights: Vec<f64>,
+    /// The root of the sum of the squares of its decoded transfer.
+    norm: f64,
+}
+
+impl CodedVertex {
+    fn new(part: &CodedSegment, vertex: usize) -> Option<Self> {
+        let at = part.vertices.binary_search(&(vertex as u32)).ok()?;
+        let transfer = part.decoded(at);
+        Some(Self {
+            segment: part.segment,
+            cluster: part.cluster_of[at],
+            weights: part.decoded_weights().nth(at)?,
+            norm: transfer.iter().map(|value| value * value).sum::<f64>().sqrt(),
+        })
+    }
+}
+
+/// The segments that a vertex has, in their order.
+fn coded_vertex(file: &AllFrequencyFile, vertex: usize) -> Option<Vec<CodedVertex>> {
+    let coded = file.coded.as_ref()?;
+    Some(coded.segments.iter().filter_map(|part| CodedVertex::new(part, vertex)).collect())
+}
+
+/// Directions that a vertex sees.
+fn visible(file: &AllFrequencyFile, vertex: usize) -> Option<u32> {
+    let maps = file.visibility.as_ref()?;
+    Some(maps.bits(vertex).iter().map(|word| word.count_ones()).sum())
+}
+
+fn vertex_document(file: &AllFrequencyFile, vertex: usize) -> Value {
+    let segment = |part: CodedVertex| json!({ "segment": part.segment, "cluster": part.cluster, "weights": part.weights, "norm": part.norm });
+    let coded = coded_vertex(file, vertex).map(|parts| parts.into_iter().map(segment).collect::<Vec<_>>());
+    json!({ "number": vertex, "directions_visible": visible(file, vertex), "segments": coded })
+}
+
+fn one(file: &AllFrequencyFile, vertex: usize, out: &mut Out) -> miette::Result<()> {
+    out.line(format_args!("vertex    {vertex}"))?;
+    if let Some(visible) = visible(file, vertex) {
+        out.line(format_args!("sees      {} of 98,304 directions", counted(visible as usize)))?;
+    }
+    let Some(parts) = coded_vertex(file, vertex) else { return Ok(()) };
+    out.line(format_args!("segments  {} of 24 hold transfer", parts.len()))?;
+    out.line("")?;
+    let mut table = Table::new("Code", &["segment", "cluster", "norm", "weights"]);
+    for part in parts {
+        let weights: Vec<String> = part.weights.iter().map(|weight| format!("{weight:.3e}")).collect();
+        table.push([
+            part.segment.into(),
+            u64::from(part.cluster).into(),
+            Cell::measured(part.norm),
+            weights.join(" ").into(),
+        ]);
+    }
+    out.titled_table(&table)?;
     Ok(())
 }

@@ -1,12 +1,9 @@
 //! Coded transfer of a mesh.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use rayon::prelude::*;
 
 use super::quantise::{quantise, step};
 use super::{CodeOptions, CodeOptionsError, ScaleOf, SparseRows};
-use crate::prt::Signal;
 use crate::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
 use crate::prt::cpca::Clustering;
 
@@ -204,54 +201,6 @@ impl CodedSegment {
     pub(in crate::prt::all_frequency) fn firsts(&self) -> Vec<usize> {
         firsts(&self.counts)
     }
-
-    /// Where each vertex's weights begin.
-    fn weight_begins(&self) -> Vec<usize> {
-        let mut begin = 0;
-        let next = self.cluster_of.iter().map(|&cluster| {
-            begin += usize::from(self.counts[usize::from(cluster)]);
-            begin - usize::from(self.counts[usize::from(cluster)])
-        });
-        next.collect()
-    }
-
-    /// The transfer of all vertices as it is decoded: `into` is called with each vertex of the segment, counted from 0,
-    /// and its numbers, from several threads.
-    pub fn decode(&self, into: impl Fn(usize, &[f64]) + Sync) {
-        let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
-        let (firsts, begins) = (self.firsts(), self.weight_begins());
-        (0..self.vertices.len()).into_par_iter().for_each_init(
-            || vec![0.0; columns],
-            |sum, at| {
-                let cluster = usize::from(self.cluster_of[at]);
-                let weights = &self.weights[begins[at]..][..usize::from(self.counts[cluster])];
-                sum.fill(0.0);
-                for (&weight, row) in weights.iter().zip(firsts[cluster]..) {
-                    let steps = f64::from(self.weight_steps[row]) * f64::from(self.representative_steps[row]);
-                    let weight = f64::from(weight) * steps;
-                    let codes = &codes[row * columns..][..columns];
-                    sum.iter_mut().zip(codes).for_each(|(sum, &code)| *sum += weight * f64::from(code));
-                }
-                into(at, sum);
-            },
-        );
-    }
-
-    /// Squared differences from the transfer that was coded, vertex by vertex.
-    ///
-    /// # Panics
-    /// If the signal has other points or numbers.
-    pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {
-        let shape = (self.vertices.len(), self.representatives.columns());
-        assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");
-        let errors: Vec<AtomicU64> = (0..signal.points()).map(|_| AtomicU64::new(0)).collect();
-        self.decode(|at, decoded| {
-            let differences = decoded.iter().zip(signal.point(at)).map(|(a, &b)| a - f64::from(b));
-            let square: f64 = differences.map(|difference| difference * difference).sum();
-            errors[at].store(square.to_bits(), Ordering::Relaxed);
-        });
-        errors.into_iter().map(|bits| f64::from_bits(bits.into_inner())).collect()
-    }
 }
 
 fn firsts(counts: &[u8]) -> Vec<usize> {
@@ -277,7 +226,8 @@ fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Ve
     most
 }
 
-fn steps(most: &[f64], bits: u8, scale: ScaleOf) -> Vec<f32> {
+/// Per representative the step for numbers up to a magnitude.
+pub(super) fn steps(most: &[f64], bits: u8, scale: ScaleOf) -> Vec<f32> {
     match scale {
         ScaleOf::Representative => most.iter().map(|&most| step(most, bits)).collect(),
         ScaleOf::Segment => vec![step(largest(most.iter()), bits); most.len()],

@@ -6,7 +6,9 @@
 //!   is not 0;
 //! - [`CodeOptions`]: bits, and what shares a scale, of which the paper says nothing.
 
+mod coarser;
 mod coded;
+mod decoded;
 mod quantise;
 mod sparse;
 

@@ -3,6 +3,7 @@
 
 mod layout;
 mod product;
+mod sum;
 mod vertex;
 
 use refsim::isa::Version;
@@ -10,6 +11,7 @@ use refsim::isa::Version;
 use crate::card::kernels;
 pub use layout::{SetLayout, ViewNumbers};
 pub use product::{MapFilter, ProductKernel};
+pub use sum::{OF_REPRESENTATIVES, OF_SUM, SUMMED, SumKernel};
 pub use vertex::{LEAST_DENOMINATOR, TransferredVertexKernel};
 
 kernels! {
@@ -40,6 +42,7 @@ pub fn programs() -> Vec<(String, String)> {
             }
         }
     }
+    all.extend([true, false].map(|is_first| SumKernel { is_first }).map(|sum| (sum.name().to_owned(), sum.text())));
     all
 }
 
@@ -62,6 +65,17 @@ mod tests {
             }
         }
         COLOR.checked(&device("nv20")).unwrap_or_else(|e| panic!("{e}"));
+    }
+
+    /// Within two levels of reads, and with room to spare.
+    #[test]
+    fn sums_fit_the_radeon() {
+        for is_first in [true, false] {
+            let program = SumKernel { is_first }.checked(&device("r350")).unwrap_or_else(|e| panic!("{e}"));
+            let slots = program.facts().slots[0];
+            assert_eq!(slots.texture, 21 + u32::from(!is_first));
+            assert!((33..=34).contains(&slots.arithmetic), "{}", slots.arithmetic);
+        }
     }
 
     /// Slots of ps_2_0 on the Radeon 9800 for the paper's ten terms: texture reads, arithmetic.

@@ -100,6 +100,12 @@ impl<'a> FactoredCard<'a> {
         &mut self.machine
     }
 
+    /// Texture reads and arithmetic slots of the pixel program.
+    pub(super) fn pixel_slots(&self) -> [u32; 2] {
+        let slots = &self.programs.pixel.facts().slots;
+        [slots.iter().map(|phase| phase.texture).sum(), slots.iter().map(|phase| phase.arithmetic).sum()]
+    }
+
     /// A frame as the target holds it. Pixels that show nothing are 0, alpha is 1 elsewhere.
     ///
     /// # Errors

@@ -22,6 +22,12 @@ pub enum FactoredCardError {
     /// More maps than there are samplers.
     #[error("{terms} terms in {format} need {needed} textures; `{device}` has {found} samplers (limits.samplers)")]
     Samplers { terms: usize, format: TexelFormat, needed: usize, device: String, found: usize },
+    /// More rows of texels than a texture has.
+    #[error(
+        "{count} {what} need {needed} rows of texels; `{device}` has textures of {found} (limits.max_texture_size); take \
+         fewer"
+    )]
+    TextureSize { what: &'static str, count: usize, needed: usize, device: String, found: usize },
     /// Float maps on a card that does not filter them.
     #[error(
         "`{device}` filters no {format} textures (limits.float_filtering); filter by the program, or hold G in signed \

@@ -24,6 +24,8 @@ pub struct FactoredDrawing {
     pub signed: Option<Texels>,
     /// Counts.
     pub counts: FactoredCounts,
+    /// Texture reads and arithmetic slots of the pixel program.
+    pub pixel_slots: [u32; 2],
     /// What the frame asks of host and card, for [`crate::prt::on_card::time::frame_time`].
     pub log: Vec<Event>,
 }
@@ -52,5 +54,5 @@ pub fn draw(
         let is_negative = |texel: &&[f32; 4]| texel[..3].iter().any(|&value| value < 0.0);
         counts.below_zero = Some(covered().filter(is_negative).count() as u64);
     }
-    Ok(FactoredDrawing { texels, signed, counts, log })
+    Ok(FactoredDrawing { texels, signed, counts, pixel_slots: card.pixel_slots(), log })
 }

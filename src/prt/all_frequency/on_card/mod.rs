@@ -2,8 +2,8 @@
 //!
 //! A [`FactoredCard`] holds a mesh. For each frame the host sends what [`ProductPlace`] says: colors of vertices, as
 //! the authors did, or transferred radiance, of which the card makes the product with G per pixel, as they proposed.
-//! [`draw`] makes a picture with counts and log; [`mod@reference`] is step 4 in f64; [`time`] says how long a frame
-//! takes.
+//! A [`SumCard`] takes step 3 from the host too. [`draw`] makes a picture with counts and log; [`mod@reference`] is
+//! step 4 in f64; [`time`] says how long a frame takes.
 
 mod card;
 mod counts;
@@ -16,6 +16,7 @@ pub mod reference;
 mod seen;
 mod streams;
 mod subject;
+mod sums;
 pub mod time;
 
 pub use card::FactoredCard;
@@ -25,6 +26,7 @@ pub use frame::{FactoredDrawing, draw};
 pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors, ViewMaker};
 pub use seen::{SeenPixel, seen_pixels};
 pub use subject::TransferredMesh;
+pub use sums::{SumCard, SumLog};
 
 #[cfg(test)]
 mod tests;

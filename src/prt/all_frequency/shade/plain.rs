@@ -2,6 +2,7 @@
 
 use super::LightSizeError;
 use crate::linalg::dot;
+use crate::prt::all_frequency::code::CodedTransfer;
 use crate::prt::all_frequency::compressed::CompressedTransfer;
 
 /// T_p by equation 13 from transfer that is not coded: per vertex m rows of 3 channels. `light` is as in
@@ -30,6 +31,41 @@ pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<
             for (weight, products) in part.clustering.weights(point).iter().zip(products.chunks_exact(rows)) {
                 for (into, product) in into.iter_mut().zip(products) {
                     (0..3).for_each(|c| into[c] += weight * product[c]);
+                }
+            }
+        }
+    }
+    Ok(radiance)
+}
+
+/// The same from coded transfer: integers times their steps.
+///
+/// # Errors
+/// [`LightSizeError`].
+pub fn transferred_of_code(transfer: &CodedTransfer, light: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, LightSizeError> {
+    let (rows, coefficients) = (transfer.rows, transfer.coefficients);
+    let last = transfer.segments.last().map(|part| part.segment);
+    LightSizeError::check(light.len(), coefficients, last)?;
+    let mut radiance = vec![[0.0; 3]; transfer.vertices * rows];
+    for part in &transfer.segments {
+        let light = &light[part.segment * coefficients..][..coefficients];
+        let codes = part.representatives.decode();
+        let product = |row: &[i16]| {
+            let mut sum = [0.0; 3];
+            for (&code, light) in row.iter().zip(light) {
+                (0..3).for_each(|c| sum[c] += f64::from(code) * light[c]);
+            }
+            sum
+        };
+        let products: Vec<[f64; 3]> = codes.chunks_exact(coefficients).map(product).collect();
+        let of_weight = part.representative_of_weight();
+        let mut weights = part.weights.iter().zip(of_weight);
+        for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
+            let into = &mut radiance[vertex as usize * rows..][..rows];
+            for (&weight, row) in weights.by_ref().take(usize::from(part.counts[usize::from(cluster)])) {
+                let steps = f64::from(part.representative_steps[row]) * f64::from(part.weight_steps[row]);
+                for (into, product) in into.iter_mut().zip(&products[row * rows..][..rows]) {
+                    (0..3).for_each(|c| into[c] += f64::from(weight) * steps * product[c]);
                 }
             }
         }

@@ -143,6 +143,14 @@ impl Shader {
         Ok(products)
     }
 
+    /// Of [`Shader::per_cluster`]'s products those of one representative, counted over all segments: 3 per row.
+    ///
+    /// # Panics
+    /// If there is no such representative, or the products are others.
+    pub fn product_of<'a>(&self, products: &'a [f32], representative: usize) -> &'a [f32] {
+        &products[representative * self.stride()..][..3 * self.rows]
+    }
+
     /// The weighted sums of [`Shader::per_cluster`]'s products: step 3.
     pub fn weighted(&self, products: &[f32]) -> TransferredRadiance {
         let (stride, level) = (self.stride(), SimdLevel::widest());
@@ -323,6 +331,13 @@ mod tests {
                 for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
                     // 16 bits of representatives and weights: some 2^-15 of the largest number each.
                     assert!((f64::from(*found) - expected).abs() < 2e-4 * most, "{vertex}: {found} for {expected}");
+                }
+            }
+            // Of the same code, only rounding of f32 is left.
+            let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
+            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
+                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
+                    assert!((f64::from(*found) - expected).abs() < 1e-6 * most, "{vertex}: {found} for {expected}");
                 }
             }
         }

@@ -98,6 +98,18 @@ impl VisibilityMaps {
         self.sampling
     }
 
+    /// The same maps of vertices whose numbers are less by `first`: those of the second of two joined meshes, by their
+    /// numbers in it.
+    ///
+    /// # Panics
+    /// If a vertex has a lower number.
+    #[must_use]
+    pub fn counted_from(mut self, first: u32) -> Self {
+        let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
+        self.vertices.iter_mut().chain(&mut self.counts.unclear).for_each(lower);
+        self
+    }
+
     /// All words, map by map.
     pub fn words(&self) -> &[u64] {
         &self.words

@@ -1,17 +1,32 @@
-//! Transferred radiance without compression: M_p L, the raw matrix of one segment after the other.
+//! What rendering begins with: the light's coefficients (step 1 of section 6), and transferred radiance without
+//! compression, M_p L, the raw matrix of one segment after the other.
 
+use glam::DMat3;
 use rayon::prelude::*;
 
 use crate::linalg::dot;
 use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::grid::Segmentation;
 use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::light::{
+    CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
+};
 use crate::prt::all_frequency::transfer::transfer_of;
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{TransferError, Vertices};
 
+/// The coefficients of a light that is turned, of them `keep` of largest area times magnitude; `None`: all.
+pub(in crate::study::prt) fn coefficients(
+    (light, decimation): (&DistantLight, Decimation),
+    rotation: &DMat3,
+    keep: Option<usize>,
+) -> Result<LightTruncation, CubeLightError> {
+    let light = HaarLight::new(&light.cube(rotation, decimation)?, Segmentation::Quarters);
+    light.truncated(keep.unwrap_or(usize::MAX), TruncationPriority::Area)
+}
+
 /// Per vertex m rows of three channels.
-pub(super) fn transferred(
+pub(in crate::study::prt) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: HatWidth,
     reflectance: &Reflectance,

@@ -4,11 +4,12 @@
 
 mod compress;
 mod errors;
-mod exact;
+pub(super) mod exact;
+mod part;
 mod precompute;
 mod render;
 
 pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
 pub use errors::{CodedErrors, coded_errors};
-pub use precompute::SightOfModel;
-pub use render::{AllFrequencyError, AllFrequencyRendering};
+pub use precompute::{FoundSight, SightOfModel};
+pub use render::{AllFrequencyError, AllFrequencyRendering, RenderedGround};

@@ -13,34 +13,56 @@ use crate::tracer::HostTracer;
 /// A model whose visibility is wanted.
 #[derive(Debug)]
 pub struct SightOfModel<'a> {
-    /// Its mesh.
-    pub mesh: &'a Mesh,
+    /// What is in the light's way: its mesh, or that on its ground.
+    pub scene: &'a Mesh,
     /// The vertices that transfer is computed at.
     pub vertices: &'a Vertices,
     /// The hats of the light's texels.
     pub hats: HatWidth,
     /// The reflectance.
     pub reflectance: Reflectance,
+    /// The vertices of the ground below it, which is diffuse: the second part of the scene.
+    pub ground: Option<&'a Vertices>,
+}
+
+/// What its vertices see.
+#[derive(Debug)]
+pub struct FoundSight {
+    /// The file.
+    pub file: AllFrequencyFile,
+    /// Segments with transfer.
+    pub census: SegmentCensus,
 }
 
 impl SightOfModel<'_> {
-    /// Casts the rays.
+    /// Casts the rays: the model's, then the ground's.
     ///
     /// # Errors
     /// [`TransferError`].
-    pub fn run(self, progress: &mut ProgressFn<'_>) -> Result<(AllFrequencyFile, SegmentCensus), TransferError> {
-        let all: Vec<u32> = (0..self.vertices.len() as u32).collect();
-        let mut tracer = HostTracer::new(self.mesh, Sides::Both);
+    pub fn run(self, progress: &mut ProgressFn<'_>) -> Result<(FoundSight, Option<FoundSight>), TransferError> {
         let mut done = |done: usize, of: usize| progress("visibility", done as u64, of as u64);
-        let maps = VisibilityMaps::trace(self.vertices, &all, &mut tracer, &mut done)?;
-        let census = SegmentCensus::new(self.vertices, &maps, &Hats::new(self.hats));
-        let file = AllFrequencyFile {
-            mesh: MeshDigest::new(self.vertices),
-            hats: self.hats,
-            reflectance: self.reflectance,
-            visibility: Some(maps),
-            coded: None,
+        let count = self.vertices.len() as u32;
+        let mut tracer = HostTracer::new(self.scene, Sides::Both);
+        let Some(ground) = self.ground else {
+            let all: Vec<u32> = (0..count).collect();
+            let maps = VisibilityMaps::trace(self.vertices, &all, &mut tracer, &mut done)?;
+            return Ok((self.found(self.vertices, maps, self.reflectance.clone()), None));
         };
-        Ok((file, census))
+        let vertices = self.vertices.joined(ground);
+        let mut maps = |of: std::ops::Range<u32>| {
+            let of: Vec<u32> = of.collect();
+            VisibilityMaps::trace(&vertices, &of, &mut tracer, &mut done)
+        };
+        let of_model = maps(0..count)?;
+        let below = maps(count..vertices.len() as u32)?.counted_from(count);
+        let below = self.found(ground, below, Reflectance::Diffuse);
+        Ok((self.found(self.vertices, of_model, self.reflectance.clone()), Some(below)))
+    }
+
+    fn found(&self, vertices: &Vertices, maps: VisibilityMaps, reflectance: Reflectance) -> FoundSight {
+        let census = SegmentCensus::new(vertices, &maps, &Hats::new(self.hats));
+        let mesh = MeshDigest::new(vertices);
+        let file = AllFrequencyFile { mesh, hats: self.hats, reflectance, visibility: Some(maps), coded: None };
+        FoundSight { file, census }
     }
 }

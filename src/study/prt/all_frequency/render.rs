@@ -8,16 +8,11 @@ use serde_json::json;
 use thiserror::Error;
 
 use super::exact;
+use super::part::{FrameTimes, Part, PartError, Transferred};
 use crate::geom::Mesh;
-use crate::geom::vector::wide;
 use crate::picture::{PictureError, rgb8};
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::light::{
-    CubeLight, CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
-};
-use crate::prt::all_frequency::shade::{
-    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance,
-};
+use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation};
+use crate::prt::all_frequency::shade::LightSizeError;
 use crate::prt::file::AllFrequencyFile;
 use crate::prt::transfer::{TransferError, Vertices};
 use crate::report::digits::{Quantity, shown};
@@ -46,6 +41,8 @@ pub struct AllFrequencyRendering {
     pub file: AllFrequencyFile,
     /// A file with visibility, to compare coded transfer with uncompressed.
     pub original: Option<AllFrequencyFile>,
+    /// The ground below it.
+    pub ground: Option<RenderedGround>,
     /// The light's name.
     pub light_name: String,
     /// The light.
@@ -62,6 +59,19 @@ pub struct AllFrequencyRendering {
     pub frames: u32,
     /// Which of them.
     pub turning: Turning,
+}
+
+/// The ground below a model, with transfer of its own.
+#[derive(Debug)]
+pub struct RenderedGround {
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// Per material its color.
+    pub colors: Vec<[f64; 3]>,
+    /// Visibility, coded transfer or both.
+    pub file: AllFrequencyFile,
 }
 
 /// Why there are no pictures.
@@ -86,24 +96,12 @@ pub enum AllFrequencyError {
     Picture(#[from] PictureError),
 }
 
-/// Transferred radiance, by one way or the other.
-enum Transferred {
-    Coded(TransferredRadiance),
-    Exact { rows: usize, values: Vec<[f64; 3]> },
-}
-
-/// What a frame took, in seconds.
-#[derive(Clone, Copy, Debug, Default)]
-struct FrameTimes {
-    light: f64,
-    clusters: f64,
-    vertices: f64,
-    view: f64,
-}
-
-impl FrameTimes {
-    fn total(self) -> f64 {
-        self.light + self.clusters + self.vertices + self.view
+impl From<PartError> for AllFrequencyError {
+    fn from(error: PartError) -> Self {
+        match error {
+            PartError::Transfer(error) => Self::Transfer(error),
+            PartError::Size(error) => Self::Size(error),
+        }
     }
 }
 
@@ -113,13 +111,13 @@ impl Study for AllFrequencyRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
-        let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
+        let seen = self.seen(&self.camera);
         progress("radiance", 1, steps);
-        let shader = self.file.coded.as_ref().map(|coded| Shader::new(coded, Representatives::Sparse));
+        let parts = self.parts();
         let mut times = FrameTimes::default();
         let cut = self.light(&DMat3::IDENTITY, &mut times)?;
-        let transferred = self.transferred(shader.as_ref(), &cut.light, &mut times)?;
-        let of_vertex = self.radiance(&transferred, &self.camera, &mut times);
+        let transferred = transferred(&parts, &cut.light, &mut times)?;
+        let of_vertex = radiance(&parts, &transferred, &self.camera, &mut times);
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("All-frequency transfer");
@@ -129,14 +127,17 @@ impl Study for AllFrequencyRendering {
         found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
         found.keep_layers("picture", picture);
         self.conclude(&seen, &drawn, &cut, &mut found);
-        if let Some(shader) = &shader {
-            self.time(shader, &cut.light, times, &mut found);
+        if parts.iter().all(Part::is_coded) {
+            time(&parts, &cut.light, times, &mut found);
         }
         if let Some(original) = &self.original {
-            self.compare(&seen, original, (&of_vertex, &drawn), &cut.light, exposure, &mut found)?;
+            let whole = parts[0].exact(original, &cut.light)?;
+            let mut exact = parts[0].radiance(&whole, &self.camera, &mut FrameTimes::default());
+            exact.extend_from_slice(&of_vertex[exact.len()..]);
+            self.compare(&seen, (&of_vertex, &drawn), &exact, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
-        self.frames(&seen, shader.as_ref(), (&transferred, exposure), &mut found, progress)?;
+        self.frames(&seen, &parts, (&transferred, exposure), &mut found, progress)?;
         found.field("exposure", json!(exposure));
         Ok(found)
     }
@@ -146,56 +147,69 @@ impl Study for AllFrequencyRendering {
     }
 }
 
+/// Steps 2 and 3 of all parts.
+fn transferred(
+    parts: &[Part<'_>],
+    light: &HaarLight,
+    times: &mut FrameTimes,
+) -> Result<Vec<Transferred>, AllFrequencyError> {
+    parts.iter().map(|part| Ok(part.transferred(light, times)?)).collect()
+}
+
+/// Step 4 of all parts, vertices after one another.
+fn radiance(parts: &[Part<'_>], transferred: &[Transferred], camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
+    parts.iter().zip(transferred).flat_map(|(part, transferred)| part.radiance(transferred, camera, times)).collect()
+}
+
+/// What rendering multiplies, and what it took here.
+fn time(parts: &[Part<'_>], light: &HaarLight, times: FrameTimes, found: &mut Findings) {
+    let light = light.singles();
+    let sums = parts.iter().map(|part| part.multiplies(&light));
+    let [per_cluster, per_vertex, per_view] = sums.fold([0; 3], |sum, of| [0, 1, 2].map(|step| sum[step] + of[step]));
+    let mut table = Table::new("A frame on this computer", &["step", "multiplications", "time (ms)", "alone (fps)"]);
+    let steps = [
+        ("1 light", None, times.light),
+        ("2 clusters", Some(per_cluster), times.clusters),
+        ("3 vertices", Some(per_vertex), times.vertices),
+        ("4 view", Some(per_view), times.view),
+    ];
+    for (step, multiplies, seconds) in steps {
+        let count = multiplies.map_or(Cell::Empty, Cell::from);
+        table.push([step.into(), count, Cell::measured(1e3 * seconds), Cell::measured(1.0 / seconds)]);
+    }
+    let total = times.total();
+    let all = per_cluster + per_vertex + per_view;
+    table.push(["all".into(), all.into(), Cell::measured(1e3 * total), Cell::measured(1.0 / total)]);
+    found.heading("Time");
+    found.table(FoundTable::from(table).csv("time").field("time"));
+    found.field("multiplies", json!({ "clusters": per_cluster, "vertices": per_vertex, "view": per_view }));
+    found.field(
+        "seconds",
+        json!({ "light": times.light, "clusters": times.clusters, "vertices": times.vertices, "view": times.view }),
+    );
+    found.field("fps", json!(1.0 / total));
+}
+
 impl AllFrequencyRendering {
+    /// The model, and the ground below it.
+    fn parts(&self) -> Vec<Part<'_>> {
+        let ground = self.ground.as_ref().map(|ground| Part::new(&ground.vertices, &ground.colors, &ground.file));
+        std::iter::once(Part::new(&self.vertices, &self.colors, &self.file)).chain(ground).collect()
+    }
+
+    /// What a camera's pixels show, vertices of the ground after those of the model.
+    fn seen(&self, camera: &Camera) -> Seen {
+        let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
+        let parts: Vec<_> = std::iter::once((&self.mesh, &self.vertices)).chain(ground).collect();
+        Seen::of_parts(&parts, camera)
+    }
+
     /// Step 1: the light's coefficients.
     fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, AllFrequencyError> {
         let start = Instant::now();
-        let cube: CubeLight = self.light.cube(rotation, self.decimation)?;
-        let light = HaarLight::new(&cube, Segmentation::Quarters);
-        let cut = light.truncated(self.keep.unwrap_or(usize::MAX), TruncationPriority::Area)?;
+        let cut = exact::coefficients((&self.light, self.decimation), rotation, self.keep)?;
         times.light = start.elapsed().as_secs_f64();
         Ok(cut)
-    }
-
-    /// Steps 2 and 3, or the raw matrices where nothing is coded.
-    fn transferred(
-        &self,
-        shader: Option<&Shader>,
-        light: &HaarLight,
-        times: &mut FrameTimes,
-    ) -> Result<Transferred, AllFrequencyError> {
-        let Some(shader) = shader else { return self.exact(&self.file, light) };
-        let light = light.singles();
-        let start = Instant::now();
-        let products = shader.per_cluster(&light)?;
-        times.clusters = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        let transferred = shader.weighted(&products);
-        times.vertices = start.elapsed().as_secs_f64();
-        Ok(Transferred::Coded(transferred))
-    }
-
-    fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, AllFrequencyError> {
-        let rows = file.reflectance.terms();
-        let values = match &file.visibility {
-            Some(maps) => exact::transferred((&self.vertices, maps), file.hats, &file.reflectance, light)?,
-            None => vec![[0.0; 3]; rows * self.vertices.len()],
-        };
-        Ok(Transferred::Exact { rows, values })
-    }
-
-    /// Step 4.
-    fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
-        let start = Instant::now();
-        let of = |vertex: usize, row: usize| match transferred {
-            Transferred::Coded(radiance) => radiance.of(vertex)[row].map(f64::from),
-            Transferred::Exact { rows, values } => values[vertex * rows + row],
-        };
-        let eye = wide(camera.eye());
-        let color = |vertex: usize| self.colors[self.vertices.materials()[vertex] as usize];
-        let radiance = exit_radiance(&self.vertices, &self.file.reflectance, &color, &of, eye);
-        times.view = start.elapsed().as_secs_f64();
-        radiance
     }
 
     fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
@@ -223,49 +237,16 @@ impl AllFrequencyRendering {
         found.field("least_radiance", json!(least));
     }
 
-    /// What rendering multiplies, and what it took here.
-    fn time(&self, shader: &Shader, light: &HaarLight, times: FrameTimes, found: &mut Findings) {
-        let light = light.singles();
-        let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
-        let per_view = 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64;
-        let mut table =
-            Table::new("A frame on this computer", &["step", "multiplications", "time (ms)", "alone (fps)"]);
-        let steps = [
-            ("1 light", None, times.light),
-            ("2 clusters", Some(per_cluster), times.clusters),
-            ("3 vertices", Some(per_vertex), times.vertices),
-            ("4 view", Some(per_view), times.view),
-        ];
-        for (step, multiplies, seconds) in steps {
-            let count = multiplies.map_or(Cell::Empty, |count| (count as usize).into());
-            table.push([step.into(), count, Cell::measured(1e3 * seconds), Cell::measured(1.0 / seconds)]);
-        }
-        let total = times.total();
-        let all = (per_cluster + per_vertex + per_view) as usize;
-        table.push(["all".into(), all.into(), Cell::measured(1e3 * total), Cell::measured(1.0 / total)]);
-        found.heading("Time");
-        found.table(FoundTable::from(table).csv("time").field("time"));
-        found.field("multiplies", json!({ "clusters": per_cluster, "vertices": per_vertex, "view": per_view }));
-        found.field(
-            "seconds",
-            json!({ "light": times.light, "clusters": times.clusters, "vertices": times.vertices, "view": times.view }),
-        );
-        found.field("fps", json!(1.0 / total));
-    }
-
     /// Uncompressed transfer beside the coded, and where they differ.
     fn compare(
         &self,
         seen: &Seen,
-        original: &AllFrequencyFile,
         (of_vertex, drawn): (&[[f64; 3]], &[[f64; 3]]),
-        light: &HaarLight,
+        exact: &[[f64; 3]],
         exposure: f64,
         found: &mut Findings,
     ) -> Result<(), AllFrequencyError> {
-        let whole = self.exact(original, light)?;
-        let exact = self.radiance(&whole, &self.camera, &mut FrameTimes::default());
-        let picture = seen.colors(&exact, [0.0; 3]);
+        let picture = seen.colors(exact, [0.0; 3]);
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&picture).map(|(a, b)| mean(a) - mean(b)).collect();
         let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -277,7 +258,7 @@ impl AllFrequencyRendering {
         let mut table = Table::new("Coded against uncompressed", &["figure", "value"]);
         let pixels = share(drawn, &picture);
         table.push(["root mean square of pixels' differences, of the picture's (%)".into(), Cell::measured(pixels)]);
-        let vertices = share(of_vertex, &exact);
+        let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
         let shown_whole = linear_picture(&self.camera, &picture).display(exposure)?;
@@ -306,8 +287,8 @@ impl AllFrequencyRendering {
                 of_vertex[vertex as usize] = Some(cluster);
             }
             let color = |vertex: Option<u32>| {
-                let Some(cluster) = vertex.and_then(|vertex| of_vertex[vertex as usize]) else { return [0; 3] };
-                cluster_color(u32::from(cluster))
+                let cluster = vertex.and_then(|vertex| of_vertex.get(vertex as usize).copied().flatten());
+                cluster.map_or([0; 3], |cluster| cluster_color(u32::from(cluster)))
             };
             let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
@@ -326,8 +307,8 @@ impl AllFrequencyRendering {
     fn frames(
         &self,
         seen: &Seen,
-        shader: Option<&Shader>,
-        (transferred, exposure): (&Transferred, f64),
+        parts: &[Part<'_>],
+        (still, exposure): (&[Transferred], f64),
         found: &mut Findings,
         progress: &mut ProgressFn<'_>,
     ) -> Result<(), AllFrequencyError> {
@@ -340,14 +321,14 @@ impl AllFrequencyRendering {
             let colors = match self.turning {
                 Turning::Light => {
                     let light = self.light(&turn, &mut times)?.light;
-                    let transferred = self.transferred(shader, &light, &mut times)?;
-                    seen.colors(&self.radiance(&transferred, &self.camera, &mut times), [0.0; 3])
+                    let transferred = transferred(parts, &light, &mut times)?;
+                    seen.colors(&radiance(parts, &transferred, &self.camera, &mut times), [0.0; 3])
                 }
                 // View alone changed: step 4 alone.
                 Turning::Camera => {
                     let camera = carried(&self.camera, &self.mesh, &turn);
-                    let seen = Seen::new(&self.mesh, &self.vertices, &camera);
-                    seen.colors(&self.radiance(transferred, &camera, &mut times), [0.0; 3])
+                    let colors = radiance(parts, still, &camera, &mut times);
+                    self.seen(&camera).colors(&colors, [0.0; 3])
                 }
             };
             let image = linear_picture(&self.camera, &colors).display(exposure)?;

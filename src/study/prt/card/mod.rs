@@ -1,4 +1,5 @@
 //! Compressed transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
+//! [`OnCard`] is about transfer of low frequency, [`AllFrequencyOnCard`] of all frequencies.
 
 mod factored;
 mod picture;
@@ -7,5 +8,8 @@ mod report;
 mod subject;
 mod tables;
 
-pub use factored::{FactoredPrecision, factored_precision, factored_precision_table};
+pub use factored::{
+    AllFrequencyCardError, AllFrequencyOnCard, FactoredPrecision, PixelErrors, factored_precision,
+    factored_precision_table,
+};
 pub use subject::{CardError, OnCard};

@@ -1,0 +1,106 @@
+//! A mesh with its transfer: a model, or the ground below it.
+
+use std::time::Instant;
+
+use super::exact;
+use crate::geom::vector::wide;
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::shade::{
+    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance,
+};
+use crate::prt::file::AllFrequencyFile;
+use crate::prt::transfer::{TransferError, Vertices};
+use crate::scene::Camera;
+
+/// Transferred radiance, by one way or the other.
+pub(super) enum Transferred {
+    Coded(TransferredRadiance),
+    Exact { rows: usize, values: Vec<[f64; 3]> },
+}
+
+/// What a frame took, in seconds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct FrameTimes {
+    pub(super) light: f64,
+    pub(super) clusters: f64,
+    pub(super) vertices: f64,
+    pub(super) view: f64,
+}
+
+impl FrameTimes {
+    pub(super) fn total(self) -> f64 {
+        self.light + self.clusters + self.vertices + self.view
+    }
+}
+
+/// A mesh's vertices with transfer, laid out for rendering.
+pub(super) struct Part<'a> {
+    vertices: &'a Vertices,
+    colors: &'a [[f64; 3]],
+    file: &'a AllFrequencyFile,
+    shader: Option<Shader>,
+}
+
+impl<'a> Part<'a> {
+    pub(super) fn new(vertices: &'a Vertices, colors: &'a [[f64; 3]], file: &'a AllFrequencyFile) -> Self {
+        let shader = file.coded.as_ref().map(|coded| Shader::new(coded, Representatives::Sparse));
+        Self { vertices, colors, file, shader }
+    }
+
+    /// Whether transfer is coded.
+    pub(super) fn is_coded(&self) -> bool {
+        self.shader.is_some()
+    }
+
+    /// Steps 2 and 3, or the raw matrices where nothing is coded.
+    pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, PartError> {
+        let Some(shader) = &self.shader else { return Ok(self.exact(self.file, light)?) };
+        let light = light.singles();
+        let start = Instant::now();
+        let products = shader.per_cluster(&light)?;
+        times.clusters += start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let transferred = shader.weighted(&products);
+        times.vertices += start.elapsed().as_secs_f64();
+        Ok(Transferred::Coded(transferred))
+    }
+
+    /// By raw matrices of a file.
+    pub(super) fn exact(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<Transferred, TransferError> {
+        let rows = file.reflectance.terms();
+        let values = match &file.visibility {
+            Some(maps) => exact::transferred((self.vertices, maps), file.hats, &file.reflectance, light)?,
+            None => vec![[0.0; 3]; rows * self.vertices.len()],
+        };
+        Ok(Transferred::Exact { rows, values })
+    }
+
+    /// Step 4.
+    pub(super) fn radiance(&self, transferred: &Transferred, camera: &Camera, times: &mut FrameTimes) -> Vec<[f64; 3]> {
+        let start = Instant::now();
+        let of = |vertex: usize, row: usize| match transferred {
+            Transferred::Coded(radiance) => radiance.of(vertex)[row].map(f64::from),
+            Transferred::Exact { rows, values } => values[vertex * rows + row],
+        };
+        let color = |vertex: usize| self.colors[self.vertices.materials()[vertex] as usize];
+        let radiance = exit_radiance(self.vertices, &self.file.reflectance, &color, &of, wide(camera.eye()));
+        times.view += start.elapsed().as_secs_f64();
+        radiance
+    }
+
+    /// What steps 2, 3 and 4 multiply.
+    pub(super) fn multiplies(&self, light: &[[f32; 3]]) -> [u64; 3] {
+        let steps = self.shader.as_ref().map(|shader| shader.multiplies(light));
+        let Multiplies { per_cluster, per_vertex } = steps.unwrap_or_default();
+        [per_cluster, per_vertex, 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64]
+    }
+}
+
+/// Why a part has no radiance.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum PartError {
+    #[error(transparent)]
+    Transfer(#[from] TransferError),
+    #[error(transparent)]
+    Size(#[from] LightSizeError),
+}

@@ -1,0 +1,59 @@
+//! Transferred radiance from representatives and weights in fewer bits.
+
+use super::pixels::{PixelErrors, exact_pixels};
+use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, in_double};
+use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer};
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::on_card::{ProductOptions, ProductPlace, SeenPixel};
+
+/// Bits that are tried, as far as the file has more.
+const BITS: [u8; 5] = [8, 10, 12, 14, 15];
+
+/// A code in fewer bits, and how far its picture is off that of the file's code.
+pub(super) struct CoarseCode {
+    /// Of what it is a choice.
+    pub(super) axis: &'static str,
+    pub(super) bits: u8,
+    pub(super) errors: PixelErrors,
+}
+
+/// Choices of a file.
+fn choices(coded: &CodedTransfer) -> Vec<(&'static str, u8, CodeOptions)> {
+    let of = coded.options;
+    let mut all = Vec::new();
+    for bits in BITS.into_iter().filter(|&bits| bits < of.representative_bits) {
+        all.push(("representatives", bits, CodeOptions { representative_bits: bits, ..of }));
+    }
+    for bits in BITS.into_iter().filter(|&bits| bits < of.weight_bits) {
+        all.push(("weights", bits, CodeOptions { weight_bits: bits, ..of }));
+    }
+    all
+}
+
+/// How many pictures [`coarse_codes`] takes.
+pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
+    1 + choices(coded).len() as u64
+}
+
+/// Sums and pixels in f64, so that the code alone differs.
+pub(super) fn coarse_codes(
+    study: &AllFrequencyOnCard,
+    (coded, light): (&CodedTransfer, &HaarLight),
+    (seen, exposure): (&[Option<SeenPixel>], f64),
+    done: &mut dyn FnMut(u64),
+) -> Result<Vec<CoarseCode>, AllFrequencyCardError> {
+    let place = ProductPlace::Pixels(ProductOptions::default());
+    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, AllFrequencyCardError> {
+        let transferred = in_double(coded, light)?;
+        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.camera.eye(), exposure)))
+    };
+    let expected = pixels(coded)?;
+    done(1);
+    let mut found = Vec::new();
+    for (axis, bits, options) in choices(coded) {
+        let errors = PixelErrors::of(seen, &pixels(&coded.recoded(options)?)?, &expected);
+        found.push(CoarseCode { axis, bits, errors });
+        done(1 + found.len() as u64);
+    }
+    Ok(found)
+}

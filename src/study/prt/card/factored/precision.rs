@@ -1,0 +1,172 @@
+//! All-frequency transfer by a card: one thing after the other made coarse, against step 4 in f64 of the same pixels.
+
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+
+use super::pixels::{PixelErrors, exact_pixels};
+use crate::prt::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
+use crate::prt::all_frequency::on_card::{
+    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw, seen_pixels,
+};
+use crate::prt::all_frequency::shade::Multiplies;
+use crate::prt::on_card::PrtView;
+use crate::report::{Cell, Table};
+use crate::scene::Camera;
+
+/// Bits of G that are tried.
+const BITS: [u32; 5] = [8, 10, 12, 14, 16];
+/// Sets of texture coordinates of ps_2_0.
+const SETS: usize = 8;
+
+/// A way to draw, and how far its picture is off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FactoredPrecision {
+    /// Of what it is a choice.
+    pub axis: &'static str,
+    /// The choice.
+    pub choice: String,
+    /// The device.
+    pub device: &'static str,
+    /// How products are made.
+    pub place: ProductPlace,
+    /// How far off pixels are.
+    pub errors: PixelErrors,
+    /// Pixels below 0.
+    pub below_zero: u64,
+}
+
+/// A way to draw.
+struct Choice {
+    axis: &'static str,
+    label: String,
+    device: &'static str,
+    place: ProductPlace,
+}
+
+impl Choice {
+    fn new(axis: &'static str, label: impl Into<String>, device: &'static str, place: ProductPlace) -> Self {
+        Self { axis, label: label.into(), device, place }
+    }
+
+    fn pixels(axis: &'static str, label: impl Into<String>, device: &'static str, options: ProductOptions) -> Self {
+        Self::new(axis, label, device, ProductPlace::Pixels(options))
+    }
+}
+
+/// Nothing made coarse: G in single precision, filtered by the program; a channel per pass where all three do not fit.
+fn fine(terms: usize) -> ProductOptions {
+    let all = SetLayout { terms, channels: 3, view: ViewNumbers::default() };
+    ProductOptions {
+        map_format: TexelFormat::Rgba32f,
+        filter: MapFilter::Program,
+        is_pass_per_channel: all.sets() > SETS,
+        ..ProductOptions::default()
+    }
+}
+
+/// Of a reflectance of several terms.
+fn choices_of_products(terms: usize) -> Vec<Choice> {
+    let fine = fine(terms);
+    let mut all = vec![Choice::pixels("none", "fp32 throughout", "ideal-fp32", fine)];
+    for device in ["ideal-fp24", "ideal-fp16"] {
+        all.push(Choice::pixels("pixel arithmetic", device, device, fine));
+    }
+    for bits in BITS {
+        let options = ProductOptions { map_bits: Some(bits), ..fine };
+        all.push(Choice::pixels("bits of G", bits.to_string(), "ideal-fp32", options));
+    }
+    let half = ProductOptions { map_format: TexelFormat::Rgba16f, ..fine };
+    all.push(Choice::pixels("bits of G", "fp16", "ideal-fp32", half));
+    let half_radiance = ProductOptions { radiance: RadianceFormat::Fp16, ..fine };
+    all.push(Choice::pixels("T_p", "fp16", "ideal-fp32", half_radiance));
+    let by_sampler = ProductOptions { filter: MapFilter::Sampler, ..fine };
+    all.push(Choice::pixels("filter", "sampler", "ideal-fp32", by_sampler));
+    let vector = ProductOptions { view: ViewNumbers::Vector, is_pass_per_channel: true, ..fine };
+    all.push(Choice::pixels("view", "vector", "ideal-fp32", vector));
+    let is_pass_per_channel = fine.is_pass_per_channel;
+    let of_r350 = ProductOptions { is_pass_per_channel, ..ProductOptions::default() };
+    let of_nv35 = ProductOptions { map_format: TexelFormat::Rg16Snorm, ..of_r350 };
+    let in_8_bits = ProductOptions { map_format: TexelFormat::Rgba8Snorm, ..of_r350 };
+    for (choice, device, options) in [
+        ("signed 16 bits, sampler", "r350", of_r350),
+        ("signed 16 bits, program", "r350", ProductOptions { filter: MapFilter::Program, ..of_r350 }),
+        ("fp16, program", "r350", half),
+        ("signed 8 bits, sampler", "r350", in_8_bits),
+        ("signed 16 bits, sampler, fp32", "nv35", of_nv35),
+        ("signed 16 bits, sampler, fp16", "nv35", ProductOptions { is_partial: true, ..of_nv35 }),
+        ("signed 8 bits, sampler, fp16", "nv35", ProductOptions { is_partial: true, ..in_8_bits }),
+    ] {
+        all.push(Choice::pixels("card", format!("{device}: {choice}"), device, options));
+    }
+    all
+}
+
+/// Colors of vertices. The one term of a diffuse surface has no other way.
+fn choices_of_colors() -> Vec<Choice> {
+    let floats = ProductPlace::Vertices(VertexColors::Floats);
+    let mut all = vec![Choice::new("vertex colors", "floats, fp32", "ideal-fp32", floats)];
+    for device in ["ideal-fp24", "ideal-fp16"] {
+        all.push(Choice::new("vertex colors", format!("floats, {device}"), device, floats));
+    }
+    for device in ["r350", "nv35"] {
+        let bytes = ProductPlace::Vertices(VertexColors::Bytes);
+        all.push(Choice::new("vertex colors", format!("{device}: bytes"), device, bytes));
+    }
+    all
+}
+
+fn choices(mesh: &TransferredMesh<'_>) -> Vec<Choice> {
+    let mut all = if mesh.terms() > 1 { choices_of_products(mesh.terms()) } else { Vec::new() };
+    all.extend(choices_of_colors());
+    all
+}
+
+/// How many pictures [`factored_precision`] draws.
+pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
+    choices(mesh).len() as u64
+}
+
+/// Draws a mesh into floats in many ways, and compares each picture with what the host computes in f64 of the same
+/// numbers, interpolated by the device's raster. `done` is called with the number of pictures drawn.
+///
+/// # Errors
+/// [`FactoredCardError`] for meshes that do not fit the cards: more than thirty terms, parts that do not go together.
+pub fn factored_precision(
+    mesh: TransferredMesh<'_>,
+    executor: &Executor,
+    (camera, exposure): (Camera, f64),
+    done: &mut dyn FnMut(u64),
+) -> Result<Vec<FactoredPrecision>, FactoredCardError> {
+    let view = PrtView { camera, exposure, format: TexelFormat::Rgba32f };
+    let mut found = Vec::new();
+    for Choice { axis, label: choice, device, place } in choices(&mesh) {
+        let profile = Profile::named(device)?;
+        let seen = seen_pixels(&profile, mesh.vertices, &camera)?;
+        let drawing = draw(mesh, (profile, executor.clone()), place, &view, Multiplies::default())?;
+        let expected = exact_pixels(&mesh, &seen, &place, (camera.eye(), exposure));
+        let drawn: Vec<[f64; 3]> =
+            drawing.texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
+        let errors = PixelErrors::of(&seen, &drawn, &expected);
+        let below_zero = drawing.counts.below_zero.unwrap_or(0);
+        found.push(FactoredPrecision { axis, choice, device, place, errors, below_zero });
+        done(found.len() as u64);
+    }
+    Ok(found)
+}
+
+/// A row per way.
+pub fn factored_precision_table(ways: &[FactoredPrecision]) -> Table {
+    let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_% below_zero");
+    for way in ways {
+        let [rms, largest, visible] = way.errors.cells();
+        table.push([way.axis.into(), way.choice.clone().into(), rms, largest, visible, way.below_zero.into()]);
+    }
+    table
+}
+
+/// The same with a row for coarser codes, whose pictures the host makes.
+pub(super) fn push_errors(table: &mut Table, axis: &'static str, choice: String, errors: &PixelErrors) {
+    let [rms, largest, visible] = errors.cells();
+    table.push([axis.into(), choice.into(), rms, largest, visible, Cell::Empty]);
+}

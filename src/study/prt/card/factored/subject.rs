@@ -1,0 +1,197 @@
+//! What is drawn, by which card.
+
+use glam::DMat3;
+use miette::Diagnostic;
+use refsim::device::{DeviceError, Profile};
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+use thiserror::Error;
+
+use crate::geom::Mesh;
+use crate::picture::PictureError;
+use crate::prt::all_frequency::code::{CodeOptionsError, CodedTransfer};
+use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation};
+use crate::prt::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
+use crate::prt::all_frequency::shade::{
+    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain,
+};
+use crate::prt::file::AllFrequencyFile;
+use crate::prt::on_card::time::FrameTimeError;
+use crate::prt::transfer::{TransferError, Vertices};
+use crate::scene::Camera;
+use crate::study::prt::all_frequency::exact;
+use crate::study::timeline_trace::TimelineError;
+
+/// A model with all-frequency transfer, a light and a camera, and the card that draws it.
+#[derive(Debug)]
+pub struct AllFrequencyOnCard {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// Per material the surface's color.
+    pub colors: Vec<[f64; 3]>,
+    /// Visibility, coded transfer or both: coded transfer is drawn.
+    pub file: AllFrequencyFile,
+    /// A file with visibility, to say what compression costs.
+    pub original: Option<AllFrequencyFile>,
+    /// The light's name.
+    pub light_name: String,
+    /// The light.
+    pub light: DistantLight,
+    /// How it is decimated.
+    pub decimation: Decimation,
+    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
+    pub keep: Option<usize>,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure.
+    pub exposure: Option<f64>,
+    /// The card.
+    pub profile: Profile,
+    /// Its switches that were set.
+    pub switches: Vec<(String, String)>,
+    /// What runs its programs.
+    pub executor: Executor,
+    /// The picture's format.
+    pub format: TexelFormat,
+    /// Where products with G are made.
+    pub place: ProductPlace,
+    /// Whether the card makes the sums over representatives too; transfer must be coded.
+    pub sums_on_card: bool,
+    /// Whether one thing after the other is made coarse.
+    pub sweep: bool,
+}
+
+/// Why there is no picture.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+pub enum AllFrequencyCardError {
+    /// A light that is none.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::light))]
+    Light(#[from] CubeLightError),
+    /// Transfer cannot be computed.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::precompute))]
+    Transfer(#[from] TransferError),
+    /// Coded transfer of more segments than light has.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::segments))]
+    Size(#[from] LightSizeError),
+    /// Bits that there are not.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::code))]
+    Code(#[from] CodeOptionsError),
+    /// Nothing to sum.
+    #[error("expected coded transfer, whose representatives a card sums, found visibility alone")]
+    #[diagnostic(code(crossbar::prt::card), help("`crossbar prt compress` codes it"))]
+    NotCoded,
+    /// The card refuses.
+    #[error(transparent)]
+    #[diagnostic(
+        code(crossbar::prt::card),
+        help("`--way colors` runs on every card; `crossbar prt render` draws on the host what no card takes")
+    )]
+    Card(#[from] FactoredCardError),
+    /// A device is not known.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Device(#[from] DeviceError),
+    /// The frame has no time.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::time))]
+    Time(#[from] FrameTimeError),
+    /// The frame has no timeline.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Timeline(#[from] TimelineError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+}
+
+/// Steps 1 to 3 of section 6, and what they multiplied.
+pub(super) struct HostSteps {
+    pub(super) cut: LightTruncation,
+    pub(super) transferred: TransferredRadiance,
+    pub(super) multiplies: Multiplies,
+    /// What sums by the card asked of host and card.
+    pub(super) sums: Option<CardSums>,
+}
+
+/// Sums by the card.
+pub(super) struct CardSums {
+    pub(super) log: SumLog,
+    /// Bytes of textures that stay on the card.
+    pub(super) texture_bytes: u64,
+}
+
+impl AllFrequencyOnCard {
+    pub(super) fn mesh_of<'a>(&'a self, transferred: &'a TransferredRadiance) -> TransferredMesh<'a> {
+        let Self { vertices, colors, file, .. } = self;
+        TransferredMesh { vertices, reflectance: &file.reflectance, colors, transferred }
+    }
+
+    pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, CubeLightError> {
+        exact::coefficients((&self.light, self.decimation), &DMat3::IDENTITY, keep)
+    }
+
+    /// What the host computes before a card draws.
+    pub(super) fn steps(&self) -> Result<HostSteps, AllFrequencyCardError> {
+        let cut = self.cut(self.keep)?;
+        if self.sums_on_card {
+            let coded = self.file.coded.as_ref().ok_or(AllFrequencyCardError::NotCoded)?;
+            let mut card = SumCard::new(self.profile.clone(), self.executor.clone(), coded)?;
+            let (transferred, log) = card.transferred(&cut.light.singles())?;
+            let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
+            return Ok(HostSteps { cut, transferred, multiplies: Multiplies::default(), sums });
+        }
+        let (transferred, multiplies) = match &self.file.coded {
+            Some(coded) => by_shader(coded, &cut.light)?,
+            // Every light coefficient that is not 0, in the raw matrix of every vertex.
+            None => {
+                let per_vertex = 3 * (self.file.reflectance.terms() * cut.kept * self.vertices.len()) as u64;
+                (self.raw(&self.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })
+            }
+        };
+        Ok(HostSteps { cut, transferred, multiplies, sums: None })
+    }
+
+    /// Transferred radiance by raw matrices in f64, one rounding to f32 each.
+    pub(super) fn raw(
+        &self,
+        file: &AllFrequencyFile,
+        light: &HaarLight,
+    ) -> Result<TransferredRadiance, AllFrequencyCardError> {
+        let rows = file.reflectance.terms();
+        let values = match &file.visibility {
+            Some(maps) => exact::transferred((&self.vertices, maps), file.hats, &file.reflectance, light)?,
+            None => vec![[0.0; 3]; rows * self.vertices.len()],
+        };
+        Ok(singles(rows, values))
+    }
+}
+
+/// Steps 2 and 3 in f32, as frames compute them.
+pub(super) fn by_shader(
+    coded: &CodedTransfer,
+    light: &HaarLight,
+) -> Result<(TransferredRadiance, Multiplies), LightSizeError> {
+    let (shader, light) = (Shader::new(coded, Representatives::Sparse), light.singles());
+    Ok((shader.transferred(&light)?, shader.multiplies(&light)))
+}
+
+/// Steps 2 and 3 in f64, one rounding to f32 each.
+pub(super) fn in_double(coded: &CodedTransfer, light: &HaarLight) -> Result<TransferredRadiance, LightSizeError> {
+    let light: Vec<[f64; 3]> = light.singles().into_iter().map(|rgb| rgb.map(f64::from)).collect();
+    Ok(singles(coded.rows, plain::transferred_of_code(coded, &light)?))
+}
+
+fn singles(rows: usize, values: Vec<[f64; 3]>) -> TransferredRadiance {
+    let values = values.into_iter().map(|row| row.map(|value| value as f32)).collect();
+    TransferredRadiance::new(rows, values)
+}

@@ -1,0 +1,138 @@
+//! `crossbar prt card` on transfer of all frequencies, from the command line.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::crossbar;
+use crate::prt::{document, number, place};
+
+const MODEL: &str = "docs/examples/step.obj";
+const SIGHT: &str = "docs/examples/step_all.prt";
+const CODED: &str = "docs/examples/step_all_small.prt";
+
+/// Visibility and code of the model with ten glossy terms.
+fn glossy(folder: &Path) -> [String; 2] {
+    let [factors, sight, coded] = ["factors", "sight.prt", "coded.prt"].map(|name| place(folder, name));
+    let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--supersamples", "1x1", "--terms", "10"];
+    document(&[&["prt", "factor"], &of_factors[..], &["--out", &factors]].concat());
+    let of_sight = ["--kind", "all-frequency", "--factors", &factors, "--out", &sight];
+    document(&[&["prt", "precompute", MODEL], &of_sight[..]].concat());
+    let of_code = ["--model", MODEL, "--points-per-cluster", "20", "--vectors", "6", "--out", &coded];
+    document(&[&["prt", "compress", &sight], &of_code[..]].concat());
+    [sight, coded]
+}
+
+fn drawn(file: &str, out: &str, options: &[&str]) -> Value {
+    let fixed = ["prt", "card", file, "--model", MODEL, "--size", "48x36", "--exposure", "0.5", "--out", out];
+    document(&[&fixed[..], options].concat())
+}
+
+fn rms(found: &Value) -> f64 {
+    number(&found["difference"]["rms_255ths"])
+}
+
+/// Both ways are the host's picture but for rounding, on both cards; the diffuse example has one term and is colors.
+#[test]
+fn cards_draw_what_the_host_draws() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "out");
+    let [_, coded] = glossy(folder.path());
+    let fine = ["--target-format", "rgba32f", "--map-format", "rgba32f", "--filter", "program"];
+    let ideal = drawn(&coded, &out, &[&["--device", "ideal-fp32"], &fine[..]].concat());
+    assert!(ideal["time"].is_null() && rms(&ideal) < 1e-3, "{}", rms(&ideal));
+    let r350 = drawn(&coded, &out, &[]);
+    // Half a 255th of the target, evenly spread, is 0.29.
+    assert!(rms(&r350) > 0.1 && rms(&r350) < 0.35, "{}", rms(&r350));
+    let size = |found: &Value, what: &str| {
+        let rows = found["sizes"].as_array().expect("sizes");
+        rows.iter().find(|row| row["what"] == what).unwrap_or_else(|| panic!("{what}"))["number"].clone()
+    };
+    assert_eq!((size(&r350, "numbers interpolated in a pass"), size(&r350, "passes")), (32.into(), 1.into()));
+    assert_eq!(
+        (size(&r350, "texture reads of the pixel program"), size(&r350, "bytes sent per vertex")),
+        (3.into(), 120.into())
+    );
+    assert_eq!(r350["time"].as_array().expect("times").len(), 6);
+    let nv35 = drawn(&coded, &out, &["--device", "nv35", "--partial"]);
+    assert_eq!(size(&nv35, "texture reads of the pixel program"), 5, "two terms per texel of 16 bits");
+    let colors = drawn(&coded, &out, &["--way", "colors"]);
+    assert_eq!(size(&colors, "bytes sent per vertex"), 4);
+    let step = |found: &Value, what: &str| {
+        let rows = found["blame"].as_array().expect("blame");
+        let row = rows.iter().find(|row| row["step"].as_str().is_some_and(|step| step.contains(what)));
+        number(&row.unwrap_or_else(|| panic!("{what}"))["rms_255ths"])
+    };
+    // Highlights between vertices are lost with either way's numbers: the same two pictures are compared.
+    assert_eq!(step(&colors, "interpolated, not products"), step(&r350, "interpolated, not products"));
+    assert!(step(&r350, "single precision") < 1e-3);
+    let diffuse = drawn(CODED, &out, &["--original", SIGHT, "--keep", "40"]);
+    assert!(rms(&diffuse) < 0.8, "{}", rms(&diffuse));
+    assert!(step(&diffuse, "light coefficients left out") > step(&diffuse, "single precision"));
+    assert!(step(&diffuse, "compression and coding") > 0.0);
+    let steps = diffuse["blame"].as_array().expect("blame").iter().map(|row| row["step"].to_string());
+    assert!(steps.into_iter().all(|step| !step.contains("not products")), "one term has no other way");
+}
+
+/// More bits are nearer, of everything that has bits; files and pages are where they are said to be.
+#[test]
+fn a_sweep_says_what_shows() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "out");
+    let [sight, coded] = glossy(folder.path());
+    let found = drawn(&coded, &out, &["--sweep", "--original", &sight]);
+    let rows = found["precision"].as_array().expect("a sweep");
+    let of = |what: &str, choice: &str| {
+        let row = rows.iter().find(|row| row["what"] == what && row["choice"] == choice);
+        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
+    };
+    for what in ["representatives", "weights"] {
+        // Four bits are a sixteenth in the mean; the few large coefficients of a sun make it more or less.
+        for [coarse, fine] in [["8 bits", "12 bits"], ["10 bits", "14 bits"]] {
+            assert!(of(what, coarse) > 3.0 * of(what, fine), "{what}: {coarse} against {fine}");
+        }
+    }
+    assert!(of("bits of G", "8") > 4.0 * of("bits of G", "12") && of("bits of G", "12") > 4.0 * of("bits of G", "16"));
+    assert!(of("pixel arithmetic", "ideal-fp24") < of("pixel arithmetic", "ideal-fp16"));
+    assert!(of("vertex colors", "r350: bytes") > of("vertex colors", "floats, fp32"));
+    for name in ["index.html", "precision.csv", "blame.csv", "card.exr", "timeline.json", "card.png"] {
+        assert!(folder.path().join("out").join(name).exists(), "{name}");
+    }
+    // A raw file is drawn too; it has no code to be made coarse.
+    let raw = drawn(&sight, &out, &["--sweep"]);
+    assert!(raw["precision"].as_array().expect("a sweep").iter().all(|row| row["what"] != "weights"));
+}
+
+/// What does not go together, or fits no card, is refused with what to do; nothing is written.
+#[test]
+fn what_no_card_takes_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [_, coded] = glossy(folder.path());
+    let out = place(folder.path(), "out");
+    for (file, options, words) in [
+        (CODED, "--weights fp16", "`--weights` is for transfer of low frequency, found all frequencies"),
+        (CODED, "--alone", "`--alone` is for transfer of low frequency"),
+        (&coded, "--way colors --partial", "`--partial` is for `--way products`, found `--way colors`"),
+        ("docs/examples/step_small.prt", "--way colors", "`--way` is for transfer of all frequencies, found low"),
+        ("docs/examples/step_small.prt", "--kind all-frequency", "expected transfer of all frequencies, found another"),
+        (CODED, "--kind diffuse", "expected transfer of low frequency, found all frequencies"),
+        (CODED, "--original docs/examples/step_all_small.prt", "expected visibility with the same reflectance"),
+        (&coded, "--original docs/examples/step_all.prt", "expected visibility with the same reflectance"),
+        (&coded, "--device r200", "runs no `ps_2_0` programs"),
+        (&coded, "--device nv35 --map-format rgba16s", "nv35"),
+        (&coded, "--map-format rgba32f", "filters no rgba32f textures"),
+        (&coded, "--map-format rgba8", "expected maps in floats or signed fractions"),
+        (CODED, "--model white-box", "expected transfer of a mesh with"),
+    ] {
+        let fixed = ["prt", "card", file, "--size", "8x8", "--out", &out];
+        let model = ["--model", MODEL];
+        let options: Vec<&str> = options.split(' ').collect();
+        let model = if options.contains(&"--model") { &[] } else { &model[..] };
+        let ran = crossbar(&[&fixed[..], model, &options].concat(), "");
+        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{options:?}: {}", ran.stderr);
+        assert!(flat.contains(words), "{options:?}: {}", ran.stderr);
+        assert!(fs::metadata(&out).is_err(), "{options:?}");
+    }
+}
