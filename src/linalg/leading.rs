@@ -4,6 +4,8 @@
 //! recorded and applied to the wanted columns alone, so `count` vectors of n cost O(n^2 count) beside the 4/3 n^3
 //! operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
+use refsim::exec::batch::SimdLevel;
+
 use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{FactorError, Matrix, dot};
@@ -39,7 +41,10 @@ impl LeadingEigen {
             return Ok(Self::of_zeros(size, count));
         }
         let original = lower.clone();
-        let Tridiagonal { mut diagonal, mut beside, reflections } = lower.into_tridiagonal();
+        let Tridiagonal { mut diagonal, mut beside, reflections } = SimdLevel::widest().run(
+            #[inline(always)]
+            || lower.into_tridiagonal(),
+        );
         let rotations = diagonalise(&mut diagonal, &mut beside)?;
         let mut order: Vec<usize> = (0..size).collect();
         order.sort_by(|&a, &b| diagonal[b].total_cmp(&diagonal[a]));
@@ -116,6 +121,7 @@ impl Lower {
     }
 
     /// The product of the first rows and columns, as many as `vector` has elements, with it.
+    #[inline(always)]
     fn times(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];
         for (i, (&at, row)) in vector.iter().zip(&self.rows).enumerate() {
@@ -134,6 +140,7 @@ impl Lower {
         differences.fold(0.0, |largest, difference| if difference <= largest { largest } else { difference })
     }
 
+    #[inline(always)]
     fn into_tridiagonal(mut self) -> Tridiagonal {
         let size = self.rows.len();
         let (mut beside, mut reflections) = (vec![0.0; size.saturating_sub(1)], Vec::new());
