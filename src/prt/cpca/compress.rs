@@ -179,7 +179,8 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
             }
             Ok(())
         };
-        let clusters = self.clusters.par_iter_mut().zip(&mut self.changed).zip(&mut self.kept).enumerate().with_max_len(1);
+        let clusters =
+            self.clusters.par_iter_mut().zip(&mut self.changed).zip(&mut self.kept).enumerate().with_max_len(1);
         let failed = clusters.map(fit_one).filter_map(Result::err).min_by_key(|&(cluster, _)| cluster);
         failed.map_or(Ok(()), |(cluster, reason)| Err(CpcaError::Factor { cluster, reason }))
     }

@@ -75,12 +75,7 @@ impl KeptProducts {
 }
 
 /// Adds the products of all pairs of vectors to the lower triangle; what stands above it is not used.
-pub(super) fn add_products(
-    products: &mut Matrix,
-    length: usize,
-    level: SimdLevel,
-    vector: impl Fn(usize, &mut [f64]),
-) {
+pub(super) fn add_products(products: &mut Matrix, length: usize, level: SimdLevel, vector: impl Fn(usize, &mut [f64])) {
     let size = products.row_count();
     let (rows, columns) =
         (Packed::<f64, ROWS>::new(size, length, &vector), Packed::<f64, COLUMNS>::new(size, length, &vector));
@@ -132,7 +127,9 @@ mod tests {
         for level in SimdLevel::available() {
             let mut kept = KeptProducts::default();
             // Points come and go, from 1 to 60 of them; all stay, none stay.
-            for (from, to, step) in [(3, 50, 1), (0, 60, 1), (9, 51, 1), (9, 51, 1), (1, 61, 2), (60, 90, 1), (60, 61, 1)] {
+            for (from, to, step) in
+                [(3, 50, 1), (0, 60, 1), (9, 51, 1), (9, 51, 1), (1, 61, 2), (60, 90, 1), (60, 61, 1)]
+            {
                 let points: Vec<u32> = (from..to).step_by(step).filter(|point| point % 7 != from % 5).collect();
                 let found = kept.of(&points, 37, level, vector).expect("products");
                 let new = KeptProducts::default().of(&points, 37, level, vector).expect("products");

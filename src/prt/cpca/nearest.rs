@@ -111,7 +111,9 @@ impl<'a> Points<'a> {
             }),
             None => Packed::new(points.len(), self.signal.dimension(), |at, into| {
                 let values = self.signal.point(points[at] as usize).iter().zip(&self.center);
-                into.iter_mut().zip(values).for_each(|(into, (&x, g))| *into = ((f64::from(x) - g) * self.scale) as f32);
+                into.iter_mut()
+                    .zip(values)
+                    .for_each(|(into, (&x, g))| *into = ((f64::from(x) - g) * self.scale) as f32);
             }),
         }
     }

@@ -187,6 +187,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "Errors of reflectance factors beside spherical harmonics (all-frequency transfer, section 3)",
         work: all_frequency::factors,
     },
+    ReproduceEntry {
+        id: "all-frequency-table-1",
+        title: "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
+        work: all_frequency::table_1,
+    },
 ];
 
 /// The entries' names.
