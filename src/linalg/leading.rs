@@ -4,8 +4,6 @@
 //! recorded and applied to the wanted columns alone, so `count` vectors of n cost O(n^2 count) beside the 4/3 n^3
 //! operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
-use refsim::exec::batch::SimdLevel;
-
 use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{FactorError, Matrix, dot};
@@ -24,7 +22,8 @@ pub struct LeadingEigen {
 
 impl LeadingEigen {
     /// Of a symmetric matrix, of which only the lower triangle is read: the eigenvectors of its `count` largest
-    /// eigenvalues, or of all if it has fewer.
+    /// eigenvalues, or of all if it has fewer. Inlined, so that who calls it may compile it for wider vector
+    /// instructions, which change no bit.
     ///
     /// # Errors
     /// [`FactorError`] if an element is not finite, the iteration does not end, or a pair does not satisfy
@@ -32,6 +31,7 @@ impl LeadingEigen {
     ///
     /// # Panics
     /// If the matrix is not square.
+    #[inline(always)]
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
         assert!(matrix.is_square(), "a square matrix");
         let size = matrix.row_count();
@@ -41,10 +41,7 @@ impl LeadingEigen {
             return Ok(Self::of_zeros(size, count));
         }
         let original = lower.clone();
-        let Tridiagonal { mut diagonal, mut beside, reflections } = SimdLevel::widest().run(
-            #[inline(always)]
-            || lower.into_tridiagonal(),
-        );
+        let Tridiagonal { mut diagonal, mut beside, reflections } = lower.into_tridiagonal();
         let rotations = diagonalise(&mut diagonal, &mut beside)?;
         let mut order: Vec<usize> = (0..size).collect();
         order.sort_by(|&a, &b| diagonal[b].total_cmp(&diagonal[a]));

@@ -1,4 +1,4 @@
-//! Estimates in f32 of the squared error that each cluster leaves at each point, with bounds of how far they may be off.
+//! Estimates in f32 of the squared error that each cluster leaves at each point, with bounds of how far they are off.
 //!
 //! Points and subspaces are taken relative to a center g and scaled by a power of two, so that no point is longer
 //! than 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n

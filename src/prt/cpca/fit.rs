@@ -66,7 +66,7 @@ pub(super) fn fit(
     }
     let residuals = Residuals { signal, points, mean: &mean, level };
     let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
-        Principal::of_components(&residuals.between_components()?, count)?
+        Principal::of_components(&residuals.between_components()?, count, level)?
     } else if linear {
         let products = residuals.between_points(kept)?;
         let found = Principal::of_points(&residuals, &products, count)?;
@@ -101,15 +101,15 @@ struct Principal {
 
 impl Principal {
     /// Of C^T C.
-    fn of_components(products: &Matrix, count: usize) -> Result<Self, FactorError> {
-        let (eigen, kept) = leading(products, count)?;
+    fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, FactorError> {
+        let (eigen, kept) = leading(products, count, level)?;
         let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
         Ok(Self { values: eigen.values, vectors })
     }
 
     /// Of C C^T.
     fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, FactorError> {
-        let (eigen, kept) = leading(products, count)?;
+        let (eigen, kept) = leading(products, count, residuals.level)?;
         let length = residuals.mean.len();
         let combined = residuals.combined(&eigen.vectors, kept);
         let mut vectors = Vec::with_capacity(combined.len());
@@ -122,8 +122,11 @@ impl Principal {
 }
 
 /// Eigenvalues and vectors, and how many of these are more than rounding.
-fn leading(products: &Matrix, count: usize) -> Result<(LeadingEigen, usize), FactorError> {
-    let eigen = LeadingEigen::new(products, count)?;
+fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), FactorError> {
+    let eigen = level.run(
+        #[inline(always)]
+        || LeadingEigen::new(products, count),
+    )?;
     let least = eigen.values[0] * NO_EIGENVALUE;
     let kept = eigen.values.iter().take(count).take_while(|&&value| value > least).count();
     Ok((eigen, kept))

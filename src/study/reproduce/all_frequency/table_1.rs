@@ -38,7 +38,7 @@ const WHAT: [&str; 5] = ["omega", "size after clustering", "size after coding, o
 const HOW: &str = "The teapot and stand-ins of {} to {} vertices for the other models, with the paper's two reflectances in the textbooks' form, are \
     compressed by clusters of {} vertices and {} representatives, which are added one by one, and coded in {} bits: {} of the segments. \
     Omega is that of all segments. Sizes are those of representatives and weights; squared errors are those of decoded transfer, as a share of its squares.";
-const QUESTION: &str = "the models; of what range the quantised numbers are a share, which decides how many become 0; whether the printed squared error is that before coding or after it.";
+const QUESTION: &str = "the models; of what range the quantised numbers are a share, which decides how many of them vanish; whether the printed squared error is that before coding or after it.";
 const OPEN: &str = "what coding leaves open";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
