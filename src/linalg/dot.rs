@@ -5,6 +5,7 @@ const LANES: usize = 8;
 
 /// The inner product of two vectors, as long as the shorter one. Element k goes to partial sum k mod 8; the eight are
 /// folded as a tree. With n elements the result is within `(n / 8 + 4) 2^-53` of the sum of the products' magnitudes.
+#[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let n = a.len().min(b.len());

@@ -315,6 +315,26 @@ fn hold(path: &str, expected: &str) {
     assert!(found == expected, "{path} is out of date: INSTA_UPDATE=always cargo test --test papers writes it");
 }
 
+/// Omega and clusters do not depend on coding, and each further representative lowers the error.
+#[test]
+fn clusters_and_codes_of_models_keep_their_laws() {
+    let found = findings("all-frequency-table-1");
+    assert_eq!((found.rows.len(), found.tables.len()), (33, 4));
+    for row in found.tables[1].rows().iter().filter(|row| ["omega", "size after clustering"].contains(&&*what(row))) {
+        let text = |at: usize| row[at].text().trim_end_matches(" *").to_owned();
+        assert!((5..11).all(|at| text(at) == text(4)), "{}", row[0].text());
+    }
+    for row in found.tables[3].rows() {
+        let errors: Vec<f64> = row[1..].iter().map(|cell| cell.text().parse().expect("a number")).collect();
+        assert!(errors.len() == 16 && errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    }
+}
+
+/// What a row of Table 1 is of, without the model.
+fn what(row: &[Cell]) -> String {
+    row[0].text().rsplit(": ").next().unwrap_or_default().to_owned()
+}
+
 /// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says.
 fn filled(text: &str, of: impl Fn(&str) -> String) -> String {
     const END: &str = "<!-- /reproduce -->";

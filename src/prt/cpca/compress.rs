@@ -5,6 +5,7 @@ use refsim::exec::batch::SimdLevel;
 
 use super::budget::distribute;
 use super::fit::{Fitted, fit};
+use super::gram::KeptProducts;
 use super::members::{Members, fill_empty};
 use super::nearest::Points;
 use super::{Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
@@ -89,6 +90,8 @@ struct Work<'a, O> {
     of_point: Vec<u32>,
     /// Clusters whose points have changed since they were fitted.
     changed: Vec<bool>,
+    /// What fits keep of each cluster.
+    kept: Vec<KeptProducts>,
     vectors: usize,
     steps: Vec<CpcaStep>,
     observe: O,
@@ -100,12 +103,13 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let at = |&point: &u32| signal.point(point as usize).iter().map(|&value| f64::from(value)).collect();
         Ok(Self {
             signal,
-            points: Points::new(signal, level),
+            points: Points::new(signal, options.form, level),
             form: options.form,
             level,
             clusters: start.iter().map(|point| Fitted::at(at(point))).collect(),
             of_point: Vec::new(),
             changed: vec![true; options.clusters],
+            kept: vec![KeptProducts::default(); options.clusters],
             vectors: 0,
             steps: Vec::new(),
             observe,
@@ -133,7 +137,11 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     /// Sends each point to its best cluster; gives the number of points that changed theirs.
     fn classify(&mut self) -> usize {
         let subspaces: Vec<_> = self.clusters.iter().map(|cluster| &cluster.subspace).collect();
-        let mut nearest = self.points.nearest(&subspaces);
+        let order = match &self.of_point[..] {
+            [] => (0..self.signal.points() as u32).collect(),
+            before => Members::new(before, self.clusters.len()).into_points(),
+        };
+        let mut nearest = self.points.nearest(&subspaces, &order);
         fill_empty(&mut nearest.cluster, &mut nearest.squared_error, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, nearest.cluster);
         let mut moved = self.of_point.len() - before.len();
@@ -161,17 +169,18 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     fn fit(&mut self, vectors: usize) -> Result<(), CpcaError> {
         let members = Members::new(&self.of_point, self.clusters.len());
         let (signal, form, level) = (self.signal, self.form, self.level);
-        let fit_one = |(cluster, (fitted, changed)): (usize, (&mut Fitted, &mut bool))| {
+        let fit_one = |(cluster, ((fitted, changed), kept)): (usize, ((&mut Fitted, &mut bool), &mut KeptProducts))| {
             if std::mem::take(changed) {
                 *fitted = match members.of(cluster) {
                     [] if form == CpcaForm::Linear && vectors > 0 => Fitted::at(vec![0.0; signal.dimension()]),
                     [] => Fitted::at(std::mem::take(&mut fitted.subspace.mean)),
-                    points => fit(signal, points, vectors, form, level).map_err(|source| (cluster, source))?,
+                    points => fit(signal, points, vectors, form, level, kept).map_err(|source| (cluster, source))?,
                 };
             }
             Ok(())
         };
-        let clusters = self.clusters.par_iter_mut().zip(&mut self.changed).enumerate().with_max_len(1);
+        let clusters =
+            self.clusters.par_iter_mut().zip(&mut self.changed).zip(&mut self.kept).enumerate().with_max_len(1);
         let failed = clusters.map(fit_one).filter_map(Result::err).min_by_key(|&(cluster, _)| cluster);
         failed.map_or(Ok(()), |(cluster, reason)| Err(CpcaError::Factor { cluster, reason }))
     }
@@ -207,8 +216,9 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    fn fit_one(&self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, CpcaError> {
-        let fitted = fit(self.signal, members.of(cluster), count, self.form, self.level);
+    fn fit_one(&mut self, cluster: usize, members: &Members, count: usize) -> Result<Fitted, CpcaError> {
+        let (points, kept) = (members.of(cluster), &mut self.kept[cluster]);
+        let fitted = fit(self.signal, points, count, self.form, self.level, kept);
         fitted.map_err(|reason| CpcaError::Factor { cluster, reason })
     }
 }

@@ -1,22 +1,18 @@
 //! Principal components of a cluster (section 4.1).
 
-use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::products::{Packed, ROWS, add_block};
+use super::gram::{COLUMNS, KeptProducts, add_products, square};
+use super::products::{Packed, ROWS, add_block, add_orthonormal};
 use super::{AffineSubspace, CpcaForm};
-use crate::linalg::{FactorError, LeadingEigen, Matrix, dot, make_largest_positive};
+use crate::linalg::{FactorError, LeadingEigen, Matrix};
 use crate::prt::Signal;
 
 /// The share of a cluster's largest eigenvalue up to which others are rounding, and have no vectors.
 pub(super) const NO_EIGENVALUE: f64 = 1.0 / (1u64 << 44) as f64;
 
-/// Columns of a block.
-const COLUMNS: usize = 8;
 /// Points per chunk of C^T C: part of the shape of its sums.
 const CHUNK: usize = 512;
-/// Products of fewer numbers than this are made by one thread.
-const MIN_PARALLEL: usize = 1 << 22;
 
 /// A cluster's subspace, and what it leaves.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,13 +49,14 @@ impl Fitted {
 }
 
 /// The mean of some points, at least one, and their `count` first principal components; fewer where the residuals have
-/// a lower rank. In the linear form the mean is 0 once there are vectors.
+/// a lower rank. In the linear form the mean is 0 once there are vectors; the inner products of points are kept then.
 pub(super) fn fit(
     signal: &Signal,
     points: &[u32],
     count: usize,
     form: CpcaForm,
     level: SimdLevel,
+    kept: &mut KeptProducts,
 ) -> Result<Fitted, FactorError> {
     let linear = form == CpcaForm::Linear && count > 0;
     let mean = if linear { vec![0.0; signal.dimension()] } else { mean(signal, points) };
@@ -68,23 +65,71 @@ pub(super) fn fit(
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
     }
     let residuals = Residuals { signal, points, mean: &mean, level };
-    let by_points = points.len() < signal.dimension();
-    let products = if by_points { residuals.between_points() } else { residuals.between_components() };
-    let eigen = LeadingEigen::new(&products?, count)?;
+    let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
+        Principal::of_components(&residuals.between_components()?, count, level)?
+    } else if linear {
+        let products = residuals.between_points(kept)?;
+        let found = Principal::of_points(&residuals, &products, count)?;
+        kept.keep(points, products);
+        found
+    } else {
+        Principal::of_points(&residuals, &residuals.between_points(&KeptProducts::default())?, count)?
+    };
+    let found = vectors.len() / mean.len();
+    let left = values.split_off(found).into_iter().map(|value| value.max(0.0)).collect();
+    Ok(Fitted { subspace: AffineSubspace { mean, vectors, eigenvalues: values }, left })
+}
+
+/// The first `count` principal vectors of some points less a center, one after another.
+pub(super) fn principal_vectors(
+    signal: &Signal,
+    points: &[u32],
+    center: &[f64],
+    count: usize,
+    level: SimdLevel,
+) -> Result<Vec<f64>, FactorError> {
+    let residuals = Residuals { signal, points, mean: center, level };
+    let products = residuals.between_points(&KeptProducts::default())?;
+    Ok(Principal::of_points(&residuals, &products, count)?.vectors)
+}
+
+/// All eigenvalues, the largest first, and some vectors.
+struct Principal {
+    values: Vec<f64>,
+    vectors: Vec<f64>,
+}
+
+impl Principal {
+    /// Of C^T C.
+    fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, FactorError> {
+        let (eigen, kept) = leading(products, count, level)?;
+        let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
+        Ok(Self { values: eigen.values, vectors })
+    }
+
+    /// Of C C^T.
+    fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, FactorError> {
+        let (eigen, kept) = leading(products, count, residuals.level)?;
+        let length = residuals.mean.len();
+        let combined = residuals.combined(&eigen.vectors, kept);
+        let mut vectors = Vec::with_capacity(combined.len());
+        residuals.level.run(
+            #[inline(always)]
+            || combined.chunks_exact(length).all(|vector| add_orthonormal(&mut vectors, vector.to_vec(), 0.0)),
+        );
+        Ok(Self { values: eigen.values, vectors })
+    }
+}
+
+/// Eigenvalues and vectors, and how many of these are more than rounding.
+fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), FactorError> {
+    let eigen = level.run(
+        #[inline(always)]
+        || LeadingEigen::new(products, count),
+    )?;
     let least = eigen.values[0] * NO_EIGENVALUE;
     let kept = eigen.values.iter().take(count).take_while(|&&value| value > least).count();
-    let mut vectors = Vec::with_capacity(kept * mean.len());
-    for vector in eigen.vectors.rows().take(kept) {
-        if by_points {
-            let direction = residuals.combined(vector);
-            push_orthonormal(&mut vectors, direction);
-        } else {
-            vectors.extend_from_slice(vector);
-        }
-    }
-    let left = eigen.values[kept..].iter().map(|&value| value.max(0.0)).collect();
-    let eigenvalues = eigen.values[..kept].to_vec();
-    Ok(Fitted { subspace: AffineSubspace { mean, vectors, eigenvalues }, left })
+    Ok((eigen, kept))
 }
 
 fn mean(signal: &Signal, points: &[u32]) -> Vec<f64> {
@@ -101,20 +146,6 @@ fn squared_distance(point: &[f32], mean: &[f64]) -> f64 {
     differences.map(|difference| difference * difference).sum()
 }
 
-/// Adds a vector, made orthogonal to those before it, twice against rounding, and of length 1.
-fn push_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>) {
-    for _ in 0..2 {
-        for earlier in vectors.chunks_exact(vector.len()) {
-            let along = dot(earlier, &vector);
-            vector.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= along * earlier);
-        }
-        let length = dot(&vector, &vector).sqrt();
-        vector.iter_mut().for_each(|value| *value /= length);
-    }
-    make_largest_positive(&mut vector);
-    vectors.extend(vector);
-}
-
 /// The matrix C of a cluster: its points less the mean, a row each.
 struct Residuals<'a> {
     signal: &'a Signal,
@@ -124,75 +155,51 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
-    fn row(&self, at: usize, into: &mut [f64]) {
-        let values = self.signal.point(self.points[at] as usize).iter().zip(self.mean);
+    fn residual(&self, point: u32, into: &mut [f64]) {
+        let values = self.signal.point(point as usize).iter().zip(self.mean);
         into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
     }
 
+    /// A component of the residuals of some points.
+    fn component(&self, points: &[u32], component: usize, into: &mut [f64]) {
+        let values = points.iter().map(|&point| self.signal.point(point as usize)[component]);
+        let mean = self.mean[component];
+        into.iter_mut().zip(values).for_each(|(into, value)| *into = f64::from(value) - mean);
+    }
+
     /// C C^T.
-    fn between_points(&self) -> Result<Matrix, FactorError> {
-        let mut products = square(self.points.len())?;
-        let length = self.mean.len();
-        let row = |at: usize, into: &mut [f64]| self.row(at, into);
-        self.add(&mut products, length, row);
-        Ok(products)
+    fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, FactorError> {
+        kept.of(self.points, self.mean.len(), self.level, |point, into| self.residual(point, into))
     }
 
     /// C^T C, a chunk of points at a time.
     fn between_components(&self) -> Result<Matrix, FactorError> {
-        let dimension = self.mean.len();
-        let mut products = square(dimension)?;
+        let mut products = square(self.mean.len())?;
         for chunk in self.points.chunks(CHUNK) {
-            let component = |j: usize, into: &mut [f64]| {
-                let values = chunk.iter().map(|&point| f64::from(self.signal.point(point as usize)[j]) - self.mean[j]);
-                into.iter_mut().zip(values).for_each(|(into, value)| *into = value);
-            };
-            self.add(&mut products, chunk.len(), component);
+            let component = |j: usize, into: &mut [f64]| self.component(chunk, j, into);
+            add_products(&mut products, chunk.len(), self.level, component);
         }
         Ok(products)
     }
 
-    /// Adds the products of all pairs of vectors to the lower triangle; what stands above it is not used.
-    fn add(&self, products: &mut Matrix, length: usize, vector: impl Fn(usize, &mut [f64])) {
-        let size = products.row_count();
-        let (rows, columns) =
-            (Packed::<f64, ROWS>::new(size, length, &vector), Packed::<f64, COLUMNS>::new(size, length, &vector));
-        let rows: Vec<_> = rows.groups().collect();
-        let add_rows = |tile: usize, into: &mut [f64]| {
-            self.level.run(
-                #[inline(always)]
-                || {
-                    for (group, column) in columns.groups().enumerate().take(((tile + 1) * ROWS).div_ceil(COLUMNS)) {
-                        let mut sums = [[0.0; COLUMNS]; ROWS];
-                        add_block(rows[tile], column, &mut sums);
-                        for (row, sums) in into.chunks_exact_mut(size).zip(&sums) {
-                            for (into, sum) in row[group * COLUMNS..].iter_mut().zip(sums) {
-                                *into += sum;
-                            }
-                        }
-                    }
-                },
-            );
-        };
-        let mut all: Vec<&mut [f64]> = products.row_blocks_mut(ROWS).collect();
-        if size * size * length < MIN_PARALLEL {
-            all.iter_mut().enumerate().for_each(|(tile, into)| add_rows(tile, into));
-        } else {
-            all.par_iter_mut().enumerate().for_each(|(tile, into)| add_rows(tile, into));
+    /// C^T u for the first vectors u, one after another: combinations of the points' residuals.
+    fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
+        let (length, points) = (self.mean.len(), self.points.len());
+        let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
+        let columns = Packed::<f64, COLUMNS>::new(length, points, |j, into| self.component(self.points, j, into));
+        let mut combined = vec![0.0; count * length];
+        for (rows, into) in rows.groups().zip(combined.chunks_mut(ROWS * length)) {
+            for (group, columns) in columns.groups().enumerate() {
+                let mut sums = [[0.0; COLUMNS]; ROWS];
+                self.level.run(
+                    #[inline(always)]
+                    || add_block(rows, columns, &mut sums),
+                );
+                for (into, sums) in into.chunks_exact_mut(length).zip(&sums) {
+                    into[group * COLUMNS..].iter_mut().zip(sums).for_each(|(into, &sum)| *into = sum);
+                }
+            }
         }
+        combined
     }
-
-    /// C^T u: a combination of the points' residuals.
-    fn combined(&self, weights: &[f64]) -> Vec<f64> {
-        let (mut sum, mut row) = (vec![0.0; self.mean.len()], vec![0.0; self.mean.len()]);
-        for (at, weight) in weights.iter().enumerate() {
-            self.row(at, &mut row);
-            sum.iter_mut().zip(&row).for_each(|(sum, value)| *sum += weight * value);
-        }
-        sum
-    }
-}
-
-fn square(size: usize) -> Result<Matrix, FactorError> {
-    Matrix::zeros([size; 2]).map_err(FactorError::from)
 }

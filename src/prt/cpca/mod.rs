@@ -13,10 +13,13 @@
 //! the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the cluster's largest
 //! are left out. Results have the same bits on every processor and number of threads.
 
+mod axes;
 mod budget;
 mod clustering;
 mod compress;
+mod estimate;
 mod fit;
+mod gram;
 mod members;
 mod nearest;
 mod options;

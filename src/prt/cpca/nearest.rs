@@ -1,34 +1,23 @@
-//! Which cluster approximates each point best: estimates in f32 with bounds of their errors, then f64 among those that
+//! Which cluster approximates each point best: lower bounds of all errors in f32, then f64 among those clusters that
 //! the bounds leave.
 //!
-//! Points and subspaces are taken relative to the mean g of all points and scaled by a power of two, so that no point
-//! is longer than 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n
-//! terms in f32, summed in chunks, is off by at most e times the lengths of its vectors,
-//! `e = (CHUNK + n / CHUNK + 8) 2^-24`. A weight is then off by at most e S, a sum of n' squared weights by
-//! `2 sqrt(n') D e S + n' (e S)^2` because it is at most D^2, and D^2 by e S^2. [`bound`] is their sum with the
-//! rounding of the additions. The cluster with the least error in f64 is among those whose estimate less its bound is
-//! at most the least estimate plus its bound.
+//! The cluster whose bound is least is tried first. The one of least error in f64 is this one, or among those whose
+//! bound is at most its error. So the result is that of comparing every point with every cluster; bounds along a few
+//! axes alone ([`Axes`]), or no bounds at all, change the time it takes.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
-use super::AffineSubspace;
-use super::products::{Packed, ROWS, add_block};
+use super::axes::Axes;
+use super::estimate::{Estimator, LANES, LowerBounds, ScaledSubspace};
+use super::products::Packed;
+use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
 use crate::prt::Signal;
 
-/// Points that are estimated side by side.
-const LANES: usize = 16;
-/// Groups of them that share the rows in the cache.
+/// Groups of points that share the rows in the cache.
 const GROUPS: usize = 4;
-/// Terms of an inner product that are summed in f32 before they join the rest.
-const CHUNK: usize = 128;
-/// The rounding of an operation in f32.
-const UNIT: f32 = 1.0 / (1 << 24) as f32;
-/// Added to each bound, against products too small for f32; lengths are at most 1.
-const SMALL: f32 = 1e-30;
-
-type Lanes = [f32; LANES];
+const BLOCK: usize = LANES * GROUPS;
 
 /// Each point's best cluster, and the squared error of its approximation there.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,198 +32,111 @@ pub(super) struct Points<'a> {
     signal: &'a Signal,
     center: Vec<f64>,
     scale: f64,
+    axes: Option<Axes>,
     level: SimdLevel,
 }
 
-/// A row of the estimates: which vector of which cluster.
-#[derive(Clone, Copy, Debug)]
-enum RowKind {
-    /// The cluster's mean, with its squared length.
-    Mean(f32),
-    /// One of its vectors, with the mean's weight on it.
-    Vector(f32),
-}
-
-/// Subspaces in f32, scaled.
-struct Estimator {
-    rows: Packed<f32, ROWS>,
-    kinds: Vec<(usize, RowKind)>,
-    /// Per cluster the mean's length and the number of vectors.
-    bounds: Vec<(f32, f32)>,
-    error: f32,
-}
-
-/// Estimates of a group of points: per cluster the squared error and the squared distance from the mean.
-struct Estimates {
-    errors: Vec<Lanes>,
-    distances: Vec<Lanes>,
-    squares: Lanes,
-}
-
 impl<'a> Points<'a> {
-    pub(super) fn new(signal: &'a Signal, level: SimdLevel) -> Self {
-        let points = 0..signal.points();
-        let center: Vec<f64> = (0..signal.dimension()).into_par_iter().map(|j| component_mean(signal, j)).collect();
+    pub(super) fn new(signal: &'a Signal, form: CpcaForm, level: SimdLevel) -> Self {
+        let center = match form {
+            CpcaForm::Affine => {
+                (0..signal.dimension()).into_par_iter().map(|j| component_mean(signal, j)).collect::<Vec<_>>()
+            }
+            // That of the subspaces.
+            CpcaForm::Linear => vec![0.0; signal.dimension()],
+        };
         let square = |point| {
             let differences = signal.point(point).iter().zip(&center).map(|(&value, g)| f64::from(value) - g);
             differences.map(|d| d * d).sum::<f64>()
         };
-        let largest = points.into_par_iter().map(square).reduce(|| 0.0, f64::max).sqrt();
-        Self { signal, scale: to_at_most_one(largest), center, level }
+        let largest = (0..signal.points()).into_par_iter().map(square).reduce(|| 0.0, f64::max).sqrt();
+        let scale = to_at_most_one(largest);
+        let axes = Axes::new(signal, &center, scale, level);
+        Self { signal, center, scale, axes, level }
     }
 
-    /// The best cluster of each point.
-    pub(super) fn nearest(&self, subspaces: &[&AffineSubspace]) -> Nearest {
+    /// The best cluster of each point. Points are taken in a given order, all of them once; the nearer those that
+    /// follow each other, the faster.
+    pub(super) fn nearest(&self, subspaces: &[&AffineSubspace], order: &[u32]) -> Nearest {
         let estimator = self.estimator(subspaces);
-        let points = self.signal.points();
-        let mut found = Nearest { cluster: vec![0; points], squared_error: vec![0.0; points] };
-        let clusters = found.cluster.par_chunks_mut(LANES * GROUPS);
-        let blocks = clusters.zip(found.squared_error.par_chunks_mut(LANES * GROUPS)).enumerate();
-        let scratch = || ([(); GROUPS].map(|()| Estimates::new(subspaces.len())), Vec::new());
-        blocks.for_each_init(scratch, |(groups, scratch), (at, (clusters, errors))| {
-            let first = at * LANES * GROUPS;
+        let mut found = vec![(0, 0.0); order.len()];
+        let blocks = found.par_chunks_mut(BLOCK).zip(order.par_chunks(BLOCK));
+        let scratch = || (vec![LowerBounds::new(subspaces.len()); GROUPS], Vec::new(), Vec::new());
+        blocks.for_each_init(scratch, |(groups, lower, residual), (found, points)| {
             self.level.run(
                 #[inline(always)]
-                || self.estimate(first, clusters.len(), &estimator, groups),
+                || estimator.estimate(&self.packed(points), groups),
             );
-            for (i, (cluster, error)) in clusters.iter_mut().zip(errors).enumerate() {
-                let point = self.signal.point(first + i);
-                let candidates = groups[i / LANES].candidates(i % LANES);
-                (*cluster, *error) = least(point, subspaces, candidates, scratch);
+            for (i, (found, &point)) in found.iter_mut().zip(points).enumerate() {
+                lower.clear();
+                lower.extend(groups[i / LANES].of(i % LANES));
+                let point = self.signal.point(point as usize);
+                *found = self.level.run(
+                    #[inline(always)]
+                    || least(point, subspaces, lower, self.scale, residual),
+                );
             }
         });
-        found
+        let mut nearest = Nearest { cluster: vec![0; order.len()], squared_error: vec![0.0; order.len()] };
+        for (&point, (cluster, error)) in order.iter().zip(found) {
+            (nearest.cluster[point as usize], nearest.squared_error[point as usize]) = (cluster, error);
+        }
+        nearest
     }
 
     fn estimator(&self, subspaces: &[&AffineSubspace]) -> Estimator {
-        let dimension = self.signal.dimension();
-        let (mut kinds, mut bounds, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-        for (cluster, subspace) in subspaces.iter().enumerate() {
-            let offset: Vec<f64> = subspace.mean.iter().zip(&self.center).map(|(m, g)| (m - g) * self.scale).collect();
-            let square = dot(&offset, &offset);
-            kinds.push((cluster, RowKind::Mean(square as f32)));
-            kinds.extend(subspace.vectors().map(|v| (cluster, RowKind::Vector(dot(v, &offset) as f32))));
-            bounds.push((square.sqrt() as f32, subspace.len() as f32));
-            rows.push(offset);
-            rows.extend(subspace.vectors().map(<[f64]>::to_vec));
-        }
-        let rows = Packed::new(rows.len(), dimension, |at, into: &mut [f32]| {
-            into.iter_mut().zip(&rows[at]).for_each(|(into, &value)| *into = value as f32);
-        });
-        let error = (CHUNK + dimension / CHUNK + 8) as f32 * UNIT;
-        Estimator { rows, kinds, bounds, error }
+        let dimension = self.axes.as_ref().map_or(self.signal.dimension(), Axes::count);
+        let scaled: Vec<_> = subspaces.par_iter().map(|subspace| self.scaled(subspace)).collect();
+        Estimator::new(dimension, &scaled)
     }
 
-    /// Estimates for `count` points from `first` on, in groups.
-    #[inline(always)]
-    fn estimate(&self, first: usize, count: usize, estimator: &Estimator, groups: &mut [Estimates; GROUPS]) {
-        let columns = Packed::<f32, LANES>::new(count, self.signal.dimension(), |at, into| {
-            let values = self.signal.point(first + at).iter().zip(&self.center);
-            into.iter_mut().zip(values).for_each(|(into, (&x, g))| *into = ((f64::from(x) - g) * self.scale) as f32);
-        });
-        for (group, points) in groups.iter_mut().zip(columns.groups()) {
-            group.square(points);
-        }
-        for (tile, rows) in estimator.rows.groups().enumerate() {
-            let kinds = &estimator.kinds[tile * ROWS..];
-            for (group, points) in groups.iter_mut().zip(columns.groups()) {
-                let mut sums = [[0.0; LANES]; ROWS];
-                for (rows, points) in rows.chunks(CHUNK).zip(points.chunks(CHUNK)) {
-                    add_block(rows, points, &mut sums);
-                }
-                for (&(cluster, kind), sums) in kinds.iter().zip(&sums) {
-                    group.fold(cluster, kind, sums);
-                }
+    fn scaled(&self, subspace: &AffineSubspace) -> ScaledSubspace {
+        let offset: Vec<f64> = subspace.mean.iter().zip(&self.center).map(|(m, g)| (m - g) * self.scale).collect();
+        let offset = if offset.iter().all(|&value| value == 0.0) { Vec::new() } else { offset };
+        match &self.axes {
+            Some(axes) => axes.project(subspace, &offset, self.level),
+            None => {
+                let length = dot(&offset, &offset).sqrt();
+                ScaledSubspace { length, offset, vectors: subspace.vectors.clone() }
             }
         }
-        for group in groups {
-            group.subtract_bounds(estimator);
+    }
+
+    /// Points relative to the center and scaled, along the axes if there are any.
+    #[inline(always)]
+    fn packed(&self, points: &[u32]) -> Packed<f32, LANES> {
+        match &self.axes {
+            Some(axes) => Packed::new(points.len(), axes.count(), |at, into| {
+                into.copy_from_slice(axes.point(points[at] as usize));
+            }),
+            None => Packed::new(points.len(), self.signal.dimension(), |at, into| {
+                let values = self.signal.point(points[at] as usize).iter().zip(&self.center);
+                into.iter_mut()
+                    .zip(values)
+                    .for_each(|(into, (&x, g))| *into = ((f64::from(x) - g) * self.scale) as f32);
+            }),
         }
     }
 }
 
-impl Estimates {
-    fn new(clusters: usize) -> Self {
-        let empty = vec![[0.0; LANES]; clusters];
-        Self { errors: empty.clone(), distances: empty, squares: [0.0; LANES] }
-    }
-
-    /// Takes the points' squared lengths. What was estimated before is overwritten with the rows of the means.
-    #[inline(always)]
-    fn square(&mut self, points: &[Lanes]) {
-        let mut squares = [0.0_f64; LANES];
-        for values in points {
-            for lane in 0..LANES {
-                squares[lane] += f64::from(values[lane]) * f64::from(values[lane]);
-            }
-        }
-        self.squares = squares.map(|square| square as f32);
-    }
-
-    /// Takes the products with one row of a cluster. A mean's row comes before those of its vectors.
-    #[inline(always)]
-    fn fold(&mut self, cluster: usize, kind: RowKind, products: &Lanes) {
-        let (errors, distances) = (&mut self.errors[cluster], &mut self.distances[cluster]);
-        match kind {
-            RowKind::Mean(mean) => {
-                for lane in 0..LANES {
-                    distances[lane] = self.squares[lane] - 2.0 * products[lane] + mean;
-                }
-                *errors = *distances;
-            }
-            RowKind::Vector(offset) => {
-                for lane in 0..LANES {
-                    let along = products[lane] - offset;
-                    errors[lane] -= along * along;
-                }
-            }
-        }
-    }
-
-    /// Leaves the least possible errors in `errors`, and puts the least possible of the greatest into `squares`.
-    #[inline(always)]
-    fn subtract_bounds(&mut self, estimator: &Estimator) {
-        let (lengths, mut least) = (self.squares.map(f32::sqrt), [f32::INFINITY; LANES]);
-        for ((errors, distances), &(mean, vectors)) in
-            self.errors.iter_mut().zip(&self.distances).zip(&estimator.bounds)
-        {
-            let root = vectors.sqrt();
-            for lane in 0..LANES {
-                let bound = bound(estimator.error, lengths[lane] + mean, distances[lane], vectors, root);
-                least[lane] = least[lane].min(errors[lane] + bound);
-                errors[lane] -= bound;
-            }
-        }
-        self.squares = least;
-    }
-
-    fn candidates(&self, lane: usize) -> impl Iterator<Item = usize> {
-        let least = self.squares[lane];
-        self.errors.iter().enumerate().filter(move |(_, errors)| errors[lane] <= least).map(|(cluster, _)| cluster)
-    }
-}
-
-/// How far an estimate may be off. `error` is e, `sum` is S, `distance` the estimate of D^2.
+/// The cluster of least error in f64, the lower of equals, and its error. `lower` has a lower bound for each, scaled.
 #[inline(always)]
-fn bound(error: f32, sum: f32, distance: f32, vectors: f32, root_of_vectors: f32) -> f32 {
-    let weight = error * sum;
-    // The estimate of D^2 is itself off by at most e S^2.
-    let distance = (distance + weight * sum).max(0.0);
-    let squares = 2.0 * root_of_vectors * weight * distance.sqrt() + vectors * weight * weight;
-    weight * sum + squares + 4.0 * (vectors + 8.0) * UNIT * distance + SMALL
-}
-
-/// The candidate of least error in f64, the lower of equals.
 fn least(
     point: &[f32],
     subspaces: &[&AffineSubspace],
-    candidates: impl Iterator<Item = usize>,
-    scratch: &mut Vec<f64>,
+    lower: &[f32],
+    scale: f64,
+    residual: &mut Vec<f64>,
 ) -> (u32, f64) {
-    let mut best = (0, f64::INFINITY);
-    for cluster in candidates {
-        let error = subspaces[cluster].squared_error(point, scratch);
-        if error < best.1 {
+    let mut first = 0;
+    (1..lower.len()).for_each(|cluster| first = if lower[cluster] < lower[first] { cluster } else { first });
+    let mut best = (first as u32, subspaces[first].squared_error(point, residual));
+    for (cluster, &lower) in lower.iter().enumerate() {
+        if cluster == first || f64::from(lower) > best.1 * scale * scale {
+            continue;
+        }
+        let error = subspaces[cluster].squared_error(point, residual);
+        if error < best.1 || (error == best.1 && cluster < best.0 as usize) {
             best = (cluster as u32, error);
         }
     }
@@ -255,6 +157,8 @@ fn to_at_most_one(length: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::random::CounterRng;
+    use crate::prt::cpca::{CpcaMethod, CpcaOptions, StartPoints, compress};
     use crate::prt::synthetic::torus_signal;
 
     /// A signal moved far from the origin, and subspaces of some of its points and differences.
@@ -270,59 +174,124 @@ mod tests {
         (signal.clone(), (0..333).step_by(9).map(subspace).collect())
     }
 
-    #[test]
-    fn estimates_never_lose_the_best_cluster() {
-        for (dimension, vectors) in [(3, 0), (3, 3), (40, 5), (300, 7)] {
-            for (scale, offset) in [(1.0, 0.0), (1.0, 1e4), (1e-38, 3.0), (1e33, 100.0)] {
-                let (signal, subspaces) = far_apart(dimension, scale, offset, vectors);
-                let subspaces: Vec<_> = subspaces.iter().collect();
-                let (mut scratch, all) = (Vec::new(), 0..subspaces.len());
-                for level in SimdLevel::available() {
-                    let found = Points::new(&signal, level).nearest(&subspaces);
-                    for point in 0..signal.points() {
-                        let best = least(signal.point(point), &subspaces, all.clone(), &mut scratch);
-                        let found = (found.cluster[point], found.squared_error[point]);
-                        assert_eq!(found, best, "{dimension} numbers, scale {scale}, offset {offset}, point {point}");
-                    }
+    /// The decision without bounds: every cluster, as one reads it.
+    fn full_search(signal: &Signal, subspaces: &[&AffineSubspace]) -> Nearest {
+        let (mut nearest, mut residual) = (Nearest::default(), Vec::new());
+        for point in 0..signal.points() {
+            let mut best = (0, f64::INFINITY);
+            for (cluster, subspace) in subspaces.iter().enumerate() {
+                let error = subspace.squared_error(signal.point(point), &mut residual);
+                best = if error < best.1 { (cluster as u32, error) } else { best };
+            }
+            nearest.cluster.push(best.0);
+            nearest.squared_error.push(best.1);
+        }
+        nearest
+    }
+
+    fn assert_full(signal: &Signal, subspaces: &[&AffineSubspace], what: &str) {
+        let (expected, points) = (full_search(signal, subspaces), signal.points() as u32);
+        let orders: [Vec<u32>; 2] = [(0..points).collect(), (0..points).rev().collect()];
+        for level in SimdLevel::available() {
+            for form in [CpcaForm::Affine, CpcaForm::Linear] {
+                for order in &orders {
+                    let found = Points::new(signal, form, level).nearest(subspaces, order);
+                    assert_eq!(found, expected, "{what}, {} and {form:?}", level.name());
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_result_is_that_of_the_full_search() {
+        for (dimension, vectors) in [(3, 0), (3, 3), (40, 5), (300, 0), (300, 7)] {
+            for (scale, offset) in [(1.0, 0.0), (1.0, 1e4), (1e-38, 3.0), (1e33, 100.0)] {
+                let (signal, subspaces) = far_apart(dimension, scale, offset, vectors);
+                let what = format!("{dimension} numbers, scale {scale}, offset {offset}");
+                assert_full(&signal, &subspaces.iter().collect::<Vec<_>>(), &what);
+            }
+        }
+    }
+
+    /// Signals drawn at random, some with points that repeat, of low rank or 0, and subspaces fitted to them, some of
+    /// them twice, so that there are ties.
+    #[test]
+    fn the_result_is_that_of_the_full_search_whatever_is_drawn() {
+        let mut axes = 0;
+        for seed in 0..40 {
+            let random = CounterRng::new(seed);
+            let draw = |what: u64, range: u64| random.bits(what, 0, 0) % range;
+            let (points, dimension) = (60 + draw(0, 200) as usize, 100 + draw(1, 300) as usize);
+            let rank = 1 + draw(2, 40) as usize;
+            let waves = torus_signal(points, rank, seed);
+            let mix = |i: u64, j: u64| (random.unit(i, 1, j) - 0.5) * if draw(3, 2) == 0 { 1.0 } else { 1e-3 };
+            let noise = [0.0, 1e-5, 0.1][draw(4, 3) as usize];
+            let value = |point: usize, j: usize| {
+                let point = if draw(5, 3) == 0 { point / 2 } else { point };
+                let wave = waves.point(point).iter().enumerate();
+                let sum: f64 = wave.map(|(i, &value)| f64::from(value) * mix(i as u64, j as u64)).sum();
+                let dark = draw(6, 3) == 0 && point.is_multiple_of(5);
+                if dark { 0.0 } else { (sum + noise * (random.unit(point as u64, 2, j as u64) - 0.5)) as f32 }
+            };
+            let values = (0..points * dimension).map(|at| value(at / dimension, at % dimension)).collect();
+            let signal = Signal::new(dimension, values).expect("a signal");
+            let form = [CpcaForm::Affine, CpcaForm::Linear][draw(7, 2) as usize];
+            let (method, start) = (CpcaMethod::Doubling, StartPoints::Seed(seed));
+            let (clusters, vectors) = (1 + draw(8, 9) as usize, 1 + draw(9, 6) as usize);
+            let options = CpcaOptions { clusters, vectors, iterations: 2, method, form, start };
+            let fitted = compress(&signal, &options, |_| ()).expect("compressed").clustering;
+            let mut subspaces: Vec<_> = fitted.subspaces().iter().collect();
+            subspaces.extend(fitted.subspaces().iter().take(2));
+            assert_full(&signal, &subspaces, &format!("seed {seed}"));
+            axes += usize::from(Points::new(&signal, form, SimdLevel::Baseline).axes.is_some());
+        }
+        assert!((20..40).contains(&axes), "with axes and without: {axes}");
     }
 
     #[test]
     fn errors_are_above_their_lower_bounds() {
         for (dimension, vectors) in [(3, 2), (40, 5), (300, 7)] {
             for offset in [0.0, 1e4] {
-                let (signal, subspaces) = far_apart(dimension, 1.0, offset, vectors);
-                let (subspaces, mut scratch): (Vec<_>, _) = (subspaces.iter().collect(), Vec::new());
-                let points = Points::new(&signal, SimdLevel::widest());
-                let mut groups = [(); GROUPS].map(|()| Estimates::new(subspaces.len()));
-                points.estimate(0, LANES * GROUPS, &points.estimator(&subspaces), &mut groups);
-                for point in 0..LANES * GROUPS {
-                    let (group, lane) = (&groups[point / LANES], point % LANES);
-                    for (subspace, lower) in subspaces.iter().zip(&group.errors) {
-                        let error = subspace.squared_error(signal.point(point), &mut scratch);
-                        let error = error * points.scale * points.scale;
-                        assert!(f64::from(lower[lane]) <= error, "{} for {error}", lower[lane]);
+                for form in [CpcaForm::Affine, CpcaForm::Linear] {
+                    let (signal, subspaces) = far_apart(dimension, 1.0, offset, vectors);
+                    let (subspaces, mut scratch): (Vec<_>, _) = (subspaces.iter().collect(), Vec::new());
+                    let points = Points::new(&signal, form, SimdLevel::widest());
+                    let mut groups = vec![LowerBounds::new(subspaces.len()); GROUPS];
+                    let some: Vec<u32> = (0..BLOCK as u32).collect();
+                    points.estimator(&subspaces).estimate(&points.packed(&some), &mut groups);
+                    for point in 0..BLOCK {
+                        let bounds = groups[point / LANES].of(point % LANES);
+                        for (subspace, lower) in subspaces.iter().zip(bounds) {
+                            let error = subspace.squared_error(signal.point(point), &mut scratch);
+                            let error = error * points.scale * points.scale;
+                            assert!(f64::from(lower) <= error, "{lower} for {error}");
+                        }
                     }
                 }
             }
         }
     }
 
+    /// Bounds that hold no cluster back would pass every other test.
     #[test]
-    fn estimates_leave_few_candidates() {
-        let signal = torus_signal(2000, 100, 3);
-        let subspaces: Vec<AffineSubspace> = (0..2000)
-            .step_by(40)
-            .map(|at| AffineSubspace::at(signal.point(at).iter().map(|&value| f64::from(value)).collect()))
-            .collect();
-        let subspaces: Vec<_> = subspaces.iter().collect();
-        let points = Points::new(&signal, SimdLevel::widest());
-        let (estimator, mut groups) = (points.estimator(&subspaces), [(); GROUPS].map(|()| Estimates::new(50)));
-        points.estimate(0, LANES * GROUPS, &estimator, &mut groups);
-        let left: usize = groups.iter().flat_map(|group| (0..LANES).map(|lane| group.candidates(lane).count())).sum();
-        assert!(left < 2 * LANES * GROUPS, "{left} candidates for {} points", LANES * GROUPS);
+    fn bounds_leave_few_clusters() {
+        for (dimension, vectors, most) in [(100, 0, 0.05), (100, 3, 0.2), (400, 0, 0.05), (400, 3, 0.2)] {
+            let signal = torus_signal(2000, dimension, 3);
+            let (method, form, start) = (CpcaMethod::Doubling, CpcaForm::Affine, StartPoints::Seed(1));
+            let options = CpcaOptions { clusters: 50, vectors, iterations: 2, method, form, start };
+            let fitted = compress(&signal, &options, |_| ()).expect("compressed").clustering;
+            let subspaces: Vec<_> = fitted.subspaces().iter().collect();
+            let points = Points::new(&signal, form, SimdLevel::widest());
+            let mut groups = vec![LowerBounds::new(50); GROUPS];
+            let some: Vec<u32> = (0..BLOCK as u32).collect();
+            points.estimator(&subspaces).estimate(&points.packed(&some), &mut groups);
+            let left = |at: usize| {
+                let error = fitted.squared_error_of(at, &signal) * points.scale * points.scale;
+                groups[at / LANES].of(at % LANES).filter(|&lower| f64::from(lower) <= error).count()
+            };
+            let left = (0..BLOCK).map(left).sum::<usize>() as f64 / (50 * BLOCK) as f64;
+            assert!(left < most, "{dimension} numbers, {vectors} vectors: {left} of all clusters");
+        }
     }
 
     #[test]

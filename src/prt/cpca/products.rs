@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul};
 
+use crate::linalg::{dot, make_largest_positive};
+
 /// Rows of a block.
 pub(super) const ROWS: usize = 6;
 
@@ -33,24 +35,89 @@ impl<T: Copy + Default, const N: usize> Packed<T, N> {
 }
 
 /// Adds the inner products of ROWS vectors with N others. Each sum runs over the components in order, from 0.
+// Each row's sums are a variable of their own: of an array of them, AVX-512 code gathers the elements one by one, which
+// took 60 times as long.
 #[inline(always)]
 pub(super) fn add_block<T, const N: usize>(rows: &[[T; ROWS]], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
 where
     T: Copy + Default + Add<Output = T> + Mul<Output = T>,
 {
-    let mut sums = [[T::default(); N]; ROWS];
+    let [mut a, mut b, mut c, mut d, mut e, mut f] = [[T::default(); N]; ROWS];
     for (row, column) in rows.iter().zip(columns) {
-        for (sum, &value) in sums.iter_mut().zip(row) {
-            for (sum, &other) in sum.iter_mut().zip(column) {
-                *sum = *sum + value * other;
-            }
+        a = add_scaled(a, row[0], column);
+        b = add_scaled(b, row[1], column);
+        c = add_scaled(c, row[2], column);
+        d = add_scaled(d, row[3], column);
+        e = add_scaled(e, row[4], column);
+        f = add_scaled(f, row[5], column);
+    }
+    for (into, sums) in into.iter_mut().zip([a, b, c, d, e, f]) {
+        *into = std::array::from_fn(|at| into[at] + sums[at]);
+    }
+}
+
+#[inline(always)]
+fn add_scaled<T, const N: usize>(sums: [T; N], scale: T, others: &[T; N]) -> [T; N]
+where
+    T: Copy + Add<Output = T> + Mul<Output = T>,
+{
+    std::array::from_fn(|at| sums[at] + scale * others[at])
+}
+
+/// Vectors whose inner products are summed side by side.
+const SIDE: usize = 4;
+/// Partial sums of an inner product: those of [`dot`].
+const PARTIAL: usize = 8;
+
+/// Calls `into` with the inner products of a vector with others, as long as it each and one after another. They have
+/// the bits of [`dot`].
+#[inline(always)]
+pub(super) fn dots(others: &[f64], vector: &[f64], mut into: impl FnMut(f64)) {
+    let length = vector.len().max(1);
+    let (values, rest) = vector.as_chunks::<PARTIAL>();
+    let mut groups = others.chunks_exact(SIDE * length);
+    for group in &mut groups {
+        let [mut a, mut b, mut c, mut d] = [[0.0; PARTIAL]; SIDE];
+        let others: [_; SIDE] = std::array::from_fn(|i| group[i * length..][..length].as_chunks::<PARTIAL>());
+        let [(p, _), (q, _), (r, _), (s, _)] = others;
+        for ((((values, p), q), r), s) in values.iter().zip(p).zip(q).zip(r).zip(s) {
+            a = add_products(a, p, values);
+            b = add_products(b, q, values);
+            c = add_products(c, r, values);
+            d = add_products(d, s, values);
+        }
+        for (mut sums, (_, other)) in [a, b, c, d].into_iter().zip(others) {
+            sums.iter_mut().zip(other.iter().zip(rest)).for_each(|(sum, (x, y))| *sum += x * y);
+            let [s0, s1, s2, s3, s4, s5, s6, s7] = sums;
+            into(((s0 + s4) + (s2 + s6)) + ((s1 + s5) + (s3 + s7)));
         }
     }
-    for (into, sums) in into.iter_mut().zip(&sums) {
-        for (into, &sum) in into.iter_mut().zip(sums) {
-            *into = *into + sum;
+    groups.remainder().chunks_exact(length).for_each(|other| into(dot(other, vector)));
+}
+
+#[inline(always)]
+fn add_products(sums: [f64; PARTIAL], a: &[f64; PARTIAL], b: &[f64; PARTIAL]) -> [f64; PARTIAL] {
+    std::array::from_fn(|at| sums[at] + a[at] * b[at])
+}
+
+/// Adds a vector to orthonormal ones, made orthogonal to them, twice against rounding, and of length 1. One of which
+/// no more than `nothing` is left is not added. Says whether it was.
+#[inline(always)]
+pub(super) fn add_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>, nothing: f64) -> bool {
+    for _ in 0..2 {
+        for earlier in vectors.chunks_exact(vector.len()) {
+            let along = dot(earlier, &vector);
+            vector.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= along * earlier);
         }
+        let length = dot(&vector, &vector).sqrt();
+        if length <= nothing {
+            return false;
+        }
+        vector.iter_mut().for_each(|value| *value /= length);
     }
+    make_largest_positive(&mut vector);
+    vectors.extend(vector);
+    true
 }
 
 #[cfg(test)]
@@ -77,5 +144,29 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn inner_products_side_by_side_have_the_bits_of_others() {
+        for length in [1, 7, 8, 29, 64] {
+            for count in 0..10 {
+                let value = |at: usize| (at as f64 * 0.37).fract() - 0.4;
+                let others: Vec<f64> = (0..count * length).map(value).collect();
+                let (vector, mut found) = ((0..length).map(|at| value(at * at)).collect::<Vec<_>>(), Vec::new());
+                dots(&others, &vector, |product| found.push(product));
+                let expected: Vec<f64> = others.chunks_exact(length).map(|other| dot(other, &vector)).collect();
+                assert_eq!(found, expected, "{count} of {length}");
+            }
+        }
+    }
+
+    #[test]
+    fn vectors_become_orthonormal_unless_nothing_is_left() {
+        let mut vectors = Vec::new();
+        assert!(add_orthonormal(&mut vectors, vec![0.0, -3.0, 0.0], 0.0));
+        assert!(!add_orthonormal(&mut vectors, vec![0.0, 5.0, 1e-12], 1e-9));
+        assert!(!add_orthonormal(&mut vectors, vec![0.0, 5.0, 0.0], 0.0));
+        assert!(add_orthonormal(&mut vectors, vec![0.0, 5.0, 1e-12], 0.0));
+        assert_eq!(vectors, [0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     }
 }

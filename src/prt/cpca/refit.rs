@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::fit::{Fitted, fit};
+use super::gram::KeptProducts;
 use super::members::Members;
 use super::{Clustering, CpcaError};
 use crate::prt::Signal;
@@ -25,7 +26,10 @@ pub fn refit(signal: &Signal, clustering: &Clustering) -> Result<Clustering, Cpc
     let form = clustering.form();
     let one = |cluster: usize| match members.of(cluster) {
         [] => Ok(Fitted::at(subspaces[cluster].mean.clone())),
-        points => fit(signal, points, subspaces[cluster].len(), form, level).map_err(|source| (cluster, source)),
+        points => {
+            let kept = &mut KeptProducts::default();
+            fit(signal, points, subspaces[cluster].len(), form, level, kept).map_err(|source| (cluster, source))
+        }
     };
     let fitted: Vec<_> = (0..subspaces.len()).into_par_iter().with_max_len(1).map(one).collect();
     let fitted = fitted.into_iter().map(|fitted| fitted.map(|fitted| fitted.subspace));

@@ -1,5 +1,6 @@
 //! The affine subspace of a cluster: its mean and principal vectors.
 
+use super::products::dots;
 use crate::linalg::dot;
 
 /// The share of the squared distance from the mean below which a squared error counts as 0: well above the rounding
@@ -45,13 +46,12 @@ impl AffineSubspace {
     }
 
     /// The squared error of a point's best approximation, as section 4.2 computes it.
+    #[inline(always)]
     pub(crate) fn squared_error(&self, point: &[f32], residual: &mut Vec<f64>) -> f64 {
         self.residual(point, residual);
         let distance = dot(residual, residual);
-        let error = self.vectors().fold(distance, |error, vector| {
-            let along = dot(vector, residual);
-            error - along * along
-        });
+        let mut error = distance;
+        dots(&self.vectors, residual, |along| error -= along * along);
         if error <= distance * NO_ERROR { 0.0 } else { error }
     }
 
@@ -62,6 +62,7 @@ impl AffineSubspace {
         self.vectors().map(move |vector| dot(vector, &residual))
     }
 
+    #[inline(always)]
     fn residual(&self, point: &[f32], into: &mut Vec<f64>) {
         into.clear();
         into.extend(point.iter().zip(&self.mean).map(|(&value, mean)| f64::from(value) - mean));

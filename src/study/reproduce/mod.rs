@@ -208,6 +208,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: all_frequency::factors,
     },
     ReproduceEntry {
+        id: "all-frequency-table-1",
+        title: "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
+        work: all_frequency::table_1,
+    },
+    ReproduceEntry {
         id: "bi-scale-counts",
         title: "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
         work: |_| Ok(bi_scale::counts()),

@@ -27,8 +27,8 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
         return Err(Problem::usage(what, "name a file that `crossbar prt precompute` wrote").into());
     };
     let numbers = 4 * 256 * file.reflectance.terms() as u64;
-    // A segment of all vertices, its clusters, and products of a group of points.
-    let bytes = maps.len() as u64 * (numbers * 3 / 2 + 2000) + (128 << 20);
+    // A segment of all vertices, its clusters, the vertices along axes, and inner products of clusters' vertices.
+    let bytes = maps.len() as u64 * (numbers * 3 / 2 + 6500) + (128 << 20);
     let what = format_args!("a segment of the transfer of {} vertices, {numbers} bytes each", maps.len());
     memory::require(what, bytes, "name a model of fewer vertices, or factors of fewer terms")?;
     let compression = SegmentedCompression {

@@ -3,10 +3,13 @@
 mod counts;
 mod factors;
 mod forms;
+mod models;
 mod roughness;
+mod table_1;
 
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
+pub(super) use table_1::findings as table_1;
 
 use super::pipeline::failed;
 use super::shared::Shared;

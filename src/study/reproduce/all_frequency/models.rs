@@ -1,0 +1,260 @@
+//! Models of Table 1, or stand-ins of ours, compressed and coded.
+
+use super::forms::{Form, TERMS, cook_torrance, schlick};
+use super::{HOST, ReproduceError, failed};
+use crate::geom::Mesh;
+use crate::geom::exact::Sides;
+use crate::prt::Signal;
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, ScaleOf};
+use crate::prt::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::prt::all_frequency::factor::Factorization;
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::hats::{HatWidth, Hats};
+use crate::prt::all_frequency::transfer::transfer_of;
+use crate::prt::all_frequency::visibility::{SegmentCensus, VisibilityMaps};
+use crate::prt::cpca::{CpcaStep, CpcaStepKind};
+use crate::prt::transfer::{Tangents, Vertices};
+use crate::scene::built::transfer_models::TransferModel;
+use crate::study::reproduce::ModelSize;
+use crate::tracer::HostTracer;
+
+/// A quarter of each face: what is compressed of reduced models.
+const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];
+/// Iterations for each number of representatives on reduced models.
+const REDUCED_ITERATIONS: usize = 4;
+/// Bits of the numbers that Haar coefficients alone are coded by: those of the earlier work first.
+pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
+
+/// How representatives are coded: the first as the paper says, others in what it leaves open.
+pub(super) const CODINGS: [Coding; 5] = [
+    Coding { name: "16_bits", bits: 16, scale: ScaleOf::Representative },
+    Coding { name: "16_bits_step_per_segment", bits: 16, scale: ScaleOf::Segment },
+    Coding { name: "steps_of_12_bits", bits: 12, scale: ScaleOf::Representative },
+    Coding { name: "steps_of_10_bits", bits: 10, scale: ScaleOf::Representative },
+    Coding { name: "steps_of_8_bits", bits: 8, scale: ScaleOf::Representative },
+];
+
+/// How representatives are coded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coding {
+    pub(super) name: &'static str,
+    /// Of the largest number.
+    bits: u8,
+    scale: ScaleOf,
+}
+
+impl Coding {
+    fn options(self) -> CodeOptions {
+        CodeOptions { representative_bits: self.bits, scale: self.scale, ..CodeOptions::default() }
+    }
+}
+
+/// A model of Table 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TableModel {
+    Bunny,
+    Teapot,
+    Tweety,
+    Buddha,
+}
+
+/// Its material there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TableMaterial {
+    Diffuse,
+    Cook,
+    Schlick,
+}
+
+impl TableModel {
+    /// Reduced, it has some 500 to 800 vertices.
+    fn mesh(self, size: ModelSize) -> Result<Mesh, ReproduceError> {
+        let built =
+            |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
+        Ok(match self {
+            Self::Bunny => built(TransferModel::Bunny, 4),
+            Self::Tweety => built(TransferModel::Tweety, 8),
+            Self::Buddha => built(TransferModel::Buddha, 8),
+            Self::Teapot => {
+                let rate = if size == ModelSize::Printed { 40 } else { 5 };
+                crate::geom::teapot::teapot(rate).map_err(|e| failed(HOST)(&e))?
+            }
+        })
+    }
+}
+
+impl TableMaterial {
+    /// By the textbooks' form of the model, ten terms.
+    pub(super) fn reflectance(self) -> Result<Reflectance, ReproduceError> {
+        let (_, lobe, sampling): Form = match self {
+            Self::Diffuse => return Ok(Reflectance::Diffuse),
+            Self::Cook => cook_torrance()[0],
+            Self::Schlick => schlick()[0],
+        };
+        let fail = failed(HOST);
+        let table = sampling.table(&lobe, &mut |_, _| ()).map_err(|e| fail(&e))?;
+        let factors = Factorization::new(&table, TERMS).map_err(|e| fail(&e))?;
+        Ok(Reflectance::Factored(factors.factors(TERMS)))
+    }
+}
+
+/// What the vertices of a model see.
+pub(super) struct SeenModel {
+    vertices: Vertices,
+    maps: VisibilityMaps,
+    hats: Hats,
+    size: ModelSize,
+}
+
+/// What became of a model.
+#[derive(Clone, Debug)]
+pub(super) struct CompressedModel {
+    pub(super) vertices: usize,
+    /// Segments that were compressed.
+    pub(super) segments: usize,
+    pub(super) omega: f64,
+    pub(super) clusters: usize,
+    /// Bytes of raw transfer in single precision, of all segments that were compressed.
+    pub(super) raw: f64,
+    /// Weights and representatives in single precision.
+    pub(super) clustered: f64,
+    /// By [`CODINGS`].
+    pub(super) coded: Vec<CodedModel>,
+    /// Bytes of quantised Haar coefficients that are not 0, by [`HAAR_BITS`].
+    pub(super) haar: [f64; 3],
+    /// By number of representatives the squared error, as a share of the squares.
+    pub(super) error_of: Vec<(usize, f64)>,
+}
+
+/// One coding of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CodedModel {
+    /// Bytes of representatives and weights, all numbers stored in 16 bits.
+    pub(super) numbers: f64,
+    /// Bytes of counts of columns, steps and clusters.
+    pub(super) headers: f64,
+    /// As a share of the squares.
+    pub(super) squared_error: f64,
+}
+
+impl SeenModel {
+    /// Casts the rays.
+    pub(super) fn new(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
+        let fail = failed(HOST);
+        let mesh = model.mesh(size)?;
+        let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
+        let all: Vec<u32> = (0..vertices.len() as u32).collect();
+        let mut tracer = HostTracer::new(&mesh, Sides::Both);
+        let maps = VisibilityMaps::trace(&vertices, &all, &mut tracer, &mut |_, _| ()).map_err(|e| fail(&e))?;
+        Ok(Self { vertices, maps, hats: Hats::new(HatWidth::TwoTexels), size })
+    }
+
+    /// Compresses and codes.
+    pub(super) fn compressed(&self, reflectance: &Reflectance) -> Result<CompressedModel, ReproduceError> {
+        let fail = failed(HOST);
+        let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
+        let reduced = self.size == ModelSize::Reduced;
+        let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
+        let wanted = if reduced { &SOME_SEGMENTS[..] } else { &all[..] };
+        let mut work = Work::default();
+        for &segment in wanted {
+            if let Some(found) = transfer.segment(segment).map_err(|e| fail(&e))? {
+                let iterations = if reduced { REDUCED_ITERATIONS } else { SegmentOptions::default().iterations };
+                work.add(segment, found.vertices, &found.signal, iterations)?;
+            }
+        }
+        let (rows, coefficients) = (reflectance.terms(), Segmentation::Quarters.len());
+        let (vertices, squares) = (self.vertices.len(), work.squares);
+        let coded = CODINGS.into_iter().zip(work.coded).zip(work.coded_errors).map(|((coding, segments), error)| {
+            let options = CodeOptions { representative_bits: 16, ..coding.options() };
+            let size = CodedTransfer { rows, coefficients, vertices, options, segments }.size();
+            let numbers = size.as_the_paper_counts();
+            let headers = (size.total() - numbers) as f64;
+            CodedModel { numbers: numbers as f64, headers, squared_error: error / squares }
+        });
+        let coded = coded.collect();
+        Ok(CompressedModel {
+            vertices,
+            segments: wanted.len(),
+            omega: SegmentCensus::new(&self.vertices, &self.maps, &self.hats).omega(),
+            clusters: work.clusters,
+            raw: (4 * wanted.len() * coefficients * rows * vertices) as f64,
+            clustered: 4.0 * work.numbers as f64,
+            coded,
+            haar: work.haar,
+            error_of: work.error_of.into_iter().map(|(vectors, error)| (vectors, error / squares)).collect(),
+        })
+    }
+}
+
+/// Sums over segments.
+#[derive(Default)]
+struct Work {
+    clusters: usize,
+    numbers: usize,
+    squares: f64,
+    coded: [Vec<CodedSegment>; CODINGS.len()],
+    coded_errors: [f64; CODINGS.len()],
+    haar: [f64; 3],
+    error_of: Vec<(usize, f64)>,
+}
+
+impl Work {
+    fn add(
+        &mut self,
+        segment: usize,
+        vertices: Vec<u32>,
+        signal: &Signal,
+        iterations: usize,
+    ) -> Result<(), ReproduceError> {
+        let fail = failed(HOST);
+        let options = SegmentOptions { iterations, ..SegmentOptions::default() };
+        let mut steps: Vec<CpcaStep> = Vec::new();
+        let compressed = CompressedSegment::new(segment, vertices, signal, &options, |step| steps.push(*step));
+        let compressed = compressed.map_err(|e| fail(&e))?;
+        for (at, coding) in CODINGS.into_iter().enumerate() {
+            let coded = CodedSegment::code(&compressed, coding.options()).map_err(|e| fail(&e))?;
+            self.coded_errors[at] += coded.squared_errors(signal).iter().sum::<f64>();
+            self.coded[at].push(coded);
+        }
+        self.clusters += compressed.clustering.subspaces().len();
+        self.numbers += compressed.clustering.stored_numbers();
+        self.squares += signal.sum_of_squares();
+        for (bytes, bits) in self.haar.iter_mut().zip(HAAR_BITS) {
+            *bytes += haar_bytes(signal, bits);
+        }
+        let last = last_of_each(&steps);
+        self.error_of.resize(last.len().max(self.error_of.len()), (0, 0.0));
+        for (sum, (vectors, error)) in self.error_of.iter_mut().zip(last) {
+            *sum = (vectors, sum.1 + error);
+        }
+        Ok(())
+    }
+}
+
+/// The squared error of the last fit for each number of representatives but 0.
+fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
+    let fits = steps.iter().filter(|step| step.kind == CpcaStepKind::Fitted && step.vectors > 0);
+    let mut last: Vec<(usize, f64)> = Vec::new();
+    for step in fits {
+        match last.last_mut().filter(|last| last.0 == step.vectors) {
+            Some(last) => last.1 = step.squared_error,
+            None => last.push((step.vectors, step.squared_error)),
+        }
+    }
+    last
+}
+
+/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is not 0 once the
+/// largest of the vertex fills integers of so many bits.
+fn haar_bytes(signal: &Signal, bits: u32) -> f64 {
+    let nonzeros = |point: usize| {
+        let values = signal.point(point);
+        let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
+        let half = 0.5 * f64::from(largest) / f64::from((1_u32 << (bits - 1)) - 1);
+        values.iter().filter(|value| f64::from(value.abs()) > half).count()
+    };
+    let nonzeros: usize = (0..signal.points()).map(nonzeros).sum();
+    nonzeros as f64 * (1.0 + f64::from(bits) / 8.0)
+}
