@@ -21,7 +21,7 @@ use crate::geom::vector::narrow;
 
 /// The largest error of a plane's sum, in R L.
 const BOUND: f32 = 32.0 * f32::EPSILON / 2.0;
-/// What is added to bounds, so that what underflows is not certain. Lengths are shares of a ray's.
+/// What is added to bounds, so that what underflows is not certain. Lengths are shares of the mesh's extent.
 const TINY: f32 = 1e-30;
 /// Triangles of a leaf at most.
 pub(super) const WIDTH: usize = 8;

@@ -8,8 +8,10 @@ use crate::geom::vector::{narrow, wide};
 
 /// By how much parameters at the planes of a box may be off: a few roundings.
 const SLACK: f32 = 1.0 + 16.0 * f32::EPSILON;
-/// By how much boxes are grown, in shares of a ray's length: more than what rounding does to a direction.
+/// By how much boxes are grown, in shares of the mesh's extent: more than what rounding does to a direction.
 const GROWTH: f64 = 1e-6;
+/// The least extent of a mesh, 2^-100: meshes with smaller ones are left to the caster.
+const LEAST_EXTENT: f64 = 1.0 / (1_u128 << 100) as f64;
 /// Direction components below this count as this: a ray moves by that share of its length.
 const LEAST: f32 = 1e-18;
 
@@ -27,7 +29,7 @@ struct ShadowNode {
     axis: u32,
 }
 
-/// The triangles of a mesh in a hierarchy of boxes, in shares of a ray's length.
+/// The triangles of a mesh in a hierarchy of boxes, in shares of its extent.
 #[derive(Clone, Debug)]
 pub(super) struct ShadowTree {
     nodes: Vec<ShadowNode>,
@@ -45,18 +47,18 @@ pub(super) struct Shadowed {
 }
 
 impl ShadowTree {
-    /// The triangles of `occluders`; `reach` is the length of rays, a power of two that is at least twice the diagonal.
-    pub(super) fn new(occluders: &Occluders, reach: f64) -> Self {
-        let scale = 1.0 / reach;
-        let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), scale };
-        tree.add(occluders, 0, (0, occluders.triangles().len()), reach);
+    /// The triangles of `occluders`.
+    pub(super) fn new(occluders: &Occluders) -> Self {
+        let extent = extent(2.0 * occluders.nodes()[0].half.length());
+        let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), scale: 1.0 / extent };
+        tree.add(occluders, 0, (0, occluders.triangles().len()), extent);
         tree
     }
 
     /// Adds a node of `occluders` over a range of its triangles, and what is below it.
-    fn add(&mut self, occluders: &Occluders, index: usize, (first, count): (usize, usize), reach: f64) {
+    fn add(&mut self, occluders: &Occluders, index: usize, (first, count): (usize, usize), extent: f64) {
         let node = &occluders.nodes()[index];
-        let half = node.half + GROWTH * (reach + node.middle.abs());
+        let half = node.half + GROWTH * (extent + node.middle.abs());
         let ends = [node.middle - half, node.middle + half].map(|end| narrow(self.scale * end));
         let place = self.nodes.len();
         let is_leaf = count <= WIDTH;
@@ -71,9 +73,9 @@ impl ShadowTree {
             self.leaves.push(ShadowLeaf::new(&occluders.triangles()[first..first + count], self.scale));
             return;
         }
-        self.add(occluders, index + 1, (first, count / 2), reach);
+        self.add(occluders, index + 1, (first, count / 2), extent);
         self.nodes[place].next = self.nodes.len() as u32;
-        self.add(occluders, node.next as usize, (first + count / 2, count - count / 2), reach);
+        self.add(occluders, node.next as usize, (first + count / 2, count - count / 2), extent);
     }
 
     /// An origin in the tree's units.
@@ -122,6 +124,15 @@ impl ShadowTree {
         }
         shadowed
     }
+}
+
+/// A power of two from a length to twice that, or the least that there is for shorter ones.
+fn extent(length: f64) -> f64 {
+    let mut extent = LEAST_EXTENT;
+    while extent < length {
+        extent *= 2.0;
+    }
+    extent
 }
 
 /// Whether a live ray may go through a box.

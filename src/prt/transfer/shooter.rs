@@ -59,7 +59,7 @@ impl<'a> Shooter<'a> {
         occluders: &Occluders,
     ) -> Self {
         let reach = ray_length(vertices);
-        let (packets, tree) = (PacketedRule::new(rule.directions()), ShadowTree::new(occluders, reach));
+        let (packets, tree) = (PacketedRule::new(rule.directions()), ShadowTree::new(occluders));
         Self { vertices, rule: rule.clone(), origins, reach, packets, tree }
     }
 
