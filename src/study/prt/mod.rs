@@ -23,5 +23,5 @@ pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
-pub(super) use render::auto_exposure;
 pub use render::{RenderError, Rendering, Turning};
+pub(super) use render::{auto_exposure, cluster_color};

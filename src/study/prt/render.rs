@@ -254,7 +254,7 @@ pub(super) fn carried(camera: &Camera, mesh: &Mesh, turn: &DMat3) -> Camera {
 }
 
 /// The color that stands for a cluster.
-pub(super) fn cluster_color(cluster: u32) -> [u8; 3] {
+pub(in crate::study) fn cluster_color(cluster: u32) -> [u8; 3] {
     let random = CounterRng::new(0);
     [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
 }

@@ -162,6 +162,21 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: cpca::figure_6,
     },
     ReproduceEntry {
+        id: "cpca-figure-7",
+        title: "Projections of exit radiance under colored lights (CPCA, figure 7)",
+        work: cpca::figure_7,
+    },
+    ReproduceEntry {
+        id: "cpca-figure-8",
+        title: "Glossy Phong models, their speed and that of a newer card (CPCA, figure 8)",
+        work: cpca::figure_8,
+    },
+    ReproduceEntry {
+        id: "cpca-figure-9",
+        title: "A sum of transfer in two environments (CPCA, figure 9)",
+        work: cpca::figure_9,
+    },
+    ReproduceEntry {
         id: "cpca-figure-10",
         title: "Principal components, vector quantization, and both (CPCA, figure 10)",
         work: cpca::figure_10,
@@ -171,7 +186,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "The number of vectors per cluster (CPCA, figure 11)",
         work: cpca::figure_11,
     },
-    ReproduceEntry { id: "cpca-table-1", title: "Errors of seven signals (CPCA, table 1)", work: cpca::table_1 },
+    ReproduceEntry {
+        id: "cpca-table-1",
+        title: "Errors and frame rates of seven signals (CPCA, table 1)",
+        work: cpca::table_1,
+    },
     ReproduceEntry {
         id: "cpca-coherence",
         title: "Overdraw of clusters (CPCA, figure 5 and the table of section 7)",

@@ -1,6 +1,11 @@
 //! Figure 10: principal components alone, vector quantisation alone, and both.
 
+use refsim::device::Profile;
+
+use super::drawn::DrawnClusters;
 use super::figure_3::EYE;
+use super::mesh_cost::CARD;
+use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::signals::BIRD;
 use super::views::ModelView;
 use super::{
@@ -16,6 +21,8 @@ const PLACE: &str = "figure 10";
 /// Name, printed clusters, vectors and squared error, in the order of the figure.
 const ENCODINGS: [(&str, usize, usize, f64); 3] =
     [("PCA", 1, 20, 101_304.0), ("VQ", 1792, 0, 14_799.0), ("CPCA", 256, 8, 294.4)];
+/// Their frames per second.
+const RATES: [f64; 3] = [45.7, 41.8, 45.5];
 
 const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's metric its three encodings hold {} M, {} M and {} M numbers. \
     The rows of section 8 give vector quantization and principal components as much storage as both together. All on {} points of {} numbers.";
@@ -28,7 +35,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let quantised = computed.compressed(ENCODINGS[1].1, 0, still)?;
     let clusterings = [&components, &quantised, both];
     let errors = clusterings.map(|clustering| computed.error(clustering));
-    let mut table = encodings(&clusterings, errors);
+    let card = Profile::named(CARD)?;
+    let mut rates = [0.0; 3];
+    for ((rate, clustering), (_, clusters, vectors, _)) in rates.iter_mut().zip(clusterings).zip(ENCODINGS) {
+        let size = TransferSize { clusters, vectors, ..computed.paper.size };
+        let drawn = DrawnClusters::new(computed, clustering)?;
+        *rate = modelled_from_clusters(&card, &shared.cpca, (computed.paper.model, size), &drawn)?.per_second();
+    }
+    let mut table = encodings(&clusterings, errors, rates);
     let pair = |above: usize, below: usize| {
         let what = format!("squared error of {} over {}'s", ENCODINGS[above].0, ENCODINGS[below].0);
         order(what, PLACE, [ENCODINGS[above].3, ENCODINGS[below].3], errors[above] / errors[below])
@@ -41,9 +55,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (name, clusters, vectors) in [("VQ", clusters, 0), ("PCA", 1, vectors)] {
         let clustering = computed.compressed_to(clusters, vectors, still)?;
         let error = computed.error(&clustering);
-        table.push(line(&format!("{name}, storage of CPCA"), &clustering, (None, None), error));
+        let line = line(&format!("{name}, storage of CPCA"), &clustering, (None, None), error);
+        table.push(line.into_iter().chain([Cell::Empty, Cell::Empty]));
         rows.push(equal_storage(name, error / errors[2]));
     }
+    rows.extend([0, 1].map(|at| matched(at, rates)));
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;
     let mut pictures = Vec::new();
@@ -66,13 +82,24 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3]) -> Table {
+/// "Such that rendering performance matched that from CPCA".
+fn matched(at: usize, rates: [f64; 3]) -> PaperRow {
+    let percent = |rates: [f64; 3]| 100.0 * rates[at] / rates[2];
+    let origin = Origin::Implied(format!("{} / {}", RATES[at], RATES[2]));
+    let target = PaperFigure { origin, ..PaperFigure::printed(percent(RATES), 0, "%", PLACE) };
+    let what = format!("frames per second of {}, of CPCA's", ENCODINGS[at].0);
+    rate_row(what, target, percent(rates), OWN_INPUTS)
+}
+
+fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Table {
     let mut table = Table::of(
         "Encodings",
-        "encoding clusters_printed clusters vectors stored_numbers squared_error_printed squared_error",
+        "encoding clusters_printed clusters vectors stored_numbers squared_error_printed squared_error Hz_printed Hz",
     );
-    for (((name, clusters, _, printed), clustering), error) in ENCODINGS.iter().zip(clusterings).zip(errors) {
-        table.push(line(name, clustering, (Some(*clusters), Some(*printed)), error));
+    for (at, ((name, clusters, _, printed), clustering)) in ENCODINGS.iter().zip(clusterings).enumerate() {
+        let timed = [Cell::decimals(RATES[at], 1), Cell::measured(rates[at])];
+        let line = line(name, clustering, (Some(*clusters), Some(*printed)), errors[at]);
+        table.push(line.into_iter().chain(timed));
     }
     table
 }

@@ -113,24 +113,31 @@ fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
     }
 }
 
-/// The error of each vertex, of the largest of the static clustering.
+/// Figure 4: the error of each vertex, of the largest of the static clustering, and in a second row the pictures.
 fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, ReproduceError> {
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;
+    let plain = view.colors(None)?;
     let methods = [
         ("static", CpcaMethod::Static),
         ("iterative", CpcaMethod::Iterative),
         ("adaptive", CpcaMethod::Adaptive { rounds: ROUNDS }),
     ];
     let mut largest = None;
-    let mut pictures = Vec::new();
+    let (mut pictures, mut rendered) = (Vec::new(), Vec::new());
     for (name, method) in methods {
         let clustering = computed.compressed_to(clusters, FIGURE_4, method)?;
         let of = |point: usize| clustering.squared_error_of(point, &computed.signal);
         let most = *largest.get_or_insert_with(|| (0..computed.signal.points()).map(of).fold(0.0, f64::max));
         let caption = format!("{name}: error of each vertex, of the largest with static components; pale is large");
         pictures.push(view.error_map(&clustering, most, (format!("cpca-figure-4-{name}"), caption)));
+        let error = 100.0 * view.difference(Some(&clustering), &plain, |_| true)?;
+        let squared = number(computed.error(&clustering), 3);
+        let caption = format!("{name}: squared error [{squared}], of the picture {} %", number(error, 2));
+        rendered.push(view.picture(Some(&clustering), format!("cpca-figure-4-{name}-rendered"), caption)?);
     }
+    rendered.push(view.picture(None, "cpca-figure-4-uncompressed".to_owned(), "uncompressed".to_owned())?);
+    pictures.extend(rendered);
     Ok(pictures)
 }
 

@@ -6,11 +6,16 @@
 
 mod appendix;
 mod coherence;
+mod drawn;
 mod figure_10;
 mod figure_11;
 mod figure_2;
 mod figure_3;
 mod figure_6;
+mod figure_7;
+mod figure_8;
+mod figure_9;
+mod mesh_cost;
 mod rates;
 mod section_6;
 mod shared;
@@ -23,23 +28,24 @@ pub(super) use coherence::findings as coherence;
 pub(super) use figure_2::findings as figure_2;
 pub(super) use figure_3::findings as figure_3;
 pub(super) use figure_6::findings as figure_6;
+pub(super) use figure_7::findings as figure_7;
+pub(super) use figure_8::findings as figure_8;
+pub(super) use figure_9::findings as figure_9;
 pub(super) use figure_10::findings as figure_10;
 pub(super) use figure_11::findings as figure_11;
 pub(super) use section_6::findings as section_6;
 pub(super) use shared::CpcaShared;
 pub(super) use table_1::findings as table_1;
 
+use mesh_cost::REGISTERS;
 use signals::HOST;
 
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Bound, EntryChart, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError,
-    Standing, number,
+    Bound, EntryChart, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting,
+    Standing, Sweep, number,
 };
-
-/// Constant registers of the card: "~256".
-const REGISTERS: usize = 256;
 
 /// A ratio of two of the paper's values beside that of ours: judged by which of the two is larger.
 fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {

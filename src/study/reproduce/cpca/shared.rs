@@ -2,9 +2,12 @@
 
 use std::cell::OnceCell;
 
+use super::drawn::DrawnClusters;
+use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
 use super::{ModelSize, ReproduceError};
 use crate::prt::cpca::{Clustering, CpcaMethod};
+use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::once::get_or_try;
 
 /// Signals of [`SIGNALS`] by their places there, with what Table 1 makes of them.
@@ -12,7 +15,13 @@ use crate::study::reproduce::once::get_or_try;
 pub(in crate::study::reproduce) struct CpcaShared {
     signals: [OnceCell<ComputedSignal>; SIGNALS.len()],
     clusterings: [OnceCell<Clustering>; SIGNALS.len()],
+    drawn: [OnceCell<DrawnClusters>; SIGNALS.len()],
+    mesh_costs: [OnceCell<MeshCost>; MODELS.len()],
 }
+
+/// Models of [`SIGNALS`].
+const MODELS: [TransferModel; 4] =
+    [TransferModel::Bumpy, TransferModel::Smooth, TransferModel::Head, TransferModel::Polygons];
 
 impl CpcaShared {
     /// A signal.
@@ -29,5 +38,19 @@ impl CpcaShared {
         let (signal, size) = (self.signal(at, models)?, SIGNALS[at].size);
         let compress = || signal.compressed(size.clusters, size.vectors, CpcaMethod::Iterative);
         Ok((signal, get_or_try(&self.clusterings[at], compress)?))
+    }
+
+    /// What is drawn of that clustering.
+    pub(super) fn drawn(&self, at: usize, models: ModelSize) -> Result<&DrawnClusters, ReproduceError> {
+        let (signal, clustering) = self.iterative(at, models)?;
+        get_or_try(&self.drawn[at], || DrawnClusters::new(signal, clustering))
+    }
+
+    /// A model as the card sees it.
+    pub(super) fn mesh_cost(&self, model: TransferModel) -> Result<MeshCost, ReproduceError> {
+        match MODELS.iter().position(|&known| known == model) {
+            Some(at) => get_or_try(&self.mesh_costs[at], || MeshCost::new(model)).copied(),
+            None => MeshCost::new(model),
+        }
     }
 }

@@ -80,7 +80,14 @@ pub(super) const SIGNALS: [PaperSignal; 8] = [
     signal("bird diffuse, order 5", (Smooth, Diffuse), (48_688, [1, 25]), (256, 3)),
 ];
 
+/// The glossy part of Figure 9, in as many rows as the sum.
+pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
+    signal("Buddha gloss-iso, 25 rows", (Bumpy, Isotropic), (49_990, [25, 25]), (256, 8));
+
 /// Places in [`SIGNALS`].
+pub(super) const GLOSSY_BUDDHA: usize = 0;
+pub(super) const TRANSLUCENT_BUDDHA: usize = 2;
+pub(super) const HEAD: usize = 5;
 pub(super) const BUDDHA: usize = 1;
 pub(super) const BIRD: usize = 3;
 pub(super) const POLYGONS: usize = 6;
@@ -118,7 +125,17 @@ pub(super) struct ComputedSignal {
 }
 
 impl ComputedSignal {
+    /// A signal as Table 1 has it: projected by least squares.
     pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, ReproduceError> {
+        Self::projected(paper, exit_radiance(paper)?, models)
+    }
+
+    /// A signal with its exit radiance expressed in another way.
+    pub(super) fn projected(
+        paper: &'static PaperSignal,
+        exit: ExitRadiance,
+        models: ModelSize,
+    ) -> Result<Self, ReproduceError> {
         let fail = failed(HOST);
         let mesh = paper.model.mesh(paper.coarser(models));
         let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|e| fail(&e))?;
@@ -126,7 +143,7 @@ impl ComputedSignal {
             mesh: &mesh,
             vertices: &vertices,
             channels: vec![(0, vec![paper.material.brdf()])],
-            exit: exit_radiance(paper)?,
+            exit,
             order: paper.size.columns.isqrt(),
             degree: paper.degree(models),
             bounces: Bounces::Count(if paper.model == Bumpy { BOUNCES } else { 0 }),
@@ -209,7 +226,7 @@ fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, u
 }
 
 impl SignalMaterial {
-    fn brdf(self) -> Brdf {
+    pub(super) fn brdf(self) -> Brdf {
         match self {
             Diffuse => LAMBERT,
             Isotropic | Translucent => ISOTROPIC,

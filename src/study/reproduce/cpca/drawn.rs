@@ -1,0 +1,52 @@
+//! What is drawn of a mesh in clusters: with neither optimisation of section 5, with each, and with both.
+
+use super::mesh_cost::REGISTERS;
+use super::signals::ComputedSignal;
+use super::{HOST, ReproduceError, failed};
+use crate::prt::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
+use crate::prt::cpca::Clustering;
+
+/// "Using a 5% error threshold".
+pub(super) const BUDGET: f64 = 0.05;
+/// The columns of the paper's table.
+pub(super) const COLUMNS: [&str; 4] = ["original", "rec", "sc", "sc+rec"];
+
+/// What a mesh's clusters cost to draw; everything in the order of [`COLUMNS`].
+pub(super) struct DrawnClusters {
+    /// Triangles drawn per triangle of the mesh.
+    pub(super) overdraw: [f64; 4],
+    /// Per vertex the cluster or supercluster that it is drawn with.
+    pub(super) groups: [Vec<u32>; 4],
+    /// What reclassification added, as a share of the squared error.
+    pub(super) added_error: f64,
+    /// Superclusters after reclassification.
+    pub(super) superclusters: usize,
+}
+
+impl DrawnClusters {
+    /// By both optimisations, each alone and together.
+    pub(super) fn new(computed: &ComputedSignal, clustering: &Clustering) -> Result<Self, ReproduceError> {
+        let triangles = computed.vertices.triangles();
+        let rows = computed.paper.size.rows;
+        let registers =
+            if rows == 1 { ConstantRegisters::diffuse(REGISTERS) } else { ConstantRegisters::glossy(REGISTERS, rows) };
+        let fail = failed(HOST);
+        let moved = reclassify(&computed.signal, clustering, triangles, BUDGET).map_err(|e| fail(&e))?;
+        let superclusters = |clustering: &Clustering| -> Result<(Vec<u32>, usize), ReproduceError> {
+            let made = Superclusters::new(clustering, triangles, registers).map_err(|e| fail(&e))?;
+            let of_vertex = clustering.of_point().iter().map(|&cluster| made.of_cluster()[cluster as usize]);
+            Ok((of_vertex.collect(), made.count()))
+        };
+        let (alone, _) = superclusters(clustering)?;
+        let (both, count) = superclusters(&moved.clustering)?;
+        let groups = [clustering.of_point().to_vec(), moved.clustering.of_point().to_vec(), alone, both];
+        let drawn = groups.each_ref().map(|of_vertex| overdraw(triangles, of_vertex));
+        let whole = computed.error(clustering);
+        Ok(Self {
+            overdraw: drawn.map(|drawn| drawn as f64 / triangles.len() as f64),
+            groups,
+            added_error: if whole > 0.0 { moved.added_error / whole } else { 0.0 },
+            superclusters: count,
+        })
+    }
+}

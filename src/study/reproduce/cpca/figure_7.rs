@@ -1,0 +1,138 @@
+//! Figure 7: projections of exit radiance, under colored lights.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::figure_3::EYE;
+use super::signals::{BIRD, ComputedSignal, SIGNALS};
+use super::views::{ModelView, RIM};
+use super::{
+    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
+    number,
+};
+use crate::geom::exact::Sides;
+use crate::geom::vector::wide;
+use crate::prt::brdf::ExitBasis;
+use crate::prt::transfer::{Incident, TracedRays};
+use crate::report::{Cell, Table};
+use crate::sphere::{DirectionRule, HarmonicLight};
+use crate::study::prt::ExitRadiance;
+use crate::tracer::HostTracer;
+
+const PLACE: &str = "figure 7";
+/// The degree of the rule by which exit radiance is integrated without a projection.
+const DEGREE: usize = 62;
+
+/// A projection: its mark in the figure, how it is called here, the order of exit radiance, and whether by equation 1
+/// (least squares, with both inverses) or as in Sloan et al. 2002 (zero hemisphere, with neither).
+const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
+    ("a", "zero hemisphere", 4, false),
+    ("b", "least squares", 4, true),
+    ("c", "zero hemisphere", 5, false),
+    ("", "least squares", 5, true),
+];
+
+const HOW: &str = "{} vertices of the smooth model, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
+    hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are those of pictures, root mean square over that of exit radiance \
+    without any projection: the integral of BRDF and light over {} directions per vertex, shadows and all. Pixels count as silhouette below a cosine of {} \
+    between view and normal.";
+const QUESTION: &str = "the model, its BRDF and the lights of Figure 7.";
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let paper = &SIGNALS[BIRD];
+    let light = HarmonicLight::red_and_blue(5);
+    let glossy = |order: usize, least_squares: bool, incident: Incident| ExitRadiance::Glossy {
+        basis: ExitBasis::of_order(order),
+        least_squares,
+        incident,
+    };
+    let (mut exact, mut points) = (Vec::new(), 0);
+    let mut table = Table::of("Errors of pictures", "figure projection rows error_% silhouettes_%");
+    let (mut errors, mut pictures) = (Vec::new(), Vec::new());
+    for (mark, name, order, least_squares) in PROJECTIONS {
+        let incident = Incident::Harmonics { order: 5, inverse: least_squares };
+        let computed = ComputedSignal::projected(paper, glossy(order, least_squares, incident), shared.models)?;
+        let mut view = ModelView::new(&computed, &light, EYE)?;
+        if exact.is_empty() {
+            exact = view.of_vertices(&exit_radiance(&computed, &light, view.eye())?);
+        }
+        view.expose(&exact);
+        let error = view.difference(None, &exact, |_| true)?;
+        let rim = view.difference(None, &exact, |cosine| cosine < RIM)?;
+        let rows = order * order;
+        let shares = [error, rim].map(|share| Cell::percent(100.0 * share));
+        table.push([Cell::from(mark), name.into(), rows.into()].into_iter().chain(shares));
+        errors.push([error, rim]);
+        let file = format!("cpca-figure-7-{}-{rows}", name.replace(' ', "-"));
+        pictures.push(view.picture(None, file, format!("{name}, {rows} rows"))?);
+        if points == 0 {
+            let file = "cpca-figure-7-exact".to_owned();
+            pictures.insert(0, view.shown(&exact, file, "what they are held against".to_owned())?);
+            points = computed.signal.points();
+        }
+    }
+    let directions = DirectionRule::hemisphere(DEGREE).len();
+    let figures = [points, 16, 16, 25, directions].map(|count| number(count as f64, 0));
+    Ok(EntryFindings {
+        text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)]))],
+        rows: rows(&errors),
+        questions: vec![QUESTION],
+        tables: vec![table],
+        pictures,
+        ..EntryFindings::default()
+    })
+}
+
+/// Radiance of every vertex towards an eye, by BRDF and light alone: section 3.1 without harmonics. Shadows alone.
+fn exit_radiance(
+    computed: &ComputedSignal,
+    light: &HarmonicLight,
+    eye: DVec3,
+) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    let vertices = &computed.vertices;
+    let mut tracer = HostTracer::new(&computed.mesh, Sides::Both);
+    let rays = TracedRays::trace(vertices, DirectionRule::hemisphere(DEGREE), &mut tracer, false);
+    let rays = rays.map_err(|e| failed(HOST)(&e))?;
+    let brdf = computed.paper.material.brdf();
+    let of_vertex = |vertex: usize| {
+        let frame = &vertices.frames()[vertex];
+        let view = frame.to_local((eye - wide(vertices.positions()[vertex])).normalize_or_zero());
+        let mut sum = [0.0; 3];
+        for (at, (&s, weight)) in rays.rule().directions().iter().zip(rays.rule().weights()).enumerate() {
+            if view.z > 0.0 && !rays.is_blocked(vertex, at) {
+                let radiance = light.radiance(frame.to_global(s));
+                let factor = weight * brdf.value(view, s) * s.z;
+                (0..3).for_each(|channel| sum[channel] += factor * radiance[channel]);
+            }
+        }
+        sum
+    };
+    Ok((0..vertices.len()).into_par_iter().map(of_vertex).collect())
+}
+
+fn rows(errors: &[[f64; 2]]) -> Vec<PaperRow> {
+    let [zero, least, zero_25] = [errors[0], errors[1], errors[2]];
+    let row = |what: &str, how: &str, ours: f64| {
+        let target =
+            PaperFigure { origin: Origin::Inferred(how.to_owned()), ..PaperFigure::printed(1.0, 2, "times", PLACE) };
+        PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
+    };
+    vec![
+        row(
+            "error of zero hemisphere over least squares, 16 rows",
+            "the caption says that least squares is more faithful",
+            zero[0] / least[0],
+        ),
+        row("the same at silhouettes", "the caption says that least squares is more faithful", zero[1] / least[1]),
+        row(
+            "the same at silhouettes over that of all pixels",
+            "the caption says so especially of silhouettes",
+            zero[1] / least[1] * least[0] / zero[0],
+        ),
+        row(
+            "error of zero hemisphere, 25 rows, over least squares, 16 rows",
+            "the caption says that the smaller matrix matches the larger one's accuracy",
+            zero_25[0] / least[0],
+        ),
+    ]
+}

@@ -1,0 +1,30 @@
+//! What the triangles of a model ask of a card, whatever their clusters.
+
+use refsim::device::Profile;
+use refsim::event::vertex_cache_misses;
+
+use super::ReproduceError;
+use crate::scene::built::transfer_models::TransferModel;
+
+/// "a Radeon 9700".
+pub(super) const CARD: &str = "r300";
+/// Its constant registers: "~256".
+pub(super) const REGISTERS: usize = 256;
+
+/// A mesh as the card sees it.
+#[derive(Clone, Copy)]
+pub(super) struct MeshCost {
+    pub(super) triangles: u64,
+    /// Vertices that are run for a triangle.
+    pub(super) run_per_triangle: f64,
+}
+
+impl MeshCost {
+    /// Our model of the printed size, its triangles in the order in which they are made.
+    pub(super) fn new(model: TransferModel) -> Result<Self, ReproduceError> {
+        let (profile, mesh) = (Profile::named(CARD)?, model.mesh(1));
+        let entries = profile.rates.vertex_cache_entries.unwrap_or(0);
+        let run = vertex_cache_misses(mesh.triangles().as_flattened(), mesh.positions().len(), entries);
+        Ok(Self { triangles: mesh.len() as u64, run_per_triangle: run as f64 / mesh.len().max(1) as f64 })
+    }
+}
