@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use refsim::exec::batch::SimdLevel;
 
 use super::Dipole;
 use super::factor::FactorError;
@@ -22,6 +23,10 @@ const CLOSE: f64 = 1.5;
 const MAX_DIVISIONS: u32 = 4;
 /// Texels that are handled together.
 const CHUNK: usize = 256;
+/// Partial sums of a sum over distances.
+const LANES: usize = 8;
+/// Rows of texels after which progress is told: so many times in all.
+const REPORTS: usize = 32;
 
 /// Equation 9 over the texels of an atlas, for one channel. Lengths in mm.
 #[derive(Clone, Debug)]
@@ -68,21 +73,20 @@ impl<'a> Reference<'a> {
     }
 
     /// The radiosity of every texel for an irradiance of every texel, row by row: equation 9,
-    /// B_i = sum over j of F_ij E_j. `done` is called with the number of rows done and of all.
+    /// B_i = sum over j of F_ij E_j. `done` is called now and then with the number of rows done and of all.
     ///
     /// # Errors
     /// [`FactorError::Values`] if there is not one irradiance per texel.
-    pub fn radiosity(&self, irradiance: &[f64], done: &(dyn Fn(usize, usize) + Sync)) -> Result<Vec<f64>, FactorError> {
+    pub fn radiosity(&self, irradiance: &[f64], done: &mut dyn FnMut(usize, usize)) -> Result<Vec<f64>, FactorError> {
         let power = self.power(irradiance)?;
         let side = self.atlas.side() as usize;
-        let mut radiosity = vec![0.0; power.len()];
-        let count = std::sync::atomic::AtomicUsize::new(0);
-        radiosity.par_chunks_exact_mut(side).enumerate().for_each(|(y, row)| {
-            for (x, into) in row.iter_mut().enumerate() {
-                *into = self.gather(y * side + x, &power);
-            }
-            done(count.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, side);
-        });
+        let mut radiosity = Vec::with_capacity(power.len());
+        let rows = side.div_ceil(REPORTS);
+        for first in (0..side).step_by(rows) {
+            let last = (first + rows).min(side);
+            radiosity.par_extend((first * side..last * side).into_par_iter().map(|i| self.gather(i, &power)));
+            done(last, side);
+        }
         Ok(radiosity)
     }
 
@@ -140,15 +144,21 @@ impl<'a> Reference<'a> {
         for first in (0..power.len()).step_by(CHUNK) {
             let count = CHUNK.min(power.len() - first);
             let mut near_count = 0;
-            for k in 0..count {
-                let j = first + k;
-                let [x, y, z] = [point.x - self.texels.x[j], point.y - self.texels.y[j], point.z - self.texels.z[j]];
-                squared[k] = x * x + y * y + z * z;
-                let reach = NEAR * (radius + self.texels.radius[j]);
-                let is_near = squared[k] < reach * reach;
-                near_count += u32::from(is_near);
-                far_power[k] = if is_near { 0.0 } else { power[j] };
-            }
+            SimdLevel::widest().run(
+                #[inline(always)]
+                || {
+                    for k in 0..count {
+                        let j = first + k;
+                        let of = &self.texels;
+                        let [x, y, z] = [point.x - of.x[j], point.y - of.y[j], point.z - of.z[j]];
+                        squared[k] = x * x + y * y + z * z;
+                        let reach = NEAR * (radius + of.radius[j]);
+                        let is_near = squared[k] < reach * reach;
+                        near_count += u32::from(is_near);
+                        far_power[k] = if is_near { 0.0 } else { power[j] };
+                    }
+                },
+            );
             sum += self.r_d.sum(&squared[..count], &far_power[..count]);
             if near_count == 0 {
                 continue;
@@ -244,7 +254,7 @@ impl DipoleSum {
     }
 
     /// R_d at a squared distance.
-    #[inline]
+    #[inline(always)]
     fn at(&self, squared: f64) -> f64 {
         let mut sum = 0.0;
         for z in self.depths {
@@ -255,24 +265,32 @@ impl DipoleSum {
         self.scale * sum
     }
 
-    /// The sum of weight times R_d. Four partial sums, in an order that does not depend on anything.
+    /// The sum of weight times R_d, by the widest vectors of the host. Its partial sums, and their order, do not depend
+    /// on how wide these are.
     fn sum(&self, squared: &[f64], weights: &[f64]) -> f64 {
-        let mut sums = [0.0; 4];
-        let (mut distances, mut factors) = (squared.chunks_exact(4), weights.chunks_exact(4));
-        for (squared, weights) in (&mut distances).zip(&mut factors) {
-            for lane in 0..4 {
-                sums[lane] += weights[lane] * self.at(squared[lane]);
-            }
-        }
-        for (&squared, &weight) in distances.remainder().iter().zip(factors.remainder()) {
-            sums[0] += weight * self.at(squared);
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
+        let sums = SimdLevel::widest().run(
+            #[inline(always)]
+            || {
+                let mut sums = [0.0; LANES];
+                let (mut distances, mut factors) = (squared.chunks_exact(LANES), weights.chunks_exact(LANES));
+                for (squared, weights) in (&mut distances).zip(&mut factors) {
+                    for lane in 0..LANES {
+                        sums[lane] += weights[lane] * self.at(squared[lane]);
+                    }
+                }
+                for (&squared, &weight) in distances.remainder().iter().zip(factors.remainder()) {
+                    sums[0] += weight * self.at(squared);
+                }
+                sums
+            },
+        );
+        let [a, b, c, d, e, f, g, h] = sums;
+        ((a + b) + (c + d)) + ((e + f) + (g + h))
     }
 }
 
 /// e^-x for x >= 0, within 4 units in the last place; e^-700 (1e-304) beyond. Compilers turn this one into vector code.
-#[inline]
+#[inline(always)]
 fn exp_of_negative(x: f64) -> f64 {
     const LN_2_HIGH: f64 = 0.693_147_180_369_123_8;
     const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;

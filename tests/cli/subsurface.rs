@@ -52,6 +52,24 @@ fn what_it_says_and_writes() {
     assert_eq!(faces.lines().filter(|line| !line.starts_with('#')).count(), 5, "a heading and four faces: {faces}");
 }
 
+/// Each other value of each rounding switch is a row; what they change is small, and not nothing.
+#[test]
+fn rounding_switches_are_swept() {
+    let (ran, folder) = subsurface(&["--roundings", "--map", "8bit", "--links", "4"]);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let text = std::fs::read_to_string(folder.path().join("out/subsurface/roundings.csv")).expect("a table");
+    let rows: Vec<Vec<&str>> =
+        text.lines().filter(|line| line.starts_with("fixed-4")).map(|line| line.split(',').collect()).collect();
+    let switches: Vec<(&str, &str)> = rows.iter().map(|row| (row[1], row[2])).collect();
+    let expected =
+        [("rounding", "rtz"), ("mad", "fused"), ("target-rounding", "truncate"), ("mipmap-rounding", "truncate")];
+    assert_eq!(switches, expected);
+    let changes: Vec<f64> = rows.iter().map(|row| row[3].parse().expect("per cent")).collect();
+    assert!(changes.iter().all(|&change| change < 2.0), "{changes:?}");
+    assert!(changes[0] > 0.0 && changes[2] > 0.0 && changes[3] > 0.0, "{changes:?}");
+    assert!(ran.stdout.contains("Of the card's rounding switches "), "{}", ran.stdout);
+}
+
 /// A face that nothing shines on is lit from behind, and twice the light is twice as bright.
 #[test]
 fn irradiances_of_faces_are_gathered_linearly() {

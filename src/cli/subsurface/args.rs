@@ -122,6 +122,10 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_enum, value_name = "YES")]
     pub(super) all_pairs: Option<YesNo>,
 
+    /// Run every way with each value of the card's rounding switches too
+    #[arg(long)]
+    pub(super) roundings: bool,
+
     #[command(flatten)]
     pub(super) card: CardArgs,
 

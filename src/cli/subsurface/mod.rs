@@ -82,6 +82,7 @@ impl StudyArgs for Args {
             material,
             ways,
             reference,
+            roundings: self.roundings,
             profile,
             mesh,
             camera,

@@ -142,6 +142,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: subsurface::table_1,
     },
     ReproduceEntry {
+        id: "subsurface-frames",
+        title: "Passes 1 and 3, frames on a display, 40 frames a second, nine seconds of links (subsurface scattering, sections 4.3 and 5, table 1, figure 7)",
+        work: subsurface::frames,
+    },
+    ReproduceEntry {
         id: "cpca-appendix",
         title: "How wrong projections onto the hemisphere are (CPCA, appendix)",
         work: |_| cpca::appendix(),

@@ -1,6 +1,6 @@
 //! What the rows say, as sentences.
 
-use super::{Parameters, SubsurfaceOutcome, WayRow};
+use super::{Parameters, RoundingRow, SubsurfaceOutcome, WayRow};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Findings, Tone};
@@ -10,7 +10,8 @@ const ENOUGH: f64 = 0.01;
 
 /// Sentences, warnings and the tally.
 pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
-    let sentences = [accuracy(&outcome.rows), smallest(&outcome.rows), speed(parameters, &outcome.rows)];
+    let rows = &outcome.rows;
+    let sentences = [accuracy(rows), smallest(rows), roundings(&outcome.roundings), speed(parameters, rows)];
     let warnings = [coarse(outcome), thin(outcome)];
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
     let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
@@ -55,6 +56,18 @@ fn smallest(rows: &[WayRow]) -> Option<String> {
     })
 }
 
+/// The rounding switch that changes most.
+fn roundings(rows: &[RoundingRow]) -> Option<String> {
+    let most = rows.iter().max_by(|a, b| a.change.rms.total_cmp(&b.change.rms))?;
+    Some(format!(
+        "Of the card's rounding switches {}={} changes most: B of {} by {} (root mean square).",
+        most.switch,
+        most.value,
+        most.label,
+        percent(most.change.rms)
+    ))
+}
+
 fn speed(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     let gather = |row: &&WayRow| row.times.map(|times| times[2].time);
     let timed = || rows.iter().filter(|row| row.times.is_some());
@@ -84,12 +97,14 @@ fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
 /// The dipole is made for a half space.
 fn thin(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
-    (lengths.shortest_side < 2.0 * lengths.diffusion_length).then(|| {
+    let told = |thickness: f64| {
         format!(
             "The model is thinner ({} mm) than two diffusion lengths ({} mm): the dipole, which is made for a half \
              space, is wrong there.",
-            shown(lengths.shortest_side, Quantity::Measured),
+            shown(thickness, Quantity::Measured),
             shown(2.0 * lengths.diffusion_length, Quantity::Measured),
         )
-    })
+    };
+    let thickness = lengths.shortest_side.min(lengths.thickness);
+    (thickness < 2.0 * lengths.diffusion_length).then(|| told(thickness))
 }

@@ -32,6 +32,10 @@ pub enum SubsurfaceError {
     #[error(transparent)]
     #[diagnostic(code(subsurface::card))]
     Card(#[from] SubsurfaceCardError),
+    /// The card has no such switch or value.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Switch(#[from] refsim::device::DeviceError),
     /// A table of irradiances of another mesh.
     #[error("expected an irradiance for each of {faces} faces, found {found}")]
     #[diagnostic(code(subsurface::irradiance), help("a line `r,g,b` per face of the model, in its order"))]

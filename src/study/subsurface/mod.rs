@@ -8,6 +8,7 @@ mod outcome;
 mod parameters;
 mod pictures;
 mod report;
+mod roundings;
 mod tables;
 mod truth;
 mod way;
@@ -24,6 +25,7 @@ pub use error::SubsurfaceError;
 pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;
 pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
+pub use roundings::RoundingRow;
 pub use truth::{GatherError, Truth};
 pub use way::WayRow;
 
@@ -79,7 +81,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         irradiance: &irradiance,
         truth: truth.as_ref(),
     };
-    let mut rows = Vec::new();
+    let (mut rows, mut roundings) = (Vec::new(), Vec::new());
     // Ways that differ in formats alone follow each other and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
@@ -87,8 +89,12 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
             Some((other, links)) if (other.choice, other.rgb) == (way.choice, way.rgb) => links,
             _ => way::links(&scene, way, progress)?,
         };
-        rows.push(way::run(&scene, way, (&links, at == 0), progress)?);
+        let row = way::run(&scene, way, (&links, at == 0), progress)?;
+        if parameters.roundings {
+            roundings.extend(roundings::roundings(&scene, way, (&links, &row.radiosity), progress)?);
+        }
+        rows.push(row);
         last = Some((way, links));
     }
-    Ok(SubsurfaceOutcome { atlas, lengths, dipoles, irradiance, truth, probe_texels, rows })
+    Ok(SubsurfaceOutcome { atlas, lengths, dipoles, irradiance, truth, probe_texels, rows, roundings })
 }

@@ -23,22 +23,28 @@ pub struct ModelLengths {
     pub diagonal: f64,
     /// The shortest side of the bounds.
     pub shortest_side: f64,
+    /// Twice the standard deviation of the surface's points along the axis of coordinates where it is least: the
+    /// thickness of a slab; that of a bowl or a leaf is less than its bounds. Infinite without absorption.
+    pub thickness: f64,
 }
 
 impl ModelLengths {
     pub(super) fn of(atlas: &Atlas, surface: &SurfaceMoments, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
         let mm = parameters.mm_per_unit;
-        let coarse = dipoles.iter().map(|dipole| Fitness::new(surface, dipole).coarse_fraction);
+        let fitness = dipoles.each_ref().map(|dipole| Fitness::new(surface, dipole));
+        let halves = fitness.iter().zip(dipoles).filter(|(_, dipole)| dipole.sigma_tr() > 0.0);
+        let thickness = halves.map(|(of, dipole)| 2.0 * of.half_thickness_per_diffusion_length / dipole.sigma_tr());
         let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
             (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
         });
         Self {
             texel: atlas.mean_texel_area().sqrt() * mm,
-            coarse: coarse.fold(0.0, f64::max),
+            coarse: fitness.iter().map(|of| of.coarse_fraction).fold(0.0, f64::max),
             mean_free_path: dipoles.iter().map(Dipole::mean_free_path).fold(f64::INFINITY, f64::min),
             diffusion_length: dipoles.iter().map(Dipole::diffusion_length).fold(0.0, f64::max),
             diagonal: extent.length(),
             shortest_side: extent.min_element(),
+            thickness: thickness.fold(f64::INFINITY, f64::min),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What the study found.
 
 use super::model::ModelLengths;
+use super::roundings::RoundingRow;
 use super::truth::Truth;
 use super::way::WayRow;
 use crate::atlas::Atlas;
@@ -23,4 +24,6 @@ pub struct SubsurfaceOutcome {
     pub probe_texels: Vec<usize>,
     /// A row per way.
     pub rows: Vec<WayRow>,
+    /// Other values of the card's rounding switches, if asked for.
+    pub roundings: Vec<RoundingRow>,
 }

@@ -37,6 +37,8 @@ pub struct Parameters {
     pub probes: Vec<[f64; 3]>,
     /// Whether to gather over all pairs of texels too.
     pub reference: bool,
+    /// Whether every way is run with each value of the card's rounding switches too.
+    pub roundings: bool,
     /// The card.
     pub profile: Profile,
     /// The switches of the card that were set.

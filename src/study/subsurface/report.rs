@@ -44,6 +44,11 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     found.explained_table(FoundTable::from(tables::storage(outcome)).field("storage"), STORAGE);
     let has_rows = |table: &Table| !table.rows().is_empty();
     found.explained_table(FoundTable::from(tables::times(outcome)).field("times"), TIMES);
+    let roundings = tables::roundings(outcome);
+    if has_rows(&roundings) {
+        found.heading("Roundings");
+    }
+    found.explained_table(FoundTable::from(roundings).csv("roundings").field("roundings"), ROUNDINGS);
     let frames = pictures::frames(&outcome.rows, exposure)?;
     if !frames.is_empty() {
         found.heading("Lights turned round");
@@ -65,7 +70,11 @@ const ERRORS: &str = "links: the host's sum over the links, in double precision,
     against all pairs. Without all pairs (atlases above 64 x 64, unless asked for) there is nothing to compare links with.";
 
 const STORAGE: &str = "Fixed links have their places in constants and four factors a texel, adaptive ones a texel each with place, factor and level. Factors \
-    lost to 0 are smaller than the format's least number. Instructions are of all programs of pass 2 together, samplers of the largest.";
+    lost to 0 are smaller than the format's least number; places rounded are coordinates of adaptive links that the format does not hold, which read a \
+    neighbour's light. Instructions are of all programs of pass 2 together, samplers of the largest.";
+
+const ROUNDINGS: &str =
+    "Which of the values a card had is not documented: one switch at a time differs from the card as it was asked for.";
 
 const TIMES: &str = "Times are modelled, not measured: nothing in the model was set by this paper.";
 

@@ -76,7 +76,7 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "What ways take of the card; reads and instructions per texel of pass 2",
-        "way link_MB memory_MB passes link_reads map_reads instructions samplers factors lost_to_0 denormal map_saturated",
+        "way link_MB memory_MB passes link_reads map_reads instructions samplers factors lost_to_0 denormal places_rounded map_saturated",
     );
     for row in &outcome.rows {
         let sum = |of: usize| row.programs.iter().map(|program| program[of]).sum::<usize>();
@@ -92,6 +92,7 @@ pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
             row.lost.factors.into(),
             row.lost.flushed.into(),
             row.lost.denormal.into(),
+            row.lost.places.into(),
             row.saturated.into(),
         ]);
     }
@@ -116,6 +117,25 @@ pub(super) fn times(outcome: &SubsurfaceOutcome) -> Table {
             Cell::measured(frame),
             Cell::measured(1e3 / frame),
             times[2].bottleneck.map_or(Cell::Empty, |bound| bound.to_string().into()),
+        ]);
+    }
+    table
+}
+
+/// Other values of the card's rounding switches, a row each; none unless asked for.
+pub(super) fn roundings(outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "Rounding switches set otherwise; changes of B against the card as asked for, and errors against all pairs",
+        "way switch value change_rms_% change_largest_% all_rms_%",
+    );
+    for row in &outcome.roundings {
+        table.push([
+            row.label.as_str().into(),
+            row.switch.as_str().into(),
+            row.value.as_str().into(),
+            Cell::percent(100.0 * row.change.rms),
+            Cell::percent(100.0 * row.change.largest),
+            row.error.map_or(Cell::Empty, |error| Cell::percent(100.0 * error.rms)),
         ]);
     }
     table

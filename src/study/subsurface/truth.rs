@@ -5,6 +5,9 @@ use crate::atlas::Atlas;
 use crate::study::ProgressFn;
 use crate::subsurface::{Dipole, Reference};
 
+/// Names of the channels.
+const CHANNELS: [&str; 3] = ["red", "green", "blue"];
+
 /// Radiosities over all pairs, in f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truth {
@@ -51,7 +54,6 @@ pub(super) fn truth(
 ) -> Result<Truth, SubsurfaceError> {
     let mut found = Truth { texels: vec![[0.0; 3]; irradiance.len()], probes: vec![[0.0; 3]; parameters.probes.len()] };
     for channel in 0..3 {
-        progress("all pairs of texels", channel as u64, 3);
         let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
         let same = |&other: &usize| {
             dipoles[other].coefficients() == dipoles[channel].coefficients()
@@ -62,7 +64,8 @@ pub(super) fn truth(
             continue;
         }
         let reference = Reference::new(atlas, parameters.mm_per_unit, &dipoles[channel])?;
-        let radiosity = reference.radiosity(&values, &|_, _| {})?;
+        let step = format!("all pairs of texels, {}", CHANNELS[channel]);
+        let radiosity = reference.radiosity(&values, &mut |done, rows| progress(&step, done as u64, rows as u64))?;
         found.texels.iter_mut().zip(radiosity).for_each(|(into, b)| into[channel] = b);
         for (into, &probe) in found.probes.iter_mut().zip(&parameters.probes) {
             into[channel] = reference.radiosity_at(glam::DVec3::from(probe) * parameters.mm_per_unit, &values)?;

@@ -1,6 +1,7 @@
 //! One way of gathering: links, the three passes, and what they cost.
 
 use glam::{DQuat, DVec3};
+use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
@@ -98,20 +99,9 @@ pub(super) fn run(
     let encoded = EncodedLinks::new(links, scene.surface, MeanWeighting::Area);
     let textures = LinkTextures::new(links, scene.surface, MeanWeighting::Area);
     progress(&format!("passes: {label}"), 1, 2);
-    let options = SubsurfaceCardOptions {
-        light: parameters.stage,
-        map: map_format(scene, way.map),
-        links: way.links,
-        scattered: way.links,
-        half: way.half,
-        memory: None,
-    };
-    let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
-    let profile = parameters.profile.clone();
-    let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), &textures, eta, options)?;
+    let mut card = lit_card(scene, way, parameters.profile.clone(), &textures, true)?;
+    let radiosity = gathered(&card)?;
     drop(textures);
-    card.record(true);
-    light(&mut card, &parameters.lighting)?;
     let picture = card.view(&view(parameters, parameters.view.direct))?;
     let events = card.take_log();
     card.record(false);
@@ -121,9 +111,7 @@ pub(super) fn run(
         Err(error) => return Err(error.into()),
     };
     let scattered = card.view(&view(parameters, DirectLight::None))?;
-    let radiosity: Vec<[f64; 3]> =
-        card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect();
-    let irradiance = if first { entered(scene, &card, options.map.scale())? } else { Vec::new() };
+    let irradiance = if first { entered(scene, &card, card.options().map.scale())? } else { Vec::new() };
     let off = |found: &[[f64; 3]], expected: &[[f64; 3]]| GatherError::between(scene.atlas, found, expected);
     let against_truth = |found: &[[f64; 3]]| scene.truth.map(|truth| off(found, &truth.texels));
     let programs = card.gather_programs();
@@ -148,6 +136,35 @@ pub(super) fn run(
         label,
     };
     Ok(row)
+}
+
+/// A card with the links of a way, its maps lit and gathered; its events recorded if asked for.
+pub(super) fn lit_card(
+    scene: &Scene<'_>,
+    way: GatherWay,
+    profile: Profile,
+    textures: &LinkTextures,
+    record: bool,
+) -> Result<SubsurfaceCard, SubsurfaceError> {
+    let parameters = scene.parameters;
+    let options = SubsurfaceCardOptions {
+        light: parameters.stage,
+        map: map_format(scene, way.map),
+        links: way.links,
+        scattered: way.links,
+        half: way.half,
+        memory: None,
+    };
+    let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
+    let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), textures, eta, options)?;
+    card.record(record);
+    light(&mut card, &parameters.lighting)?;
+    Ok(card)
+}
+
+/// B of every texel.
+pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+    Ok(card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect())
 }
 
 fn format(texels: FloatTexels) -> Format {

@@ -40,7 +40,7 @@ impl LinkPlace {
     }
 }
 
-/// How many factors a format loses.
+/// How many factors and places a format loses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LostFactors {
     /// Factors of links that are used: above 0.
@@ -49,6 +49,8 @@ pub struct LostFactors {
     pub flushed: usize,
     /// Those that are denormal, which a card may flush to 0.
     pub denormal: usize,
+    /// Places of adaptive links of which a coordinate is rounded.
+    pub places: usize,
 }
 
 /// Links with the factors that a card stores, texture by texture.
@@ -120,13 +122,22 @@ impl<'a> EncodedLinks<'a> {
         }
     }
 
-    /// How many factors a format loses.
+    /// How many factors and places a format loses.
     pub fn lost(&self, format: Format) -> LostFactors {
         let mut lost = LostFactors::default();
         let least_normal = least_normal(format);
         let side = self.links.side();
+        let is_adaptive = matches!(self.links.choice(), LinkChoice::Adaptive { .. });
+        let is_rounded = |at: f32| {
+            let stored = ops::convert(&Format::FP32, format, at.to_bits()).bits;
+            ops::convert(&format, Format::FP32, stored).bits != at.to_bits()
+        };
         for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
             for (cluster, factors) in self.links.of([x, y]) {
+                if is_adaptive && factors.iter().any(|factor| *factor > 0.0) {
+                    let LinkPlace { u, v, .. } = LinkPlace::new(side, cluster);
+                    lost.places += usize::from(is_rounded(u) || is_rounded(v));
+                }
                 for &factor in factors.iter().filter(|factor| **factor > 0.0) {
                     let stored = self.stored(cluster, factor);
                     let bits = ops::convert(&Format::FP32, format, stored.to_bits()).bits;

@@ -112,7 +112,7 @@ fn links_to_every_texel_are_equation_9() {
     let links = links(&surface, &[figure_7()], LinkChoice::Fixed { level: 0 });
     let light: Vec<f64> = (0..256).map(uneven).collect();
     let reference = Reference::new(&atlas, 4.0, &figure_7()).expect("a scale");
-    let exact = reference.radiosity(&light, &|_, _| ()).expect("one per texel");
+    let exact = reference.radiosity(&light, &mut |_, _| ()).expect("one per texel");
     let values: Vec<[f64; 3]> = light.iter().map(|value| [*value; 3]).collect();
     let means = IrradianceMeans::new(&surface, &values, MeanWeighting::Area).expect("one per texel");
     for (found, exact) in links.gather(&means).iter().zip(&exact) {

@@ -1,6 +1,7 @@
 //! Laws of system 3.
 
 mod links_blocks;
+mod links_bound;
 mod links_choice;
 mod links_factors;
 mod links_models;

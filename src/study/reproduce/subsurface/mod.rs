@@ -1,10 +1,12 @@
 //! Section 4 of the radiosity and subsurface paper: what it counts, and the times of its Table 1.
 
 mod counts;
+mod frames;
 mod gather;
 mod table_1;
 
 pub(super) use counts::findings as counts;
+pub(super) use frames::findings as frames;
 use gather::LINKS;
 pub(super) use gather::{CARD, GatherCost, all_costs};
 pub(super) use table_1::findings as table_1;

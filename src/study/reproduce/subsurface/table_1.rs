@@ -13,13 +13,26 @@ use crate::report::{Cell, Table};
 
 /// Cards beside the paper's.
 const OTHER_CARDS: [&str; 3] = ["nv35", "fx5800", "nv30"];
-/// Frames per second and the share of pass 2 in per cent, at 512 and at 1024 texels.
-const PRINTED: [[(f64, f64); 2]; 3] =
-    [[(61.10, 82.0), (15.40, 85.0)], [(30.35, 43.0), (15.09, 85.0)], [(30.33, 34.0), (12.05, 68.0)]];
+/// A printed row of Table 1: frames per second, and the shares of the passes in per cent.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PrintedFrame {
+    pub(super) rate: f64,
+    pub(super) shares: [f64; 3],
+}
+
+/// At 512 and at 1024 texels.
+pub(super) const PRINTED: [[PrintedFrame; 2]; 3] = [
+    [PrintedFrame { rate: 61.10, shares: [11.0, 82.0, 7.0] }, PrintedFrame { rate: 15.40, shares: [13.0, 85.0, 2.0] }],
+    [PrintedFrame { rate: 30.35, shares: [43.0, 43.0, 14.0] }, PrintedFrame { rate: 15.09, shares: [8.0, 85.0, 7.0] }],
+    [
+        PrintedFrame { rate: 30.33, shares: [37.0, 34.0, 28.0] },
+        PrintedFrame { rate: 12.05, shares: [18.0, 68.0, 14.0] },
+    ],
+];
 /// The display that the rates are locked to, in Hz.
-const DISPLAY: f64 = 60.0;
+pub(super) const DISPLAY: f64 = 60.0;
 /// Texels along a side.
-const SIDES: [f64; 2] = [512.0, 1024.0];
+pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
 
 const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions of the rate of a display of about {} Hz. So a frame waits for the \
     display, and only the second pass at {} x {}, the longest part and alike on all models within {} %, says how fast the card is.";
@@ -30,7 +43,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let costs = shared.gather()?;
     let ms = |cost: &GatherCost| 1e3 * cost.seconds(SIDES[1]);
     let mut rows: Vec<PaperRow> = Vec::new();
-    for ((model, ..), [_, (rate, share)]) in MODELS.iter().zip(PRINTED) {
+    for ((model, ..), [_, PrintedFrame { rate, shares: [_, share, _] }]) in MODELS.iter().zip(PRINTED) {
         let target = PaperFigure {
             origin: Origin::Implied(format!("{share} % of 1/{rate} s")),
             ..PaperFigure::printed(1e3 / rate * share / 100.0, 1, "ms", "table 1")
@@ -85,7 +98,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 /// What the rates are multiplied by, and the least and the largest product.
 fn locked() -> [String; 3] {
     let products: Vec<(f64, f64)> =
-        PRINTED.iter().flatten().map(|&(rate, _)| ((DISPLAY / rate).round(), rate)).collect();
+        PRINTED.iter().flatten().map(|printed| ((DISPLAY / printed.rate).round(), printed.rate)).collect();
     let factors: Vec<String> = products.iter().map(|(factor, _)| number(*factor, 0)).collect();
     let product = |&(factor, rate): &(f64, f64)| factor * rate;
     let least = products.iter().map(product).fold(f64::INFINITY, f64::min);
@@ -117,7 +130,7 @@ fn frames() -> Table {
         "model faces atlas frames_per_s display_periods pass_2_% pass_2_ms",
     );
     for ((model, faces, _), printed) in MODELS.iter().zip(PRINTED) {
-        for (side, (rate, share)) in SIDES.iter().zip(printed) {
+        for (side, PrintedFrame { rate, shares: [_, share, _] }) in SIDES.iter().zip(printed) {
             table.push([
                 (*model).into(),
                 (*faces).into(),

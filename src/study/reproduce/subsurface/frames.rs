@@ -1,0 +1,259 @@
+//! Whole frames: passes 1 and 3 beside pass 2, on stand-ins for the paper's models; what a display makes of them; and
+//! the time of links.
+//!
+//! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
+//! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
+
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+use refsim::texture::TexelFormat;
+
+use super::counts::MODELS;
+use super::gather::{EIGHT, GatherCost, VARIANTS, all_costs};
+use super::table_1::{DISPLAY, PRINTED, PrintedFrame, SIDES};
+use super::{
+    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared,
+    Standing, Sweep, failed, number,
+};
+use crate::atlas::Atlas;
+use crate::card::Texels;
+use crate::geom::Mesh;
+use crate::report::{Cell, Table};
+use crate::scene::Camera;
+use crate::scene::built::meshes;
+use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
+use crate::subsurface::on_card::{
+    CardModel, FloatTexels, Light, LightStage, LinkTextures, SubsurfaceCard, SubsurfaceCardOptions, View, pass_times,
+};
+
+/// The card of Figure 7.
+const OTHER_CARD: &str = "fx5800";
+/// Pixels of the window. The paper does not say.
+const WINDOW: [u32; 2] = [512, 512];
+/// Frames per second of Figure 7.
+const FIGURE_7: f64 = 40.0;
+/// The time of all links of the larger atlas, in seconds.
+const LINK_SECONDS: f64 = 9.0;
+/// Clocks of one evaluation of R_d on the host of section 3: two exponentials, two roots and two quotients, one after
+/// the other, of 95, 27 and 20 clocks each, from memory of the maker's optimisation guide. A guess.
+const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
+/// Its clock (Tom's Hardware).
+const HOST_HZ: f64 = 2.083e9;
+/// Evaluations of R_d per link.
+const EVALUATIONS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 8.0];
+
+const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
+    eye from a texture and a window of {} x {} pixels, which is not printed. The second pass is that of fixed links and an 8-bit map, which the sweep \
+    replaces by the other variants.";
+const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
+    rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
+    upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \
+    the larger one.";
+const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
+    printed. The sweep takes more evaluations per link.";
+
+/// Modelled seconds of the passes, in the order of a frame; pass 2 is not among them.
+#[derive(Clone, Copy, Debug)]
+struct FrameCost {
+    light: f64,
+    levels: f64,
+    view: f64,
+}
+
+impl FrameCost {
+    /// With pass 2.
+    fn frame(&self, gather: f64) -> f64 {
+        self.light + self.levels + gather + self.view
+    }
+}
+
+/// Frames per second on a display, for frames of so many seconds.
+fn locked(seconds: f64) -> f64 {
+    DISPLAY / (seconds * DISPLAY).ceil().max(1.0)
+}
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let costs = shared.gather()?;
+    let mut rows = Vec::new();
+    let mut frames = Vec::new();
+    for ((model, _, stand_in), printed) in MODELS.iter().zip(PRINTED) {
+        let mesh = mesh(stand_in)?;
+        for (side, printed) in SIDES.into_iter().zip(printed) {
+            let cost = cost(CARD, &mesh, side as u32)?;
+            rows.extend(passes(model, side, printed, (cost, costs[0].seconds(side))));
+            frames.push((*model, side, printed, cost));
+        }
+    }
+    let mut rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[0])).collect();
+    rates.push(full_real_time(&rates[0]));
+    let setting = |(variant, cost): (&super::gather::Variant, &GatherCost)| {
+        let mut values: Vec<f64> =
+            frames.iter().map(|(_, side, _, frame)| locked(frame.frame(cost.seconds(*side)))).collect();
+        values.push(values[0]);
+        Setting { at: variant.name.to_owned(), values }
+    };
+    let settings = VARIANTS.iter().zip(costs).map(setting).collect();
+    Sweep { name: "Frames by what the text leaves open of pass 2", parameter: "variant", settings }.explain(&mut rates);
+    rows.extend(rates);
+    rows.push(figure_7()?);
+    rows.push(links());
+    let dolphin = |at: usize| number(1e3 / PRINTED[1][at].rate * PRINTED[1][at].shares[0] / 100.0, 1);
+    Ok(EntryFindings {
+        text: vec![
+            Prose::new(HOW, WINDOW.map(|pixels| pixels.to_string())),
+            Prose::new(
+                LOCK,
+                [number(DISPLAY, 0), number(1e3 / DISPLAY, 1), number(DISPLAY, 0), dolphin(0), dolphin(1)],
+            ),
+            HOST.into(),
+        ],
+        rows,
+        tables: vec![table(&frames, &costs[0])],
+        questions: vec![
+            "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
+        ],
+        ..EntryFindings::default()
+    })
+}
+
+fn mesh(stand_in: &'static str) -> Result<Mesh, ReproduceError> {
+    let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
+    meshes::build(stand_in).ok_or_else(missing)
+}
+
+/// The times of passes of one frame: 1 and 3 everywhere; 2 where Table 1's own entry does not judge it.
+fn passes(
+    model: &str,
+    side: f64,
+    PrintedFrame { rate, shares }: PrintedFrame,
+    (cost, gather): (FrameCost, f64),
+) -> Vec<PaperRow> {
+    let ours = [Some(cost.light + cost.levels), (side == SIDES[0]).then_some(gather), Some(cost.view)];
+    let row = |(pass, (share, ours)): (usize, (f64, Option<f64>))| {
+        let target = PaperFigure {
+            origin: Origin::Implied(format!("{share} % of 1/{rate} s")),
+            ..PaperFigure::printed(1e3 / rate * share / 100.0, 1, "ms", "table 1")
+        };
+        let ours = (1e3 * ours?, Standing::Predicted { from: "" });
+        let what = format!("pass {pass} at {side} x {side}, {model}");
+        Some(PaperRow::new(what, (CARD, Method::Pipeline), target, ours, Bound::PREDICTION))
+    };
+    (1..).zip(shares.into_iter().zip(ours)).filter_map(row).collect()
+}
+
+/// What went into the display's rate.
+const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
+
+fn rate((model, side, printed, cost): &(&str, f64, PrintedFrame, FrameCost), gather: &GatherCost) -> PaperRow {
+    let target = PaperFigure::printed(printed.rate, 2, "frames/s", "table 1");
+    let ours = (locked(cost.frame(gather.seconds(*side))), Standing::Predicted { from: DISPLAYED });
+    let what = format!("frames on a display at {side} x {side}, {model}");
+    PaperRow::new(what, (CARD, Method::Pipeline), target, ours, Bound::PREDICTION)
+}
+
+/// "Full real-time (61 Hz) performance": the first of the rates once more.
+fn full_real_time(first: &PaperRow) -> PaperRow {
+    let target = PaperFigure::printed(61.0, 0, "Hz", "section 5");
+    let ours = (first.ours, Standing::Predicted { from: DISPLAYED });
+    PaperRow::new("full real-time performance, head", (CARD, Method::Pipeline), target, ours, Bound::PREDICTION)
+}
+
+/// 40 frames per second are no whole fraction of the display's rate: the frame as it is, of the bunny at the smaller
+/// size.
+fn figure_7() -> Result<PaperRow, ReproduceError> {
+    let costs = all_costs(OTHER_CARD)?;
+    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
+    let target = PaperFigure::printed(FIGURE_7, 0, "frames/s", "figure 7");
+    let ours = (1.0 / cost.frame(costs[0].seconds(SIDES[0])), Standing::Predicted { from: "" });
+    let what = format!("frames at {0} x {0}, bunny, no display", SIDES[0]);
+    Ok(PaperRow::new(what, (OTHER_CARD, Method::Pipeline), target, ours, Bound::PREDICTION))
+}
+
+/// The time of links on a host.
+fn links() -> PaperRow {
+    let seconds = |evaluations: f64| evaluations * LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ;
+    let target = PaperFigure::printed(LINK_SECONDS, 0, "s", "section 4.3");
+    let ours = (seconds(EVALUATIONS[0]), Standing::Predicted { from: "" });
+    let what = format!("{LINKS} links at {0} x {0}, one evaluation each", SIDES[1]);
+    let mut rows = [PaperRow::new(what, ("Athlon 2800+", Method::Host), target, ours, Bound::PREDICTION)];
+    let setting = |evaluations: f64| Setting { at: number(evaluations, 0), values: vec![seconds(evaluations)] };
+    let settings = EVALUATIONS.map(setting).to_vec();
+    Sweep { name: "How much of an integral a link is", parameter: "evaluations", settings }.explain(&mut rows);
+    let [row] = rows;
+    row
+}
+
+/// Passes 1 and 3 of a model on a card.
+fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, ReproduceError> {
+    let profile = Profile::named(card)?;
+    let mut machine = model_on(profile.clone(), mesh, side).map_err(|e| failed(card)(&e))?;
+    machine.record(true);
+    let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
+    machine.light(&[sun]).map_err(|e| failed(card)(&e))?;
+    let kernel =
+        ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex, ..ViewKernel::default() };
+    let camera = camera(mesh).map_err(|e| failed(card)(&e))?;
+    let view = View { kernel, diffuse: [0.1; 3], format: TexelFormat::Bgra8, ..View::scattered(camera) };
+    machine.view_texels(&view).map_err(|e| failed(card)(&e))?;
+    let [light, levels, _, view] = pass_times(&profile, &machine.take_log())?.map(|pass| pass.time.seconds());
+    Ok(FrameCost { light, levels, view })
+}
+
+/// A model with links that are all alike: time does not depend on values.
+fn model_on(
+    profile: Profile,
+    mesh: &Mesh,
+    side: u32,
+) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
+    let atlas = Atlas::new(mesh, side)?;
+    let level = Some(side.ilog2() - LINKS.ilog2() / 2);
+    let textures = vec![Texels::from_fn([side as usize; 2], |_, _| [1.0 / 16.0; 4]); LINKS / 4];
+    let links = LinkTextures::from_textures(side, level, false, LINKS, textures)?;
+    let options = SubsurfaceCardOptions {
+        light: LightStage::Vertices,
+        map: EIGHT,
+        links: FloatTexels::Fp16,
+        scattered: FloatTexels::Fp16,
+        half: false,
+        memory: None,
+    };
+    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
+}
+
+/// A camera whose window the sphere around a mesh fills.
+fn camera(mesh: &Mesh) -> Result<Camera, Box<dyn std::error::Error + Send + Sync>> {
+    let [low, high] = mesh.bounds().ok_or("a mesh without faces")?;
+    let middle = [0, 1, 2].map(|i| (low[i] + high[i]) / 2.0);
+    let radius =
+        [0, 1, 2].map(|i| f64::from(high[i] - low[i]) / 2.0).iter().map(|half| half * half).sum::<f64>().sqrt();
+    // Half the height of the window is a quarter of its distance.
+    let distance = radius * 17.0_f64.sqrt();
+    let eye = [middle[0], middle[1] - distance as f32, middle[2]];
+    Ok(Camera::new(eye, middle, [0.0, 0.0, 1.0], 0.25, WINDOW[0], WINDOW[1])?)
+}
+
+/// Modelled passes beside the printed ones.
+fn table(frames: &[(&str, f64, PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
+    let mut table = Table::of(
+        "A frame on the emulated card in ms, and its periods on the display; printed periods beside",
+        "model atlas pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s periods printed_periods",
+    );
+    for (model, side, printed, cost) in frames {
+        let gather = gather.seconds(*side);
+        let frame = cost.frame(gather);
+        let ms = |seconds: f64| Cell::measured(1e3 * seconds);
+        table.push([
+            (*model).into(),
+            format!("{side} x {side}").into(),
+            ms(cost.light),
+            ms(cost.levels),
+            ms(gather),
+            ms(cost.view),
+            ms(frame),
+            Cell::measured(1.0 / frame),
+            ((DISPLAY / locked(frame)).round() as u32).into(),
+            ((DISPLAY / printed.rate).round() as u32).into(),
+        ]);
+    }
+    table
+}
