@@ -62,11 +62,11 @@ fn rounding_switches_are_swept() {
         text.lines().filter(|line| line.starts_with("fixed-4")).map(|line| line.split(',').collect()).collect();
     let switches: Vec<(&str, &str)> = rows.iter().map(|row| (row[1], row[2])).collect();
     let expected =
-        [("rounding", "rtz"), ("mad", "fused"), ("target-rounding", "truncate"), ("mipmap-rounding", "truncate")];
+        [("mad", "fused"), ("mipmap-rounding", "truncate"), ("rounding", "rtz"), ("target-rounding", "truncate")];
     assert_eq!(switches, expected);
     let changes: Vec<f64> = rows.iter().map(|row| row[3].parse().expect("per cent")).collect();
     assert!(changes.iter().all(|&change| change < 2.0), "{changes:?}");
-    assert!(changes[0] > 0.0 && changes[2] > 0.0 && changes[3] > 0.0, "{changes:?}");
+    assert!(changes[1..].iter().all(|&change| change > 0.0), "{changes:?}");
     assert!(ran.stdout.contains("Of the card's rounding switches "), "{}", ran.stdout);
 }
 

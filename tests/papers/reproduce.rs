@@ -294,7 +294,8 @@ fn figures_have_their_pictures() {
         for (at, picture) in pictures.iter().enumerate() {
             let pixels = |picture: &NamedPicture| picture.image.pixels().map(|pixel| pixel.0).collect::<Vec<_>>();
             let seen: BTreeSet<[u8; 3]> = pixels(picture).into_iter().collect();
-            assert!(seen.len() > 3, "{id}, {}: {} colors", picture.name, seen.len());
+            // A ground, and two superclusters at least.
+            assert!(seen.len() > 2, "{id}, {}: {} colors", picture.name, seen.len());
             for other in &pictures[..at] {
                 assert!(pixels(other) != pixels(picture), "{id}: {} and {}", other.name, picture.name);
             }

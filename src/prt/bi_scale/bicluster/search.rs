@@ -5,7 +5,7 @@
 //! 2 (most frequent + non-zeros) - 2r - 2, and a deletion loses that. So a line's key is the number in brackets, which
 //! changes with the entries that cross it, not with r or l.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 
 use super::draw::{Counts, start};
 use super::lines::Lines;
@@ -212,7 +212,7 @@ struct Search {
     /// Non-zeros per row of what is left.
     left: Counts,
     /// Rows and columns of residuals that were left out.
-    dropped: HashSet<(u32, u32)>,
+    dropped: BTreeSet<(u32, u32)>,
 }
 
 impl Search {
@@ -233,7 +233,7 @@ impl Search {
             tallies: vec![ColumnTally::default(); width],
             values: vec![0; width],
             left,
-            dropped: HashSet::new(),
+            dropped: BTreeSet::new(),
         })
     }
 
