@@ -107,7 +107,8 @@ fn what_is_coarser_is_farther_off() {
     assert!(rms("r350: signed 16 bits, program") < rms("r350: signed 16 bits, sampler"));
     assert!(4.0 * rms("r350: signed 16 bits, sampler") < rms("r350: signed 8 bits, sampler"));
     assert!(rms("nv35: signed 16 bits, sampler, fp32") < rms("nv35: signed 16 bits, sampler, fp16"));
-    assert!(ways.iter().all(|way| way.below_zero > 0), "truncated factors have negative lobes");
+    let mut products = ways.iter().filter(|way| way.what != "vertex colors");
+    assert!(products.all(|way| way.below_zero > 0), "truncated factors have negative lobes");
 }
 
 /// One constant for six models: the rates that Table 1 prints ask for 0.57 to 1.08 G multiplications a second.
