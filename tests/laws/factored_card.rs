@@ -107,7 +107,7 @@ fn what_is_coarser_is_farther_off() {
     assert!(rms("r350: signed 16 bits, program") < rms("r350: signed 16 bits, sampler"));
     assert!(4.0 * rms("r350: signed 16 bits, sampler") < rms("r350: signed 8 bits, sampler"));
     assert!(rms("nv35: signed 16 bits, sampler, fp32") < rms("nv35: signed 16 bits, sampler, fp16"));
-    let mut products = ways.iter().filter(|way| way.what != "vertex colors");
+    let mut products = ways.iter().filter(|way| way.axis != "vertex colors");
     assert!(products.all(|way| way.below_zero > 0), "truncated factors have negative lobes");
 }
 
