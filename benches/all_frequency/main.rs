@@ -7,6 +7,9 @@
 //! numbers other than 0. In size they lose above two thirds, where three bytes for each of these are more than two for
 //! every number.
 //!
+//! Once, on two quiet cores: 46 ms, beside 458 ms of plain loops on one; representatives 23 ms sparse and 61 dense, of
+//! 211 and 645 MB; sparse ones lose no time at any density.
+//!
 //! The numbers are drawn, not computed: compression would take an hour, and a frame does not depend on them.
 //!
 //! `cargo bench -p crossbar-benches --bench all_frequency`

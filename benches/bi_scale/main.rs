@@ -3,8 +3,8 @@
 //!
 //! Figures to beat: light times the biclusters at least three times as fast as light times the matrix row by row, in
 //! f32; biclusters of some ten million non-zeros in 24 s (the paper took 12 minutes). Ratios are of one run. One
-//! element is one non-zero. Once, on a busy machine: 5 s; 1.9 ms beside 4.5 with one channel (2.3 times), 3.1 beside
-//! 9.0 with three (2.9 times): the ratio is missed.
+//! element is one non-zero. Once, on a quiet machine: 4.1 s; 1.33 ms beside 4.36 with one channel (3.3 times), 2.7
+//! beside 8.5 with three (3.1 times).
 //!
 //! `cargo bench -p crossbar-benches --bench bi_scale`; `-- --whole` biclusters once and says how long it took.
 
