@@ -90,6 +90,12 @@ pub(crate) const fn face_row_column(texel: usize, side: usize) -> [usize; 3] {
     [texel / (side * side), texel / side % side, texel % side]
 }
 
+/// The direction of a light texel's center.
+pub(crate) fn texel_center(texel: usize) -> DVec3 {
+    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+    LIGHT_MAP.direction(face, column, row)
+}
+
 /// The light texel that a fine direction lies in.
 pub const fn light_texel(fine: usize) -> usize {
     let [face, row, column] = face_row_column(fine, FINE_SIDE);

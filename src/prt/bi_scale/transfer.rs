@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::directions::LocalDirections;
 use super::matrix::{MatrixEntry, SparseMatrix, SparseMatrixError};
-use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
+use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{LocalFrame, Vertices};
 
@@ -67,12 +67,6 @@ fn vertex_rows(frame: &LocalFrame, shares: &[u32], directions: &LocalDirections)
         rows[nearest].push(MatrixEntry { index: texel as u32, value: share.cast_signed() });
     }
     rows
-}
-
-/// The direction of a light texel's center.
-pub fn texel_center(texel: usize) -> glam::DVec3 {
-    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
-    LIGHT_MAP.direction(face, column, row)
 }
 
 /// L: radiance per texel times the texel's solid angle in steradians, which T leaves out.

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::read::{Reader, bytes_of};
+use super::read::{Reader, bytes_of, has_conventions};
 use super::write::{Section, digest_fields, tangent_fields};
 use super::{MAGIC, MeshDigest, PrtFileError, VERSION};
 use crate::io::{WriteError, write_file};
@@ -46,8 +46,7 @@ pub struct AllFrequencyFile {
 
 /// Whether bytes begin as such a file.
 pub fn is_all_frequency(bytes: &[u8]) -> bool {
-    let head = |at: usize| bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
-    bytes.starts_with(MAGIC) && head(8) == Some(VERSION) && head(12) == Some(CONVENTIONS)
+    has_conventions(bytes, CONVENTIONS)
 }
 
 /// Reads a file; of `mesh`, if one is given.

@@ -28,7 +28,13 @@ pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFi
     Ok(file)
 }
 
-/// All bytes of a file of either kind.
+/// Whether bytes begin as a file of these conventions.
+pub(super) fn has_conventions(bytes: &[u8], conventions: u32) -> bool {
+    let head = |at: usize| bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
+    bytes.starts_with(MAGIC) && head(8) == Some(VERSION) && head(12) == Some(conventions)
+}
+
+/// All bytes of a file of any kind.
 pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
     let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
     let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::maps::{Horizon, VisibilitySampling};
 use crate::geom::vector::wide;
-use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
+use crate::prt::all_frequency::grid::{LIGHT_TEXELS, texel_center};
 use crate::prt::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart};
 
 /// The largest sine of the angle from a light texel's center to a fine direction in it: 3/4 of half a diagonal at the
@@ -32,8 +32,7 @@ pub(super) fn look(
     let sees_below = sampling.horizon == Horizon::Geometry;
     let mut asked = Asked::default();
     for texel in 0..LIGHT_TEXELS {
-        let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
-        let center = LIGHT_MAP.direction(face, column, row);
+        let center = texel_center(texel);
         let height = normal.dot(center);
         if height <= -TEXEL_SINE && !sees_below {
             continue;

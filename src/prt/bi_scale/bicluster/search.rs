@@ -275,53 +275,52 @@ impl Search {
 
     fn insert_row(&mut self, row: u32) {
         self.rows.insert(row);
-        let [_, least] = self.least_keys();
-        let Self { rows, columns, tallies, values, .. } = self;
-        for &MatrixEntry { index: column, value } in rows.lines.get(row as usize) {
-            let tally = &mut tallies[column as usize];
-            tally.add(value);
-            let key = column_key(tally, columns.places[column as usize], values[column as usize]);
-            columns.set_key(column, key, least);
-        }
+        self.cross_columns(row, ColumnTally::add);
     }
 
     fn delete_row(&mut self, row: u32) {
         self.rows.delete(row);
+        self.cross_columns(row, ColumnTally::remove);
+        let [_, least] = self.least_keys();
+        self.columns.queue_again(least);
+    }
+
+    /// Changes the tallies and keys of the columns that a row crosses by its values.
+    #[inline(always)]
+    fn cross_columns(&mut self, row: u32, change: impl Fn(&mut ColumnTally, i32)) {
         let [_, least] = self.least_keys();
         let Self { rows, columns, tallies, values, .. } = self;
         for &MatrixEntry { index: column, value } in rows.lines.get(row as usize) {
             let tally = &mut tallies[column as usize];
-            tally.remove(value);
+            change(tally, value);
             let key = column_key(tally, columns.places[column as usize], values[column as usize]);
             columns.set_key(column, key, least);
         }
-        columns.queue_again(least);
     }
 
     fn insert_column(&mut self, column: u32) {
-        let t = self.tallies[column as usize].most_frequent();
-        self.values[column as usize] = t;
+        self.values[column as usize] = self.tallies[column as usize].most_frequent();
         self.columns.insert(column);
-        let [least, _] = self.least_keys();
-        let Self { rows, columns, .. } = self;
-        for &MatrixEntry { index: row, value } in columns.lines.get(column as usize) {
-            let key = rows.keys[row as usize] + 1 + u32::from(value == t);
-            rows.set_key(row, key, least);
-        }
+        self.cross_rows(column, u32::wrapping_add);
     }
 
     fn delete_column(&mut self, column: u32) {
-        let t = self.values[column as usize];
         self.columns.delete(column);
         let [least, least_column] = self.least_keys();
-        let Self { rows, columns, tallies, .. } = self;
         // It may gain again with another value.
-        columns.set_key(column, tallies[column as usize].most_and_nonzeros(), least_column);
+        self.columns.set_key(column, self.tallies[column as usize].most_and_nonzeros(), least_column);
+        self.cross_rows(column, u32::wrapping_sub);
+        self.rows.queue_again(least);
+    }
+
+    /// Changes the keys of the rows that a column crosses: by 2 where they have its value, by 1 elsewhere.
+    #[inline(always)]
+    fn cross_rows(&mut self, column: u32, change: impl Fn(u32, u32) -> u32) {
+        let ([least, _], t) = (self.least_keys(), self.values[column as usize]);
+        let Self { rows, columns, .. } = self;
         for &MatrixEntry { index: row, value } in columns.lines.get(column as usize) {
-            let key = rows.keys[row as usize] - 1 - u32::from(value == t);
-            rows.set_key(row, key, least);
+            rows.set_key(row, change(rows.keys[row as usize], 1 + u32::from(value == t)), least);
         }
-        rows.queue_again(least);
     }
 
     /// Lines 15 and 16: the bicluster, taken away from what is left.
