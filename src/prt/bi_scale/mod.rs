@@ -3,10 +3,12 @@
 //! - [`directions`]: the local directions that light is transferred to (section VI-A);
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of whole numbers;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
-//! - [`product`]: light times that sum (section V, Algorithm 2).
+//! - [`product`]: light times that sum (section V, Algorithm 2);
+//! - [`texture`]: the bidirectional textures that local light falls on (section III).
 
 pub mod bicluster;
 pub mod directions;
 pub mod matrix;
 pub mod product;
+pub mod texture;
 pub mod transfer;
