@@ -12,6 +12,7 @@ mod interpolate;
 mod precompute;
 mod render;
 
+pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,

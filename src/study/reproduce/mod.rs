@@ -213,6 +213,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: all_frequency::factors,
     },
     ReproduceEntry {
+        id: "all-frequency-figures",
+        title: "Rivals, terms, clusters, representatives, truncation and frame rates (all-frequency transfer, figures 1, 2 and 4 to 7)",
+        work: all_frequency::figures,
+    },
+    ReproduceEntry {
         id: "all-frequency-table-1",
         title: "What clusters and codes leave of transfer (all-frequency transfer, table 1)",
         work: all_frequency::table_1,

@@ -16,7 +16,7 @@ use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{TransferError, Vertices};
 
 /// The coefficients of a light that is turned, of them `keep` of largest area times magnitude; `None`: all.
-pub(in crate::study::prt) fn coefficients(
+pub(in crate::study) fn coefficients(
     (light, decimation): (&DistantLight, Decimation),
     rotation: &DMat3,
     keep: Option<usize>,
@@ -26,7 +26,7 @@ pub(in crate::study::prt) fn coefficients(
 }
 
 /// Per vertex m rows of three channels.
-pub(in crate::study::prt) fn transferred(
+pub(in crate::study) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
     hats: HatWidth,
     reflectance: &Reflectance,

@@ -2,6 +2,7 @@
 
 mod counts;
 mod factors;
+mod figures;
 mod forms;
 mod models;
 mod roughness;
@@ -9,6 +10,7 @@ mod table_1;
 
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
+pub(super) use figures::findings as figures;
 pub(super) use table_1::findings as table_1;
 
 use super::pipeline::failed;

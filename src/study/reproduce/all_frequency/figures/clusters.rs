@@ -1,0 +1,92 @@
+//! Figures 4 and 5: clusters of three segments, and the number of representatives.
+
+use glam::DVec3;
+
+use super::lit::Surface;
+use super::rivals::COLORS;
+use super::scene::{FigureScene, stand_in};
+use super::{
+    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
+    models, number,
+};
+use crate::picture::rgb8;
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::CodedTransfer;
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::light::HaarLight;
+use crate::report::{Cell, NamedPicture, Table};
+use crate::study::prt::cluster_color;
+
+/// Representatives that are tried; the paper's are the last.
+const VECTORS: [usize; 4] = [1, 4, 8, 16];
+/// Segments whose clusters are drawn.
+const SEGMENTS: usize = 3;
+
+const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} \
+    vertices each on average.";
+
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
+    let light = HaarLight::new(&stand_in()?, Segmentation::Quarters);
+    let surface =
+        Surface { scene: &scene, maps: &scene.of_model, reflectance: &Reflectance::Diffuse, color: COLORS[0] };
+    let dark = vec![[0.0; 3]; scene.of_ground.len()];
+    let raw = surface.raw(&light)?;
+    let exact = scene.joined(&surface.exit_of_rows((1, &raw)), &dark);
+    let exposure = scene.exposure(&exact);
+    let mut table = Table::of("Figure 5: representatives per cluster", "representatives squared_error rms_% flip");
+    let (mut pictures, mut errors, mut last) = (Vec::new(), Vec::new(), None);
+    for vectors in VECTORS {
+        let (coded, tally) = surface.coded(models::points_per_cluster(size), vectors)?;
+        let found = scene.joined(&surface.of_code(&coded, &light)?, &dark);
+        let error = scene.error(&found, &exact, exposure)?;
+        let squared = tally.sum(|part| part.coded_squared_error) / tally.sum(|part| part.squares);
+        table.push([
+            vectors.into(),
+            Cell::measured(squared),
+            Cell::measured(100.0 * error.rms),
+            Cell::measured(error.flip),
+        ]);
+        let name = (format!("figure-5-{vectors}"), format!("representatives: {vectors}"));
+        pictures.push(scene.picture(&found, exposure, name)?);
+        errors.push(squared);
+        last = Some(coded);
+    }
+    let caption = "without compression".to_owned();
+    pictures.push(scene.picture(&exact, exposure, ("figure-5-exact".to_owned(), caption))?);
+    let coded = last.as_ref();
+    pictures.extend(coded.into_iter().flat_map(|coded| of_segments(&scene, coded)));
+    let origin = Origin::Inferred("the figure shows fewer artifacts with more representatives".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", "figure 5") };
+    let row = PaperRow::new(
+        format!("squared error of {} representative over {}", VECTORS[0], VECTORS[3]),
+        (HOST, Method::Solver),
+        target,
+        (errors[0] / errors[3], Standing::Counted),
+        Bound::AtLeast,
+    );
+    let [clusters, segments] = coded.map_or([0, 0], |coded| [coded.clusters(), coded.segments.len()]);
+    let text = vec![Prose::new(
+        HOW,
+        [scene.of_model.len(), clusters, segments, models::points_per_cluster(size)]
+            .map(|count| number(count as f64, 0)),
+    )];
+    Ok(FigureParts { text, rows: vec![row], tables: vec![table], pictures })
+}
+
+/// Clusters of the segments that most vertices see; black where none of the light arrives.
+fn of_segments(scene: &FigureScene, coded: &CodedTransfer) -> Vec<NamedPicture> {
+    let mut largest: Vec<_> = coded.segments.iter().collect();
+    largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
+    let picture = |part: &&crate::prt::all_frequency::code::CodedSegment| {
+        let color = |vertex: Option<u32>| {
+            let at = vertex.and_then(|vertex| part.vertices.binary_search(&vertex).ok());
+            at.map_or([0; 3], |at| cluster_color(u32::from(part.cluster_of[at])))
+        };
+        let image = rgb8(scene.camera.width(), scene.camera.height(), scene.seen.nearest().map(color));
+        let caption =
+            format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
+        NamedPicture::new(format!("figure-4-{}", part.segment), image, caption)
+    };
+    largest.iter().take(SEGMENTS).map(picture).collect()
+}

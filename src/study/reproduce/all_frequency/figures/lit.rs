@@ -1,0 +1,65 @@
+//! Radiance of vertices by factored transfer, compressed or not.
+
+use super::scene::FigureScene;
+use super::{HOST, ReproduceError, failed};
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer};
+use crate::prt::all_frequency::compressed::SegmentOptions;
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::shade::{Representatives, Shader, exit_radiance};
+use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::study::prt::{CompressionTally, SegmentedCompression, raw_radiance};
+
+/// A surface's share of a scene: the vertices of some maps with a reflectance and a color.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<'a> {
+    pub(super) scene: &'a FigureScene,
+    pub(super) maps: &'a VisibilityMaps,
+    pub(super) reflectance: &'a Reflectance,
+    pub(super) color: [f64; 3],
+}
+
+impl Surface<'_> {
+    /// Compressed by so many vertices and representatives per cluster, and coded.
+    pub(super) fn coded(
+        &self,
+        points_per_cluster: usize,
+        vectors: usize,
+    ) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
+        let compression = SegmentedCompression {
+            vertices: &self.scene.vertices,
+            maps: self.maps,
+            hats: self.scene.hats.width(),
+            reflectance: self.reflectance,
+            options: SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() },
+            code: CodeOptions::default(),
+        };
+        compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))
+    }
+
+    /// Radiance of the maps' vertices towards the scene's eye from coded transfer.
+    pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
+        let shader = Shader::new(coded, Representatives::Sparse);
+        let transferred = shader.transferred(&light.singles()).map_err(|e| failed(HOST)(&e))?;
+        Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
+    }
+
+    /// The same from raw matrices: per vertex of the mesh the rows of T_p.
+    pub(super) fn raw(&self, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
+        let scene = self.scene;
+        let at = (&scene.vertices, self.maps);
+        raw_radiance(at, scene.hats.width(), self.reflectance, light).map_err(|e| failed(HOST)(&e))
+    }
+
+    /// Step 4 with T_p of the mesh's vertices.
+    pub(super) fn exit(&self, transferred: &(dyn Fn(usize, usize) -> [f64; 3] + Sync)) -> Vec<[f64; 3]> {
+        let color = |_: usize| self.color;
+        let all = exit_radiance(&self.scene.vertices, self.reflectance, &color, transferred, self.scene.eye());
+        self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
+    }
+
+    /// Step 4 with the first rows of T_p of more rows.
+    pub(super) fn exit_of_rows(&self, (rows, radiance): (usize, &[[f64; 3]])) -> Vec<[f64; 3]> {
+        self.exit(&|vertex, row| radiance[vertex * rows + row])
+    }
+}

@@ -1,0 +1,46 @@
+//! Figures 1, 2 and 4 to 7: pictures, and what of them can be counted. Figure 3 stands with the factors.
+
+mod clusters;
+mod lit;
+mod models;
+mod rates;
+mod rivals;
+mod scene;
+mod terms;
+mod truncation;
+
+use super::{
+    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
+    number,
+};
+use crate::report::{NamedPicture, Table};
+use crate::study::reproduce::ModelSize;
+
+/// What a figure adds to the entry.
+#[derive(Default)]
+struct FigureParts {
+    text: Vec<Prose>,
+    rows: Vec<PaperRow>,
+    tables: Vec<Table>,
+    pictures: Vec<NamedPicture>,
+}
+
+const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
+    it, which the scan has lost.";
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };
+    for parts in [
+        rivals::figure(shared.models)?,
+        terms::figure(shared.models)?,
+        clusters::figure(shared.models)?,
+        truncation::figure(shared.models)?,
+        rates::figure(shared.models)?,
+    ] {
+        found.text.extend(parts.text);
+        found.rows.extend(parts.rows);
+        found.tables.extend(parts.tables);
+        found.pictures.extend(parts.pictures);
+    }
+    Ok(found)
+}

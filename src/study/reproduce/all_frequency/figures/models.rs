@@ -1,0 +1,54 @@
+//! The models of the figures, as large as printed or smaller.
+
+use super::{ModelSize, ReproduceError, failed};
+use crate::geom::Mesh;
+use crate::geom::teapot::teapot;
+use crate::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
+use crate::scene::built::ground::GROUND_SIDE;
+use crate::scene::built::transfer_models::TransferModel;
+
+/// A bird that stands for tweety, and what stands for the Buddha.
+pub(super) fn tweety(models: ModelSize) -> Mesh {
+    TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
+}
+
+pub(super) fn buddha(models: ModelSize) -> Mesh {
+    TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 9 })
+}
+
+pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, ReproduceError> {
+    teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
+}
+
+/// Vertices along an edge of the ground.
+pub(super) const fn ground(models: ModelSize) -> u32 {
+    match models {
+        ModelSize::Printed => GROUND_SIDE,
+        ModelSize::Reduced => 24,
+    }
+}
+
+/// Vertices per cluster: with few vertices fewer, so that there are some clusters.
+pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
+    match models {
+        ModelSize::Printed => 200,
+        ModelSize::Reduced => 60,
+    }
+}
+
+/// The anisotropic reflectance of Figures 1 and 7.
+pub(super) fn schlick() -> Lobe {
+    Lobe::schlick(0.2, 0.2, 0.8)
+}
+
+/// The glossy Buddha's.
+pub(super) fn cook_torrance() -> Lobe {
+    Lobe::cook_torrance(0.4, 0.5)
+}
+
+/// A reflectance with its singular vectors for so many terms.
+pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, ReproduceError> {
+    let table: ProductTable =
+        FactorSampling::default().table(lobe, &mut |_, _| ()).map_err(|e| failed(super::HOST)(&e))?;
+    Factorization::new(&table, terms).map_err(|e| failed(super::HOST)(&e))
+}

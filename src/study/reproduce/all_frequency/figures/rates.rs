@@ -1,0 +1,184 @@
+//! Figure 7: frame rates by the model, the ground with them; and pictures of the models.
+
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::timing::host::HostOperation;
+
+use super::lit::Surface;
+use super::rivals::COLORS;
+use super::scene::{FigureScene, stand_in};
+use super::{
+    Bound, FigureParts, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Standing, failed, models,
+    number,
+};
+use crate::geom::Mesh;
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::factor::Lobe;
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
+use crate::prt::all_frequency::on_card::{ProductPlace, VertexColors};
+use crate::prt::all_frequency::shade::Multiplies;
+use crate::prt::all_frequency::visibility::SegmentCensus;
+use crate::prt::on_card::time::frame_time;
+use crate::report::{Cell, Table};
+use crate::scene::built::ground::GROUND_SIDE;
+
+const PLACE: &str = "figure 7";
+const CARD: &str = "r350";
+/// Teapot, diffuse Buddha, glossy Buddha among the columns of Table 1.
+const TEAPOT: usize = 1;
+const BUDDHA: usize = 4;
+const GLOSSY_BUDDHA: usize = 5;
+/// Printed rates.
+const PRINTED: [(&str, usize, f64); 4] = [
+    ("diffuse Buddha", BUDDHA, 5.8),
+    ("glossy Buddha", GLOSSY_BUDDHA, 1.0),
+    ("teapot, light of low frequency", TEAPOT, 1.2),
+    ("teapot, light of all frequencies", TEAPOT, 1.2),
+];
+/// Representatives of a cluster, coefficients and number of segments, vertices of a cluster, channels.
+const VECTORS: u64 = 16;
+const COEFFICIENTS: u64 = 256;
+const SEGMENTS: u64 = 24;
+const PER_CLUSTER: u64 = 200;
+const CHANNELS: u64 = 3;
+/// Bands of the light of low frequency.
+const ORDER: usize = 5;
+/// Terms of the glossy models.
+const TERMS: usize = 10;
+const CALIBRATED: &str = "Table 1: frames without drawing, its vertices, clusters and omega";
+
+const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} vertices, of whose segments {} % hold transfer here: host and card work side by \
+    side, colors of vertices are sent as bytes, no pixel takes time, {} vertices are run per triangle. Light of low frequency has as many \
+    Haar coefficients as any, so the model has one rate for both lights. Pictures are without compression, of {} and {} vertices.";
+
+/// Vertices that run per triangle, of meshes that are not ordered for the card's cache.
+const RUN_PER_TRIANGLE: f64 = 1.1;
+
+/// What steps 2 and 3 take of a ground, of which a share of the segments hold transfer.
+fn of_ground(omega: f64) -> (u64, Multiplies) {
+    let vertices = u64::from(GROUND_SIDE * GROUND_SIDE);
+    let entries = ((vertices * SEGMENTS) as f64 * omega) as u64;
+    let per_vector = CHANNELS * VECTORS;
+    let clusters = entries / PER_CLUSTER;
+    (vertices, Multiplies { per_cluster: clusters * per_vector * COEFFICIENTS, per_vertex: entries * per_vector })
+}
+
+/// Half of the segments are above an open ground's horizon.
+const OPEN_GROUND: f64 = 0.5;
+
+/// The diffuse Buddha with its ground under light of a share of the coefficients, columns of zero light being skipped.
+pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
+    let (own, ground) = (TABLE_1[BUDDHA].multiplies(), of_ground(OPEN_GROUND).1);
+    Multiplies {
+        per_cluster: ((own.per_cluster + ground.per_cluster) as f64 * share) as u64,
+        per_vertex: own.per_vertex + ground.per_vertex,
+    }
+}
+
+/// What the host of Table 1 takes.
+pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, ReproduceError> {
+    let host = host_of_table_1().map_err(|e| failed(super::HOST)(&e))?;
+    Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
+}
+
+/// Frames a second with drawing.
+fn rate(model: &PrintedModel, omega: f64) -> Result<f64, ReproduceError> {
+    let place = ProductPlace::Vertices(VertexColors::Bytes);
+    let vertices = 100 * model.vertex_hundreds;
+    let frame = |vertices: u64, terms: u64, host| FactoredFrame {
+        vertices,
+        triangles: 2 * vertices,
+        terms: terms as usize,
+        host,
+        run_per_triangle: RUN_PER_TRIANGLE,
+    };
+    let (of_vertices, steps) = of_ground(omega);
+    let mut log = frame(vertices, model.terms, model.multiplies()).log(&place);
+    log.extend(frame(of_vertices, 1, steps).log(&place));
+    let (profile, host) = (Profile::named(CARD)?, host_of_table_1().map_err(|e| failed(super::HOST)(&e))?);
+    Ok(frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))?.per_second())
+}
+
+/// A model of Figure 7 on its ground.
+struct Drawn {
+    name: &'static str,
+    caption: &'static str,
+    lobe: Option<Lobe>,
+    light: HaarLight,
+}
+
+fn pictures(
+    mesh: &Mesh,
+    size: ModelSize,
+    all: &[Drawn],
+) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), ReproduceError> {
+    let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
+    let mut found = Vec::new();
+    for Drawn { name, caption, lobe, light } in all {
+        let reflectance = match lobe {
+            Some(lobe) => Reflectance::Factored(models::factorization(lobe, TERMS)?.factors(TERMS)),
+            None => Reflectance::Diffuse,
+        };
+        let model = Surface { scene: &scene, maps: &scene.of_model, reflectance: &reflectance, color: COLORS[0] };
+        let ground =
+            Surface { scene: &scene, maps: &scene.of_ground, reflectance: &Reflectance::Diffuse, color: COLORS[1] };
+        let (of_model, of_ground) = (model.raw(light)?, ground.raw(light)?);
+        let rows = reflectance.terms();
+        let colors = scene.joined(&model.exit_of_rows((rows, &of_model)), &ground.exit_of_rows((1, &of_ground)));
+        let exposure = scene.exposure(&colors);
+        found.push(scene.picture(&colors, exposure, ((*name).to_owned(), (*caption).to_owned()))?);
+    }
+    Ok((scene, found))
+}
+
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+    let sky = stand_in()?;
+    let whole = HaarLight::new(&sky, Segmentation::Quarters);
+    let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
+    let drawn = |name, caption, lobe, light: &HaarLight| Drawn { name, caption, lobe, light: light.clone() };
+    let (buddha, mut all) = pictures(
+        &models::buddha(size),
+        size,
+        &[
+            drawn("figure-7-diffuse", "diffuse Buddha", None, &whole),
+            drawn("figure-7-glossy", "glossy Buddha", Some(models::cook_torrance()), &whole),
+        ],
+    )?;
+    let (teapot, of_teapot) = pictures(
+        &models::teapot_of(size)?,
+        size,
+        &[
+            drawn("figure-7-low", "teapot, light of low frequency", Some(models::schlick()), &smooth),
+            drawn("figure-7-all", "teapot, light of all frequencies", Some(models::schlick()), &whole),
+        ],
+    )?;
+    all.extend(of_teapot);
+    let census = SegmentCensus::new(&teapot.vertices, &teapot.of_ground, &teapot.hats);
+    let omega = census.omega();
+    let mut table = Table::of("Figure 7: frames a second", "model printed modelled on_an_open_ground without_ground");
+    let mut rows = Vec::new();
+    for (name, at, printed) in PRINTED {
+        let found = rate(&TABLE_1[at], omega)?;
+        let [open, none] = [OPEN_GROUND, 0.0].map(|omega| rate(&TABLE_1[at], omega));
+        table.push([
+            name.into(),
+            Cell::decimals(printed, 1),
+            Cell::measured(found),
+            Cell::measured(open?),
+            Cell::measured(none?),
+        ]);
+        let target = PaperFigure::printed(printed, u8::from(printed.fract() != 0.0), "fps", PLACE);
+        let standing = Standing::Predicted { from: CALIBRATED };
+        rows.push(PaperRow::new(name, (CARD, Method::Pipeline), target, (found, standing), Bound::PREDICTION));
+    }
+    let figures = [
+        number(f64::from(GROUND_SIDE * GROUND_SIDE), 0),
+        number(100.0 * omega, 0),
+        number(RUN_PER_TRIANGLE, 1),
+        number(buddha.of_model.len() as f64, 0),
+        number(teapot.of_model.len() as f64, 0),
+    ];
+    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: all })
+}

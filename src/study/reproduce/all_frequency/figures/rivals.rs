@@ -1,0 +1,109 @@
+//! Figure 1: ours, spherical harmonics, and wavelets of a fixed view beside the exact picture.
+
+use glam::DVec3;
+
+use super::lit::Surface;
+use super::scene::{FigureScene, PictureDifference, stand_in};
+use super::{
+    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
+    failed, models, number,
+};
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::factor::ProductFunction;
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::light::{CubeLight, HaarLight, TruncationPriority};
+use crate::prt::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
+use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::prt::brdf::Brdf;
+use crate::report::{Cell, Table};
+
+const PLACE: &str = "figure 1";
+/// The order of harmonics.
+const ORDER: usize = 5;
+/// Light coefficients that a fixed view keeps: \[NRH03\] draws its pictures with a hundred or two.
+const KEPT: [usize; 3] = [100, 200, 800];
+/// Terms and representatives.
+const TERMS: usize = 10;
+const VECTORS: usize = 16;
+/// Colors of the model and of the ground.
+pub(super) const COLORS: [[f64; 3]; 2] = [[0.9, 0.75, 0.5], [0.7; 3]];
+
+const HOW: &str = "Figure 1 draws a bird with {} vertices on a ground with {} under a clear sky with a sun. Exact: every direction of every vertex, the reflectance \
+    itself. Ours: {} terms, {} representatives per cluster of {} vertices, all light coefficients. Harmonics: order {} for light and for the light that \
+    arrives, and the reflectance's own coefficients towards the eye. Fixed view: exact transfer for this one eye, and a light cut to \
+    a number of wavelets on six faces, by area times magnitude.";
+
+/// All ways to draw a scene, for all its vertices.
+struct Ways {
+    exact: Vec<[f64; 3]>,
+    others: Vec<(String, Vec<[f64; 3]>)>,
+}
+
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+    let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
+    let light = stand_in()?;
+    let ways = ways(&scene, &light, models::points_per_cluster(size))?;
+    let exposure = scene.exposure(&ways.exact);
+    let caption = "exact: no factors, no compression, the whole light".to_owned();
+    let mut pictures = vec![scene.picture(&ways.exact, exposure, ("figure-1-exact".to_owned(), caption))?];
+    let mut table = Table::of("Figure 1: off the exact picture", "method rms_% flip");
+    let mut errors: Vec<PictureDifference> = Vec::new();
+    for (at, (name, colors)) in ways.others.iter().enumerate() {
+        let error = scene.error(colors, &ways.exact, exposure)?;
+        table.push([name.clone().into(), Cell::measured(100.0 * error.rms), Cell::measured(error.flip)]);
+        pictures.push(scene.picture(colors, exposure, (format!("figure-1-{at}"), name.clone()))?);
+        errors.push(error);
+    }
+    let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, models::points_per_cluster(size), ORDER];
+    let rows = vec![
+        order(format!("difference of harmonics of order {ORDER} over ours"), errors[1].rms / errors[0].rms),
+        order(format!("difference of a fixed view's {} wavelets over ours", KEPT[0]), errors[2].rms / errors[0].rms),
+    ];
+    let text = vec![Prose::new(HOW, sizes.map(|size| number(size as f64, 0)))];
+    Ok(FigureParts { text, rows, tables: vec![table], pictures })
+}
+
+fn order(what: String, ours: f64) -> PaperRow {
+    let origin = Origin::Inferred("the figure shows the other method farther off".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", PLACE) };
+    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
+}
+
+/// Model and ground by each method.
+fn ways(scene: &FigureScene, light: &CubeLight, points_per_cluster: usize) -> Result<Ways, ReproduceError> {
+    let lobe = models::schlick();
+    let factors = models::factorization(&lobe, TERMS)?.factors(TERMS);
+    let glossy = Reflectance::Factored(factors);
+    let lambert = Brdf::Lambert { albedo: 1.0 };
+    let faces = HaarLight::new(light, Segmentation::Faces);
+    let kept = |keep: usize| faces.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e));
+    let cut: Vec<Vec<[f64; 3]>> =
+        KEPT.iter().map(|&keep| Ok(kept(keep)?.light.radiances())).collect::<Result<_, ReproduceError>>()?;
+    let lights: Vec<&[[f64; 3]]> = [light.texels()].into_iter().chain(cut.iter().map(Vec::as_slice)).collect();
+    let quarters = HaarLight::new(light, Segmentation::Quarters);
+    let parts: [(&VisibilityMaps, &dyn ProductFunction, &Reflectance); 2] =
+        [(&scene.of_model, &lobe, &glossy), (&scene.of_ground, &lambert, &Reflectance::Diffuse)];
+    let mut by_part = Vec::new();
+    for ((maps, product, reflectance), color) in parts.into_iter().zip(COLORS) {
+        let subject = RivalSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
+        let mut all = FixedView(subject).radiance(scene.eye(), &lights);
+        let harmonics = HarmonicTransfer::new(subject, ORDER);
+        all.insert(1, harmonics.radiance(scene.eye(), &harmonics.light(light.texels())));
+        let colored = |colors: Vec<[f64; 3]>| -> Vec<[f64; 3]> {
+            colors.into_iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * color[channel])).collect()
+        };
+        let mut all: Vec<Vec<[f64; 3]>> = all.into_iter().map(colored).collect();
+        let surface = Surface { scene, maps, reflectance, color };
+        all.insert(1, surface.of_code(&surface.coded(points_per_cluster, VECTORS)?.0, &quarters)?);
+        by_part.push(all);
+    }
+    let ground = by_part.pop().unwrap_or_default();
+    let model = by_part.pop().unwrap_or_default();
+    let mut all = model.iter().zip(&ground).map(|(model, ground)| scene.joined(model, ground));
+    let exact = all.next().unwrap_or_default();
+    let names = ["ours".to_owned(), format!("spherical harmonics of order {ORDER}")]
+        .into_iter()
+        .chain(KEPT.map(|keep| format!("fixed view, {keep} wavelets")));
+    let others = names.zip(all).collect();
+    Ok(Ways { exact, others })
+}

@@ -1,0 +1,76 @@
+//! Figure 2: the number of terms.
+
+use glam::DVec3;
+
+use super::lit::Surface;
+use super::scene::{FigureScene, stand_in};
+use super::{
+    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
+    models, number,
+};
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::grid::Segmentation;
+use crate::prt::all_frequency::light::HaarLight;
+use crate::prt::all_frequency::rivals::{FixedView, RivalSubject};
+use crate::report::{Cell, Table};
+
+/// Terms that are tried.
+const TERMS: [usize; 7] = [1, 2, 4, 6, 8, 10, 16];
+/// The ground is not looked at.
+const GROUND: u32 = 2;
+const COLOR: [f64; 3] = [0.9, 0.75, 0.5];
+
+const HOW: &str = "Figure 2 draws a teapot with {} vertices and the reflectance of Cook and Torrance with more and more terms, transfer not compressed, beside the \
+    reflectance itself.";
+
+fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance) -> Surface<'a> {
+    Surface { scene, maps: &scene.of_model, reflectance, color: COLOR }
+}
+
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+    let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1))?;
+    let light = stand_in()?;
+    let lobe = models::cook_torrance();
+    let most = TERMS[TERMS.len() - 1];
+    let factorization = models::factorization(&lobe, most)?;
+    let of_most = Reflectance::Factored(factorization.factors(most));
+    let dark = vec![[0.0; 3]; scene.of_ground.len()];
+    let raw = surface(&scene, &of_most).raw(&HaarLight::new(&light, Segmentation::Quarters))?;
+    let subject = RivalSubject { vertices: &scene.vertices, maps: &scene.of_model, hats: &scene.hats, product: &lobe };
+    let exact = FixedView(subject).radiance(scene.eye(), &[light.texels()]).remove(0);
+    let colored: Vec<[f64; 3]> =
+        exact.iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * COLOR[channel])).collect();
+    let exact = scene.joined(&colored, &dark);
+    let exposure = scene.exposure(&exact);
+    let name = |what: &str| format!("figure-2-{what}");
+    let mut pictures = vec![scene.picture(&exact, exposure, (name("exact"), "the reflectance itself".to_owned()))?];
+    let mut table = Table::of("Figure 2: terms", "terms relative_squared_error rms_% flip");
+    let mut errors = Vec::new();
+    for terms in TERMS {
+        let reflectance = Reflectance::Factored(factorization.factors(terms));
+        let model = surface(&scene, &reflectance).exit_of_rows((most, &raw));
+        let found = scene.joined(&model, &dark);
+        let error = scene.error(&found, &exact, exposure)?;
+        let of_table = factorization.relative_squared_error(terms);
+        table.push([
+            terms.into(),
+            Cell::measured(of_table),
+            Cell::measured(100.0 * error.rms),
+            Cell::measured(error.flip),
+        ]);
+        pictures.push(scene.picture(&found, exposure, (name(&terms.to_string()), format!("terms: {terms}")))?);
+        errors.push(of_table);
+    }
+    let origin = Origin::Inferred("the figure's errors fall with the number of terms".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", "figure 2") };
+    let at = |terms: usize| TERMS.iter().position(|&other| other == terms).map_or(f64::NAN, |at| errors[at]);
+    let row = PaperRow::new(
+        "squared error of reflectance by 1 term over 10",
+        (HOST, Method::Solver),
+        target,
+        (at(1) / at(10), Standing::Counted),
+        Bound::AtLeast,
+    );
+    let text = vec![Prose::new(HOW, [number(scene.of_model.len() as f64, 0)])];
+    Ok(FigureParts { text, rows: vec![row], tables: vec![table], pictures })
+}

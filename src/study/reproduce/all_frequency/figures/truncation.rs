@@ -1,0 +1,191 @@
+//! Figure 6: light cut to a number of coefficients, pictures and flicker.
+
+use glam::{DMat3, DVec3};
+
+use super::rates::{buddha_without_drawing, seconds_of};
+use super::scene::FigureScene;
+use super::{
+    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
+    failed, models, number,
+};
+use crate::elementary::on_circle;
+use crate::geom::random::CounterRng;
+use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::grid::{LIGHT_TEXELS, Segmentation};
+use crate::prt::all_frequency::hats::Hats;
+use crate::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crate::prt::all_frequency::transfer::{TransferSegment, transfer_of};
+use crate::report::{Cell, Table};
+use crate::sphere::turn_around_z;
+use crate::study::reproduce::{Setting, Sweep};
+
+const PLACE: &str = "figure 6";
+const SOURCES: u64 = 40;
+/// Angular radii of sources in degrees; the rows have the third.
+const RADII: [f64; 5] = [1.4, 2.0, 3.0, 4.0, 5.0];
+const RADIUS: usize = 2;
+/// Coefficients that are kept.
+const KEPT: [usize; 7] = [50, 100, 200, 400, 800, 1200, 1600];
+/// Steps of half a degree around z.
+const FRAMES: u32 = 6;
+/// Flicker that counts as seen: one percent of the picture, chosen by us before any was computed.
+const SEEN: f64 = 0.01;
+
+const HOW: &str = "Figure 6 has a diffuse Buddha of {} vertices under {} disks with radii of {} degrees, spread evenly, of random colors; the light turns by half \
+    degrees, {} times. Flicker is the root mean square change from frame to frame of what truncation takes from vertices, over the root mean \
+    square of their radiance. Frame rates are modelled for the printed Buddha with its ground, without drawing.";
+
+/// Disks on a spiral over the sphere.
+fn sources(degrees: f64) -> Vec<DiskSource> {
+    let random = CounterRng::new(6);
+    let source = |at: u64| {
+        let z = 1.0 - (2 * at + 1) as f64 / SOURCES as f64;
+        // Turns of the golden angle.
+        let [x, y] = on_circle((at as f64 * 0.381_966_011_250_105).fract());
+        let radius = (1.0 - z * z).sqrt();
+        let radiance = [0, 1, 2].map(|channel| 1.0 + 9.0 * random.unit(at, 0, channel));
+        DiskSource { towards: DVec3::new(radius * x, radius * y, z), radius: degrees.to_radians(), radiance }
+    };
+    (0..SOURCES).map(source).collect()
+}
+
+/// Coefficients of the sources on six faces.
+fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, ReproduceError> {
+    let cube = CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle);
+    Ok(HaarLight::new(&cube.map_err(|e| failed(HOST)(&e))?, Segmentation::Faces))
+}
+
+fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, ReproduceError> {
+    let cut = light.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e))?;
+    Ok(cut.light.reprojected(Segmentation::Quarters))
+}
+
+/// What a diffuse vertex makes of light, all segments of it.
+fn radiance(segments: &[TransferSegment], vertices: usize, light: &HaarLight) -> Vec<[f64; 3]> {
+    let mut all = vec![[0.0; 3]; vertices];
+    for part in segments {
+        let light = [0, 1, 2].map(|channel| light.segment(channel, part.segment));
+        for (point, &vertex) in part.vertices.iter().enumerate() {
+            for (sum, light) in all[vertex as usize].iter_mut().zip(light) {
+                *sum += part.signal.point(point).iter().zip(light).map(|(&m, l)| f64::from(m) * l).sum::<f64>();
+            }
+        }
+    }
+    all
+}
+
+/// Sum of squares of a difference.
+fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
+}
+
+/// Frame by frame what every vertex has, and what truncation takes of it, by number of coefficients.
+struct Turning {
+    whole: Vec<Vec<[f64; 3]>>,
+    lost: Vec<Vec<Vec<[f64; 3]>>>,
+}
+
+impl Turning {
+    fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, ReproduceError> {
+        let mut found = Self { whole: Vec::new(), lost: vec![Vec::new(); KEPT.len()] };
+        for frame in 0..FRAMES {
+            let faces = on_faces(RADII[RADIUS], &turn_around_z(f64::from(frame) / 720.0))?;
+            let whole = radiance(segments, vertices, &faces.reprojected(Segmentation::Quarters));
+            for (keep, lost) in KEPT.into_iter().zip(&mut found.lost) {
+                let few = radiance(segments, vertices, &cut(&faces, keep)?);
+                let pairs = whole.iter().zip(&few);
+                lost.push(pairs.map(|(whole, few)| [0, 1, 2].map(|c| whole[c] - few[c])).collect());
+            }
+            found.whole.push(whole);
+        }
+        Ok(found)
+    }
+
+    /// The root mean square change of what is lost, per number of coefficients.
+    fn flicker(&self) -> Vec<f64> {
+        let none = vec![[0.0; 3]; self.whole[0].len()];
+        let steps = self.whole.len() - 1;
+        let squares: f64 = self.whole[1..].iter().map(|frame| apart(frame, &none)).sum();
+        let of = |lost: &Vec<Vec<[f64; 3]>>| {
+            let changes: f64 = (0..steps).map(|frame| apart(&lost[frame], &lost[frame + 1])).sum();
+            (changes / squares).sqrt()
+        };
+        self.lost.iter().map(of).collect()
+    }
+}
+
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
+    let hats: &Hats = &scene.hats;
+    let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
+    let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;
+    let turning = Turning::new(&segments, scene.vertices.len())?;
+    let flicker = turning.flicker();
+    let faces = on_faces(RADII[RADIUS], &DMat3::IDENTITY)?;
+    let (nonzero, energy) = (faces.nonzero(), faces.energy());
+    let exposure = scene.exposure(&turning.whole[0]);
+    let mut table =
+        Table::of("Figure 6: light coefficients", "kept of_nonzero_% energy_% rms_% flip flicker_% modelled_fps");
+    let mut pictures = Vec::new();
+    for (at, keep) in KEPT.into_iter().enumerate() {
+        let few = cut(&faces, keep)?;
+        let pairs = turning.whole[0].iter().zip(&turning.lost[at][0]);
+        let drawn: Vec<[f64; 3]> = pairs.map(|(whole, lost)| [0, 1, 2].map(|c| whole[c] - lost[c])).collect();
+        let error = scene.error(&drawn, &turning.whole[0], exposure)?;
+        let steps = buddha_without_drawing(keep.min(nonzero) as f64 / LIGHT_TEXELS as f64);
+        table.push([
+            keep.into(),
+            Cell::percent(100.0 * keep.min(nonzero) as f64 / nonzero as f64),
+            Cell::percent(100.0 * few.energy() / energy),
+            Cell::measured(100.0 * error.rms),
+            Cell::measured(error.flip),
+            Cell::measured(100.0 * flicker[at]),
+            Cell::measured(1.0 / seconds_of(steps)?),
+        ]);
+        pictures.push(scene.picture(
+            &drawn,
+            exposure,
+            (format!("figure-6-{keep}"), format!("coefficients kept: {keep}")),
+        )?);
+    }
+    let all = "all coefficients".to_owned();
+    pictures.push(scene.picture(&turning.whole[0], exposure, ("figure-6-all".to_owned(), all))?);
+    let rows = rows(nonzero, &flicker)?;
+    let figures = [
+        number(scene.of_model.len() as f64, 0),
+        number(SOURCES as f64, 0),
+        number(RADII[RADIUS], 0),
+        number(f64::from(FRAMES - 1), 0),
+    ];
+    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures })
+}
+
+fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, ReproduceError> {
+    let origin = Origin::Implied("800 / 0.68".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(1176.0, 0, "coefficients", PLACE) };
+    let found = (nonzero as f64, Standing::Counted);
+    let mut counted = [PaperRow::new(
+        "light coefficients of six faces that are not 0",
+        (HOST, Method::Solver),
+        target,
+        found,
+        Bound::PREDICTION,
+    )];
+    let setting = |degrees: &f64| -> Result<Setting, ReproduceError> {
+        let values = vec![on_faces(*degrees, &DMat3::IDENTITY)?.nonzero() as f64];
+        Ok(Setting { at: number(*degrees, 1), values })
+    };
+    let settings = RADII.iter().map(setting).collect::<Result<_, _>>()?;
+    Sweep { name: "sizes of sources", parameter: "radius in degrees", settings }.explain(&mut counted);
+    let needed =
+        KEPT.iter().zip(flicker).find(|(_, flicker)| **flicker < SEEN).map_or(f64::NAN, |(&keep, _)| keep as f64);
+    let target = PaperFigure::printed(70.0, 0, "%", "section 7");
+    let share = PaperRow::new(
+        "share of the coefficients without flicker to see",
+        (HOST, Method::Solver),
+        target,
+        (100.0 * needed.min(nonzero as f64) / nonzero as f64, Standing::Counted),
+        Bound::TooVague,
+    );
+    Ok(counted.into_iter().chain([share]).collect())
+}
