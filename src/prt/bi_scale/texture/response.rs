@@ -45,7 +45,9 @@ pub enum BidirectionalTextureError {
         found: usize,
     },
     /// A number below 0 or not finite.
-    #[error("expected samples of 0 or more, finite ones; found another at view {view}, light {light}, row {row}, column {column}")]
+    #[error(
+        "expected samples of 0 or more, finite ones; found another at view {view}, light {light}, row {row}, column {column}"
+    )]
     Sample {
         /// The view's number.
         view: usize,
@@ -176,7 +178,12 @@ mod tests {
             BidirectionalTexture::new(size, directions(1), directions(2), vec![[value; 3]; count]).unwrap_err()
         };
         let text = [of(0, 0, 1.0), of(2, 15, 1.0), of(2, 16, -1.0), of(2, 16, f32::NAN)].map(|error| error.to_string());
-        insta::assert_snapshot!(text.join("\n"), @"");
+        insta::assert_snapshot!(text.join("\n"), @"
+        expected a patch of 1 to 1024 texels along an edge, found 0
+        expected 16 samples (1 views x 4 lights x 2 x 2 texels), found 15
+        expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
+        expected samples of 0 or more, finite ones; found another at view 0, light 0, row 0, column 0
+        ");
     }
 
     #[test]
