@@ -39,6 +39,40 @@ fn the_examples_are_made_by_the_commands() {
     }
 }
 
+/// A compression that was stopped goes on where it was, to the same file; finished segments are of the same work only.
+#[test]
+fn finished_segments_are_kept() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [out, kept] = ["out.prt", "kept"].map(|name| place(folder.path(), name));
+    let options = format!("prt compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
+    let in_all = document(&format!("{options} --out {out}"));
+    assert_eq!(in_all["segments_kept"], 0);
+    // As if it had been stopped before segment 9: what is lost is computed, what is there is taken.
+    for segment in 9..24 {
+        fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.json"))).expect("a finished segment");
+    }
+    let again = document(&format!("{options} --out {out}"));
+    assert_eq!(again["segments_kept"], 9);
+    assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"));
+    for field in ["squared_error", "squared_error_before_coding", "bytes", "omega"] {
+        assert_eq!(again[field], in_all[field], "{field}");
+    }
+    let refused = |arguments: String| {
+        let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(ran.code, Some(2), "{arguments}");
+        ran.stderr.replace(&kept, "FOLDER")
+    };
+    let other = refused(format!("{options} --seed 2 --out {out}"));
+    assert!(other.contains("FOLDER/work.json: expected segments with seed 2, found 1"), "{other}");
+    fs::write(folder.path().join("kept/segment-03.json"), "{}").expect("written");
+    let damaged = refused(format!("{options} --out {out}"));
+    assert!(damaged.contains("FOLDER/segment-03.json: expected what became of a segment"), "{damaged}");
+    assert!(damaged.contains("delete the file"), "{damaged}");
+    fs::write(folder.path().join("kept/segment-02.prt"), "CROSSBAR").expect("written");
+    let cut = refused(format!("{options} --out {out}"));
+    assert!(cut.contains("FOLDER/segment-02.prt"), "{cut}");
+}
+
 /// What `error` finds by computing transfer again is what `compress` says, and a picture is as far off as it must be.
 #[test]
 fn errors_are_those_of_compression() {

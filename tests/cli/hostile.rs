@@ -55,7 +55,7 @@ const COMMANDS: &[(&str, &str)] = &[
     (
         "prt compress nowhere.prt --out y.prt",
         "--kind --clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
-         --weight-bits --scale",
+         --weight-bits --scale --resume",
     ),
     ("prt error nowhere.prt nowhere.prt", "--kind --model --csv"),
     (

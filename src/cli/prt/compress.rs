@@ -112,7 +112,7 @@ impl Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if args.segments != SegmentArgs::default() {
-        let what = "`--points-per-cluster`, `--model`, `--bits`, `--weight-bits` and `--scale` are for transfer of all frequencies";
+        let what = "`--points-per-cluster`, `--model`, `--bits`, `--weight-bits`, `--scale` and `--resume` are for transfer of all frequencies";
         return Err(Problem::usage(what, "name a file of `crossbar prt precompute --kind all-frequency`").into());
     }
     let (clusters, vectors) = (args.clusters.unwrap_or(256), args.vectors.unwrap_or(8));

@@ -36,4 +36,8 @@ pub(super) struct SegmentArgs {
     /// Which numbers share a step, for transfer of all frequencies [default: representative]
     #[arg(long, value_enum, value_name = "OF")]
     pub(super) scale: Option<ScaleArg>,
+
+    /// Keep finished segments in this folder, and take those that it has, for transfer of all frequencies
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) resume: Option<PathBuf>,
 }

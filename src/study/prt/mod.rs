@@ -14,8 +14,8 @@ mod render;
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
-    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
-    SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
+    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, KeptSegments,
+    KeptSegmentsError, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
 pub use card::{
     AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,

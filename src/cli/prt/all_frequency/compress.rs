@@ -1,5 +1,8 @@
 //! `crossbar prt compress` of all-frequency transfer.
 
+use std::fs;
+use std::path::Path;
+
 use serde_json::json;
 
 use super::FileOfModel;
@@ -7,13 +10,14 @@ use crate::cli::prt::compress::{Args, MethodArg};
 use crate::cli::prt::segments::{ScaleArg, SegmentArgs};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
+use crate::io::ReadError;
 use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
 use crate::prt::all_frequency::compressed::SegmentOptions;
 use crate::prt::all_frequency::hats::Hats;
 use crate::prt::all_frequency::visibility::SegmentCensus;
-use crate::prt::file::{AllFrequencyFile, save_all_frequency};
+use crate::prt::file::{AllFrequencyFile, MeshDigest, save_all_frequency};
 use crate::report::{Cell, Table};
-use crate::study::prt::{CompressionTally, SegmentTally, SegmentedCompression};
+use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
 
 pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.signal, 3, "name a smaller file")?;
@@ -31,13 +35,16 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     let bytes = maps.len() as u64 * (numbers * 3 / 2 + 6500) + (128 << 20);
     let what = format_args!("a segment of the transfer of {} vertices, {numbers} bytes each", maps.len());
     memory::require(what, bytes, "name a model of fewer vertices, or factors of fewer terms")?;
+    let (options, code) = (options(args), code(&args.segments));
+    let kept = args.segments.resume.as_ref().map(|folder| kept(folder, (&args.signal, file.mesh), &options, code));
     let compression = SegmentedCompression {
         vertices: &vertices,
         maps,
         hats: file.hats,
         reflectance: &file.reflectance,
-        options: options(args),
-        code: code(&args.segments),
+        options,
+        code,
+        kept: kept.transpose()?,
     };
     let bar = ProgressBar::new("", 1);
     let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
@@ -65,6 +72,33 @@ fn options(args: &Args) -> SegmentOptions {
         method: args.method(MethodArg::Doubling),
         seed: args.seed,
     }
+}
+
+/// The folder of finished segments, with everything that their bits depend on.
+fn kept(
+    folder: &Path,
+    (signal, mesh): (&Path, MeshDigest),
+    options: &SegmentOptions,
+    code: CodeOptions,
+) -> miette::Result<KeptSegments> {
+    let path = signal.to_owned();
+    let bytes = fs::read(signal).map_err(|source| ReadError::Unreadable { what: "transfer", path, source })?;
+    Ok(KeptSegments::open(
+        folder,
+        mesh,
+        [
+            ("checksum of the transfer", format!("{:08x}", crc32fast::hash(&bytes))),
+            ("vertices per cluster", options.points_per_cluster.to_string()),
+            ("representatives", options.vectors.to_string()),
+            ("iterations", options.iterations.to_string()),
+            ("method", format!("{:?}", options.method)),
+            ("seed", options.seed.to_string()),
+            ("bits of representatives", code.representative_bits.to_string()),
+            ("bits of weights", code.weight_bits.to_string()),
+            ("steps of one", format!("{:?}", code.scale)),
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ],
+    )?)
 }
 
 fn code(args: &SegmentArgs) -> CodeOptions {
@@ -104,7 +138,7 @@ fn document(
     json!({
         "out": args.out, "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
-        "clusters": coded.clusters(),
+        "clusters": coded.clusters(), "segments_kept": tally.kept,
         "bytes": { "raw": raw, "clustered": clustered_bytes(coded), "coded": size.total(),
                    "as_the_paper_counts": size.as_the_paper_counts() },
         "code": { "blocks": blocks, "columns": coded.rows * coded.coefficients, "nonzeros": nonzeros, "numbers": all,
@@ -154,6 +188,9 @@ fn tell(
     out.sentence(format_args!(
         "time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"
     ))?;
+    if let Some(folder) = &args.segments.resume {
+        out.sentence(format_args!("kept      {} segments were finished before, in {}", tally.kept, folder.display()))?;
+    }
     out.line(format_args!("written   {}", args.out.display()))?;
     Ok(())
 }

@@ -16,6 +16,8 @@ use crate::prt::cpca::CpcaError;
 use crate::prt::transfer::{TransferError, Vertices};
 use crate::study::ProgressFn;
 
+use super::kept::{KeptSegments, KeptSegmentsError};
+
 /// What is compressed, and how.
 #[derive(Debug)]
 pub struct SegmentedCompression<'a> {
@@ -31,6 +33,8 @@ pub struct SegmentedCompression<'a> {
     pub options: SegmentOptions,
     /// How they are coded.
     pub code: CodeOptions,
+    /// Where finished segments are kept, and taken from.
+    pub kept: Option<KeptSegments>,
 }
 
 /// What became of a segment.
@@ -57,8 +61,8 @@ pub struct SegmentTally {
 pub struct CompressionTally {
     /// Segment by segment, without empty ones.
     pub segments: Vec<SegmentTally>,
-    /// Per vertex of the model the squared error after coding.
-    pub squared_errors: Vec<f64>,
+    /// Segments that were finished before.
+    pub kept: usize,
 }
 
 /// Why transfer cannot be compressed.
@@ -82,6 +86,10 @@ pub enum SegmentedError {
     #[error(transparent)]
     #[diagnostic(code(crossbar::prt::code))]
     Code(#[from] CodeOptionsError),
+    /// Finished segments cannot be kept or taken.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Kept(#[from] KeptSegmentsError),
 }
 
 impl CompressionTally {
@@ -104,28 +112,50 @@ impl SegmentedCompression<'_> {
     /// [`SegmentedError`].
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), SegmentedError> {
         let hats = Hats::new(self.hats);
-        let rows = self.reflectance.terms();
-        let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
-        let mut tally = CompressionTally { squared_errors: vec![0.0; self.vertices.len()], ..Default::default() };
+        let transfer = transfer_of(self.vertices, self.maps, &hats, &self.reflectance);
+        let mut tally = CompressionTally::default();
         let count = Segmentation::Quarters.count();
-        let (mut segments, coefficients) = (Vec::new(), Segmentation::Quarters.len());
+        let mut segments = Vec::new();
         for segment in 0..count {
             progress("segments", segment as u64, count as u64);
-            let start = Instant::now();
-            let Some(found) = transfer.segment(segment)? else { continue };
-            let seconds = start.elapsed().as_secs_f64();
-            segments.push(self.segment(found, seconds, &mut tally)?);
+            let kept = self.kept.as_ref().map(|kept| kept.load(segment)).transpose()?.flatten();
+            tally.kept += usize::from(kept.is_some());
+            let finished = match kept {
+                Some(kept) => kept,
+                None => self.computed(segment, || transfer.segment(segment))?,
+            };
+            if let Some((coded, of_segment)) = finished {
+                tally.segments.push(of_segment);
+                segments.push(coded);
+            }
         }
-        let vertices = self.vertices.len();
-        Ok((CodedTransfer { rows, coefficients, vertices, options: self.code, segments }, tally))
+        Ok((self.coded(segments), tally))
     }
 
-    fn segment(
+    fn coded(&self, segments: Vec<CodedSegment>) -> CodedTransfer {
+        let (rows, coefficients) = (self.reflectance.terms(), Segmentation::Quarters.len());
+        CodedTransfer { rows, coefficients, vertices: self.vertices.len(), options: self.code, segments }
+    }
+
+    /// A segment from its transfer; kept, if segments are.
+    fn computed(
         &self,
-        found: TransferSegment,
-        seconds: f64,
-        tally: &mut CompressionTally,
-    ) -> Result<CodedSegment, SegmentedError> {
+        segment: usize,
+        transfer: impl Fn() -> Result<Option<TransferSegment>, TransferError>,
+    ) -> Result<Option<(CodedSegment, SegmentTally)>, SegmentedError> {
+        let start = Instant::now();
+        let Some(found) = transfer()? else {
+            self.kept.as_ref().map_or(Ok(()), |kept| kept.keep_empty(segment))?;
+            return Ok(None);
+        };
+        let (coded, tally) = self.segment(found, start.elapsed().as_secs_f64())?;
+        if let Some(kept) = &self.kept {
+            kept.keep(&tally, (self.hats, self.reflectance), self.coded(vec![coded.clone()]))?;
+        }
+        Ok(Some((coded, tally)))
+    }
+
+    fn segment(&self, found: TransferSegment, seconds: f64) -> Result<(CodedSegment, SegmentTally), SegmentedError> {
         let TransferSegment { segment, vertices, signal } = found;
         let start = Instant::now();
         let compressed = CompressedSegment::new(segment, vertices, &signal, &self.options, |_| ())
@@ -134,19 +164,15 @@ impl SegmentedCompression<'_> {
         let start = Instant::now();
         let coded = CodedSegment::code(&compressed, self.code)?;
         let coding = start.elapsed().as_secs_f64();
-        let errors = coded.squared_errors(&signal);
-        for (&vertex, error) in coded.vertices.iter().zip(&errors) {
-            tally.squared_errors[vertex as usize] += error;
-        }
-        tally.segments.push(SegmentTally {
+        let tally = SegmentTally {
             segment,
             vertices: coded.vertices.len(),
             clusters: coded.counts.len(),
             squares: signal.sum_of_squares(),
             squared_error: compressed.clustering.squared_error(&signal),
-            coded_squared_error: errors.iter().sum(),
+            coded_squared_error: coded.squared_errors(&signal).iter().sum(),
             seconds: [seconds, compressing, coding],
-        });
-        Ok(coded)
+        };
+        Ok((coded, tally))
     }
 }

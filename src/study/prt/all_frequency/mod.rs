@@ -5,11 +5,13 @@
 mod compress;
 mod errors;
 pub(super) mod exact;
+mod kept;
 mod part;
 mod precompute;
 mod render;
 
 pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
 pub use errors::{CodedErrors, coded_errors};
+pub use kept::{KeptSegments, KeptSegmentsError};
 pub use precompute::{FoundSight, SightOfModel};
 pub use render::{AllFrequencyError, AllFrequencyRendering, RenderedGround};

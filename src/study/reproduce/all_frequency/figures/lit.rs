@@ -33,6 +33,7 @@ impl Surface<'_> {
             reflectance: self.reflectance,
             options: SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() },
             code: CodeOptions::default(),
+            kept: None,
         };
         compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))
     }
