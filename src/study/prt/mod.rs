@@ -15,7 +15,8 @@ mod render;
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, KeptSegments,
-    KeptSegmentsError, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
+    KeptSegmentsError, LitModel, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel,
+    coded_errors,
 };
 pub use card::{
     AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,

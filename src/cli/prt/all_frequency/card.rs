@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use super::{FileOfModel, color, original_of};
+use super::LitArgs;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::prt::card;
 use crate::cli::study::StudyArgs;
-use crate::cli::view;
-use crate::prt::all_frequency::light::Decimation;
 use crate::study::prt::AllFrequencyOnCard;
 
 /// The options of `card`, for such a file.
@@ -31,25 +29,21 @@ impl StudyArgs for Args<'_> {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyOnCard> {
-        let card::Args { model: name, original, light, keep, card, target_format, .. } = self.0;
+        let card::Args { model, original, light, keep, card, eye, size, exposure, target_format, .. } = self.0;
         let profile = card.profile("r350")?;
         let place = self.0.place(&profile)?;
-        view::require_file(self.0.file(), 3, "name a smaller file")?;
-        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.0.file(), name)?;
-        let original = original.as_ref().map(|path| original_of(&file, &digest, path)).transpose()?;
+        let lit = LitArgs {
+            file: self.0.file(),
+            model,
+            original: original.as_deref(),
+            light,
+            keep: *keep,
+            eye,
+            size: *size,
+            exposure: *exposure,
+        };
         Ok(AllFrequencyOnCard {
-            model: name.display().to_string(),
-            camera: self.0.eye.framing(&model.mesh, self.0.size)?,
-            colors: model.materials.iter().map(color).collect(),
-            mesh: model.mesh,
-            vertices,
-            file,
-            original,
-            light_name: light.name(),
-            light: light.distant()?,
-            decimation: Decimation::SolidAngle,
-            keep: keep.map(|keep| keep as usize),
-            exposure: self.0.exposure,
+            lit: lit.load()?,
             switches: card.switches(),
             executor: card.executor()?,
             format: *target_format,

@@ -15,10 +15,15 @@ use std::path::Path;
 use super::model::{load, vertices};
 use super::values::KindArg;
 use crate::cli::model_name::Model;
+use crate::cli::prt::light::LightArgs;
+use crate::cli::scene_name::EyeArgs;
+use crate::cli::size::Size;
 use crate::cli::{Problem, view};
+use crate::prt::all_frequency::light::Decimation;
 use crate::prt::file::{AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency};
 use crate::prt::transfer::Vertices;
 use crate::scene::{Material, Surface};
+use crate::study::prt::LitModel;
 
 /// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
 pub(super) fn is_such(path: &Path) -> bool {
@@ -72,6 +77,40 @@ fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miett
         return Err(Problem::usage(what, "name the file that was compressed").into());
     }
     Ok(original)
+}
+
+/// What `render` and `card` draw, as the options of either say.
+struct LitArgs<'a> {
+    file: &'a Path,
+    model: &'a Path,
+    original: Option<&'a Path>,
+    light: &'a LightArgs,
+    keep: Option<u32>,
+    eye: &'a EyeArgs,
+    size: Size,
+    exposure: Option<f64>,
+}
+
+impl LitArgs<'_> {
+    fn load(&self) -> miette::Result<LitModel> {
+        view::require_file(self.file, 3, "name a smaller file")?;
+        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.file, self.model)?;
+        let original = self.original.map(|path| original_of(&file, &digest, path)).transpose()?;
+        Ok(LitModel {
+            model: self.model.display().to_string(),
+            camera: self.eye.framing(&model.mesh, self.size)?,
+            colors: model.materials.iter().map(color).collect(),
+            mesh: model.mesh,
+            vertices,
+            file,
+            original,
+            light_name: self.light.name(),
+            light: self.light.distant()?,
+            decimation: Decimation::SolidAngle,
+            keep: self.keep.map(|keep| keep as usize),
+            exposure: self.exposure,
+        })
+    }
 }
 
 /// What a surface's radiance is multiplied by: its albedo, or 1 if it has none.

@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use super::{FileOfModel, color, original_of};
+use super::{FileOfModel, LitArgs, color};
 use crate::cli::memory::MemoryNeed;
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
 use crate::cli::view;
-use crate::prt::all_frequency::light::Decimation;
 use crate::study::prt::{AllFrequencyRendering, RenderedGround};
 
 /// The options of `render`, for such a file.
@@ -31,10 +30,18 @@ impl StudyArgs for Args<'_> {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
-        let render::Args { model: name, original, light, keep, frames, size, eye, exposure, .. } = self.0;
-        view::require_file(self.0.file(), 3, "name a smaller file")?;
-        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.0.file(), name)?;
-        let original = original.as_ref().map(|path| original_of(&file, &digest, path)).transpose()?;
+        let render::Args { model, original, light, keep, frames, size, eye, exposure, .. } = self.0;
+        let lit = LitArgs {
+            file: self.0.file(),
+            model,
+            original: original.as_deref(),
+            light,
+            keep: *keep,
+            eye,
+            size: *size,
+            exposure: *exposure,
+        };
+        let lit = lit.load()?;
         let ground = self.0.ground.as_ref().map(|path| {
             let beside = path.with_extension("obj");
             view::require_file(path, 3, "name a smaller file")?;
@@ -43,22 +50,6 @@ impl StudyArgs for Args<'_> {
             let colors = model.materials.iter().map(color).collect();
             Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
         });
-        Ok(AllFrequencyRendering {
-            ground: ground.transpose()?,
-            model: name.display().to_string(),
-            camera: eye.framing(&model.mesh, *size)?,
-            colors: model.materials.iter().map(color).collect(),
-            mesh: model.mesh,
-            vertices,
-            file,
-            original,
-            light_name: light.name(),
-            light: light.distant()?,
-            decimation: Decimation::SolidAngle,
-            keep: keep.map(|keep| keep as usize),
-            exposure: *exposure,
-            frames: *frames,
-            turning: self.0.turning(),
-        })
+        Ok(AllFrequencyRendering { lit, ground: ground.transpose()?, frames: *frames, turning: self.0.turning() })
     }
 }

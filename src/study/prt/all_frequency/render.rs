@@ -8,10 +8,11 @@ use serde_json::json;
 use thiserror::Error;
 
 use super::exact;
+use super::lit_model::LitModel;
 use super::part::{FrameTimes, Part, PartError, Transferred};
 use crate::geom::Mesh;
 use crate::picture::{PictureError, rgb8};
-use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation};
+use crate::prt::all_frequency::light::{CubeLightError, HaarLight, LightTruncation};
 use crate::prt::all_frequency::shade::LightSizeError;
 use crate::prt::file::AllFrequencyFile;
 use crate::prt::transfer::{TransferError, Vertices};
@@ -26,35 +27,13 @@ use crate::study::{ProgressFn, Study};
 /// Segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;
 
-/// A model with its transfer, a light and a camera.
+/// A lit model, and what is drawn of it.
 #[derive(Debug)]
 pub struct AllFrequencyRendering {
-    /// The model's name.
-    pub model: String,
-    /// Its mesh.
-    pub mesh: Mesh,
-    /// Its vertices.
-    pub vertices: Vertices,
-    /// Per material the surface's color.
-    pub colors: Vec<[f64; 3]>,
-    /// Visibility, coded transfer or both: coded transfer is drawn.
-    pub file: AllFrequencyFile,
-    /// A file with visibility, to compare coded transfer with uncompressed.
-    pub original: Option<AllFrequencyFile>,
+    /// The model, its transfer, the light and the camera.
+    pub lit: LitModel,
     /// The ground below it.
     pub ground: Option<RenderedGround>,
-    /// The light's name.
-    pub light_name: String,
-    /// The light.
-    pub light: DistantLight,
-    /// How it is decimated.
-    pub decimation: Decimation,
-    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
-    pub keep: Option<usize>,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
     /// Pictures with the light or the camera carried all the way round z in so many steps.
     pub frames: u32,
     /// Which of them.
@@ -111,28 +90,28 @@ impl Study for AllFrequencyRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
-        let seen = self.seen(&self.camera);
+        let seen = self.seen(&self.lit.camera);
         progress("radiance", 1, steps);
         let parts = self.parts();
         let mut times = FrameTimes::default();
         let cut = self.light(&DMat3::IDENTITY, &mut times)?;
         let transferred = transferred(&parts, &cut.light, &mut times)?;
-        let of_vertex = radiance(&parts, &transferred, &self.camera, &mut times);
+        let of_vertex = radiance(&parts, &transferred, &self.lit.camera, &mut times);
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
+        let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("All-frequency transfer");
-        found.taken_from(self.camera.world_to_camera());
-        let picture = linear_picture(&self.camera, &drawn);
-        let caption = format!("{} under {}", self.model, self.light_name);
+        found.taken_from(self.lit.camera.world_to_camera());
+        let picture = linear_picture(&self.lit.camera, &drawn);
+        let caption = format!("{} under {}", self.lit.model, self.lit.light_name);
         found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
         found.keep_layers("picture", picture);
         self.conclude(&seen, &drawn, &cut, &mut found);
         if parts.iter().all(Part::is_coded) {
             time(&parts, &cut.light, times, &mut found);
         }
-        if let Some(original) = &self.original {
+        if let Some(original) = &self.lit.original {
             let whole = parts[0].exact(original, &cut.light)?;
-            let mut exact = parts[0].radiance(&whole, &self.camera, &mut FrameTimes::default());
+            let mut exact = parts[0].radiance(&whole, &self.lit.camera, &mut FrameTimes::default());
             exact.extend_from_slice(&of_vertex[exact.len()..]);
             self.compare(&seen, (&of_vertex, &drawn), &exact, exposure, &mut found)?;
         }
@@ -194,27 +173,27 @@ impl AllFrequencyRendering {
     /// The model, and the ground below it.
     fn parts(&self) -> Vec<Part<'_>> {
         let ground = self.ground.as_ref().map(|ground| Part::new(&ground.vertices, &ground.colors, &ground.file));
-        std::iter::once(Part::new(&self.vertices, &self.colors, &self.file)).chain(ground).collect()
+        std::iter::once(Part::new(&self.lit.vertices, &self.lit.colors, &self.lit.file)).chain(ground).collect()
     }
 
     /// What a camera's pixels show, vertices of the ground after those of the model.
     fn seen(&self, camera: &Camera) -> Seen {
         let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
-        let parts: Vec<_> = std::iter::once((&self.mesh, &self.vertices)).chain(ground).collect();
+        let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();
         Seen::of_parts(&parts, camera)
     }
 
     /// Step 1: the light's coefficients.
     fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, AllFrequencyError> {
         let start = Instant::now();
-        let cut = exact::coefficients((&self.light, self.decimation), rotation, self.keep)?;
+        let cut = exact::coefficients((&self.lit.light, self.lit.decimation), rotation, self.lit.keep)?;
         times.light = start.elapsed().as_secs_f64();
         Ok(cut)
     }
 
     fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
-        let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
-        let (model, light) = (&self.model, &self.light_name);
+        let pixels = u64::from(self.lit.camera.width()) * u64::from(self.lit.camera.height());
+        let (model, light) = (&self.lit.model, &self.lit.light_name);
         found.conclusion(format!("{} of {pixels} pixels show {model} under {light}.", seen.count()));
         let share = shown(100.0 * cut.kept_energy, Quantity::Measured);
         found.conclusion(format!(
@@ -261,12 +240,12 @@ impl AllFrequencyRendering {
         let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
-        let shown_whole = linear_picture(&self.camera, &picture).display(exposure)?;
+        let shown_whole = linear_picture(&self.lit.camera, &picture).display(exposure)?;
         let mut pictures = vec![NamedPicture::new("original", shown_whole, "without compression")];
         if largest > 0.0 {
             let caption =
                 format!("coded less uncompressed: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
-            let image = false_color::signed(self.camera.width(), &difference, largest);
+            let image = false_color::signed(self.lit.camera.width(), &difference, largest);
             pictures.push(NamedPicture::new("difference", image, caption));
         }
         found.heading("Against uncompressed transfer");
@@ -278,11 +257,11 @@ impl AllFrequencyRendering {
 
     /// The clusters of the three segments with most vertices, as in Figure 4.
     fn clusters(&self, seen: &Seen, found: &mut Findings) {
-        let Some(coded) = &self.file.coded else { return };
+        let Some(coded) = &self.lit.file.coded else { return };
         let mut largest: Vec<_> = coded.segments.iter().collect();
         largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
         let pictures = largest.into_iter().take(CLUSTER_PICTURES).map(|part| {
-            let mut of_vertex = vec![None; self.vertices.len()];
+            let mut of_vertex = vec![None; self.lit.vertices.len()];
             for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
                 of_vertex[vertex as usize] = Some(cluster);
             }
@@ -290,7 +269,7 @@ impl AllFrequencyRendering {
                 let cluster = vertex.and_then(|vertex| of_vertex.get(vertex as usize).copied().flatten());
                 cluster.map_or([0; 3], |cluster| cluster_color(u32::from(cluster)))
             };
-            let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
+            let image = rgb8(self.lit.camera.width(), self.lit.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
             let caption =
                 format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
@@ -322,16 +301,16 @@ impl AllFrequencyRendering {
                 Turning::Light => {
                     let light = self.light(&turn, &mut times)?.light;
                     let transferred = transferred(parts, &light, &mut times)?;
-                    seen.colors(&radiance(parts, &transferred, &self.camera, &mut times), [0.0; 3])
+                    seen.colors(&radiance(parts, &transferred, &self.lit.camera, &mut times), [0.0; 3])
                 }
                 // View alone changed: step 4 alone.
                 Turning::Camera => {
-                    let camera = carried(&self.camera, &self.mesh, &turn);
+                    let camera = carried(&self.lit.camera, &self.lit.mesh, &turn);
                     let colors = radiance(parts, still, &camera, &mut times);
                     self.seen(&camera).colors(&colors, [0.0; 3])
                 }
             };
-            let image = linear_picture(&self.camera, &colors).display(exposure)?;
+            let image = linear_picture(&self.lit.camera, &colors).display(exposure)?;
             let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }

@@ -2,6 +2,7 @@
 //! [`OnCard`] is about transfer of low frequency, [`AllFrequencyOnCard`] of all frequencies.
 
 mod factored;
+mod frame;
 mod picture;
 mod precision;
 mod report;

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::picture::{Difference, Way, on_host};
 use super::subject::{CardError, OnCard};
-use super::{precision, tables};
+use super::{frame, precision, tables};
 use crate::prt::brdf::ExitBasis;
 use crate::prt::on_card::time::{FrameTimeError, frame_time, host_of_section_7};
 use crate::report::digits::{Quantity, shown};
@@ -45,7 +45,7 @@ impl Study for OnCard {
         found.table(FoundTable::from(tables::sizes(&drawn.size, &drawn.draws)).field("sizes"));
         if let Some(time) = &time {
             found.heading("Modelled time");
-            found.explained_table(FoundTable::from(tables::times(time)).field("time"), tables::TIME);
+            found.explained_table(FoundTable::from(frame::times(time)).field("time"), tables::TIME);
             if let Some(bytes) = timeline_trace::file(&self.profile, &drawn.log, "a frame of compressed transfer")? {
                 found.keep_file("timeline.json", bytes);
             }

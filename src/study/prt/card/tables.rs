@@ -1,9 +1,9 @@
 //! The tables of the study.
 
+use super::frame;
 use super::picture::ChunkCounts;
 use crate::prt::on_card::model::TransferSize;
 use crate::prt::on_card::time::FrameTime;
-use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \
@@ -32,26 +32,11 @@ pub(super) fn sizes(size: &TransferSize, draws: &ChunkCounts) -> Table {
     table
 }
 
-/// The parts of a frame.
-pub(super) fn times(time: &FrameTime) -> Table {
-    let mut table = Table::new("A frame", &["part", "ms"]);
-    let parts = [
-        ("frame to frame", time.frame),
-        ("host at work", time.host),
-        ("products on the host", time.products),
-        ("state and constants", time.state),
-        ("draws", time.draws),
-    ];
-    parts.into_iter().for_each(|(part, time)| table.push([part.into(), Cell::measured(1e3 * time.seconds())]));
-    table
-}
-
-/// The rate, and what it waits for.
+/// The rate, what it waits for, and what is drawn.
 pub(super) fn time_sentence(time: &FrameTime, card: &str) -> String {
-    let rate = shown(time.per_second(), Quantity::Measured);
-    let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));
+    let rate = frame::rate(time, card);
     format!(
-        "{card}: modelled {rate} frames a second{waits}; {} vertices are run and {} triangles set up in {} draws.",
+        "{rate}; {} vertices are run and {} triangles set up in {} draws.",
         time.vertices_run, time.triangles, time.calls
     )
 }

@@ -45,7 +45,7 @@ pub(super) fn coarse_codes(
     let place = ProductPlace::Pixels(ProductOptions::default());
     let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, AllFrequencyCardError> {
         let transferred = in_double(coded, light)?;
-        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.camera.eye(), exposure)))
+        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.camera.eye(), exposure)))
     };
     let expected = pixels(coded)?;
     done(1);

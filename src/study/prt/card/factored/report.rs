@@ -6,7 +6,7 @@ use super::coding::{coarse_codes, ways_to_code};
 use super::pixels::{PixelErrors, exact_pixels};
 use super::precision::{factored_precision, factored_precision_table, push_errors, ways_of_precision};
 use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, CardSums, HostSteps, in_double};
-use super::tables::{Blame, TIME, report_blame, time_sentence, times};
+use super::tables::{Blame, TIME, report_blame};
 use crate::prt::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::prt::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, SeenPixel, TransferredMesh, VertexColors, draw, seen_pixels,
@@ -16,6 +16,7 @@ use crate::prt::on_card::time::{FrameTimeError, frame_time};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::study::prt::card::frame;
 use crate::study::prt::interpolate::linear_picture;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
@@ -31,19 +32,19 @@ impl Study for AllFrequencyOnCard {
         progress("host", 0, 2);
         let steps = self.steps()?;
         let mesh = self.mesh_of(&steps.transferred);
-        let (eye, seen) = (self.camera.eye(), seen_pixels(&self.profile, &self.vertices, &self.camera)?);
+        let (eye, seen) = (self.lit.camera.eye(), seen_pixels(&self.profile, &self.lit.vertices, &self.lit.camera)?);
         let linear = exact_pixels(&mesh, &seen, &self.place, (eye, 1.0));
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
+        let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&linear));
         let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
         progress("card", 1, 2);
-        let view = PrtView { camera: self.camera, exposure, format: self.format };
+        let view = PrtView { camera: self.lit.camera, exposure, format: self.format };
         let card = (self.profile.clone(), self.executor.clone());
         let mut drawing = draw(mesh, card, self.place, &view, steps.multiplies)?;
         if let Some(sums) = &steps.sums {
             drawing.log = sums.log.events.iter().cloned().chain(drawing.log).collect();
         }
         let mut found = Findings::new("All-frequency transfer on a card");
-        found.taken_from(self.camera.world_to_camera());
+        found.taken_from(self.lit.camera.world_to_camera());
         let drawn = drawing.texels.texels.iter();
         let drawn: Vec<[f64; 3]> = drawn.map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         let of_card = PixelErrors::of(&seen, &drawn, &self.as_target_holds(&host));
@@ -54,7 +55,7 @@ impl Study for AllFrequencyOnCard {
             Err(error) => return Err(error.into()),
         };
         if let Some(time) = &time {
-            found.conclusion(time_sentence(time, &self.profile.title));
+            found.conclusion(format!("{}.", frame::rate(time, &self.profile.title)));
         }
         self.pictures(&mut found, (&drawn, &host), of_card)?;
         let blames = self.blame(&steps, (&seen, exposure), (&mesh, of_card))?;
@@ -63,7 +64,7 @@ impl Study for AllFrequencyOnCard {
         found.table(FoundTable::from(self.sizes(&steps, &drawing)).field("sizes"));
         if let Some(time) = &time {
             found.heading("Modelled time");
-            found.explained_table(FoundTable::from(times(time)).field("time"), TIME);
+            found.explained_table(FoundTable::from(frame::times(time)).field("time"), TIME);
             if let Some(bytes) = timeline_trace::file(&self.profile, &drawing.log, "a frame of all-frequency transfer")?
             {
                 found.keep_file("timeline.json", bytes);
@@ -124,7 +125,7 @@ impl AllFrequencyOnCard {
         (drawn, host): (&[[f64; 3]], &[[f64; 3]]),
         of_card: PixelErrors,
     ) -> Result<(), AllFrequencyCardError> {
-        let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
+        let title = format!("{} under {} on the {}", self.lit.model, self.lit.light_name, self.profile.title);
         let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
             let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
             channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
@@ -133,22 +134,22 @@ impl AllFrequencyOnCard {
         let range = (4.0 * of_card.off_255ths[0] / 255.0).max(1.0 / 255.0);
         let scale = shown(255.0 * range, Quantity::Measured);
         found.pictures(vec![
-            NamedPicture::new("card", linear_picture(&self.camera, drawn).display(1.0)?, title),
+            NamedPicture::new("card", linear_picture(&self.lit.camera, drawn).display(1.0)?, title),
             NamedPicture::new(
                 "host",
-                linear_picture(&self.camera, host).display(1.0)?,
+                linear_picture(&self.lit.camera, host).display(1.0)?,
                 "the host in double precision, from the same numbers",
             ),
             NamedPicture::new(
                 "difference",
-                false_color::signed(self.camera.width(), &difference, range),
+                false_color::signed(self.lit.camera.width(), &difference, range),
                 format!(
                     "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or \
                      more"
                 ),
             ),
         ]);
-        found.keep_layers("card", linear_picture(&self.camera, drawn));
+        found.keep_layers("card", linear_picture(&self.lit.camera, drawn));
         Ok(())
     }
 
@@ -159,17 +160,17 @@ impl AllFrequencyOnCard {
         (seen, exposure): (&[Option<SeenPixel>], f64),
         (mesh, of_card): (&TransferredMesh<'_>, PixelErrors),
     ) -> Result<Vec<Blame>, AllFrequencyCardError> {
-        let view = (self.camera.eye(), exposure);
+        let view = (self.lit.camera.eye(), exposure);
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
         let mut push =
             |step, a: &[[f64; 3]], b: &[[f64; 3]]| found.push(Blame { step, errors: PixelErrors::of(seen, a, b) });
         let ours = exact_pixels(mesh, seen, &products, view);
-        if self.file.reflectance.terms() > 1 {
+        if self.lit.file.reflectance.terms() > 1 {
             let colors = exact_pixels(mesh, seen, &ProductPlace::Vertices(VertexColors::Floats), view);
             push("colors of vertices interpolated, not products", &colors, &ours);
         }
-        if let Some(coded) = &self.file.coded {
+        if let Some(coded) = &self.lit.file.coded {
             let exact = in_double(coded, &steps.cut.light)?;
             push(
                 if self.sums_on_card {
@@ -181,7 +182,7 @@ impl AllFrequencyOnCard {
                 &exact_pixels(&self.mesh_of(&exact), seen, &products, view),
             );
         }
-        let compressed = self.original.as_ref().filter(|_| self.file.coded.is_some());
+        let compressed = self.lit.original.as_ref().filter(|_| self.lit.file.coded.is_some());
         if let Some(original) = compressed {
             let raw = self.raw(original, &steps.cut.light)?;
             let raw = exact_pixels(&self.mesh_of(&raw), seen, &products, view);
@@ -189,9 +190,9 @@ impl AllFrequencyOnCard {
         }
         if steps.cut.kept < steps.cut.nonzero {
             let whole = self.cut(None)?.light;
-            let whole = match &self.file.coded {
+            let whole = match &self.lit.file.coded {
                 Some(coded) => in_double(coded, &whole)?,
-                None => self.raw(&self.file, &whole)?,
+                None => self.raw(&self.lit.file, &whole)?,
             };
             push("light coefficients left out", &ours, &exact_pixels(&self.mesh_of(&whole), seen, &products, view));
         }
@@ -199,7 +200,7 @@ impl AllFrequencyOnCard {
     }
 
     fn sizes(&self, steps: &HostSteps, drawing: &FactoredDrawing) -> Table {
-        let terms = self.file.reflectance.terms();
+        let terms = self.lit.file.reflectance.terms();
         let mut table = Table::new("Sizes and counts", &["what", "number"]);
         let numbers = match &self.place {
             ProductPlace::Pixels(options) if terms > 1 => options.layout(terms).numbers(),
@@ -211,8 +212,8 @@ impl AllFrequencyOnCard {
         };
         let [reads, arithmetic] = drawing.pixel_slots;
         let rows = [
-            ("vertices", Some(self.vertices.len() as u64)),
-            ("triangles", Some(self.vertices.triangles().len() as u64)),
+            ("vertices", Some(self.lit.vertices.len() as u64)),
+            ("triangles", Some(self.lit.vertices.triangles().len() as u64)),
             ("terms", Some(terms as u64)),
             ("light coefficients kept", Some(steps.cut.kept as u64)),
             ("host multiplications for clusters", Some(steps.multiplies.per_cluster)),
@@ -251,15 +252,15 @@ impl AllFrequencyOnCard {
         progress: &mut ProgressFn<'_>,
     ) -> Result<(), AllFrequencyCardError> {
         let drawn = ways_of_precision(mesh);
-        let all = drawn + self.file.coded.as_ref().map_or(0, ways_to_code);
-        let view = (self.camera, exposure);
+        let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
+        let view = (self.lit.camera, exposure);
         let ways = factored_precision(*mesh, &self.executor, view, &mut |done| progress("sweep", done, all))?;
         let mut table = factored_precision_table(&ways);
         let mut worst: Vec<(String, f64)> = Vec::new();
         for way in ways.iter().filter(|way| way.axis != "card") {
             worst.push((format!("{} {}", way.axis, way.choice), way.errors.off_255ths[0]));
         }
-        if let Some(coded) = &self.file.coded {
+        if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
             for code in coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)? {
                 let choice = format!("{} bits", code.bits);

@@ -7,48 +7,25 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
-use crate::geom::Mesh;
 use crate::picture::PictureError;
 use crate::prt::all_frequency::code::{CodeOptionsError, CodedTransfer};
-use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation};
+use crate::prt::all_frequency::light::{CubeLightError, HaarLight, LightTruncation};
 use crate::prt::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
 use crate::prt::all_frequency::shade::{
     LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain,
 };
 use crate::prt::file::AllFrequencyFile;
 use crate::prt::on_card::time::FrameTimeError;
-use crate::prt::transfer::{TransferError, Vertices};
-use crate::scene::Camera;
+use crate::prt::transfer::TransferError;
+use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
 use crate::study::timeline_trace::TimelineError;
 
-/// A model with all-frequency transfer, a light and a camera, and the card that draws it.
+/// A lit model with all-frequency transfer, and the card that draws it.
 #[derive(Debug)]
 pub struct AllFrequencyOnCard {
-    /// The model's name.
-    pub model: String,
-    /// Its mesh.
-    pub mesh: Mesh,
-    /// Its vertices.
-    pub vertices: Vertices,
-    /// Per material the surface's color.
-    pub colors: Vec<[f64; 3]>,
-    /// Visibility, coded transfer or both: coded transfer is drawn.
-    pub file: AllFrequencyFile,
-    /// A file with visibility, to say what compression costs.
-    pub original: Option<AllFrequencyFile>,
-    /// The light's name.
-    pub light_name: String,
-    /// The light.
-    pub light: DistantLight,
-    /// How it is decimated.
-    pub decimation: Decimation,
-    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
-    pub keep: Option<usize>,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
+    /// The model, its transfer, the light and the camera.
+    pub lit: LitModel,
     /// The card.
     pub profile: Profile,
     /// Its switches that were set.
@@ -132,30 +109,30 @@ pub(super) struct CardSums {
 
 impl AllFrequencyOnCard {
     pub(super) fn mesh_of<'a>(&'a self, transferred: &'a TransferredRadiance) -> TransferredMesh<'a> {
-        let Self { vertices, colors, file, .. } = self;
+        let LitModel { vertices, colors, file, .. } = &self.lit;
         TransferredMesh { vertices, reflectance: &file.reflectance, colors, transferred }
     }
 
     pub(super) fn cut(&self, keep: Option<usize>) -> Result<LightTruncation, CubeLightError> {
-        exact::coefficients((&self.light, self.decimation), &DMat3::IDENTITY, keep)
+        exact::coefficients((&self.lit.light, self.lit.decimation), &DMat3::IDENTITY, keep)
     }
 
     /// What the host computes before a card draws.
     pub(super) fn steps(&self) -> Result<HostSteps, AllFrequencyCardError> {
-        let cut = self.cut(self.keep)?;
+        let cut = self.cut(self.lit.keep)?;
         if self.sums_on_card {
-            let coded = self.file.coded.as_ref().ok_or(AllFrequencyCardError::NotCoded)?;
+            let coded = self.lit.file.coded.as_ref().ok_or(AllFrequencyCardError::NotCoded)?;
             let mut card = SumCard::new(self.profile.clone(), self.executor.clone(), coded)?;
             let (transferred, log) = card.transferred(&cut.light.singles())?;
             let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
             return Ok(HostSteps { cut, transferred, multiplies: Multiplies::default(), sums });
         }
-        let (transferred, multiplies) = match &self.file.coded {
+        let (transferred, multiplies) = match &self.lit.file.coded {
             Some(coded) => by_shader(coded, &cut.light)?,
             // Every light coefficient that is not 0, in the raw matrix of every vertex.
             None => {
-                let per_vertex = 3 * (self.file.reflectance.terms() * cut.kept * self.vertices.len()) as u64;
-                (self.raw(&self.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })
+                let per_vertex = 3 * (self.lit.file.reflectance.terms() * cut.kept * self.lit.vertices.len()) as u64;
+                (self.raw(&self.lit.file, &cut.light)?, Multiplies { per_cluster: 0, per_vertex })
             }
         };
         Ok(HostSteps { cut, transferred, multiplies, sums: None })
@@ -169,8 +146,8 @@ impl AllFrequencyOnCard {
     ) -> Result<TransferredRadiance, AllFrequencyCardError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
-            Some(maps) => exact::transferred((&self.vertices, maps), file.hats, &file.reflectance, light)?,
-            None => vec![[0.0; 3]; rows * self.vertices.len()],
+            Some(maps) => exact::transferred((&self.lit.vertices, maps), file.hats, &file.reflectance, light)?,
+            None => vec![[0.0; 3]; rows * self.lit.vertices.len()],
         };
         Ok(singles(rows, values))
     }

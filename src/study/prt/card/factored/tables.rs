@@ -1,9 +1,8 @@
 //! The tables of the study.
 
 use super::pixels::PixelErrors;
-use crate::prt::on_card::time::FrameTime;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, Table};
+use crate::report::{Findings, FoundTable, Table};
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and adds as \
     fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";
@@ -29,25 +28,4 @@ pub(super) fn report_blame(blames: &[Blame], found: &mut Findings) {
     }
     found.heading("What is to blame");
     found.explained_table(FoundTable::from(table).csv("blame").field("blame"), BLAME);
-}
-
-/// The parts of a frame.
-pub(super) fn times(time: &FrameTime) -> Table {
-    let mut table = Table::new("A frame", &["part", "ms"]);
-    let parts = [
-        ("frame to frame", time.frame),
-        ("host at work", time.host),
-        ("products on the host", time.products),
-        ("vertices on their way", time.uploads),
-        ("state and constants", time.state),
-        ("draws", time.draws),
-    ];
-    parts.into_iter().for_each(|(part, time)| table.push([part.into(), Cell::measured(1e3 * time.seconds())]));
-    table
-}
-
-pub(super) fn time_sentence(time: &FrameTime, card: &str) -> String {
-    let rate = shown(time.per_second(), Quantity::Measured);
-    let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));
-    format!("{card}: modelled {rate} frames a second{waits}.")
 }

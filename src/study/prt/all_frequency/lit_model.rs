@@ -1,0 +1,36 @@
+//! What all studies of all-frequency transfer draw.
+
+use crate::geom::Mesh;
+use crate::prt::all_frequency::light::{Decimation, DistantLight};
+use crate::prt::file::AllFrequencyFile;
+use crate::prt::transfer::Vertices;
+use crate::scene::Camera;
+
+/// A model with its transfer, a light and a camera.
+#[derive(Debug)]
+pub struct LitModel {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub mesh: Mesh,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// Per material the surface's color.
+    pub colors: Vec<[f64; 3]>,
+    /// Visibility, coded transfer or both: coded transfer is drawn.
+    pub file: AllFrequencyFile,
+    /// A file with visibility, to say what compression costs.
+    pub original: Option<AllFrequencyFile>,
+    /// The light's name.
+    pub light_name: String,
+    /// The light.
+    pub light: DistantLight,
+    /// How it is decimated.
+    pub decimation: Decimation,
+    /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
+    pub keep: Option<usize>,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure.
+    pub exposure: Option<f64>,
+}

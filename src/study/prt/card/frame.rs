@@ -1,0 +1,27 @@
+//! The time of a frame as a table and in words.
+
+use crate::prt::on_card::time::FrameTime;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Table};
+
+/// The parts of a frame.
+pub(super) fn times(time: &FrameTime) -> Table {
+    let mut table = Table::new("A frame", &["part", "ms"]);
+    let parts = [
+        ("frame to frame", time.frame),
+        ("host at work", time.host),
+        ("products on the host", time.products),
+        ("vertices on their way", time.uploads),
+        ("state and constants", time.state),
+        ("draws", time.draws),
+    ];
+    parts.into_iter().for_each(|(part, time)| table.push([part.into(), Cell::measured(1e3 * time.seconds())]));
+    table
+}
+
+/// The rate, and what it waits for; without a full stop.
+pub(super) fn rate(time: &FrameTime, card: &str) -> String {
+    let rate = shown(time.per_second(), Quantity::Measured);
+    let waits = time.bottleneck.map_or_else(String::new, |bottleneck| format!(", whose draws wait for {bottleneck}"));
+    format!("{card}: modelled {rate} frames a second{waits}")
+}
