@@ -287,6 +287,7 @@ fn figures_have_their_pictures() {
         ("cpca-figure-7", 5),
         ("cpca-figure-8", 4),
         ("cpca-figure-9", 6),
+        ("all-frequency-figures", 32),
     ];
     for (id, count) in counts {
         let pictures = &findings(id).pictures;
@@ -328,6 +329,22 @@ fn clusters_and_codes_of_models_keep_their_laws() {
     for row in found.tables[3].rows() {
         let errors: Vec<f64> = row[1..].iter().map(|cell| cell.text().parse().expect("a number")).collect();
         assert!(errors.len() == 16 && errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    }
+}
+
+/// Figures 2, 5 and 6: more terms, more representatives and more light coefficients are nearer.
+#[test]
+fn pictures_get_nearer_with_what_is_kept() {
+    let found = findings("all-frequency-figures");
+    assert_eq!((found.rows.len(), found.tables.len()), (10, 5));
+    for (table, column) in
+        [(1, "relative_squared_error"), (2, "squared_error"), (2, "rms_%"), (3, "rms_%"), (3, "flicker_%")]
+    {
+        let table = &found.tables[table];
+        let name = column.replace('_', " ");
+        let at = table.headings().iter().position(|heading| *heading == name).expect("the column");
+        let values: Vec<f64> = table.rows().iter().map(|row| row[at].text().parse().expect("a number")).collect();
+        assert!(values.len() > 3 && values.is_sorted_by(|a, b| a > b), "{column}: {values:?}");
     }
 }
 

@@ -22,7 +22,7 @@ use crate::tracer::HostTracer;
 /// A quarter of each face: what is compressed of reduced models.
 const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];
 /// Iterations for each number of representatives on reduced models.
-const REDUCED_ITERATIONS: usize = 4;
+pub(super) const REDUCED_ITERATIONS: usize = 4;
 /// Bits of the numbers that Haar coefficients alone are coded by: those of the earlier work first.
 pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
 

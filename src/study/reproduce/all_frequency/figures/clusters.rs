@@ -37,7 +37,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let mut table = Table::of("Figure 5: representatives per cluster", "representatives squared_error rms_% flip");
     let (mut pictures, mut errors, mut last) = (Vec::new(), Vec::new(), None);
     for vectors in VECTORS {
-        let (coded, tally) = surface.coded(models::points_per_cluster(size), vectors)?;
+        let (coded, tally) = surface.coded(models::options(size, vectors))?;
         let found = scene.joined(&surface.of_code(&coded, &light)?, &dark);
         let error = scene.error(&found, &exact, exposure)?;
         let squared = tally.sum(|part| part.coded_squared_error) / tally.sum(|part| part.squares);

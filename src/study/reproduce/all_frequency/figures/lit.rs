@@ -20,18 +20,14 @@ pub(super) struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Compressed by so many vertices and representatives per cluster, and coded.
-    pub(super) fn coded(
-        &self,
-        points_per_cluster: usize,
-        vectors: usize,
-    ) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
+    /// Compressed and coded.
+    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
         let compression = SegmentedCompression {
             vertices: &self.scene.vertices,
             maps: self.maps,
             hats: self.scene.hats.width(),
             reflectance: self.reflectance,
-            options: SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() },
+            options,
             code: CodeOptions::default(),
             kept: None,
         };

@@ -3,9 +3,11 @@
 use super::{ModelSize, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::geom::teapot::teapot;
+use crate::prt::all_frequency::compressed::SegmentOptions;
 use crate::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::scene::built::ground::GROUND_SIDE;
 use crate::scene::built::transfer_models::TransferModel;
+use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 
 /// A bird that stands for tweety, and what stands for the Buddha.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
@@ -33,6 +35,16 @@ pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
     match models {
         ModelSize::Printed => 200,
         ModelSize::Reduced => 60,
+    }
+}
+
+/// How vertices are shared out, with so many representatives per cluster.
+pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
+    let points_per_cluster = points_per_cluster(models);
+    let default = SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() };
+    match models {
+        ModelSize::Printed => default,
+        ModelSize::Reduced => SegmentOptions { iterations: REDUCED_ITERATIONS, ..default },
     }
 }
 

@@ -9,6 +9,7 @@ use super::{
     failed, models, number,
 };
 use crate::prt::all_frequency::Reflectance;
+use crate::prt::all_frequency::compressed::SegmentOptions;
 use crate::prt::all_frequency::factor::ProductFunction;
 use crate::prt::all_frequency::grid::Segmentation;
 use crate::prt::all_frequency::light::{CubeLight, HaarLight, TruncationPriority};
@@ -42,7 +43,7 @@ struct Ways {
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
     let light = stand_in()?;
-    let ways = ways(&scene, &light, models::points_per_cluster(size))?;
+    let ways = ways(&scene, &light, models::options(size, VECTORS))?;
     let exposure = scene.exposure(&ways.exact);
     let caption = "exact: no factors, no compression, the whole light".to_owned();
     let mut pictures = vec![scene.picture(&ways.exact, exposure, ("figure-1-exact".to_owned(), caption))?];
@@ -70,7 +71,7 @@ fn order(what: String, ours: f64) -> PaperRow {
 }
 
 /// Model and ground by each method.
-fn ways(scene: &FigureScene, light: &CubeLight, points_per_cluster: usize) -> Result<Ways, ReproduceError> {
+fn ways(scene: &FigureScene, light: &CubeLight, options: SegmentOptions) -> Result<Ways, ReproduceError> {
     let lobe = models::schlick();
     let factors = models::factorization(&lobe, TERMS)?.factors(TERMS);
     let glossy = Reflectance::Factored(factors);
@@ -94,7 +95,7 @@ fn ways(scene: &FigureScene, light: &CubeLight, points_per_cluster: usize) -> Re
         };
         let mut all: Vec<Vec<[f64; 3]>> = all.into_iter().map(colored).collect();
         let surface = Surface { scene, maps, reflectance, color };
-        all.insert(1, surface.of_code(&surface.coded(points_per_cluster, VECTORS)?.0, &quarters)?);
+        all.insert(1, surface.of_code(&surface.coded(options)?.0, &quarters)?);
         by_part.push(all);
     }
     let ground = by_part.pop().unwrap_or_default();

@@ -25,7 +25,7 @@ const SOURCES: u64 = 40;
 const RADII: [f64; 5] = [1.4, 2.0, 3.0, 4.0, 5.0];
 const RADIUS: usize = 2;
 /// Coefficients that are kept.
-const KEPT: [usize; 7] = [50, 100, 200, 400, 800, 1200, 1600];
+const KEPT: [usize; 5] = [50, 100, 200, 400, 800];
 /// Steps of half a degree around z.
 const FRAMES: u32 = 6;
 /// Flicker that counts as seen: one percent of the picture, chosen by us before any was computed.
