@@ -341,8 +341,7 @@ fn pictures_get_nearer_with_what_is_kept() {
         [(1, "relative_squared_error"), (2, "squared_error"), (2, "rms_%"), (3, "rms_%"), (3, "flicker_%")]
     {
         let table = &found.tables[table];
-        let name = column.replace('_', " ");
-        let at = table.headings().iter().position(|heading| *heading == name).expect("the column");
+        let at = table.headings().iter().position(|heading| heading == column).expect("the column");
         let values: Vec<f64> = table.rows().iter().map(|row| row[at].text().parse().expect("a number")).collect();
         assert!(values.len() > 3 && values.is_sorted_by(|a, b| a > b), "{column}: {values:?}");
     }
