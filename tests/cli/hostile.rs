@@ -86,7 +86,7 @@ const COMMANDS: &[(&str, &str)] = &[
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
-         --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --sweep \
+         --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --atlas --sweep \
          --size --view --eye --target --up --tan-half-height --exposure --out",
     ),
     (
