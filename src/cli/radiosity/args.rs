@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::values::{MaterialColor, PackingArg, SolverArg, StorageArg, light_of, paint_of};
+use crate::atlas::MAX_SIDE;
 use crate::cli::card::CardArgs;
 use crate::cli::number;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
-use crate::atlas::MAX_SIDE;
 
 const EXAMPLES: &str = "\
 Examples:

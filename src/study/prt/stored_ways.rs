@@ -64,7 +64,8 @@ impl StoredComparison<'_> {
         if self.matrix.columns() != LIGHT_TEXELS {
             return Err(RivalError::Columns { found: self.matrix.columns() });
         }
-        let exact: Vec<Vec<f64>> = lights.iter().map(|light| joined(light, |light| by_rows(self.matrix, light))).collect();
+        let exact: Vec<Vec<f64>> =
+            lights.iter().map(|light| joined(light, |light| by_rows(self.matrix, light))).collect();
         let mut ways = Ways { lights, exact, found: Vec::new(), visit };
         let (rows, budget) = (self.matrix.rows(), self.biclusters.sizes()[0].bytes);
         ways.push("biclusters", self.biclusters, 0.0);
@@ -75,8 +76,7 @@ impl StoredComparison<'_> {
         ways.make("rows of 8 bytes an entry", || WideRows::new(self.matrix))?;
         for (clusters, what) in self.cluster_settings(budget) {
             let steps = clusters.rounds as u64 + 1;
-            let name =
-                format!("{} clusters of rows, {} vectors each{what}", clusters.clusters, clusters.vectors);
+            let name = format!("{} clusters of rows, {} vectors each{what}", clusters.clusters, clusters.vectors);
             let mut observe = |round: usize| progress("rounds of clusters", round as u64 + 1, steps);
             ways.make(name, || RowClusters::new(self.matrix, &clusters, &mut observe))?;
         }
@@ -145,8 +145,9 @@ impl Ways<'_> {
 
     fn push(&mut self, name: impl Into<String>, stored: &dyn StoredTransfer, seconds: f64) {
         let lights = self.lights.iter().zip(&self.exact);
-        let error =
-            |(light, exact): (&LightChannels, &Vec<f64>)| LocalLightError::new(&joined(light, |l| stored.multiply(l)), exact);
+        let error = |(light, exact): (&LightChannels, &Vec<f64>)| {
+            LocalLightError::new(&joined(light, |l| stored.multiply(l)), exact)
+        };
         let errors = lights.map(error).collect();
         let name = name.into();
         (self.visit)(&name, stored);
@@ -168,9 +169,8 @@ pub fn stored_ways_table(title: &str, ways: &[StoredWay], lights: &[&str]) -> Ta
     for way in ways {
         let bytes = way.sizes[0].bytes as f64;
         let head = [way.name.as_str().into(), Cell::measured(1e-6 * bytes), Cell::decimals(100.0 * bytes / whole, 1)];
-        let errors = way.errors.iter().flat_map(|error| {
-            [Cell::measured(100.0 * error.relative), Cell::measured(error.largest)]
-        });
+        let errors =
+            way.errors.iter().flat_map(|error| [Cell::measured(100.0 * error.relative), Cell::measured(error.largest)]);
         table.push(head.into_iter().chain(errors));
     }
     table

@@ -68,7 +68,7 @@ pub(super) fn table(atlas: Option<&AtlasPictures>) -> Table {
         "The meshed atlas; power is radiosity times area",
         "of side triangles channel power_in_texels power_of_patches difference_% at_most_%",
     );
-    for AtlasPictures { label, side, triangles, power, .. } in atlas {
+    if let Some(AtlasPictures { label, side, triangles, power, .. }) = atlas {
         for (at, channel) in ["red", "green", "blue"].into_iter().enumerate() {
             let [held, exact, bound] = [power.held[at], power.exact[at], power.bound[at]];
             let share = |part: f64| if exact > 0.0 { Cell::measured(100.0 * part / exact) } else { Cell::Empty };

@@ -2,7 +2,9 @@
 
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
-use super::{AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow};
+use super::{
+    AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow,
+};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};

@@ -7,7 +7,6 @@ use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::bi_scale::transfer::transfer_matrix;
 use crate::prt::transfer::{Tangents, Vertices};
-use crate::scene::built::transfer_models::TransferModel;
 use crate::tracer::HostTracer;
 
 /// Visibility samples along an edge of a light texel, as a power of two.
@@ -22,13 +21,8 @@ pub(super) struct StandIn {
 }
 
 impl StandIn {
-    /// Of a model with edges so many times as long, and so many local directions along an edge.
-    pub(super) fn new(
-        (model, coarser): (TransferModel, u32),
-        side: usize,
-        horizon: Horizon,
-    ) -> Result<Self, ReproduceError> {
-        let mesh = model.mesh(coarser);
+    /// Of a mesh, to so many local directions along an edge.
+    pub(super) fn new(mesh: Mesh, side: usize, horizon: Horizon) -> Result<Self, ReproduceError> {
         let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };

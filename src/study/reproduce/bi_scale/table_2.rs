@@ -29,9 +29,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let computed = if shared.models == ModelSize::Reduced { 1 } else { BUNNIES.len() };
     let (mut rows, mut fewer) = (Vec::new(), 0.0);
     for (scene, model) in BUNNIES.into_iter().zip(MODELS).take(computed) {
-        let matrix = StandIn::new((model, 1), scene.side, Horizon::Geometry)?.matrix;
+        let matrix = StandIn::new(model.mesh(1), scene.side, Horizon::Geometry)?.matrix;
         if rows.is_empty() {
-            let above = StandIn::new((model, 1), scene.side, Horizon::Normal)?.matrix;
+            let above = StandIn::new(model.mesh(1), scene.side, Horizon::Normal)?.matrix;
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / matrix.nonzeros() as f64);
         }
         let found =

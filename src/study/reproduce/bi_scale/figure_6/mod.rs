@@ -39,11 +39,11 @@ const QUESTION: &str = "the chair, its light and camera; whether clusters had me
     what area a wavelet is weighed by.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let model = match shared.models {
-        ModelSize::Reduced => (TransferModel::BiScaleBunny, 2),
-        _ => (TransferModel::BiScaleBunnyMiddle, 1),
+    let mesh = match shared.models {
+        ModelSize::Reduced => TransferModel::BiScaleBunny.mesh(2),
+        _ => TransferModel::BiScaleBunnyMiddle.mesh(1),
     };
-    let scene = StandIn::new(model, 8, Horizon::Normal)?;
+    let scene = StandIn::new(mesh, SCENES[2].side, Horizon::Normal)?;
     let biclusters =
         bicluster(&scene.matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
     let transfer = LocalTransfer::new(&scene.matrix, scene.vertices.frames(), &scene.directions);
@@ -71,11 +71,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         text: vec![Prose::new(HOW, sizes), CAPTIONS.into()],
         rows: rows(&scene.matrix, &biclusters, &ways)?,
         questions: vec![QUESTION],
-        tables: vec![
-            stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]),
-            chair_sizes(),
-            differences,
-        ],
+        tables: vec![stored_ways_table("Ways to store transfer", &ways, &["sky", "disks"]), chair_sizes(), differences],
         pictures: shown,
         ..EntryFindings::default()
     })
@@ -98,11 +94,7 @@ fn lights() -> Result<[LightChannels; 2], ReproduceError> {
     Ok([of(DistantLight::Sky(sky))?, of(DistantLight::RedAndBlue)?])
 }
 
-fn rows(
-    matrix: &SparseMatrix,
-    biclusters: &Biclustering,
-    ways: &[StoredWay],
-) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rows(matrix: &SparseMatrix, biclusters: &Biclustering, ways: &[StoredWay]) -> Result<Vec<PaperRow>, ReproduceError> {
     let sum = biclusters.sum().map_err(|error| failed(HOST)(&error))?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();
     let lossless = Origin::Implied("compressed without loss".to_owned());

@@ -105,11 +105,7 @@ impl<'a> VertexPictures<'a> {
         for (at, (name, colors)) in self.found.iter().enumerate() {
             let apart: f64 = colors.iter().flatten().zip(exact.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum();
             let seen = flip(&screen(colors)?, &expected, PIXELS_PER_DEGREE).map_or(0.0, |seen| seen.mean);
-            table.push([
-                name.as_str().into(),
-                Cell::measured(100.0 * (apart / whole).sqrt()),
-                Cell::measured(seen),
-            ]);
+            table.push([name.as_str().into(), Cell::measured(100.0 * (apart / whole).sqrt()), Cell::measured(seen)]);
             let image = linear_picture(&self.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
             pictures.push(NamedPicture::new(format!("bi-scale-figure-6-{at}"), image, name.clone()));
         }
