@@ -104,7 +104,7 @@ impl FacePlace {
 
     /// Weights of the corners of the face, by index, at the mean point of a rectangle within its own: exact means, also
     /// of rectangles that the diagonal crosses.
-    pub(super) fn mean_weights(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [f64; 3] {
+    pub fn mean_weights(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [f64; 3] {
         let ([u0, v0], [u1, v1]) = (self.local(x0, y0), self.local(x1, y1));
         let [u, v] = [(u0 + u1) / 2.0, (v0 + v1) / 2.0];
         let least = if u1 <= v0 || v1 <= u0 {

@@ -56,7 +56,10 @@ const CROSSBAR: Law = (
         ("compare", &[]),
         ("oracle", &["geom", "compare"]),
         ("case", &["names", "picture", "io", "geom", "scene", "report", "shader", "compare"]),
-        ("radiosity", &["card", "tracer", "elementary", "quadrature", "picture", "geom", "scene", "linalg", "io"]),
+        (
+            "radiosity",
+            &["card", "tracer", "elementary", "quadrature", "picture", "geom", "atlas", "scene", "linalg", "io"],
+        ),
         (
             "subsurface",
             &[

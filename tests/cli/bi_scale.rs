@@ -112,6 +112,11 @@ fn what_cannot_be_done_is_said() {
         (format!("prt bicluster {BICLUSTERS}"), "expected a matrix, found biclusters alone"),
         (format!("prt bicluster {tenths}"), "expected multiples of 2^-30 in row 0, column 0"),
         ("prt bicluster docs/examples/step.prt".to_owned(), "conventions: expected 3 to 3, found 1"),
+        ("prt compare docs/examples/quarters.mtx".to_owned(), "found 32"),
+        (format!("prt compare {BICLUSTERS} --model cornell-box"), "expected transfer of"),
+        ("prt compare docs/examples/quarters.mtx --model cornell-box".to_owned(), "found a matrix of no known one"),
+        (format!("prt compare {BICLUSTERS} --sample 3"), "expected at least 32 rows to find 32 clusters from, found 3"),
+        (format!("prt compare {BICLUSTERS} --memory-limit 1MB"), "of memory"),
         ("prt multiply docs/examples/step_all.prt".to_owned(), "conventions: expected 3 to 3, found 2"),
     ] {
         let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
@@ -119,5 +124,32 @@ fn what_cannot_be_done_is_said() {
         // Messages are wrapped.
         let words = ran.stderr.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
         assert!(words.contains(said), "{}", ran.transcript());
+    }
+}
+
+/// Every way with its bytes and its error; what loses nothing has none, and what takes part in frames needs the model.
+#[test]
+fn ways_to_store_transfer_are_compared() {
+    let small = "--clusters 4 --vectors 2 --sample 300 --rounds 2";
+    let alone = document(&format!("prt compare {BICLUSTERS} {small}"));
+    let all = document(&format!("prt compare {BICLUSTERS} {small} --model {STEP} --linear --order 3"));
+    let ways = |found: &Value| found["ways"].as_array().expect("a list").clone();
+    assert_eq!(ways(&all).len(), ways(&alone).len() + 3);
+    for found in [&alone, &all] {
+        let nonzeros = number(&found["nonzeros"]);
+        for way in ways(found) {
+            let name = way["way"].as_str().expect("a name");
+            let [rms, largest, relative] = ["rms", "largest", "relative"].map(|field| number(&way[field]));
+            let bytes = number(&way["bytes"][0]["bytes"]);
+            match name {
+                "rows of 3 bytes an entry" => assert_eq!(bytes, 3.0 * nonzeros + 4.0 * (70.0 * 64.0 + 1.0)),
+                "rows of 8 bytes an entry" => assert_eq!(bytes, 8.0 * nonzeros + 4.0 * (70.0 * 64.0 + 1.0)),
+                "biclusters" => assert!(bytes < nonzeros, "flat steps are coherent"),
+                _ => assert!(relative > 1e-4 && largest >= rms && rms > 0.0, "{way}"),
+            }
+            if name.starts_with("rows") || name == "biclusters" {
+                assert!(relative < 1e-12, "{way}");
+            }
+        }
     }
 }

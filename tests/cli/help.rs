@@ -10,6 +10,7 @@ pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices d
 pub(crate) const VERBS: &[&str] = &[
     "prt bicluster",
     "prt card",
+    "prt compare",
     "prt compress",
     "prt error",
     "prt factor",

@@ -53,6 +53,11 @@ const COMMANDS: &[(&str, &str)] = &[
          --size --eye --target --up --tan-half-height --exposure --out",
     ),
     (
+        "prt compare nowhere.mtx",
+        "--model --light --window --rotate --clusters --vectors --linear --sample --rounds --seed --coefficients \
+         --priority --storage --order",
+    ),
+    (
         "prt compress nowhere.prt --out y.prt",
         "--kind --clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
          --weight-bits --scale --resume",
@@ -81,7 +86,7 @@ const COMMANDS: &[(&str, &str)] = &[
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
-         --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --sweep \
+         --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --atlas --sweep \
          --size --view --eye --target --up --tan-half-height --exposure --out",
     ),
     (
@@ -298,7 +303,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 20] = [
+    let commands: [&[&str]; 21] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -309,6 +314,7 @@ fn hostile_files() {
         &["radiosity", "IN"],
         &["prt", "bicluster", "IN"],
         &["prt", "multiply", "IN"],
+        &["prt", "compare", "IN"],
         &["prt", "compress", "IN", "--out", "y.prt"],
         &["prt", "error", "IN", "IN"],
         &["prt", "factor", "--table", "IN"],

@@ -196,3 +196,28 @@ fn bad_input() {
         insta::assert_snapshot!(format!("radiosity_{name}"), ran.stderr);
     }
 }
+
+/// A solution in a meshed atlas: texture and view beside the other pictures, the power of its texels in the document; too
+/// small an atlas is refused before the work.
+#[test]
+fn a_solution_goes_into_an_atlas() {
+    let small = ["cornell-room", "--patches", "60", "--factors", "unoccluded", "--size", "24x24"];
+    let (ran, folder) = radiosity(&[&small[..], &["--solver", "jacobi", "--atlas", "32", "--json"]].concat());
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let found: serde_json::Value = serde_json::from_str(&ran.stdout).expect("one JSON document");
+    let rows = found["atlas"].as_array().expect("a table");
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        let number = |field: &str| row[field].as_f64().expect("a number");
+        assert!(number("difference_%").abs() <= number("at_most_%") && number("at_most_%") < 100.0, "{row}");
+        assert!(number("power_in_texels") > 0.0, "{row}");
+    }
+    let size = |name: &str| {
+        let picture = image::open(folder.path().join("out/radiosity").join(name)).expect("a picture");
+        [picture.width(), picture.height()]
+    };
+    assert_eq!([size("atlas.png"), size("atlas-view.png")], [[32, 32], [24, 24]]);
+    let (ran, _) = radiosity(&[&small[..], &["--atlas", "4"]].concat());
+    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
+    assert!(ran.stderr.contains("faces do not fit"), "{}", ran.transcript());
+}

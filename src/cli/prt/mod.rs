@@ -50,6 +50,7 @@ pub(super) struct Args {
 enum Verb {
     Bicluster(bi_scale::bicluster::Args),
     Card(card::Args),
+    Compare(bi_scale::compare::Args),
     Compress(compress::Args),
     Error(error::Args),
     Factor(factor::Args),
@@ -73,6 +74,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Bicluster(args) => bi_scale::bicluster::run(args, out)?,
         Verb::Card(args) if all => return study::run(&all_frequency::card::Args(args), command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
+        Verb::Compare(args) => bi_scale::compare::run(args, out)?,
         Verb::Compress(args) if all => all_frequency::compress::run(args, out)?,
         Verb::Compress(args) => compress::run(args, out)?,
         Verb::Error(args) if all => all_frequency::error::run(args, out)?,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::values::{MaterialColor, PackingArg, SolverArg, StorageArg, light_of, paint_of};
+use crate::atlas::MAX_SIDE;
 use crate::cli::card::CardArgs;
 use crate::cli::number;
 use crate::cli::scene_name::EyeArgs;
@@ -20,12 +21,15 @@ Examples:
       solve, then change the light and the left wall, and go on from the solution
   crossbar radiosity docs/examples/room.obj --patches 2000 --solver gauss-seidel --solver sor:1.15 --solver shooting --solver direct
       a scene of your own, on the host alone
+  crossbar radiosity cornell-room-blocks --solver gauss-seidel --patches 500 --atlas 256
+      the solution as a texture of a meshed atlas, and the room drawn from it
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep 60,240,515,889
       half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
 
 Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, with --sweep \
 sweep.csv and sweep.svg, pictures of every method \
-(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --frames; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
+(NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --frames, with --atlas atlas.csv, \
+atlas.png and atlas-view.png; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \
 chrome://tracing. docs/papers/radiosity.md explains all of it.";
 
 /// Solve for diffuse light in a scene: patches, form factors, iterations as fragment programs
@@ -105,6 +109,11 @@ pub(in crate::cli) struct Args {
     /// Pictures of the first way on the card after so many iterations
     #[arg(long, value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(super) frames: Vec<u32>,
+
+    /// Resample a solution (the direct one, or the first) into a meshed atlas of so many texels along a side, a power of
+    /// two, and draw the room from it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
+    pub(super) atlas: Option<u32>,
 
     /// Solve the room in so many patches too, on the card as it is and with each of its open switches turned
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=16384))]

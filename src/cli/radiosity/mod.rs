@@ -31,15 +31,18 @@ impl StudyArgs for Args {
         // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
         const PER_PAIR: u64 = 96;
         const PER_PIXEL_AND_PICTURE: u64 = 100;
+        // What an atlas knows of a texel, its levels, colors and picture.
+        const PER_TEXEL: u64 = 320;
         // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their
         // own.
         let patches = self.per_side.map_or(u64::from(self.patches), |_| 0);
         let pictures = (ask::methods(self)?.len() + self.frames.len()) as u64;
-        let matrices = patches * patches * PER_PAIR;
+        let texels = self.atlas.map_or(0, |side| u64::from(side) * u64::from(side));
+        let matrices = patches * patches * PER_PAIR + texels * PER_TEXEL;
         Ok(Some(MemoryNeed {
             what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
             bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
-            help: "ask for fewer `--patches` or a smaller `--size`",
+            help: "ask for fewer `--patches`, a smaller `--size` or a smaller `--atlas`",
         }))
     }
 
@@ -61,6 +64,7 @@ impl StudyArgs for Args {
             changes: ask::changes(self),
             exposure: self.exposure,
             frames: self.frames.clone(),
+            atlas: self.atlas,
             sweep: self.sweep.clone(),
             scene,
         })

@@ -1,7 +1,8 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
 //! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and
 //! factors of a reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`],
-//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`].
+//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. Ways to store bi-scale transfer side by
+//! side: [`StoredComparison`].
 
 mod all_frequency;
 mod card;
@@ -11,6 +12,7 @@ mod factor;
 mod interpolate;
 mod precompute;
 mod render;
+mod stored_ways;
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
@@ -30,3 +32,4 @@ pub(super) use interpolate::{Seen, linear_picture};
 pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
 pub use render::{RenderError, Rendering, Turning};
 pub(super) use render::{auto_exposure, cluster_color};
+pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};

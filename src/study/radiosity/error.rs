@@ -5,6 +5,7 @@ use refsim::device::DeviceError;
 use refsim::machine::MachineError;
 use thiserror::Error;
 
+use crate::atlas::AtlasError;
 use crate::names::did_you_mean;
 use crate::picture::PictureError;
 use crate::radiosity::on_card::CardError;
@@ -50,6 +51,10 @@ pub enum RadiosityError {
     #[error(transparent)]
     #[diagnostic(code(radiosity::display))]
     Draw(#[from] DrawError),
+    /// The atlas.
+    #[error(transparent)]
+    #[diagnostic(code(radiosity::atlas), help("ask for a larger `--atlas`, or for fewer patches"))]
+    Atlas(#[from] AtlasError),
     /// A machine for the pictures.
     #[error(transparent)]
     #[diagnostic(code(radiosity::machine))]

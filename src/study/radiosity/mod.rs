@@ -3,6 +3,7 @@
 //! What each method needs (iterations, passes, time), how far it is from the direct solution, and how the room looks.
 //! After a change of light or paint: how many iterations it needs from its own solution, and from zero.
 
+mod atlas;
 mod change;
 mod conclusion;
 mod difference;
@@ -18,12 +19,14 @@ mod sweep;
 mod tables;
 mod time;
 
+use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::on_card::Fit;
 use crate::radiosity::{Patches, System};
 use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
+pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
 pub use error::RadiosityError;
@@ -61,6 +64,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     for packing in parameters.ways.iter().filter_map(on_card) {
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
+    let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose()?;
     let room = room::find(&patches, parameters, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     if system.emittance().iter().flatten().all(|&e| e == 0.0) {
@@ -78,6 +82,11 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });
+    let in_atlas = atlas.as_ref().zip(direct.or(solved.first())).map(|(atlas, shown)| {
+        let label = shown.way.label(&parameters.profile);
+        atlas::show((&patches, atlas), (&label, &shown.radiosity), &parameters.camera, exposure)
+    });
+    let in_atlas = in_atlas.transpose()?;
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
     if let Some(truth) = &truth {
@@ -96,6 +105,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         exposure,
         rows,
         frames,
+        atlas: in_atlas,
         sweep,
         patches,
     })

@@ -1,5 +1,6 @@
 //! What the study finds.
 
+use super::atlas::AtlasPictures;
 use super::change::Relit;
 use super::difference::SolutionError;
 use super::method::{SolveMethod, StopReason};
@@ -51,6 +52,8 @@ pub struct RadiosityOutcome {
     pub rows: Vec<MethodRow>,
     /// The room after some iterations.
     pub frames: Vec<IterationPicture>,
+    /// The direct solution, or the first method's, in a meshed atlas, if one was asked for.
+    pub atlas: Option<AtlasPictures>,
     /// Other numbers of patches, other settings of the switches.
     pub sweep: Vec<SweepRow>,
 }

@@ -38,6 +38,8 @@ pub struct Parameters {
     pub exposure: Option<f64>,
     /// Iterations of the first method on a card of which there are pictures.
     pub frames: Vec<u32>,
+    /// Texels along a side of a meshed atlas that a solution is resampled into.
+    pub atlas: Option<u32>,
     /// Other numbers of patches in which the room is solved on the card, under each of its open switches.
     pub sweep: Vec<u32>,
 }

@@ -232,6 +232,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         title: "Biclusters of bunnies (bi-scale transfer, table II)",
         work: bi_scale::table_2,
     },
+    ReproduceEntry {
+        id: "bi-scale-figure-6",
+        title: "Biclusters beside clusters of rows, wavelets, harmonics and what is rejected (bi-scale transfer, sections II and IV-A, figure 6)",
+        work: bi_scale::figure_6,
+    },
 ];
 
 /// The entries' names.

@@ -1,7 +1,8 @@
-//! System 6: transfer to local directions, biclusters of it, files of both.
+//! System 6: transfer to local directions, biclusters of it, other ways to store it, files.
 
 mod biclusters;
 mod file;
+mod rivals;
 mod transfer;
 
 use crossbar::geom::Sides;

@@ -13,7 +13,7 @@ use glam::DVec3;
 use super::sight;
 
 /// The direction of a light texel's center, from the axes of its face.
-fn center(texel: usize) -> DVec3 {
+pub(super) fn center(texel: usize) -> DVec3 {
     let axes = CUBE_FACES[texel / 1024];
     let place = |at: usize| (2 * at + 1) as f64 / 32.0 - 1.0;
     (axes.center + place(texel % 32) * axes.right + place(texel / 32 % 32) * axes.down).normalize()

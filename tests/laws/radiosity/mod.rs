@@ -1,6 +1,7 @@
 //! Matrix radiosity: what light must satisfy, whoever computes it.
 
 mod all_pictures;
+mod atlas;
 mod bias;
 mod bounds;
 mod covered;

@@ -1,15 +1,20 @@
 //! The verbs of `crossbar prt` for bi-scale transfer.
 
 pub(super) mod bicluster;
+pub(super) mod compare;
 pub(super) mod multiply;
 pub(super) mod precompute;
 
 use std::path::Path;
 
+use super::light::LightArgs;
 use crate::cli::{Problem, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
+use crate::prt::all_frequency::light::{CubeLight, Decimation};
 use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::prt::bi_scale::transfer::light_vector;
 use crate::prt::file::{BiScaleFile, load_bi_scale};
+use crate::sphere::turn_around_z;
 
 /// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
 fn load(path: &Path) -> miette::Result<BiScaleFile> {
@@ -26,6 +31,16 @@ fn load(path: &Path) -> miette::Result<BiScaleFile> {
         )
     })?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
+}
+
+/// The light, turned around z by some degrees, and its red, green and blue times solid angles, for a verb.
+fn light_channels(light: &LightArgs, degrees: f64, verb: &str) -> miette::Result<(CubeLight, [Vec<f64>; 3])> {
+    let cube = light.distant()?.cube(&turn_around_z(degrees / 360.0), Decimation::SolidAngle);
+    let cube = cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar prt {verb} --help`")))?;
+    let channel =
+        |channel: usize| light_vector(&cube.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>());
+    let channels = [channel(0), channel(1), channel(2)];
+    Ok((cube, channels))
 }
 
 /// Writes a matrix as text.

@@ -5,18 +5,15 @@ use std::time::Instant;
 
 use serde_json::json;
 
-use super::load;
+use super::{light_channels, load};
 use crate::cli::prt::light::LightArgs;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
 use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::all_frequency::light::Decimation;
 use crate::prt::bi_scale::product::{self, Gather};
-use crate::prt::bi_scale::transfer::light_vector;
 use crate::prt::file::BiScaleFile;
 use crate::report::{Cell, Table};
-use crate::sphere::turn_around_z;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -50,12 +47,7 @@ pub(in crate::cli::prt) struct Args {
 
 pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let file = load(&args.file)?;
-    let light = args.light.distant()?;
-    let cube = light.cube(&turn_around_z(args.rotate / 360.0), Decimation::SolidAngle);
-    let cube = cube.map_err(|error| Problem::usage(error.to_string(), "see `crossbar prt multiply --help`"))?;
-    let channel =
-        |channel: usize| light_vector(&cube.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>());
-    let channels = [channel(0), channel(1), channel(2)];
+    let (cube, channels) = light_channels(&args.light, args.rotate, "multiply")?;
     let product = Product::new(&args.file, &file, &channels)?;
     if let Some(path) = &args.values {
         let local = file.meaning.map(|meaning| meaning.side.pow(2) as usize);

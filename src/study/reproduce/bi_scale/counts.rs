@@ -13,6 +13,9 @@ const QUESTION: &str =
 const DENSE: f64 = 1.0;
 const PER_ROW: f64 = 4.0;
 const PER_COLUMN: f64 = 8.0;
+/// Bytes of an entry by rows: place and value of two and one, of four each.
+const NARROW: f64 = 3.0;
+const WIDE: f64 = 8.0;
 /// Texels along an edge of a patch, view directions along an edge, and bytes of a texel: three channels.
 const PATCHES: [usize; 2] = [64, 32];
 const VIEWS: usize = 12;
@@ -47,12 +50,13 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     let mut table = Table::of(
         "Tables I and II, by sizes alone",
         "scene vertices local_directions nonzeros_M dense_MB_printed dense_MB bytes_per_operation \
-         bytes_per_nonzero_printed",
+         bytes_per_nonzero_printed rows_of_3_bytes_MB biclusters_of_them_% rows_of_8_bytes_MB biclusters_of_these_%",
     );
     for scene in &SCENES {
         rows.extend(scene_rows(scene));
         rows.extend(texture_row(scene));
         let [_, after] = scene.operations;
+        let [narrow, wide] = [NARROW, WIDE].map(|bytes| scene.sparse_megabytes(bytes));
         table.push([
             scene.name.into(),
             scene.vertices.into(),
@@ -62,8 +66,13 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
             Cell::decimals(scene.dense_megabytes(), 0),
             Cell::measured(scene.megabytes[1] / after),
             Cell::measured(scene.megabytes[1] / scene.nonzeros),
+            Cell::decimals(narrow, 1),
+            Cell::decimals(100.0 * scene.megabytes[1] / narrow, 0),
+            Cell::decimals(wide, 1),
+            Cell::decimals(100.0 * scene.megabytes[1] / wide, 0),
         ]);
     }
+    rows.extend(range_rows());
     EntryFindings {
         text: vec![Prose::new(HOW, [DENSE, PER_ROW, PER_ROW, PER_COLUMN].map(|bytes| number(bytes, 0)))],
         rows,
@@ -73,7 +82,26 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     }
 }
 
+/// What is left of computation, from least to most: the conclusion's range against the tables.
+fn range_rows() -> [PaperRow; 2] {
+    let left = || SCENES.iter().map(|scene| 100.0 * scene.operations[1] / scene.operations[0]);
+    let row = |what: &str, printed, found| {
+        let target = PaperFigure::printed(printed, 0, "%", "section 7");
+        let standing = Standing::Predicted { from: OPERATIONS };
+        PaperRow::new(what, (HOST, Method::Equation), target, (found, standing), Bound::PREDICTION)
+    };
+    [
+        row("least share of operations left", 5.0, left().fold(f64::INFINITY, f64::min)),
+        row("largest share of operations left", 30.0, left().fold(0.0, f64::max)),
+    ]
+}
+
 impl PrintedScene {
+    /// By rows with so many bytes an entry, and four a row.
+    fn sparse_megabytes(&self, bytes: f64) -> f64 {
+        bytes * self.nonzeros + 4e-6 * (self.vertices * self.side * self.side) as f64
+    }
+
     fn dense_megabytes(&self) -> f64 {
         1e-6 * DENSE * (self.vertices * self.side * self.side * LIGHT_TEXELS) as f64
     }

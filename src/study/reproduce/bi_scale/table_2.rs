@@ -1,20 +1,16 @@
 //! Table II on stand-ins: biclusters of models of as many vertices as printed.
 
 use super::printed::{BUNNIES, PrintedScene};
+use super::stand_in::{LOG2_SAMPLES, StandIn};
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
     failed, number,
 };
-use crate::geom::Sides;
-use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crate::prt::all_frequency::visibility::Horizon;
 use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::transfer::transfer_matrix;
-use crate::prt::transfer::{Tangents, Vertices};
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::tracer::HostTracer;
 
 const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed bodies with as many vertices, and {} x {} local directions of {} x {} visibility \
     samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal there are fewer values by {} %. \
@@ -23,20 +19,6 @@ const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed b
 const QUESTION: &str = "the models; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
 const MODELS: [TransferModel; 3] =
     [TransferModel::BiScaleBunny, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
-const LOG2_SAMPLES: u32 = 1;
-
-/// T of a model.
-fn matrix(model: TransferModel, side: usize, horizon: Horizon) -> Result<SparseMatrix, ReproduceError> {
-    let mesh = model.mesh(1);
-    let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
-    let all: Vec<u32> = (0..vertices.len() as u32).collect();
-    let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };
-    let mut caster = HostTracer::new(&mesh, Sides::Both);
-    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ())
-        .map_err(|error| failed(HOST)(&error))?;
-    transfer_matrix(&vertices, &maps, &LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?)
-        .map_err(|error| failed(HOST)(&error))
-}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mut table = Table::of(
@@ -47,9 +29,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let computed = if shared.models == ModelSize::Reduced { 1 } else { BUNNIES.len() };
     let (mut rows, mut fewer) = (Vec::new(), 0.0);
     for (scene, model) in BUNNIES.into_iter().zip(MODELS).take(computed) {
-        let matrix = matrix(model, scene.side, Horizon::Geometry)?;
+        let matrix = StandIn::new(model.mesh(1), scene.side, Horizon::Geometry)?.matrix;
         if rows.is_empty() {
-            let above = self::matrix(model, scene.side, Horizon::Normal)?;
+            let above = StandIn::new(model.mesh(1), scene.side, Horizon::Normal)?.matrix;
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / matrix.nonzeros() as f64);
         }
         let found =

@@ -1,0 +1,177 @@
+//! Biclusters beside other ways to store transfer: bytes, and how far the light that arrives is off.
+
+use std::time::Instant;
+
+use crate::prt::all_frequency::grid::LIGHT_TEXELS;
+use crate::prt::bi_scale::bicluster::Biclustering;
+use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::prt::bi_scale::product::by_rows;
+use crate::prt::bi_scale::rivals::{
+    CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
+    ReshuffledVisibility, RivalError, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
+};
+use crate::report::{Cell, Table};
+use crate::study::ProgressFn;
+
+/// Texels along an edge of the coarse cubes of the rejected form: as many over the hemisphere as there are local
+/// directions of 8 x 8, about, and the light's own.
+const COARSE_SIDES: [usize; 2] = [4, 32];
+
+/// What is compared.
+#[derive(Clone, Copy, Debug)]
+pub struct StoredComparison<'a> {
+    /// T.
+    pub matrix: &'a SparseMatrix,
+    /// Biclusters of it.
+    pub biclusters: &'a Biclustering,
+    /// Frames of its vertices; without them nothing that is rotated is compared.
+    pub transfer: Option<LocalTransfer<'a>>,
+    /// Clusters of rows.
+    pub clusters: RowClusterOptions,
+    /// Wavelets of rows.
+    pub wavelets: HaarRowOptions,
+    /// The order of harmonics.
+    pub order: usize,
+}
+
+/// A way to store transfer, with what it takes and what it loses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StoredWay {
+    /// The way, with its settings.
+    pub name: String,
+    /// Bytes by layout, of which the first is that of the errors.
+    pub sizes: Vec<StoredSize>,
+    /// For each light the error of all its channels.
+    pub errors: Vec<LocalLightError>,
+    /// How long it took to make.
+    pub seconds: f64,
+}
+
+/// A light: numbers per light texel times solid angles, channel by channel.
+pub type LightChannels = Vec<Vec<f64>>;
+
+impl StoredComparison<'_> {
+    /// All ways under some lights, biclusters first. `visit` sees each when it is made.
+    ///
+    /// # Errors
+    /// [`RivalError`]; what a layout of narrow numbers has no room for is left out.
+    pub fn ways(
+        &self,
+        lights: &[LightChannels],
+        progress: &mut ProgressFn<'_>,
+        visit: &mut dyn FnMut(&str, &dyn StoredTransfer),
+    ) -> Result<Vec<StoredWay>, RivalError> {
+        if self.matrix.columns() != LIGHT_TEXELS {
+            return Err(RivalError::Columns { found: self.matrix.columns() });
+        }
+        let exact: Vec<Vec<f64>> =
+            lights.iter().map(|light| joined(light, |light| by_rows(self.matrix, light))).collect();
+        let mut ways = Ways { lights, exact, found: Vec::new(), visit };
+        let (rows, budget) = (self.matrix.rows(), self.biclusters.sizes()[0].bytes);
+        ways.push("biclusters", self.biclusters, 0.0);
+        let start = Instant::now();
+        if let Ok(narrow) = NarrowRows::new(self.matrix) {
+            ways.push("rows of 3 bytes an entry", &narrow, start.elapsed().as_secs_f64());
+        }
+        ways.make("rows of 8 bytes an entry", || WideRows::new(self.matrix))?;
+        for (clusters, what) in self.cluster_settings(budget) {
+            let steps = clusters.rounds as u64 + 1;
+            let name = format!("{} clusters of rows, {} vectors each{what}", clusters.clusters, clusters.vectors);
+            let mut observe = |round: usize| progress("rounds of clusters", round as u64 + 1, steps);
+            ways.make(name, || RowClusters::new(self.matrix, &clusters, &mut observe))?;
+        }
+        progress("wavelets", 0, 1);
+        let equal = self.wavelets.within(budget, rows);
+        let other = match self.wavelets.priority {
+            CoefficientPriority::Area => CoefficientPriority::Magnitude,
+            CoefficientPriority::Magnitude => CoefficientPriority::Area,
+        };
+        for (wavelets, what) in [
+            (self.wavelets, ""),
+            (HaarRowOptions { priority: other, ..self.wavelets }, ""),
+            (equal, EQUAL),
+            (HaarRowOptions { priority: other, ..equal }, EQUAL),
+        ] {
+            let name = format!("{} wavelets a row by {}{what}", wavelets.keep, wavelets.priority);
+            ways.make(name, || HaarRows::new(self.matrix, wavelets))?;
+        }
+        progress("harmonics", 0, 1);
+        let order = self.order;
+        ways.make(format!("light of order {order}"), || HarmonicRows::of_light(self.matrix, order))?;
+        if let Some(transfer) = &self.transfer {
+            ways.make(format!("harmonics of order {order} on both sides"), || HarmonicRows::of_both(transfer, order))?;
+            for side in COARSE_SIDES {
+                let name = format!("visibility of 6 x {side} x {side} texels, reshuffled");
+                ways.make(name, || ReshuffledVisibility::new(transfer, side))?;
+            }
+        }
+        Ok(ways.found)
+    }
+
+    /// Clusters as asked for, and with as many vectors as go into some bytes where these are others.
+    fn cluster_settings(&self, budget: u64) -> Vec<(RowClusterOptions, &'static str)> {
+        let equal = self.clusters.within(budget, [self.matrix.rows(), self.matrix.columns()]);
+        let mut settings = vec![(self.clusters, "")];
+        if equal.vectors != self.clusters.vectors {
+            settings.push((equal, EQUAL));
+        }
+        settings
+    }
+}
+
+/// Behind ways that take about as many bytes as biclusters.
+const EQUAL: &str = ", in the bytes of biclusters";
+
+struct Ways<'a> {
+    lights: &'a [LightChannels],
+    /// T L by light, all channels one after another.
+    exact: Vec<Vec<f64>>,
+    found: Vec<StoredWay>,
+    visit: &'a mut dyn FnMut(&str, &dyn StoredTransfer),
+}
+
+impl Ways<'_> {
+    fn make<S: StoredTransfer>(
+        &mut self,
+        name: impl Into<String>,
+        make: impl FnOnce() -> Result<S, RivalError>,
+    ) -> Result<(), RivalError> {
+        let start = Instant::now();
+        let stored = make()?;
+        let seconds = start.elapsed().as_secs_f64();
+        self.push(name, &stored, seconds);
+        Ok(())
+    }
+
+    fn push(&mut self, name: impl Into<String>, stored: &dyn StoredTransfer, seconds: f64) {
+        let lights = self.lights.iter().zip(&self.exact);
+        let error = |(light, exact): (&LightChannels, &Vec<f64>)| {
+            LocalLightError::new(&joined(light, |l| stored.multiply(l)), exact)
+        };
+        let errors = lights.map(error).collect();
+        let name = name.into();
+        (self.visit)(&name, stored);
+        self.found.push(StoredWay { name, sizes: stored.sizes(), errors, seconds });
+    }
+}
+
+fn joined(light: &LightChannels, product: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
+    light.iter().flat_map(|channel| product(channel)).collect()
+}
+
+/// A line per way: megabytes, their share of the first way's, and per light the relative error in percent and the
+/// largest.
+pub fn stored_ways_table(title: &str, ways: &[StoredWay], lights: &[&str]) -> Table {
+    let errors = lights.iter().flat_map(|light| [format!("{light}_error_%"), format!("{light}_largest")]);
+    let headings: Vec<String> = ["way", "MB", "of_biclusters_%"].map(str::to_owned).into_iter().chain(errors).collect();
+    let mut table = Table::new(title, &headings);
+    let whole = ways.first().map_or(1, |first| first.sizes[0].bytes).max(1) as f64;
+    for way in ways {
+        let bytes = way.sizes[0].bytes as f64;
+        let head = [way.name.as_str().into(), Cell::measured(1e-6 * bytes), Cell::decimals(100.0 * bytes / whole, 1)];
+        let errors =
+            way.errors.iter().flat_map(|error| [Cell::measured(100.0 * error.relative), Cell::measured(error.largest)]);
+        table.push(head.into_iter().chain(errors));
+    }
+    table
+}

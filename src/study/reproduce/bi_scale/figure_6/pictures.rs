@@ -1,0 +1,114 @@
+//! Pictures of a model whose vertices send on the light of their local directions, glossily, as each way gives it.
+
+use glam::DVec3;
+
+use super::super::stand_in::StandIn;
+use super::{HOST, ReproduceError, failed};
+use crate::geom::vector::{unit, wide};
+use crate::picture::metrics::{ScreenPicture, flip};
+use crate::prt::all_frequency::grid::texel_center;
+use crate::prt::bi_scale::product::by_rows;
+use crate::prt::brdf::Brdf;
+use crate::report::{Cell, NamedPicture, Table};
+use crate::scene::Camera;
+use crate::study::prt::{LightChannels, Seen, auto_exposure, linear_picture};
+
+/// Pixels along an edge.
+const SIDE: u32 = 160;
+/// Pixels per degree of whoever looks, FLIP's usual figure.
+const PIXELS_PER_DEGREE: f64 = 67.0;
+/// A glossy plastic: broad enough that 8 x 8 directions show its lobe.
+const SURFACE: Brdf = Brdf::Phong { albedo: 0.4, specular: 0.3, exponent: 12.0 };
+/// From where the model is looked at, in units of its size, from its middle.
+const EYE: DVec3 = DVec3::new(1.6, -2.4, 1.2);
+
+/// Pixels by name.
+type NamedPixels = (String, Vec<[f64; 3]>);
+
+/// Pictures in the making.
+pub(super) struct VertexPictures<'a> {
+    scene: &'a StandIn,
+    light: &'a LightChannels,
+    camera: Camera,
+    seen: Seen,
+    /// Per vertex the local direction of the eye.
+    views: Vec<DVec3>,
+    /// Of rows of the matrix, each texel from its own direction; of the matrix; then of the ways.
+    found: Vec<NamedPixels>,
+}
+
+impl<'a> VertexPictures<'a> {
+    pub(super) fn new(scene: &'a StandIn, light: &'a LightChannels) -> Result<Self, ReproduceError> {
+        let [low, high] = scene.mesh.bounds().unwrap_or_default().map(wide);
+        let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
+        let eye = (middle + size * EYE).as_vec3().to_array();
+        let camera = Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.22, SIDE, SIDE)
+            .map_err(|error| failed(HOST)(&error))?;
+        let seen = Seen::new(&scene.mesh, &scene.vertices, &camera);
+        let places = scene.vertices.positions().iter().zip(scene.vertices.frames());
+        let views = places.map(|(&at, frame)| frame.to_local(unit(wide(eye) - wide(at)).unwrap_or(frame.normal())));
+        let views = views.collect();
+        let mut pictures = Self { scene, light, camera, seen, views, found: Vec::new() };
+        let exact = pictures.of_texels();
+        pictures.found.push(("every texel from its own direction".to_owned(), exact));
+        pictures.add("the matrix", |light| by_rows(&scene.matrix, light));
+        Ok(pictures)
+    }
+
+    /// Light of local directions as a way gives it, channel by channel.
+    pub(super) fn add(&mut self, name: &str, product: impl Fn(&[f64]) -> Vec<f64>) {
+        let directions = self.scene.directions.directions();
+        let local: Vec<Vec<f64>> = self.light.iter().map(|channel| product(channel)).collect();
+        let of_vertex = |(vertex, view): (usize, &DVec3)| {
+            let mut sum = [0.0; 3];
+            for (at, &direction) in directions.iter().enumerate() {
+                let response = SURFACE.value(*view, direction) * direction.z;
+                (0..3).for_each(|channel| sum[channel] += response * local[channel][vertex * directions.len() + at]);
+            }
+            sum
+        };
+        let colors: Vec<[f64; 3]> = self.views.iter().enumerate().map(of_vertex).collect();
+        self.found.push((name.to_owned(), self.seen.colors(&colors, [0.0; 3])));
+    }
+
+    /// The same without local directions: the light of each texel that a vertex sees, from where it comes.
+    fn of_texels(&self) -> Vec<[f64; 3]> {
+        let local = self.scene.directions.directions().len();
+        let matrix = &self.scene.matrix;
+        let of_vertex = |(vertex, view): (usize, &DVec3)| {
+            let (mut sum, frame) = ([0.0; 3], &self.scene.vertices.frames()[vertex]);
+            for entry in (vertex * local..(vertex + 1) * local).flat_map(|row| matrix.row(row)) {
+                let texel = entry.index as usize;
+                let direction = frame.to_local(texel_center(texel));
+                let share = matrix.unit() * f64::from(entry.value);
+                let response = share * SURFACE.value(*view, direction) * direction.z.max(0.0);
+                (0..3).for_each(|channel| sum[channel] += response * self.light[channel][texel]);
+            }
+            sum
+        };
+        let colors: Vec<[f64; 3]> = self.views.iter().enumerate().map(of_vertex).collect();
+        self.seen.colors(&colors, [0.0; 3])
+    }
+
+    /// All pictures, exposed alike, and how they differ from that of the matrix.
+    pub(super) fn finish(self) -> Result<(Vec<NamedPicture>, Table), ReproduceError> {
+        let exact = &self.found[1].1;
+        let exposure = auto_exposure(exact);
+        let whole: f64 = exact.iter().flatten().map(|value| value * value).sum();
+        let screen = |colors: &[[f64; 3]]| {
+            let picture = linear_picture(&self.camera, colors);
+            ScreenPicture::new(&picture, exposure).map_err(|error| failed(HOST)(&error))
+        };
+        let expected = screen(exact)?;
+        let mut table = Table::of("Pictures: off that of the matrix", "way rms_% flip");
+        let mut pictures = Vec::new();
+        for (at, (name, colors)) in self.found.iter().enumerate() {
+            let apart: f64 = colors.iter().flatten().zip(exact.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum();
+            let seen = flip(&screen(colors)?, &expected, PIXELS_PER_DEGREE).map_or(0.0, |seen| seen.mean);
+            table.push([name.as_str().into(), Cell::measured(100.0 * (apart / whole).sqrt()), Cell::measured(seen)]);
+            let image = linear_picture(&self.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+            pictures.push(NamedPicture::new(format!("bi-scale-figure-6-{at}"), image, name.clone()));
+        }
+        Ok((pictures, table))
+    }
+}

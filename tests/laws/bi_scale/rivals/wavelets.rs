@@ -1,0 +1,97 @@
+//! Rows in wavelets, against plain loops.
+
+use approx::assert_relative_eq;
+use crossbar::prt::all_frequency::haar::Haar;
+use crossbar::prt::bi_scale::matrix::SparseMatrix;
+use crossbar::prt::bi_scale::product::by_rows;
+use crossbar::prt::bi_scale::rivals::reference::{by_largest_coefficients, dense_row};
+use crossbar::prt::bi_scale::rivals::{
+    CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows, RivalError, StoredTransfer,
+};
+
+use super::{any_rows, light, transfer};
+
+const PRIORITIES: [CoefficientPriority; 2] = [CoefficientPriority::Area, CoefficientPriority::Magnitude];
+
+/// The row that stored coefficients stand for.
+fn approximation(rows: &HaarRows, row: usize) -> Vec<f64> {
+    let mut values = vec![0.0; 6144];
+    rows.row(row).for_each(|(at, value)| values[at] = value);
+    values.chunks_exact_mut(1024).for_each(|face| Haar::new(32).inverse(face));
+    values
+}
+
+fn singles(matrix: &SparseMatrix, keep: usize, priority: CoefficientPriority) -> HaarRows {
+    let storage = CoefficientStorage::Single;
+    HaarRows::new(matrix, HaarRowOptions { keep, priority, storage }).expect("rows")
+}
+
+/// Coefficients of quarters are multiples of powers of two: nothing is rounded.
+#[test]
+fn the_largest_coefficients_are_those_of_plain_loops() {
+    for seed in 0..12 {
+        let matrix = any_rows(seed, 12);
+        for (keep, priority) in [1, 2, 12, 100, 6144].into_iter().flat_map(|keep| PRIORITIES.map(|p| (keep, p))) {
+            let found = singles(&matrix, keep, priority);
+            for row in 0..matrix.rows() {
+                let expected = by_largest_coefficients(&dense_row(&matrix, row), keep, priority);
+                assert!(found.row(row).len() <= keep);
+                assert!(approximation(&found, row) == expected, "seed {seed}, row {row}, {keep} by {priority}");
+            }
+        }
+    }
+}
+
+/// Orthonormal wavelets: with all coefficients the product is that of the matrix; with fewer, that of the rows that
+/// they stand for, and magnitude leaves the least squared error.
+#[test]
+fn products_are_those_of_the_approximated_rows() {
+    let (matrix, light) = (transfer().1, light(7));
+    let all = singles(&matrix, 6144, CoefficientPriority::Area).multiply(&light);
+    for (found, expected) in all.iter().zip(by_rows(&matrix, &light)) {
+        assert_relative_eq!(*found, expected, max_relative = 1e-12, epsilon = 1e-14);
+    }
+    let mut squares = [0.0; 2];
+    for (priority, squares) in PRIORITIES.into_iter().zip(&mut squares) {
+        let rows = singles(&matrix, 12, priority);
+        for (row, found) in rows.multiply(&light).into_iter().enumerate() {
+            let values = approximation(&rows, row);
+            let expected: f64 = values.iter().zip(&light).map(|(value, light)| value * light).sum();
+            assert_relative_eq!(found, expected, max_relative = 1e-11, epsilon = 1e-14);
+            let exact = dense_row(&matrix, row);
+            *squares += values.iter().zip(&exact).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        }
+    }
+    assert!(squares[1] > 0.0 && 1.2 * squares[1] < squares[0], "{squares:?}");
+}
+
+/// A byte is off by half a step at most; sizes count what is stored.
+#[test]
+fn bytes_are_steps_of_the_largest() {
+    let matrix = any_rows(5, 40);
+    let exact = singles(&matrix, 12, CoefficientPriority::Area);
+    let coarse = HaarRows::new(&matrix, HaarRowOptions::default()).expect("rows");
+    let values = |rows: &HaarRows| (0..40).flat_map(|row| rows.row(row).collect::<Vec<_>>()).collect::<Vec<_>>();
+    let (exact_values, coarse_values) = (values(&exact), values(&coarse));
+    let step = exact_values.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs())) / 127.0;
+    let mut moved = 0;
+    for ((at, exact), (place, coarse)) in exact_values.iter().zip(&coarse_values) {
+        assert_eq!(at, place);
+        assert!((exact - coarse).abs() <= 0.5001 * step, "{exact} to {coarse} in steps of {step}");
+        moved += usize::from(exact != coarse);
+    }
+    assert!(moved > 100, "{moved} of {}", exact_values.len());
+    assert_eq!([coarse.sizes()[0].bytes, exact.sizes()[0].bytes], [3 * 12 * 40, 6 * 12 * 40]);
+    let stored = exact_values.len() as u64;
+    assert_eq!([coarse.sizes()[1].bytes, exact.sizes()[1].bytes], [3 * stored + 4 * 41, 6 * stored + 4 * 41]);
+    let options = HaarRowOptions::default();
+    assert_eq!([35_u64, 36, 10_000].map(|bytes| options.within(40 * bytes, 40).keep), [11, 12, 3333]);
+}
+
+#[test]
+fn what_is_no_transfer_is_refused() {
+    let narrow = SparseMatrix::new(32, 0).unwrap();
+    assert_eq!(HaarRows::new(&narrow, HaarRowOptions::default()), Err(RivalError::Columns { found: 32 }));
+    let none = HaarRowOptions { keep: 0, ..HaarRowOptions::default() };
+    assert_eq!(HaarRows::new(&any_rows(1, 2), none), Err(RivalError::Coefficients { found: 0 }));
+}
