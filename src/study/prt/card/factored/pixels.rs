@@ -53,7 +53,7 @@ pub(super) fn exact_pixels(
 ) -> Vec<[f64; 3]> {
     let colors = matches!(place, ProductPlace::Vertices(_)).then(|| vertex_radiance(mesh, eye));
     let pixel = |seen: &Option<SeenPixel>| {
-        let Some(SeenPixel { corners, weights }) = *seen else { return [0.0; 3] };
+        let Some(SeenPixel { corners, weights, .. }) = *seen else { return [0.0; 3] };
         let radiance = match &colors {
             Some(colors) => pixel_of_colors(colors, corners, weights),
             None => pixel_of_products(mesh, (view_of(place), eye), corners, weights),
