@@ -18,7 +18,7 @@ pub use all_frequency::{
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
 pub use card::{
-    AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
+    AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
     factored_precision_table,
 };
 pub use compression_error::CompressionError;

@@ -228,6 +228,16 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: |_| Ok(bi_scale::counts()),
     },
     ReproduceEntry {
+        id: "bi-scale-figure-8",
+        title: "More local directions (bi-scale transfer, figure 8)",
+        work: bi_scale::figure_8,
+    },
+    ReproduceEntry {
+        id: "bi-scale-frames",
+        title: "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
+        work: bi_scale::frames,
+    },
+    ReproduceEntry {
         id: "bi-scale-table-2",
         title: "Biclusters of bunnies (bi-scale transfer, table II)",
         work: bi_scale::table_2,

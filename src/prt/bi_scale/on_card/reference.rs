@@ -34,7 +34,7 @@ pub fn patch_at(patch: &[[f32; 3]], size: usize, [u, v]: [f64; 2], edges: BlockE
 /// Equation 3 at a pixel: texture coordinates, the local view and local light are interpolated between three vertices.
 pub fn pixel(
     mesh: &TexturedMesh<'_>,
-    local: &[[f32; 3]],
+    local: &[[f64; 3]],
     (eye, edges): ([f32; 3], BlockEdges),
     seen: &SeenPixel,
 ) -> [f64; 3] {
@@ -56,7 +56,7 @@ pub fn pixel(
         }
         for (corner, weight) in seen.corners.into_iter().zip(seen.weights) {
             let light = local[corner as usize * directions + direction];
-            (0..3).for_each(|channel| pixel[channel] += weight * response[channel] * f64::from(light[channel]));
+            (0..3).for_each(|channel| pixel[channel] += weight * response[channel] * light[channel]);
         }
     }
     pixel

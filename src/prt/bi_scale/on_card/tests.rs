@@ -237,11 +237,12 @@ impl Hills {
     /// Root mean square and largest difference from equation 3 in f64, as shares of the largest pixel.
     fn error(&self, profile: &Profile, edges: BlockEdges, drawing: &Texels) -> [f64; 2] {
         let seen = seen_pixels(profile, &self.vertices, &camera()).expect("pixels");
+        let local: Vec<[f64; 3]> = self.local.iter().map(|rgb| rgb.map(f64::from)).collect();
         let (mut worst, mut largest, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
             assert_eq!(texel[3] != 0.0, seen.is_some(), "what is covered");
             let Some(seen) = seen else { continue };
-            let expected = pixel(&self.mesh(), &self.local, (camera().eye(), edges), seen);
+            let expected = pixel(&self.mesh(), &local, (camera().eye(), edges), seen);
             for (found, expected) in texel.iter().zip(expected) {
                 let off = (f64::from(*found) - 0.7 * expected).abs();
                 (worst, largest, squares) = (worst.max(off), largest.max(0.7 * expected), squares + off * off);
@@ -301,7 +302,10 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
 fn fewer_bits_show() {
     let hills = Hills::new(rough(8, 4, 4));
     let fine = floats(BlockEdges::Wrapped);
-    let rms = |options, format| hills.error(&device("gt200"), fine.edges, &hills.draw(&device("gt200"), options, format))[0];
+    // The sampler's weights in more bits than the card's, so that they hide nothing.
+    let mut profile = device("gt200");
+    profile.rules.filter_fraction_bits = 12;
+    let rms = |options, format| hills.error(&profile, fine.edges, &hills.draw(&profile, options, format))[0];
     let best = rms(fine, FLOATS);
     let texture = |texture| rms(DisplayOptions { texture, ..fine }, FLOATS);
     let local = |local| rms(DisplayOptions { local, ..fine }, FLOATS);
@@ -353,7 +357,14 @@ fn what_does_not_fit_is_refused() {
         refused(narrow, touching),
         refused(device("r350"), touching),
     ];
-    insta::assert_snapshot!(messages.join("\n"), @"");
+    insta::assert_snapshot!(messages.join("\n"), @r"
+    4 x 4 blocks of 6 x 6 texels in 9 layers need a volume of 24 x 24 x 9; `gt200` has volumes of 23 a side (limits.max_volume_size); take a smaller patch, or fewer directions
+    4 x 4 blocks of 4 x 4 texels in 9 layers need a volume of 16 x 16 x 9; `gt200` has volumes of 8 a side (limits.max_volume_size); take a smaller patch, or fewer directions
+    expected a bidirectional texture in rgba8, rgba16f or rgba32f, found rgba16s
+    `gt200` filters no rgba32f textures (limits.float_filtering); hold samples in 8 bits
+    a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `gt200` has 2 (limits.texture_coordinates)
+    device `r350` runs no `ps_2_a` programs, in which the display is written; expected one of nv30, nv35, gt200
+    ");
 }
 
 #[test]
@@ -381,5 +392,16 @@ fn parts_that_do_not_go_together_are_refused() {
     for light in [vec![[1.0; 3]; 9], vec![[-1.0; 3]; 10], vec![[f32::INFINITY; 3]; 10]] {
         messages.push(card.multiply(&light).expect_err("refused").to_string());
     }
-    insta::assert_snapshot!(messages.join("\n"), @"");
+    insta::assert_snapshot!(messages.join("\n"), @r"
+    expected 144 numbers of local light, found 143
+    expected an exposure of 0 to 1e30, found -1
+    expected local light times exposure that single precision holds, found 339025263248632160000000000000000000000000
+    expected an exposure of 0 to 1e30, found NaN
+    expected 50 triangles with texture coordinates, found 49
+    expected finite texture coordinates, found NaN
+    the mesh has no texture coordinates, by which a bidirectional texture is placed
+    expected 10 numbers of light, found 9
+    expected light of finite numbers, of 0 or more in bytes, found -1
+    expected light of finite numbers, of 0 or more in bytes, found inf
+    ");
 }

@@ -1,20 +1,13 @@
 //! Table II on stand-ins: biclusters of models of as many vertices as printed.
 
+use super::models::{ClusteredModel, LOG2_SAMPLES, SeenModel};
 use super::printed::{BUNNIES, PrintedScene};
 use super::{
-    Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
-    failed, number,
+    Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
 };
-use crate::geom::Sides;
-use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::transfer::transfer_matrix;
-use crate::prt::transfer::{Tangents, Vertices};
+use crate::prt::all_frequency::visibility::Horizon;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
-use crate::tracer::HostTracer;
 
 const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed bodies with as many vertices, and {} x {} local directions of {} x {} visibility \
     samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal there are fewer values by {} %. \
@@ -23,20 +16,6 @@ const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed b
 const QUESTION: &str = "the models; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
 const MODELS: [TransferModel; 3] =
     [TransferModel::BiScaleBunny, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
-const LOG2_SAMPLES: u32 = 1;
-
-/// T of a model.
-fn matrix(model: TransferModel, side: usize, horizon: Horizon) -> Result<SparseMatrix, ReproduceError> {
-    let mesh = model.mesh(1);
-    let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
-    let all: Vec<u32> = (0..vertices.len() as u32).collect();
-    let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };
-    let mut caster = HostTracer::new(&mesh, Sides::Both);
-    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ())
-        .map_err(|error| failed(HOST)(&error))?;
-    transfer_matrix(&vertices, &maps, &LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?)
-        .map_err(|error| failed(HOST)(&error))
-}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mut table = Table::of(
@@ -47,15 +26,18 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let computed = if shared.models == ModelSize::Reduced { 1 } else { BUNNIES.len() };
     let (mut rows, mut fewer) = (Vec::new(), 0.0);
     for (scene, model) in BUNNIES.into_iter().zip(MODELS).take(computed) {
-        let matrix = matrix(model, scene.side, Horizon::Geometry)?;
-        if rows.is_empty() {
-            let above = self::matrix(model, scene.side, Horizon::Normal)?;
-            fewer = 100.0 * (1.0 - above.nonzeros() as f64 / matrix.nonzeros() as f64);
-        }
-        let found =
-            bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
-        rows.extend(scene_rows(scene, &matrix, &found));
-        table.push(line(scene, &matrix, &found));
+        let larger;
+        let found = if rows.is_empty() {
+            let found = shared.bi_scale.biclusters()?;
+            let above = SeenModel::new(&model.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
+            fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
+            found
+        } else {
+            larger = SeenModel::new(&model.mesh(1), Horizon::Geometry)?.clustered(scene.side)?;
+            &larger
+        };
+        rows.extend(scene_rows(scene, found));
+        table.push(line(scene, found));
     }
     let side = BUNNIES[0].side as f64;
     let samples = f64::from(1_u32 << LOG2_SAMPLES);
@@ -69,41 +51,32 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Bytes of biclusters: four per row, eight per column.
-fn megabytes(found: &Biclustering) -> f64 {
-    4e-6 * (found.row_entries() + 2 * found.column_entries()) as f64
-}
-
-fn operations_left(matrix: &SparseMatrix, found: &Biclustering) -> f64 {
-    100.0 * found.cost() as f64 / (2 * matrix.nonzeros()) as f64
-}
-
-fn scene_rows(scene: &PrintedScene, matrix: &SparseMatrix, found: &Biclustering) -> [PaperRow; 3] {
+fn scene_rows(scene: &PrintedScene, found: &ClusteredModel) -> [PaperRow; 3] {
     let row = |what: &str, value, unit, ours| {
         let target = PaperFigure::printed(value, 1, unit, "table 2");
         let name = format!("{}: {what}", scene.name);
         PaperRow::new(name, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
     };
     [
-        row("values other than 0", scene.nonzeros, "million", 1e-6 * matrix.nonzeros() as f64),
-        row("operations left", scene.operations_left, "%", operations_left(matrix, found)),
-        row("biclusters", scene.megabytes[1], "MB", megabytes(found)),
+        row("values other than 0", scene.nonzeros, "million", 1e-6 * found.nonzeros as f64),
+        row("operations left", scene.operations_left, "%", found.operations_left()),
+        row("biclusters", scene.megabytes[1], "MB", found.megabytes()),
     ]
 }
 
-fn line(scene: &PrintedScene, matrix: &SparseMatrix, found: &Biclustering) -> Vec<Cell> {
+fn line(scene: &PrintedScene, found: &ClusteredModel) -> Vec<Cell> {
     vec![
         scene.name.into(),
         scene.vertices.into(),
         Cell::decimals(scene.nonzeros, 1),
-        Cell::decimals(1e-6 * matrix.nonzeros() as f64, 2),
-        found.len().into(),
-        found.row_entries().into(),
-        found.column_entries().into(),
+        Cell::decimals(1e-6 * found.nonzeros as f64, 2),
+        found.biclusters.len().into(),
+        found.biclusters.row_entries().into(),
+        found.biclusters.column_entries().into(),
         Cell::decimals(scene.operations_left, 1),
-        Cell::decimals(operations_left(matrix, found), 1),
+        Cell::decimals(found.operations_left(), 1),
         Cell::decimals(scene.megabytes[1], 1),
-        Cell::decimals(megabytes(found), 1),
-        Cell::decimals(3e-6 * matrix.nonzeros() as f64, 1),
+        Cell::decimals(found.megabytes(), 1),
+        Cell::decimals(3e-6 * found.nonzeros as f64, 1),
     ]
 }
