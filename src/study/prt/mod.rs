@@ -18,8 +18,8 @@ pub use all_frequency::{
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
 pub use card::{
-    AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
-    factored_precision_table,
+    AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision,
+    OnCard, PixelErrors, factored_precision, factored_precision_table,
 };
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;

@@ -160,10 +160,7 @@ impl GatherCard {
     ///
     /// # Errors
     /// As [`Self::multiply`].
-    pub fn logged_multiply(
-        &mut self,
-        light: &[[f32; 3]],
-    ) -> Result<(Vec<[f32; 3]>, Vec<Event>), BiScaleCardError> {
+    pub fn logged_multiply(&mut self, light: &[[f32; 3]]) -> Result<(Vec<[f32; 3]>, Vec<Event>), BiScaleCardError> {
         self.machine.record(true);
         let drawn = self.draw(light);
         self.machine.record(false);
@@ -233,16 +230,14 @@ impl Stage {
         let of_sheet = |row: f32| (pass.sheet_row as f32 + row) / sheet_rows as f32;
         let of_target = |row: f32| (first as f32 + row) / self.size[1] as f32;
         let across = 1.0 / width as f32;
-        let constants = constants([
-            [across, across / height as f32, 0.0, 0.0],
-            [0.0, rows as f32 / sheet_rows as f32, 0.0, 0.0],
-        ]);
+        let constants =
+            constants([[across, across / height as f32, 0.0, 0.0], [0.0, rows as f32 / sheet_rows as f32, 0.0, 0.0]]);
         let nearest = SamplerState::NEAREST_CLAMP;
         let mut textures = vec![(sheet, nearest), (source, BY_NUMBER)];
         if number > 0 {
             textures.push((self.targets[1 - written], nearest));
         }
-        let part = Viewport { y: first as i32, ..Viewport::new(self.size[0] as u32, rows as u32) };
+        let part = Viewport { y: (first as u32).cast_signed(), ..Viewport::new(self.size[0] as u32, rows as u32) };
         let pass = FullScreenPass {
             program,
             constants: &constants,
@@ -279,11 +274,7 @@ fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result
 
 /// The lists of rows: their biclusters' places in the buffer, in the order in which they were found. The place after
 /// the last one is 0.
-fn row_lists(
-    biclusters: &Biclustering,
-    buffer: &Lists,
-    limits: (ListLimits, &str),
-) -> Result<Lists, BiScaleCardError> {
+fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
     let mut places = vec![0; biclusters.len()];
     (0_u32..).zip(&buffer.order).for_each(|(place, &bicluster)| places[bicluster as usize] = place);
     let none = biclusters.len() as f32 + 0.5;
@@ -291,9 +282,7 @@ fn row_lists(
     let lengths: Vec<usize> = begins.windows(2).map(|ends| (ends[1] - ends[0]).div_ceil(4)).collect();
     let texel = |row: usize, at: usize| {
         let list = &of_row[begins[row]..begins[row + 1]];
-        [0, 1, 2, 3].map(|k| {
-            list.get(4 * at + k).map_or(none, |&bicluster| places[bicluster as usize] as f32 + 0.5)
-        })
+        [0, 1, 2, 3].map(|k| list.get(4 * at + k).map_or(none, |&bicluster| places[bicluster as usize] as f32 + 0.5))
     };
     Lists::new("rows", (&lengths, &texel), [none; 4], limits)
 }

@@ -16,7 +16,7 @@ pub fn patch_at(patch: &[[f32; 3]], size: usize, [u, v]: [f64; 2], edges: BlockE
             texel = texel.clamp(0.5, size as f64 - 0.5);
         }
         let low = (texel - 0.5).floor();
-        let number = |texel: f64| (texel as isize).rem_euclid(size as isize) as usize;
+        let number = |texel: f64| (texel as isize).rem_euclid(size.cast_signed()) as usize;
         ([number(low), number(low + 1.0)], texel - 0.5 - low)
     };
     let ((columns, across), (rows, down)) = (axis(u), axis(v));

@@ -43,8 +43,8 @@ impl LocalStream<'_> {
             sets
         };
         let by_vertex: Vec<Vec<[u32; 4]>> = self.vertices.vertices.par_iter().map(of_vertex).collect();
-        let numbers = by_vertex.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
-        if let Some(found) = numbers.filter(|value| !value.is_finite()).next() {
+        let mut numbers = by_vertex.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
+        if let Some(found) = numbers.find(|value| !value.is_finite()) {
             return Err(BiScaleCardError::Figure { what: "local light that its format holds", found: found.into() });
         }
         Ok((0..self.layout.last()).map(|set| by_vertex.iter().map(|sets| sets[set]).collect()).collect())

@@ -74,9 +74,7 @@ impl TexturedMesh<'_> {
         }
         let bad = self.coordinates.as_flattened().as_flattened().iter().find(|value| !value.is_finite());
         match bad {
-            Some(&found) => {
-                Err(BiScaleCardError::Figure { what: "finite texture coordinates", found: found.into() })
-            }
+            Some(&found) => Err(BiScaleCardError::Figure { what: "finite texture coordinates", found: found.into() }),
             None => Ok(()),
         }
     }

@@ -159,11 +159,16 @@ fn no_read_reaches_another_block_or_layer() {
                     draw if draw < 0.5 => ends[(2.0 * draw * ends.len() as f64) as usize],
                     draw => (40.0 * draw - 30.0) as f32,
                 };
-                let (light, view) = ((pick(0) * (lights * lights) as f64) as usize, (pick(1) * (views * views) as f64) as usize);
+                let (light, view) =
+                    ((pick(0) * (lights * lights) as f64) as usize, (pick(1) * (views * views) as f64) as usize);
                 let at = coordinates(&grid, (light, view), [at(2), at(3)]);
                 let mut count = 0;
                 touched(&image, &BILINEAR, &rules, at, Lod::Base, |_, slice, row, column| {
-                    assert_eq!((slice as usize, grid.shown(column as usize, row as usize).0), (view, light), "{grid:?}");
+                    assert_eq!(
+                        (slice as usize, grid.shown(column as usize, row as usize).0),
+                        (view, light),
+                        "{grid:?}"
+                    );
                     count += 1;
                 });
                 assert!((1..=4).contains(&count), "{count} texels");
@@ -291,7 +296,7 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
         for edges in [BlockEdges::Touching, BlockEdges::Wrapped] {
             let hills = Hills::new(rough(8, 4, 3));
             let [_, error] = hills.error(&profile, edges, &hills.draw(&profile, floats(edges), FLOATS));
-            let bound = 3e-6 + 2.0 * 0.5_f64.powi(i32::from(bits) + 1);
+            let bound = 3e-6 + 1.0 / f64::from(1_u32 << bits);
             assert!(error < bound, "{bits} bits, {edges}: {error} of {bound}");
         }
     }
@@ -322,7 +327,8 @@ fn fewer_bits_show() {
 #[test]
 fn passes_fill_the_sets_of_coordinates() {
     let hills = Hills::new(flat(3, 4));
-    let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), DisplayOptions::default()).expect("a card");
+    let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), DisplayOptions::default())
+        .expect("a card");
     let counts = card.counts();
     assert_eq!((counts.passes, counts.directions_per_pass), (2, 9));
     assert_eq!(counts.volume, [24, 24, 9]);
@@ -337,7 +343,10 @@ fn passes_fill_the_sets_of_coordinates() {
 fn what_does_not_fit_is_refused() {
     let hills = Hills::new(flat(3, 4));
     let refused = |profile: Profile, options: DisplayOptions| {
-        BiScaleCard::new(profile, ExecutorKind::Batch, hills.mesh(), options).map(|_| ()).expect_err("refused").to_string()
+        BiScaleCard::new(profile, ExecutorKind::Batch, hills.mesh(), options)
+            .map(|_| ())
+            .expect_err("refused")
+            .to_string()
     };
     let mut small = device("gt200");
     small.limits.max_volume_size = Some(23);
@@ -370,14 +379,19 @@ fn what_does_not_fit_is_refused() {
 #[test]
 fn parts_that_do_not_go_together_are_refused() {
     let hills = Hills::new(flat(2, 2));
-    let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), DisplayOptions::default()).expect("a card");
+    let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), DisplayOptions::default())
+        .expect("a card");
     let view = |exposure| PrtView { camera: camera(), exposure, format: FLOATS };
     let mut refused = |local: &[[f32; 3]], exposure| {
         card.view_texels(local, &view(exposure)).map(|_| ()).expect_err("refused").to_string()
     };
     let bright = vec![[f32::MAX; 3]; hills.local.len()];
-    let mut messages =
-        vec![refused(&hills.local[1..], 1.0), refused(&hills.local, -1.0), refused(&bright, 1e3), refused(&hills.local, f64::NAN)];
+    let mut messages = vec![
+        refused(&hills.local[1..], 1.0),
+        refused(&hills.local, -1.0),
+        refused(&bright, 1e3),
+        refused(&hills.local, f64::NAN),
+    ];
     let fewer = TexturedMesh { coordinates: &hills.coordinates[1..], ..hills.mesh() };
     let mut lost = hills.coordinates.clone();
     lost[3][1][0] = f32::NAN;

@@ -9,9 +9,7 @@ use super::{HOST, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::prt::all_frequency::on_card::time::host_of_table_1;
 use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::on_card::{
-    BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates,
-};
+use crate::prt::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
 use crate::prt::bi_scale::texture::BidirectionalTexture;
 use crate::prt::on_card::PrtView;
 use crate::prt::on_card::time::{FrameTime, frame_time};

@@ -70,9 +70,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.extend([&FRAMES[0], &FRAMES[IN_TABLE_1]].map(|frames| view_row(frames, &run)));
     rows.extend(sentences(shared, &run, constant)?);
     let [reads, others] = run.counts.pixel_slots;
-    let numbers = [f64::from(PICTURE[0]), f64::from(PICTURE[1]), run.counts.passes as f64]
-        .into_iter()
-        .chain([run.counts.directions_per_pass as f64, f64::from(reads), f64::from(others)]);
+    let numbers = [f64::from(PICTURE[0]), f64::from(PICTURE[1]), run.counts.passes as f64].into_iter().chain([
+        run.counts.directions_per_pass as f64,
+        f64::from(reads),
+        f64::from(others),
+    ]);
     let values = std::iter::once(number(1e-9 * constant, 2)).chain(numbers.map(|value| number(value, 0)));
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, values)],

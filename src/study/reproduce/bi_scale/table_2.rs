@@ -3,7 +3,8 @@
 use super::models::{ClusteredModel, LOG2_SAMPLES, SeenModel};
 use super::printed::{BUNNIES, PrintedScene};
 use super::{
-    Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
+    Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
+    number,
 };
 use crate::prt::all_frequency::visibility::Horizon;
 use crate::report::{Cell, Table};

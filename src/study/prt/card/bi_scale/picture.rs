@@ -8,7 +8,9 @@ use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
 use crate::prt::all_frequency::on_card::SeenPixel;
 use crate::prt::bi_scale::kernels::BlockEdges;
 use crate::prt::bi_scale::on_card::reference::pixel;
-use crate::prt::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
+use crate::prt::bi_scale::on_card::{
+    BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat,
+};
 use crate::prt::on_card::PrtView;
 
 /// L~ by the card, and what it asked of it.

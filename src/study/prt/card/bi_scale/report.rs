@@ -80,7 +80,10 @@ impl Study for BiScaleOnCard {
             let view = (&seen[..], exposure);
             let all = precision(self, (&light, &exact), view, &mut |done| progress("sweep", done, count()))?;
             let rms = shown(all.worst.1, Quantity::Measured);
-            found.conclusion(format!("Of all that was held in fewer bits, most shows of {}: {rms} 255ths.", all.worst.0));
+            found.conclusion(format!(
+                "Of all that was held in fewer bits, most shows of {}: {rms} 255ths.",
+                all.worst.0
+            ));
             found.heading("What shows");
             found.explained_table(FoundTable::from(all.table).csv("precision").field("precision"), SWEEP);
         }

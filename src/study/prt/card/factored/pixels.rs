@@ -21,7 +21,11 @@ pub struct PixelErrors {
 
 impl PixelErrors {
     /// Of pixels, row by row, against others; those that show nothing do not count.
-    pub(in crate::study::prt::card) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
+    pub(in crate::study::prt::card) fn of(
+        seen: &[Option<SeenPixel>],
+        found: &[[f64; 3]],
+        expected: &[[f64; 3]],
+    ) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =
             shown.map(|(_, (a, b))| [0, 1, 2].map(|channel| STEPS * (a[channel] - b[channel]))).collect();
