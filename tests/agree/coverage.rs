@@ -308,6 +308,7 @@ fn every_suite_is_a_test_and_the_other_way_round() {
     assert!(names.len() >= 150, "{} suites", names.len());
     let own = [
         "all_frequency::",
+        "bi_scale::",
         "constants::",
         "coverage::",
         "fuzz::",

@@ -40,6 +40,7 @@ pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let written = crossbar::subsurface::kernels::programs().into_iter();
     let written = written.chain(crossbar::prt::kernels::programs());
     let written = written.chain(crossbar::prt::all_frequency::kernels::programs());
+    let written = written.chain(crossbar::prt::bi_scale::kernels::programs());
     all.0.extend(written.filter_map(|(name, text)| Program::new(name, &text)));
     all
 });

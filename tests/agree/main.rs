@@ -8,6 +8,7 @@
 
 mod agreement;
 mod all_frequency;
+mod bi_scale;
 mod blame;
 mod constants;
 mod coverage;

@@ -96,6 +96,8 @@ figures! {
         render_targets,
         /// Largest width and height of a texture, in texels.
         max_texture_size,
+        /// Largest width, height and depth of a volume texture, in texels.
+        max_volume_size,
         /// Largest width and height of a render target, in pixels.
         max_target_size,
         /// Magnitude that a pixel register holds at least (`PixelShader1xMaxValue`).

@@ -53,6 +53,9 @@ pub enum MachineError {
     /// A `texture` or `target` is larger than the device allows.
     #[error("{what} is {width}x{height}, `{device}` allows {limit} a side (limits.{key})")]
     TooLarge { what: &'static str, device: String, width: u32, height: u32, limit: u32, key: &'static str },
+    /// A volume texture is larger than the device allows.
+    #[error("volume texture is {width}x{height}x{depth}, `{device}` allows {limit} a side (limits.max_volume_size)")]
+    VolumeTooLarge { device: String, width: u32, height: u32, depth: u32, limit: u32 },
     /// The draw has neither colour target nor depth buffer.
     #[error("the draw has no target; bind a colour target or a depth buffer")]
     NoTarget,

@@ -6,7 +6,7 @@ use crate::device::Profile;
 use crate::event::Event;
 use crate::num::Format;
 use crate::output::{DepthFormat, DepthSurface};
-use crate::texture::{Image, TargetRounding, TexelFormat};
+use crate::texture::{Image, TargetRounding, TexelFormat, TextureKind};
 
 /// Makes or clears a resource.
 impl Machine {
@@ -16,8 +16,12 @@ impl Machine {
     /// If the device lacks the format, or the texture is too large for it.
     pub fn create_texture(&mut self, image: Image) -> Result<TextureId, MachineError> {
         check_texture_format(&self.profile, image.format())?;
-        let limit = self.profile.limits.max_texture_size;
-        check_size(&self.profile, "texture", limit, "max_texture_size", &image)?;
+        if image.kind() == TextureKind::Volume {
+            check_volume(&self.profile, &image)?;
+        } else {
+            let limit = self.profile.limits.max_texture_size;
+            check_size(&self.profile, "texture", limit, "max_texture_size", &image)?;
+        }
         check_levels(&self.profile, &image)?;
         let bytes = image.bytes().len() as u64;
         let id = self.keep(image);
@@ -217,6 +221,16 @@ fn check_size(
     match limit {
         Some(limit) if width > limit || height > limit => {
             Err(MachineError::TooLarge { what, device: profile.name.clone(), width, height, limit, key })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_volume(profile: &Profile, image: &Image) -> Result<(), MachineError> {
+    let [width, height, depth] = [image.width(), image.height(), image.slices()];
+    match profile.limits.max_volume_size {
+        Some(limit) if [width, height, depth].iter().any(|&side| side > limit) => {
+            Err(MachineError::VolumeTooLarge { device: profile.name.clone(), width, height, depth, limit })
         }
         _ => Ok(()),
     }

@@ -7,7 +7,7 @@ use refsim::machine::{
 };
 use refsim::output::{CompareFunction, DepthFormat};
 use refsim::raster::{Primitive, Viewport};
-use refsim::texture::{Image, SamplerState, TexelFormat};
+use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
 
 use crate::running::{checked, ideal};
 use crate::{COLOR, quads, screen};
@@ -53,6 +53,23 @@ fn every_mistake_has_its_error() {
         bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba8, 4096, 1).unwrap()).unwrap_err())
             .contains("max_texture_size")
     );
+    // A side of a volume, whichever it is, has a limit of its own: 256 on this card, 2048 for other textures.
+    let limit = machine.profile().limits.max_volume_size.unwrap();
+    for side in 0..3 {
+        let mut extents = [1; 3];
+        extents[side] = limit;
+        let volume = |extents| Image::new(TexelFormat::Rgba8, TextureKind::Volume, extents, 1).unwrap();
+        machine.create_texture(volume(extents)).unwrap();
+        extents[side] += 1;
+        let expected = format!(
+            "volume texture is {}x{}x{}, `{}` allows {limit} a side (limits.max_volume_size)",
+            extents[0],
+            extents[1],
+            extents[2],
+            machine.profile().name
+        );
+        assert_eq!(bad(machine.create_texture(volume(extents)).unwrap_err()), expected);
+    }
     let swapped = quads(&vertices, &vertex_program, &host, target);
     assert!(bad(machine.draw(&swapped).unwrap_err()).contains("expected a Pixel program, found `vs_1_1`"));
     let data = [[0; 4]; 3];

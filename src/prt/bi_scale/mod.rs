@@ -5,11 +5,14 @@
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
 //! - [`rivals`]: other ways to store transfer, beside which biclusters stand (section VI-B);
-//! - [`texture`]: the bidirectional textures that local light falls on (section III).
+//! - [`texture`]: the bidirectional textures that local light falls on (section III);
+//! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering).
 
 pub mod bicluster;
 pub mod directions;
+pub mod kernels;
 pub mod matrix;
+pub mod on_card;
 pub mod product;
 pub mod rivals;
 pub mod texture;

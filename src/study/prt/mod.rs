@@ -21,8 +21,8 @@ pub use all_frequency::{
     coded_errors,
 };
 pub use card::{
-    AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
-    factored_precision_table,
+    AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision,
+    OnCard, PixelErrors, factored_precision, factored_precision_table,
 };
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;

@@ -21,6 +21,7 @@ mod radiosity;
 pub mod report;
 mod row;
 mod shared;
+mod sky;
 mod subsurface;
 mod tables;
 mod vertex_variant;
@@ -226,6 +227,16 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         id: "bi-scale-counts",
         title: "Sizes of matrices and of biclusters (bi-scale transfer, sections III and IV, tables I and II)",
         work: |_| Ok(bi_scale::counts()),
+    },
+    ReproduceEntry {
+        id: "bi-scale-figure-8",
+        title: "More local directions (bi-scale transfer, figure 8)",
+        work: bi_scale::figure_8,
+    },
+    ReproduceEntry {
+        id: "bi-scale-frames",
+        title: "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
+        work: bi_scale::frames,
     },
     ReproduceEntry {
         id: "bi-scale-table-2",

@@ -2,6 +2,7 @@
 
 use std::cell::OnceCell;
 
+use super::bi_scale::BiScaleShared;
 use super::cpca::CpcaShared;
 use super::once::get_or_try;
 use super::subsurface::{CARD, GatherCost, all_costs};
@@ -13,6 +14,7 @@ use super::{ModelSize, ReproduceError};
 pub(super) struct Shared {
     pub(super) models: ModelSize,
     pub(super) cpca: CpcaShared,
+    pub(super) bi_scale: BiScaleShared,
     teapot: OnceCell<TeapotRoom>,
     speed_ups: OnceCell<SpeedUps>,
     gather: OnceCell<Vec<GatherCost>>,

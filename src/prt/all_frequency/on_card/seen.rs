@@ -18,6 +18,8 @@ use crate::scene::Camera;
 /// A triangle's vertices with weights that sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPixel {
+    /// The triangle's number.
+    pub triangle: u32,
     /// The corners.
     pub corners: [u32; 3],
     /// Their weights, correct in perspective.
@@ -57,9 +59,10 @@ pub fn seen_pixels(
     target.keep_nearest(&mut call);
     machine.draw(&call)?;
     let seen = |&[first, second, triangle, alpha]: &[f32; 4]| {
-        let corners = *triangles.get(triangle.round() as usize).filter(|_| alpha != 0.0)?;
+        let triangle = triangle.round() as u32;
+        let corners = *triangles.get(triangle as usize).filter(|_| alpha != 0.0)?;
         let [first, second] = [first, second].map(f64::from);
-        Some(SeenPixel { corners, weights: [first, second, 1.0 - first - second] })
+        Some(SeenPixel { triangle, corners, weights: [first, second, 1.0 - first - second] })
     };
     Ok(Texels::read_back(&machine, target.color)?.texels.iter().map(seen).collect())
 }

@@ -66,7 +66,7 @@ impl Hills {
         let (mut worst, mut largest, mut count) = (0.0_f64, 0.0_f64, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
             assert_eq!(texel[3] != 0.0, seen.is_some(), "what is covered");
-            let Some(SeenPixel { corners, weights }) = *seen else { continue };
+            let Some(SeenPixel { corners, weights, .. }) = *seen else { continue };
             let expected = match place {
                 ProductPlace::Vertices(_) => pixel_of_colors(&colors, corners, weights),
                 ProductPlace::Pixels(options) => {

@@ -1,6 +1,8 @@
 //! Compressed transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
-//! [`OnCard`] is about transfer of low frequency, [`AllFrequencyOnCard`] of all frequencies.
+//! [`OnCard`] is about transfer of low frequency, [`AllFrequencyOnCard`] of all frequencies, [`BiScaleOnCard`] about
+//! bi-scale transfer.
 
+mod bi_scale;
 mod factored;
 mod frame;
 mod picture;
@@ -9,6 +11,7 @@ mod report;
 mod subject;
 mod tables;
 
+pub use bi_scale::{BiScaleCardStudyError, BiScaleOnCard};
 pub use factored::{
     AllFrequencyCardError, AllFrequencyOnCard, FactoredPrecision, PixelErrors, factored_precision,
     factored_precision_table,

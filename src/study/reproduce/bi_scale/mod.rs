@@ -1,15 +1,22 @@
 //! The paper on real-time all-frequency bi-scale transfer by biclustering.
 
 mod counts;
+mod display;
 mod figure_6;
+mod figure_8;
+mod frames;
+mod models;
 mod printed;
-mod stand_in;
 mod table_2;
 
 pub(super) use counts::findings as counts;
 pub(super) use figure_6::findings as figure_6;
+pub(super) use figure_8::findings as figure_8;
+pub(super) use frames::findings as frames;
+pub(super) use models::BiScaleShared;
 pub(super) use table_2::findings as table_2;
 
+use super::once::get_or_try;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{

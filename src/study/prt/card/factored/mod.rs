@@ -11,3 +11,4 @@ mod tables;
 pub use pixels::PixelErrors;
 pub use precision::{FactoredPrecision, factored_precision, factored_precision_table};
 pub use subject::{AllFrequencyCardError, AllFrequencyOnCard};
+pub(in crate::study::prt::card) use tables::{Blame, report_blame};

@@ -21,7 +21,11 @@ pub struct PixelErrors {
 
 impl PixelErrors {
     /// Of pixels, row by row, against others; those that show nothing do not count.
-    pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
+    pub(in crate::study::prt::card) fn of(
+        seen: &[Option<SeenPixel>],
+        found: &[[f64; 3]],
+        expected: &[[f64; 3]],
+    ) -> Self {
         let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
         let off: Vec<[f64; 3]> =
             shown.map(|(_, (a, b))| [0, 1, 2].map(|channel| STEPS * (a[channel] - b[channel]))).collect();
@@ -33,7 +37,7 @@ impl PixelErrors {
     }
 
     /// Cells of a table: root mean square, largest, percent of the pixels.
-    pub(super) fn cells(&self) -> [Cell; 3] {
+    pub(in crate::study::prt::card) fn cells(&self) -> [Cell; 3] {
         let [rms, largest] = self.off_255ths.map(Cell::measured);
         [rms, largest, Cell::percent(100.0 * self.visible)]
     }
@@ -53,7 +57,7 @@ pub(super) fn exact_pixels(
 ) -> Vec<[f64; 3]> {
     let colors = matches!(place, ProductPlace::Vertices(_)).then(|| vertex_radiance(mesh, eye));
     let pixel = |seen: &Option<SeenPixel>| {
-        let Some(SeenPixel { corners, weights }) = *seen else { return [0.0; 3] };
+        let Some(SeenPixel { corners, weights, .. }) = *seen else { return [0.0; 3] };
         let radiance = match &colors {
             Some(colors) => pixel_of_colors(colors, corners, weights),
             None => pixel_of_products(mesh, (view_of(place), eye), corners, weights),

@@ -11,12 +11,12 @@ const BLAME: &str = "Each row is one step of the way from light to picture again
     raster, from what is interpolated between vertices.";
 
 /// What a step on the way to the picture costs.
-pub(super) struct Blame {
-    pub(super) step: &'static str,
-    pub(super) errors: PixelErrors,
+pub(in crate::study::prt::card) struct Blame {
+    pub(in crate::study::prt::card) step: &'static str,
+    pub(in crate::study::prt::card) errors: PixelErrors,
 }
 
-pub(super) fn report_blame(blames: &[Blame], found: &mut Findings) {
+pub(in crate::study::prt::card) fn report_blame(blames: &[Blame], found: &mut Findings) {
     let mut table = Table::of("What the picture is off by", "step rms_255ths largest_255ths visible_%");
     for blame in blames {
         let [rms, largest, visible] = blame.errors.cells();

@@ -14,8 +14,9 @@ use crate::prt::transfer::{Tangents, Vertices};
 use crate::report::NamedPicture;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
-use crate::sphere::{ClearSky, function_count, harmonics};
+use crate::sphere::{function_count, harmonics};
 use crate::study::prt::{Seen, auto_exposure, linear_picture};
+use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
 
 /// Pixels along an edge.
@@ -115,15 +116,9 @@ impl FigureScene {
     }
 }
 
-/// What stands for the light of St. Peter's: a clear sky with a sun of a quarter of a degree, which casts hard shadows.
+/// What stands for the light of St. Peter's: [`HARD_SUN`].
 pub(super) fn stand_in() -> Result<CubeLight, ReproduceError> {
-    let sky = ClearSky {
-        sun: DVec3::new(1.0, -0.6, 1.1),
-        sun_radiance: [4e4, 3.7e4, 3.2e4],
-        zenith: [0.25, 0.4, 0.7],
-        ground: [0.1; 3],
-    };
-    let cube = DistantLight::Sky(sky).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
+    let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     cube.map_err(|e| failed(HOST)(&e))
 }
 

@@ -3,23 +3,25 @@
 mod pictures;
 mod sizes;
 
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 
+use super::models::SeenModel;
 use super::printed::SCENES;
-use super::stand_in::StandIn;
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, failed, number,
 };
+use crate::geom::Mesh;
 use crate::prt::all_frequency::light::{CubeLight, Decimation, DistantLight};
 use crate::prt::all_frequency::visibility::Horizon;
 use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::prt::bi_scale::transfer::light_vector;
 use crate::scene::built::transfer_models::TransferModel;
-use crate::sphere::ClearSky;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
+use crate::study::reproduce::sky::HARD_SUN;
 use pictures::VertexPictures;
 use sizes::chair_sizes;
 
@@ -38,15 +40,31 @@ const CAPTIONS: &str = "The text calls (c) the picture of biclusters and (d) the
 const QUESTION: &str = "the chair, its light and camera; whether clusters had means, from how many rows they were found, and their size, which the scan has lost; \
     what area a wavelet is weighed by.";
 
+/// What stands for the chair, with its transfer to local directions.
+struct ChairModel {
+    seen: SeenModel,
+    directions: LocalDirections,
+    matrix: SparseMatrix,
+}
+
+impl ChairModel {
+    fn new(mesh: &Mesh) -> Result<Self, ReproduceError> {
+        let seen = SeenModel::new(mesh, Horizon::Normal)?;
+        let directions = LocalDirections::new(SCENES[2].side).map_err(|error| failed(HOST)(&error))?;
+        let matrix = seen.matrix(SCENES[2].side)?;
+        Ok(Self { seen, directions, matrix })
+    }
+}
+
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mesh = match shared.models {
         ModelSize::Reduced => TransferModel::BiScaleBunny.mesh(2),
         _ => TransferModel::BiScaleBunnyMiddle.mesh(1),
     };
-    let scene = StandIn::new(mesh, SCENES[2].side, Horizon::Normal)?;
+    let scene = ChairModel::new(&mesh)?;
     let biclusters =
         bicluster(&scene.matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
-    let transfer = LocalTransfer::new(&scene.matrix, scene.vertices.frames(), &scene.directions);
+    let transfer = LocalTransfer::new(&scene.matrix, scene.seen.vertices.frames(), &scene.directions);
     let comparison = StoredComparison {
         matrix: &scene.matrix,
         biclusters: &biclusters,
@@ -63,7 +81,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let ways = comparison.ways(&lights, &mut |_, _, _| (), &mut visit).map_err(|error| failed(HOST)(&error))?;
     let (shown, differences) = pictures.finish()?;
     let RowClusterOptions { clusters, vectors, sample, rounds, .. } = comparison.clusters;
-    let sizes = [SCENES[2].vertices, scene.vertices.len(), clusters, vectors, sample, rounds]
+    let sizes = [SCENES[2].vertices, scene.seen.vertices.len(), clusters, vectors, sample, rounds]
         .into_iter()
         .chain([comparison.wavelets.keep, ORDER])
         .map(|size| number(size as f64, 0));
@@ -79,19 +97,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 
 /// A clear sky with a small sun, and two disks in dim light.
 fn lights() -> Result<[LightChannels; 2], ReproduceError> {
-    let sky = ClearSky {
-        sun: DVec3::new(1.0, -0.6, 1.1),
-        sun_radiance: [4e4, 3.7e4, 3.2e4],
-        zenith: [0.25, 0.4, 0.7],
-        ground: [0.1; 3],
-    };
     let of = |light: DistantLight| -> Result<LightChannels, ReproduceError> {
         let cube: CubeLight =
             light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).map_err(|error| failed(HOST)(&error))?;
         let channel = |at: usize| light_vector(&cube.texels().iter().map(|texel| texel[at]).collect::<Vec<f64>>());
         Ok([0, 1, 2].map(channel).to_vec())
     };
-    Ok([of(DistantLight::Sky(sky))?, of(DistantLight::RedAndBlue)?])
+    Ok([of(DistantLight::Sky(HARD_SUN))?, of(DistantLight::RedAndBlue)?])
 }
 
 fn rows(matrix: &SparseMatrix, biclusters: &Biclustering, ways: &[StoredWay]) -> Result<Vec<PaperRow>, ReproduceError> {

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::stand_in::StandIn;
-use super::{HOST, ReproduceError, failed};
+use super::{ChairModel, HOST, ReproduceError, failed};
 use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::prt::all_frequency::grid::texel_center;
@@ -27,7 +26,7 @@ type NamedPixels = (String, Vec<[f64; 3]>);
 
 /// Pictures in the making.
 pub(super) struct VertexPictures<'a> {
-    scene: &'a StandIn,
+    scene: &'a ChairModel,
     light: &'a LightChannels,
     camera: Camera,
     seen: Seen,
@@ -38,14 +37,14 @@ pub(super) struct VertexPictures<'a> {
 }
 
 impl<'a> VertexPictures<'a> {
-    pub(super) fn new(scene: &'a StandIn, light: &'a LightChannels) -> Result<Self, ReproduceError> {
-        let [low, high] = scene.mesh.bounds().unwrap_or_default().map(wide);
+    pub(super) fn new(scene: &'a ChairModel, light: &'a LightChannels) -> Result<Self, ReproduceError> {
+        let [low, high] = scene.seen.mesh.bounds().unwrap_or_default().map(wide);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
         let eye = (middle + size * EYE).as_vec3().to_array();
         let camera = Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.22, SIDE, SIDE)
             .map_err(|error| failed(HOST)(&error))?;
-        let seen = Seen::new(&scene.mesh, &scene.vertices, &camera);
-        let places = scene.vertices.positions().iter().zip(scene.vertices.frames());
+        let seen = Seen::new(&scene.seen.mesh, &scene.seen.vertices, &camera);
+        let places = scene.seen.vertices.positions().iter().zip(scene.seen.vertices.frames());
         let views = places.map(|(&at, frame)| frame.to_local(unit(wide(eye) - wide(at)).unwrap_or(frame.normal())));
         let views = views.collect();
         let mut pictures = Self { scene, light, camera, seen, views, found: Vec::new() };
@@ -76,7 +75,7 @@ impl<'a> VertexPictures<'a> {
         let local = self.scene.directions.directions().len();
         let matrix = &self.scene.matrix;
         let of_vertex = |(vertex, view): (usize, &DVec3)| {
-            let (mut sum, frame) = ([0.0; 3], &self.scene.vertices.frames()[vertex]);
+            let (mut sum, frame) = ([0.0; 3], &self.scene.seen.vertices.frames()[vertex]);
             for entry in (vertex * local..(vertex + 1) * local).flat_map(|row| matrix.row(row)) {
                 let texel = entry.index as usize;
                 let direction = frame.to_local(texel_center(texel));

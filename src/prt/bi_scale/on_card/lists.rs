@@ -1,0 +1,176 @@
+//! Lists of places as textures, for sums of as many texels each.
+//!
+//! Sums stand in the order of their lists' lengths, so that rows of the target have lists about as long: a pass covers
+//! the rows whose longest lists have as many texels, and reads that many for each of its fragments. A list that is
+//! shorter is filled up with places of 0.
+
+use super::error::BiScaleCardError;
+use crate::card::Texels;
+
+/// Places that single precision tells apart with one half added: 23 bits.
+pub(super) const MOST_PLACES: usize = 1 << 23;
+
+/// Width and height of the texture for so many texels: powers of two, the width the larger.
+pub(super) fn extents(count: usize) -> [usize; 2] {
+    let bits = count.max(1).next_power_of_two().ilog2();
+    [1 << bits.div_ceil(2), 1 << (bits / 2)]
+}
+
+/// What one program can take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ListLimits {
+    /// Texels of a list in a pass.
+    pub(super) texels: usize,
+    /// Texels along an edge of a texture.
+    pub(super) side: usize,
+}
+
+/// A pass: rows of the target, and the texels of their lists that it reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct ListPass {
+    /// First row of the target, and how many.
+    pub(super) rows: [usize; 2],
+    /// The texture of lists, and the row in it where those of the first texel begin.
+    pub(super) sheet: usize,
+    pub(super) sheet_row: usize,
+    /// Texels of each list.
+    pub(super) texels: usize,
+    /// Its number among the passes over these rows, and how many there are.
+    pub(super) pass: [usize; 2],
+}
+
+/// Lists in textures.
+#[derive(Clone, Debug)]
+pub(super) struct Lists {
+    /// Which sum stands at each place.
+    pub(super) order: Vec<u32>,
+    /// Extents of the target.
+    pub(super) size: [usize; 2],
+    pub(super) passes: Vec<ListPass>,
+    pub(super) sheets: Vec<Texels>,
+}
+
+impl Lists {
+    /// The lists of `lengths.len()` sums, each of so many texels; `texel` gives the n-th texel of a list, `filler` one
+    /// of places of 0. The target has a place more than there are sums, which stays 0.
+    ///
+    /// # Errors
+    /// [`BiScaleCardError`] if the target is larger than a texture can be, or has more places than can be told apart.
+    pub(super) fn new(
+        what: &'static str,
+        (lengths, texel): (&[usize], &dyn Fn(usize, usize) -> [f32; 4]),
+        filler: [f32; 4],
+        (limits, device): (ListLimits, &str),
+    ) -> Result<Self, BiScaleCardError> {
+        let count = lengths.len();
+        if count >= MOST_PLACES {
+            return Err(BiScaleCardError::Places { what, most: MOST_PLACES - 1, found: count });
+        }
+        let size = extents(count + 1);
+        let [width, height] = size;
+        if width > limits.side {
+            let (device, found) = (device.to_owned(), limits.side);
+            return Err(BiScaleCardError::TextureSize { what, count, width, height, device, found });
+        }
+        let mut order: Vec<u32> = (0..count as u32).collect();
+        order.sort_by_key(|&sum| lengths[sum as usize]);
+        let mut lists = Self { order, size, passes: Vec::new(), sheets: Vec::new() };
+        // Lists grow from row to row, so that the last of a row is its longest.
+        let longest = |row: usize| lengths[lists.order[((row + 1) * width).min(count) - 1] as usize];
+        let rows: Vec<usize> = (0..count.div_ceil(width)).map(longest).collect();
+        let mut first = 0;
+        for class in rows.chunk_by(|a, b| a == b) {
+            lists.push_class(([first, class.len()], class[0]), limits);
+            first += class.len();
+        }
+        lists.fill(lengths, texel, filler);
+        Ok(lists)
+    }
+
+    /// The passes of rows whose lists have as many texels.
+    fn push_class(&mut self, ([first, count], texels): ([usize; 2], usize), limits: ListLimits) {
+        if texels == 0 {
+            return;
+        }
+        let passes = texels.div_ceil(limits.texels);
+        let rows_of_pass = (limits.side / texels.min(limits.texels)).max(1);
+        for first_row in (0..count).step_by(rows_of_pass) {
+            let rows = [first + first_row, rows_of_pass.min(count - first_row)];
+            for pass in 0..passes {
+                let texels = limits.texels.min(texels - pass * limits.texels);
+                let (sheet, sheet_row) = self.reserve(rows[1] * texels, limits.side);
+                self.passes.push(ListPass { rows, sheet, sheet_row, texels, pass: [pass, passes] });
+            }
+        }
+    }
+
+    /// Rows of a sheet: of the last one, if it has them left.
+    fn reserve(&mut self, rows: usize, side: usize) -> (usize, usize) {
+        if self.sheets.last().is_none_or(|last| last.height + rows > side) {
+            self.sheets.push(Texels { width: self.size[0], height: 0, texels: Vec::new() });
+        }
+        let sheet = self.sheets.len() - 1;
+        let last = &mut self.sheets[sheet];
+        last.height += rows;
+        (sheet, last.height - rows)
+    }
+
+    fn fill(&mut self, lengths: &[usize], texel: &dyn Fn(usize, usize) -> [f32; 4], filler: [f32; 4]) {
+        let width = self.size[0];
+        let mut begun = 0;
+        for pass in &self.passes {
+            if pass.pass[0] == 0 {
+                begun = 0;
+            }
+            let into = &mut self.sheets[pass.sheet].texels;
+            for at in begun..begun + pass.texels {
+                for place in pass.rows[0] * width..(pass.rows[0] + pass.rows[1]) * width {
+                    let sum = self.order.get(place).map(|&sum| sum as usize);
+                    into.push(sum.filter(|&sum| at < lengths[sum]).map_or(filler, |sum| texel(sum, at)));
+                }
+            }
+            begun += pass.texels;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_texel_of_every_list_is_read_once_and_in_order() {
+        for (side, texels) in [(64, 100), (16, 3), (8, 1), (16, 5)] {
+            let lengths: Vec<usize> = (0..60).map(|sum: usize| (sum * sum) % 11).collect();
+            let texel = |sum: usize, at: usize| [sum as f32, at as f32, 0.0, 1.0];
+            let limits = ListLimits { texels, side };
+            let lists = Lists::new("sums", (&lengths, &texel), [-1.0; 4], (limits, "a card")).expect("lists");
+            assert_eq!(lists.size, [8, 8]);
+            let mut read = vec![Vec::new(); 60];
+            for pass in &lists.passes {
+                let sheet = &lists.sheets[pass.sheet];
+                assert!(sheet.height <= side && pass.texels <= texels);
+                assert_eq!(sheet.texels.len(), sheet.width * sheet.height);
+                for (at, row) in (0..pass.texels).flat_map(|at| (0..pass.rows[1]).map(move |row| (at, row))) {
+                    let texels = sheet.row(pass.sheet_row + at * pass.rows[1] + row);
+                    for (column, texel) in texels.iter().enumerate().filter(|(_, texel)| texel[3] == 1.0) {
+                        let place = (pass.rows[0] + row) * lists.size[0] + column;
+                        assert_eq!(lists.order[place] as f32, texel[0]);
+                        read[texel[0] as usize].push(texel[1] as usize);
+                    }
+                }
+            }
+            for (sum, read) in read.iter().enumerate() {
+                assert_eq!(*read, (0..lengths[sum]).collect::<Vec<_>>(), "sum {sum}, {side}, {texels}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_place_is_refused() {
+        let limits = ListLimits { texels: 4, side: 4 };
+        let lists = |count| Lists::new("rows", (&vec![1; count], &|_, _| [0.0; 4]), [0.0; 4], (limits, "small"));
+        assert!(lists(15).is_ok());
+        insta::assert_snapshot!(lists(16).expect_err("refused"), @"16 rows need a texture of 8 x 4 texels; `small` has textures of 4 a side (limits.max_texture_size); take fewer");
+    }
+}

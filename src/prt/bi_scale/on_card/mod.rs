@@ -1,0 +1,27 @@
+//! Bi-scale transfer on an emulated card (section V, Rendering; section VI).
+//!
+//! - [`GatherCard`]: light times biclusters (Algorithm 2) by pixel programs over textures, in the host's order of sums.
+//!   The paper wrote it in CUDA, which is not emulated.
+//! - [`BiScaleCard`]: the display: a bidirectional texture in a volume, local light as interpolated texture coordinates,
+//!   pass by pass added up by blending.
+//! - [`mod@reference`]: pixels in f64.
+
+mod card;
+mod error;
+mod gather;
+mod lists;
+mod options;
+pub mod reference;
+mod streams;
+mod subject;
+mod volume;
+
+pub use card::{BiScaleCard, DisplayCounts};
+pub use error::BiScaleCardError;
+pub use gather::{GatherCard, GatherCounts};
+pub use options::{DisplayOptions, LightFormat, LocalFormat};
+pub use subject::{TexturedMesh, corner_coordinates};
+pub use volume::{VolumeTexture, volume_image};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,52 @@
+//! Local light of vertices as sets of texture coordinates.
+
+use rayon::prelude::*;
+
+use super::error::BiScaleCardError;
+use super::options::LocalFormat;
+use super::subject::CardVertices;
+use crate::card::Attribute;
+use crate::prt::bi_scale::kernels::LocalLayout;
+
+/// Local light of a frame, and how it is handed over.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LocalStream<'a> {
+    pub(super) vertices: &'a CardVertices,
+    pub(super) layout: LocalLayout,
+    /// Of each vertex M times red, green, blue.
+    pub(super) local: &'a [[f32; 3]],
+    pub(super) directions: usize,
+    /// Exposure, and what texels are to be multiplied by.
+    pub(super) factor: f64,
+    pub(super) format: LocalFormat,
+}
+
+impl LocalStream<'_> {
+    /// The sets of a pass but the last, which is begun by the first direction of the pass.
+    pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, BiScaleCardError> {
+        let numbers = self.local.as_flattened().iter();
+        let largest = numbers.fold(0.0_f64, |most, &value| most.max((self.factor * f64::from(value)).abs()));
+        if !largest.is_finite() || largest > f64::from(f32::MAX) {
+            let what = "local light times exposure that single precision holds";
+            return Err(BiScaleCardError::Figure { what, found: largest });
+        }
+        let of_vertex = |&vertex: &u32| {
+            let mut sets = vec![[0_u32; 4]; self.layout.last()];
+            let light = &self.local[vertex as usize * self.directions..][..self.directions];
+            for (direction, rgb) in light[first..first + count].iter().enumerate() {
+                for (channel, &value) in rgb.iter().enumerate() {
+                    let (set, component) = self.layout.place(direction, channel);
+                    let value = self.format.rounded(self.factor * f64::from(value), largest);
+                    sets[set][component] = value.to_bits();
+                }
+            }
+            sets
+        };
+        let by_vertex: Vec<Vec<[u32; 4]>> = self.vertices.vertices.par_iter().map(of_vertex).collect();
+        let mut numbers = by_vertex.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
+        if let Some(found) = numbers.find(|value| !value.is_finite()) {
+            return Err(BiScaleCardError::Figure { what: "local light that its format holds", found: found.into() });
+        }
+        Ok((0..self.layout.last()).map(|set| by_vertex.iter().map(|sets| sets[set]).collect()).collect())
+    }
+}

@@ -1,0 +1,72 @@
+//! Pictures by the card and by the host in f64.
+
+use rayon::prelude::*;
+use refsim::event::Event;
+use refsim::texture::TexelFormat;
+
+use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
+use crate::prt::all_frequency::on_card::SeenPixel;
+use crate::prt::bi_scale::kernels::BlockEdges;
+use crate::prt::bi_scale::on_card::reference::pixel;
+use crate::prt::bi_scale::on_card::{
+    BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat,
+};
+use crate::prt::on_card::PrtView;
+
+/// L~ by the card, and what it asked of it.
+pub(super) struct LocalLight {
+    pub(super) local: Vec<[f32; 3]>,
+    pub(super) counts: GatherCounts,
+    pub(super) log: Vec<Event>,
+}
+
+/// A picture by the card.
+pub(super) struct Drawn {
+    pub(super) pixels: Vec<[f64; 3]>,
+    pub(super) counts: DisplayCounts,
+    pub(super) log: Vec<Event>,
+}
+
+impl BiScaleOnCard {
+    /// Algorithm 2 on the card.
+    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<LocalLight, BiScaleCardStudyError> {
+        let singles: Vec<[f32; 3]> = light.iter().map(|texel| texel.map(|value| value as f32)).collect();
+        let mut card = GatherCard::new(self.profile.clone(), self.executor.clone(), &self.biclusters, format)?;
+        let (local, log) = card.logged_multiply(&singles)?;
+        Ok(LocalLight { local, counts: card.counts(), log })
+    }
+
+    /// The display.
+    pub(super) fn draw(
+        &self,
+        local: &[[f32; 3]],
+        (options, format): (DisplayOptions, TexelFormat),
+        exposure: f64,
+    ) -> Result<Drawn, BiScaleCardStudyError> {
+        let mut card = BiScaleCard::new(self.profile.clone(), self.executor.clone(), self.mesh(), options)?;
+        let view = PrtView { camera: self.camera, exposure, format };
+        let (texels, log) = card.logged_view(local, &view)?;
+        let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
+        Ok(Drawn { pixels, counts: card.counts(), log })
+    }
+
+    /// Equation 3 in f64, exposed, neither clamped nor quantised. 0 where nothing is seen.
+    pub(super) fn exact(
+        &self,
+        local: &[[f64; 3]],
+        (seen, exposure): (&[Option<SeenPixel>], f64),
+        edges: BlockEdges,
+    ) -> Vec<[f64; 3]> {
+        let (mesh, eye) = (self.mesh(), self.camera.eye());
+        let of = |seen: &Option<SeenPixel>| {
+            let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, (eye, edges), &seen));
+            color.map(|value| exposure * value)
+        };
+        seen.par_iter().map(of).collect()
+    }
+}
+
+/// Numbers of single precision as such of double.
+pub(super) fn doubles(local: &[[f32; 3]]) -> Vec<[f64; 3]> {
+    local.iter().map(|rgb| rgb.map(f64::from)).collect()
+}

@@ -1,0 +1,197 @@
+//! What was found, as a page.
+
+use serde_json::json;
+
+use super::picture::{Drawn, LocalLight, doubles};
+use super::precision::{count, precision};
+use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
+use crate::prt::all_frequency::on_card::seen_pixels;
+use crate::prt::all_frequency::on_card::time::host_of_table_1;
+use crate::prt::on_card::time::{FrameTime, FrameTimeError, frame_time};
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::percent;
+use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::study::prt::card::factored::{Blame, PixelErrors, report_blame};
+use crate::study::prt::interpolate::linear_picture;
+use crate::study::prt::render::auto_exposure;
+use crate::study::{ProgressFn, Study, timeline_trace};
+
+const SWEEP: &str = "Each row is one thing held in fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
+    double precision of light multiplied in double precision. Fractions of 8 bits are of the largest number.";
+const TIME: &str = "Modelled, not measured: the pipeline model of the card, to which a texture read is as fast as its units can be. \
+    Local light stays on the card, as the paper's does; where the view changes alone it is used again.";
+
+/// Times of a frame: the view changed alone, and light too; `None` where the card has none.
+type Times = Option<[FrameTime; 2]>;
+
+impl Study for BiScaleOnCard {
+    type Error = BiScaleCardStudyError;
+
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BiScaleCardStudyError> {
+        progress("transfer", 0, 3);
+        self.check()?;
+        let light = self.light_texels()?;
+        let exact = self.exact_local(&light);
+        let local = self.local(&light, self.light_format)?;
+        progress("host", 1, 3);
+        let seen = seen_pixels(&self.profile, &self.vertices, &self.camera)?;
+        let edges = self.options.edges;
+        let linear = self.exact(&doubles(&local.local), (&seen, 1.0), edges);
+        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
+        let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
+        progress("card", 2, 3);
+        let drawn = self.draw(&local.local, (self.options, self.format), exposure)?;
+        let of_card = PixelErrors::of(&seen, &drawn.pixels, &self.as_target_holds(&host));
+        let mut found = Findings::new("Bi-scale transfer on a card");
+        found.taken_from(self.camera.world_to_camera());
+        let [rms, largest] = of_card.off_255ths.map(|steps| shown(steps, Quantity::Measured));
+        found.conclusion(format!(
+            "{}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double precision \
+             from the same local light; {} of the pixels by more than one.",
+            self.profile.title,
+            percent(of_card.visible)
+        ));
+        let times = self.times(&local, &drawn)?;
+        if let Some([view, both]) = &times {
+            let [view, both] = [view, both].map(|time| shown(time.per_second(), Quantity::Measured));
+            found.conclusion(format!(
+                "{}: modelled {view} frames a second when the view changes alone, {both} when light changes too.",
+                self.profile.title
+            ));
+        }
+        self.pictures(&mut found, (&drawn.pixels, &host), of_card)?;
+        let whole = self.exact(&exact, (&seen, exposure), edges);
+        let blames = [
+            Blame { step: "the card: storage, filters, arithmetic, target", errors: of_card },
+            Blame { step: "light times biclusters by the card", errors: PixelErrors::of(&seen, &host, &whole) },
+        ];
+        report_blame(&blames, &mut found);
+        found.heading("What is drawn");
+        found.table(FoundTable::from(self.sizes(&local, &drawn)).field("sizes"));
+        if let Some(times) = &times {
+            found.heading("Modelled time");
+            found.explained_table(FoundTable::from(table_of(times)).field("time"), TIME);
+            let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
+            if let Some(bytes) = timeline_trace::file(&self.profile, &log, "a frame of bi-scale transfer")? {
+                found.keep_file("timeline.json", bytes);
+            }
+        }
+        if self.sweep {
+            let view = (&seen[..], exposure);
+            let all = precision(self, (&light, &exact), view, &mut |done| progress("sweep", done, count()))?;
+            let rms = shown(all.worst.1, Quantity::Measured);
+            found.conclusion(format!(
+                "Of all that was held in fewer bits, most shows of {}: {rms} 255ths.",
+                all.worst.0
+            ));
+            found.heading("What shows");
+            found.explained_table(FoundTable::from(all.table).csv("precision").field("precision"), SWEEP);
+        }
+        found.field("exposure", json!(exposure));
+        found.field(
+            "difference",
+            json!({ "rms_255ths": of_card.off_255ths[0], "largest_255ths": of_card.off_255ths[1],
+            "visible_share": of_card.visible }),
+        );
+        Ok(found)
+    }
+
+    fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        provenance.profiles.push(self.profile.name.clone());
+        provenance.switches.clone_from(&self.switches);
+        provenance
+    }
+}
+
+impl BiScaleOnCard {
+    /// Fractions clamp; the host's picture is clamped alike before it is compared.
+    fn as_target_holds(&self, host: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let clamps = !self.format.record().is_float();
+        let held = |color: &[f64; 3]| if clamps { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
+        host.iter().map(held).collect()
+    }
+
+    fn times(&self, local: &LocalLight, drawn: &Drawn) -> Result<Times, BiScaleCardStudyError> {
+        let host = host_of_table_1().map_err(FrameTimeError::from)?;
+        let both: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
+        match [&drawn.log, &both].map(|log| frame_time(&self.profile, log, &host)) {
+            [Ok(view), Ok(both)] => Ok(Some([view, both])),
+            [Err(FrameTimeError::Timing(_)), _] => Ok(None),
+            [Err(error), _] | [_, Err(error)] => Err(error.into()),
+        }
+    }
+
+    fn pictures(
+        &self,
+        found: &mut Findings,
+        (drawn, host): (&[[f64; 3]], &[[f64; 3]]),
+        of_card: PixelErrors,
+    ) -> Result<(), BiScaleCardStudyError> {
+        let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
+        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
+            let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
+            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
+        };
+        let difference: Vec<f64> = drawn.iter().zip(&self.as_target_holds(host)).map(worst).collect();
+        let range = (4.0 * of_card.off_255ths[0] / 255.0).max(1.0 / 255.0);
+        let scale = shown(255.0 * range, Quantity::Measured);
+        found.pictures(vec![
+            NamedPicture::new("card", linear_picture(&self.camera, drawn).display(1.0)?, title),
+            NamedPicture::new(
+                "host",
+                linear_picture(&self.camera, host).display(1.0)?,
+                "the host in double precision, from the same local light",
+            ),
+            NamedPicture::new(
+                "difference",
+                false_color::signed(self.camera.width(), &difference, range),
+                format!(
+                    "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or \
+                     more"
+                ),
+            ),
+        ]);
+        found.keep_layers("card", linear_picture(&self.camera, drawn));
+        Ok(())
+    }
+
+    fn sizes(&self, local: &LocalLight, drawn: &Drawn) -> Table {
+        let mut table = Table::new("Sizes and counts", &["what", "number"]);
+        let (gather, display) = (local.counts, drawn.counts);
+        for (what, number) in [
+            ("vertices", self.vertices.len() as u64),
+            ("vertices of the card", display.vertices as u64),
+            ("triangles", display.triangles as u64),
+            ("directions of light", self.texture.light().directions().len() as u64),
+            ("directions of the view", self.texture.view().directions().len() as u64),
+            ("biclusters", self.biclusters.len() as u64),
+            ("passes for the bicluster buffer", gather.passes[0] as u64),
+            ("passes for rows", gather.passes[1] as u64),
+            ("places read for the buffer", gather.places[0]),
+            ("places read for rows", gather.places[1]),
+            ("bytes of lists", gather.list_bytes.iter().sum()),
+            ("bytes of the volume", display.volume_bytes),
+            ("passes of the display", display.passes as u64),
+            ("directions of a pass", display.directions_per_pass as u64),
+            ("texture reads of a pass's pixel", u64::from(display.pixel_slots[0])),
+            ("arithmetic slots of a pass's pixel", u64::from(display.pixel_slots[1])),
+        ] {
+            table.push([what.into(), number.into()]);
+        }
+        table
+    }
+}
+
+fn table_of([view, both]: &[FrameTime; 2]) -> Table {
+    let mut table = Table::new("A frame", &["part", "ms"]);
+    for (part, time) in [
+        ("frame to frame, the view changed alone", view.frame),
+        ("frame to frame, light changed too", both.frame),
+        ("draws of the display", view.draws),
+        ("light on its way", both.uploads),
+        ("state and constants", both.state),
+    ] {
+        table.push([part.into(), Cell::measured(1e3 * time.seconds())]);
+    }
+    table
+}

@@ -1,0 +1,137 @@
+//! What is drawn, by which card.
+
+use glam::DMat3;
+use miette::Diagnostic;
+use refsim::device::Profile;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+use thiserror::Error;
+
+use crate::picture::PictureError;
+use crate::prt::all_frequency::grid::LIGHT_TEXELS;
+use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight};
+use crate::prt::all_frequency::on_card::FactoredCardError;
+use crate::prt::bi_scale::bicluster::Biclustering;
+use crate::prt::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
+use crate::prt::bi_scale::product::reference;
+use crate::prt::bi_scale::texture::BidirectionalTexture;
+use crate::prt::bi_scale::transfer::light_vector;
+use crate::prt::on_card::time::FrameTimeError;
+use crate::prt::transfer::Vertices;
+use crate::scene::Camera;
+use crate::study::timeline_trace::TimelineError;
+
+/// A model with biclusters of its transfer, a bidirectional texture, a light and a camera, and the card.
+#[derive(Debug)]
+pub struct BiScaleOnCard {
+    /// The model's name.
+    pub model: String,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
+    pub coordinates: Vec<[[f32; 2]; 3]>,
+    /// Transfer to the texture's directions of light.
+    pub biclusters: Biclustering,
+    /// The texture.
+    pub texture: BidirectionalTexture,
+    /// The light's name.
+    pub light_name: String,
+    /// The light.
+    pub light: DistantLight,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure.
+    pub exposure: Option<f64>,
+    /// The card.
+    pub profile: Profile,
+    /// Its switches that were set.
+    pub switches: Vec<(String, String)>,
+    /// What runs its programs.
+    pub executor: Executor,
+    /// The picture's format.
+    pub format: TexelFormat,
+    /// What the card holds light in.
+    pub light_format: LightFormat,
+    /// How the display is made.
+    pub options: DisplayOptions,
+    /// Whether one thing after the other is held in fewer bits.
+    pub sweep: bool,
+}
+
+/// Why there is no picture.
+#[non_exhaustive]
+#[derive(Debug, Error, Diagnostic)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum BiScaleCardStudyError {
+    /// A light that is none.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::light))]
+    Light(#[from] CubeLightError),
+    /// Parts that do not go together.
+    #[error("expected transfer of {expected} {what}, found {found}")]
+    #[diagnostic(
+        code(crossbar::prt::bi_scale),
+        help("precompute transfer with as many `--directions` as the texture has for light")
+    )]
+    Size { what: &'static str, expected: usize, found: usize },
+    /// The card refuses.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::card))]
+    Card(#[from] BiScaleCardError),
+    /// What pixels show cannot be found.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::card))]
+    Seen(#[from] FactoredCardError),
+    /// The frame has no time.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::time))]
+    Time(#[from] FrameTimeError),
+    /// The frame has no timeline.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Timeline(#[from] TimelineError),
+    /// A picture that cannot be shown.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Picture(#[from] PictureError),
+}
+
+impl BiScaleOnCard {
+    pub(super) fn mesh(&self) -> TexturedMesh<'_> {
+        let Self { vertices, coordinates, texture, .. } = self;
+        TexturedMesh { vertices, coordinates, texture }
+    }
+
+    /// Refuses biclusters of other vertices, directions or light.
+    pub(super) fn check(&self) -> Result<(), BiScaleCardStudyError> {
+        let [rows, columns] = self.biclusters.matrix_size();
+        let expected = self.vertices.len() * self.texture.light().directions().len();
+        for (what, expected, found) in [
+            ("vertices times the texture's directions of light", expected, rows),
+            ("light texels", LIGHT_TEXELS, columns),
+        ] {
+            if expected != found {
+                return Err(BiScaleCardStudyError::Size { what, expected, found });
+            }
+        }
+        Ok(())
+    }
+
+    /// L: of each light texel red, green and blue times its solid angle.
+    pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, CubeLightError> {
+        let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
+        let channel =
+            |channel: usize| light_vector(&cube.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>());
+        let [red, green, blue] = [0, 1, 2].map(channel);
+        Ok(red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect())
+    }
+
+    /// L~ in f64.
+    pub(super) fn exact_local(&self, light: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let channel = |channel: usize| {
+            reference(&self.biclusters, &light.iter().map(|texel| texel[channel]).collect::<Vec<f64>>())
+        };
+        let [red, green, blue] = [0, 1, 2].map(channel);
+        red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+    }
+}

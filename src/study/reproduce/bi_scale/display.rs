@@ -1,0 +1,64 @@
+//! Frames of the display on the emulated card.
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::ExecutorKind;
+use refsim::texture::TexelFormat;
+
+use super::{HOST, ReproduceError, failed};
+use crate::geom::Mesh;
+use crate::prt::all_frequency::on_card::time::host_of_table_1;
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
+use crate::prt::bi_scale::texture::BidirectionalTexture;
+use crate::prt::on_card::PrtView;
+use crate::prt::on_card::time::{FrameTime, frame_time};
+use crate::prt::transfer::Vertices;
+use crate::scene::Camera;
+
+/// The paper's card.
+pub(super) const CARD: &str = "gt200";
+/// Directions of the view along an edge.
+const VIEWS: usize = 12;
+/// Texels of a patch. Time depends on reads, not on how many texels there are.
+const PATCH: usize = 4;
+
+/// A frame without light: time does not depend on values.
+pub(super) struct DisplayRun {
+    pub(super) counts: DisplayCounts,
+    pub(super) time: FrameTime,
+    pub(super) pixels: u64,
+}
+
+/// Draws a mesh with so many local directions along an edge into a picture of so many pixels.
+pub(super) fn display(
+    (mesh, vertices): (&Mesh, &Vertices),
+    side: usize,
+    [width, height]: [u32; 2],
+) -> Result<DisplayRun, ReproduceError> {
+    let fail = failed(CARD);
+    let directions = |side| LocalDirections::new(side).map_err(|error| fail(&error));
+    let (view, light) = (directions(VIEWS)?, directions(side)?);
+    let lights = side * side;
+    let samples = vec![[0.0; 3]; VIEWS * VIEWS * lights * PATCH * PATCH];
+    let texture = BidirectionalTexture::new(PATCH, view, light, samples).map_err(|error| fail(&error))?;
+    let coordinates = corner_coordinates(mesh, [1.0; 2]).map_err(|error| fail(&error))?;
+    let textured = TexturedMesh { vertices, coordinates: &coordinates, texture: &texture };
+    let profile = Profile::named(CARD).map_err(|error| fail(&error))?;
+    let options = DisplayOptions::default();
+    let mut card =
+        BiScaleCard::new(profile.clone(), ExecutorKind::Batch, textured, options).map_err(|error| fail(&error))?;
+    let camera = Camera::new([3.0, -5.5, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.22, width, height);
+    let camera = camera.map_err(|error| fail(&error))?;
+    let view = PrtView { camera, exposure: 1.0, format: TexelFormat::Rgba8 };
+    let local = vec![[0.0; 3]; vertices.len() * lights];
+    let (texels, log) = card.logged_view(&local, &view).map_err(|error| fail(&error))?;
+    let pixels = texels.texels.iter().filter(|texel| texel[3] != 0.0).count() as u64;
+    Ok(DisplayRun { counts: card.counts(), time: time_of(&profile, &log)?, pixels })
+}
+
+/// The time of a log on the card. What the host does is to hand draws over.
+fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, ReproduceError> {
+    let host = host_of_table_1().map_err(|error| failed(HOST)(&error))?;
+    frame_time(profile, log, &host).map_err(|error| failed(CARD)(&error))
+}

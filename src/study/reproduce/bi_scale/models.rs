@@ -1,0 +1,87 @@
+//! Stand-ins for the paper's models: what their vertices see, transfer to so many local directions, biclusters.
+
+use std::cell::OnceCell;
+
+use super::{HOST, ReproduceError, failed, get_or_try};
+use crate::geom::{Mesh, Sides};
+use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::prt::bi_scale::transfer::transfer_matrix;
+use crate::prt::transfer::{Tangents, Vertices};
+use crate::scene::built::transfer_models::TransferModel;
+use crate::tracer::HostTracer;
+
+/// Visibility samples along an edge of a light texel, as a power of two.
+pub(super) const LOG2_SAMPLES: u32 = 1;
+
+/// A model with what its vertices see.
+#[derive(Debug)]
+pub(super) struct SeenModel {
+    pub(super) mesh: Mesh,
+    pub(super) vertices: Vertices,
+    maps: VisibilityMaps,
+}
+
+/// Transfer as biclusters.
+#[derive(Debug)]
+pub(super) struct ClusteredModel {
+    pub(super) nonzeros: usize,
+    pub(super) biclusters: Biclustering,
+}
+
+/// What entries share: the small bunny.
+#[derive(Debug, Default)]
+pub(in crate::study::reproduce) struct BiScaleShared {
+    seen: OnceCell<SeenModel>,
+    biclusters: OnceCell<ClusteredModel>,
+}
+
+impl BiScaleShared {
+    /// The bunny of both tables, seen by its triangles alone.
+    pub(super) fn bunny(&self) -> Result<&SeenModel, ReproduceError> {
+        get_or_try(&self.seen, || SeenModel::new(&TransferModel::BiScaleBunny.mesh(1), Horizon::Geometry))
+    }
+
+    /// Its biclusters with the directions of both tables.
+    pub(super) fn biclusters(&self) -> Result<&ClusteredModel, ReproduceError> {
+        get_or_try(&self.biclusters, || self.bunny()?.clustered(super::printed::SCENES[0].side))
+    }
+}
+
+impl SeenModel {
+    pub(super) fn new(mesh: &Mesh, horizon: Horizon) -> Result<Self, ReproduceError> {
+        let vertices = Vertices::new(mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
+        let all: Vec<u32> = (0..vertices.len() as u32).collect();
+        let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };
+        let mut caster = HostTracer::new(mesh, Sides::Both);
+        let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut |_, _| ())
+            .map_err(|error| failed(HOST)(&error))?;
+        Ok(Self { mesh: mesh.clone(), vertices, maps })
+    }
+
+    /// T with so many local directions along an edge.
+    pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, ReproduceError> {
+        let directions = LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?;
+        transfer_matrix(&self.vertices, &self.maps, &directions).map_err(|error| failed(HOST)(&error))
+    }
+
+    pub(super) fn clustered(&self, side: usize) -> Result<ClusteredModel, ReproduceError> {
+        let matrix = self.matrix(side)?;
+        let biclusters =
+            bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;
+        Ok(ClusteredModel { nonzeros: matrix.nonzeros(), biclusters })
+    }
+}
+
+impl ClusteredModel {
+    /// Bytes of biclusters: four per row, eight per column.
+    pub(super) fn megabytes(&self) -> f64 {
+        4e-6 * (self.biclusters.row_entries() + 2 * self.biclusters.column_entries()) as f64
+    }
+
+    pub(super) fn operations_left(&self) -> f64 {
+        100.0 * self.biclusters.cost() as f64 / (2 * self.nonzeros) as f64
+    }
+}
