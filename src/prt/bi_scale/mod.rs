@@ -4,11 +4,13 @@
 //! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of whole numbers;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
-//! - [`texture`]: the bidirectional textures that local light falls on (section III).
+//! - [`texture`]: the bidirectional textures that local light falls on (section III);
+//! - [`shade`]: pixels, their product (section III, equation 3).
 
 pub mod bicluster;
 pub mod directions;
 pub mod matrix;
 pub mod product;
+pub mod shade;
 pub mod texture;
 pub mod transfer;

@@ -11,9 +11,7 @@ use crate::prt::brdf::Brdf;
 const SIDE: usize = 128;
 
 /// A patch that the project makes.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames, strum::VariantArray,
-)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum PatchKind {
     /// Round bumps of several sizes on a soft skin, a little glossy (the paper's Figure 1).
@@ -36,6 +34,9 @@ struct Place {
 }
 
 impl PatchKind {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Bumps, Self::Mail, Self::Tiles, Self::Bricks, Self::Weave];
+
     /// The patch, with heights `relief` times as deep as they are made.
     ///
     /// # Panics
@@ -219,11 +220,10 @@ fn weave([u, v]: [f64; 2]) -> Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use strum::VariantArray;
 
     #[test]
     fn patches_have_a_relief_and_it_can_be_taken_away() {
-        for kind in PatchKind::VARIANTS {
+        for kind in PatchKind::ALL {
             let patch = kind.patch(1.0);
             let depth = patch.heights().depth();
             assert!((0.02..0.25).contains(&depth), "{kind}: {depth}");
