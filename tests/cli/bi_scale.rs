@@ -172,7 +172,10 @@ fn textures_take_every_way() {
     let mut before: Option<(Vec<u8>, Vec<[f32; 3]>)> = None;
     for threads in [1, 3] {
         let made = document(&format!("prt texture tiles {sizes} --out {file} --sheet {sheet} --threads {threads}"));
-        assert_eq!((&made["views"], &made["lights"], &made["bytes"]), (&9.into(), &16.into(), &(9 * 16 * 64 * 12).into()));
+        assert_eq!(
+            (&made["views"], &made["lights"], &made["bytes"]),
+            (&9.into(), &16.into(), &(9 * 16 * 64 * 12).into())
+        );
         assert!(number(&made["mean_reflectance"][0]) > 0.1);
         let found = drawn(&format!("--texture {file} --repeat 2 --threads {threads}"), &out);
         assert_eq!(found["way"], "biclusters");

@@ -35,7 +35,8 @@ pub enum HeightFieldError {
     /// A height that is none, or out of all proportion.
     #[error(
         "expected finite heights, the lowest at most {} edges of the patch below the highest; found {found} in row \
-         {row}, column {column}", HeightField::DEEPEST
+         {row}, column {column}",
+        HeightField::DEEPEST
     )]
     Height { found: f64, row: usize, column: usize },
 }
