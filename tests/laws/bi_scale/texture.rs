@@ -269,5 +269,13 @@ fn files_of_textures() {
         assert!(load().is_err(), "{end} bytes");
     }
     assert!(load_bidirectional_texture(Path::new("nowhere.npy")).is_err());
-    insta::assert_snapshot!(said.join("\n"), @"");
+    insta::assert_snapshot!(said.join("\n"), @"
+    b.npy: expected views of a square of k x k cells, k from 1 to 64, found 3
+    b.npy: expected directions of light of a square of k x k cells, k from 1 to 64, found 8
+    b.npy: expected an array of the shape (views, lights, size, size, 3), found [4, 9, 2, 2, 3, 1]
+    b.npy: expected an array of the shape (views, lights, size, size, 3), found [4, 9, 2, 6]
+    b.npy: expected an array of the shape (views, lights, size, size, 3), found [4, 9, 1, 4, 3]
+    b.npy: expected samples of 0 or more, finite ones; found another at view 0, light 1, row 0, column 0
+    b.npy: expected samples of 0 or more, finite ones; found another at view 0, light 1, row 0, column 0
+    ");
 }

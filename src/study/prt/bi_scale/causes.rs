@@ -57,9 +57,9 @@ impl<'a> Causes<'a> {
     ) -> Result<(), BiScaleError> {
         let mut pictures = self.rungs(pixels, cube, progress);
         let mut names = self.names();
-        // Transfer in f64, if there is a matrix to take it from.
+        // A matrix alone is drawn in f64 as it is.
         if self.rendering.file.biclusters.is_some()
-            && let Some(local) = LocalLight::by_rows(&self.rendering.file, cube)
+            && let Some(local) = LocalLight::exact(&self.rendering.file, cube)
         {
             pictures.push(self.by_reference(pixels, &local));
             names.push(("precision", "biclusters in single precision".to_owned()));
