@@ -5,8 +5,9 @@
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
 //! - [`rivals`]: other ways to store transfer, beside which biclusters stand (section VI-B);
+//! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering);
 //! - [`texture`]: the bidirectional textures that local light falls on (section III);
-//! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering).
+//! - [`shade`]: pixels, their product (section III, equation 3).
 
 pub mod bicluster;
 pub mod directions;
@@ -15,5 +16,6 @@ pub mod matrix;
 pub mod on_card;
 pub mod product;
 pub mod rivals;
+pub mod shade;
 pub mod texture;
 pub mod transfer;

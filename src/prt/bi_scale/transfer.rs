@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::directions::LocalDirections;
 use super::matrix::{MatrixEntry, SparseMatrix, SparseMatrixError};
 use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
+use crate::prt::all_frequency::light::CubeLight;
 use crate::prt::all_frequency::visibility::VisibilityMaps;
 use crate::prt::transfer::{LocalFrame, Vertices};
 
@@ -67,6 +68,12 @@ fn vertex_rows(frame: &LocalFrame, shares: &[u32], directions: &LocalDirections)
         rows[nearest].push(MatrixEntry { index: texel as u32, value: share.cast_signed() });
     }
     rows
+}
+
+/// [`light_vector`] of a light's red, green and blue.
+pub fn light_vectors(light: &CubeLight) -> [Vec<f64>; 3] {
+    [0, 1, 2]
+        .map(|channel: usize| light_vector(&light.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>()))
 }
 
 /// L: radiance per texel times the texel's solid angle in steradians, which T leaves out.

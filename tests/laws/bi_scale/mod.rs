@@ -3,6 +3,8 @@
 mod biclusters;
 mod file;
 mod rivals;
+mod shade;
+mod texture;
 mod transfer;
 
 use crossbar::geom::Sides;

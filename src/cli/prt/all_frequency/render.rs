@@ -30,6 +30,7 @@ impl StudyArgs for Args<'_> {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
+        self.0.bi_scale.refuse()?;
         let render::Args { model, original, light, keep, frames, size, eye, exposure, .. } = self.0;
         let lit = LitArgs {
             file: self.0.file(),

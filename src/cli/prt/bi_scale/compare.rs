@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::{light_channels, load};
+use super::{load, turned};
 use crate::cli::prt::light::LightArgs;
 use crate::cli::prt::model;
 use crate::cli::words::counted;
@@ -15,6 +15,7 @@ use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::rivals::{
     CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
 };
+use crate::prt::bi_scale::transfer::light_vectors;
 use crate::prt::cpca::CpcaForm;
 use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest};
 use crate::prt::transfer::Vertices;
@@ -137,7 +138,8 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
             bicluster(&matrix, options, &mut |_| ()).map_err(|error| refused(&error))?
         }
     };
-    let (cube, channels) = light_channels(&args.light, args.rotate, "compare")?;
+    let cube = turned(&args.light, args.rotate, "compare")?;
+    let channels = light_vectors(&cube);
     let side = meaning.map_or(1, |meaning| meaning.side as usize);
     let directions = LocalDirections::new(side).map_err(|error| refused(&error))?;
     let transfer = vertices.as_ref().map(|vertices| LocalTransfer::new(&matrix, vertices.frames(), &directions));

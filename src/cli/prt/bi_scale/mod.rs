@@ -3,18 +3,65 @@
 pub(super) mod bicluster;
 pub(super) mod compare;
 pub(super) mod multiply;
+mod patch;
 pub(super) mod precompute;
+pub(super) mod render;
+pub(super) mod show;
+pub(super) mod texture;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use super::light::LightArgs;
-use crate::cli::{Problem, view};
+use super::model::load as load_model;
+use super::values::KindArg;
+use crate::cli::model_name::Model;
+use crate::cli::{Problem, number, view};
+use crate::elementary::on_circle;
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::prt::all_frequency::light::{CubeLight, Decimation};
 use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::transfer::light_vector;
-use crate::prt::file::{BiScaleFile, load_bi_scale};
+use crate::prt::file::{BiScaleFile, is_bi_scale, load_bi_scale};
+use crate::prt::transfer::Tangents;
 use crate::sphere::turn_around_z;
+
+/// An angle from 0 to 180 degrees.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    let degrees = number::not_negative(text)?;
+    if degrees <= 180.0 {
+        return Ok(degrees);
+    }
+    Err(format!("expected an angle from 0 to 180 degrees, found `{text}`"))
+}
+
+/// A model, its normals taken anew if there is a crease angle, in degrees: smooth over edges up to it.
+fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
+    let model = load_model(path, tangents)?;
+    let Some(degrees) = crease else { return Ok(model) };
+    Ok(Model { mesh: model.mesh.creased(on_circle(degrees / 360.0)[0]), ..model })
+}
+
+/// Whether a file is one of bi-scale transfer, by how it begins, held against the kind that was asked for. What is no
+/// file is none.
+pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
+    let mut head = [0; 16];
+    let found = path.is_file()
+        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && is_bi_scale(&head);
+    match kind {
+        Some(KindArg::BiScale) if path.is_file() && !found => {
+            let what = format!("{}: expected bi-scale transfer, found another file", path.display());
+            Err(Problem::usage(what, "leave `--kind` out, or name another file"))
+        }
+        Some(KindArg::BiScale) => Ok(true),
+        Some(_) if found => {
+            let what = format!("{}: expected transfer of another kind, found bi-scale transfer", path.display());
+            Err(Problem::usage(what, "leave `--kind` out, or name another file"))
+        }
+        _ => Ok(found),
+    }
+}
 
 /// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
 fn load(path: &Path) -> miette::Result<BiScaleFile> {
@@ -33,14 +80,10 @@ fn load(path: &Path) -> miette::Result<BiScaleFile> {
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
 
-/// The light, turned around z by some degrees, and its red, green and blue times solid angles, for a verb.
-fn light_channels(light: &LightArgs, degrees: f64, verb: &str) -> miette::Result<(CubeLight, [Vec<f64>; 3])> {
+/// The light of a verb, turned around z by some degrees.
+fn turned(light: &LightArgs, degrees: f64, verb: &str) -> miette::Result<CubeLight> {
     let cube = light.distant()?.cube(&turn_around_z(degrees / 360.0), Decimation::SolidAngle);
-    let cube = cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar prt {verb} --help`")))?;
-    let channel =
-        |channel: usize| light_vector(&cube.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>());
-    let channels = [channel(0), channel(1), channel(2)];
-    Ok((cube, channels))
+    Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar prt {verb} --help`")))?)
 }
 
 /// Writes a matrix as text.

@@ -18,7 +18,7 @@ use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster}
 use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
-use crate::prt::bi_scale::transfer::light_vector;
+use crate::prt::bi_scale::transfer::light_vectors;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 use crate::study::reproduce::sky::HARD_SUN;
@@ -100,8 +100,7 @@ fn lights() -> Result<[LightChannels; 2], ReproduceError> {
     let of = |light: DistantLight| -> Result<LightChannels, ReproduceError> {
         let cube: CubeLight =
             light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).map_err(|error| failed(HOST)(&error))?;
-        let channel = |at: usize| light_vector(&cube.texels().iter().map(|texel| texel[at]).collect::<Vec<f64>>());
-        Ok([0, 1, 2].map(channel).to_vec())
+        Ok(light_vectors(&cube).to_vec())
     };
     Ok([of(DistantLight::Sky(HARD_SUN))?, of(DistantLight::RedAndBlue)?])
 }

@@ -1,0 +1,55 @@
+//! Light times transfer: by biclusters in f32 where there are any, else by rows in f64.
+
+use std::time::Instant;
+
+use crate::prt::all_frequency::light::CubeLight;
+use crate::prt::bi_scale::product::{Gather, by_rows, reference};
+use crate::prt::bi_scale::transfer::light_vectors;
+use crate::prt::file::BiScaleFile;
+
+/// L~ of all vertices.
+#[derive(Clone, Debug)]
+pub struct LocalLight {
+    /// `biclusters` or `rows`.
+    pub way: &'static str,
+    /// Red, green and blue of each row of the transfer.
+    pub rows: Vec<[f64; 3]>,
+    /// What the multiplication took.
+    pub seconds: f64,
+}
+
+impl LocalLight {
+    /// The light times a file's transfer, by its biclusters if it has any; `None` if it has neither these nor a matrix.
+    ///
+    /// # Panics
+    /// If the transfer has not a column per light texel.
+    pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
+        let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
+        let gather = Gather::new(biclusters);
+        let channels = light_vectors(light);
+        let single: Vec<[f32; 3]> = (0..channels[0].len())
+            .map(|texel| [0, 1, 2].map(|channel: usize| channels[channel][texel] as f32))
+            .collect();
+        let start = Instant::now();
+        let rows = gather.multiply(&single);
+        let seconds = start.elapsed().as_secs_f64();
+        Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
+    }
+
+    /// The same in f64: by the file's matrix, else by its biclusters.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
+        let channels = light_vectors(light);
+        let start = Instant::now();
+        let (way, [red, green, blue]) = match (&file.matrix, &file.biclusters) {
+            (Some(matrix), _) => ("rows", channels.map(|channel| by_rows(matrix, &channel))),
+            (None, Some(biclusters)) => ("biclusters", channels.map(|channel| reference(biclusters, &channel))),
+            (None, None) => return None,
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        let rows = red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect();
+        Some(Self { way, rows, seconds })
+    }
+}
