@@ -41,7 +41,7 @@ const QUESTION: &str = "the chair, its light and camera; whether clusters had me
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mesh = match shared.models {
         ModelSize::Reduced => TransferModel::BiScaleBunny.mesh(2),
-        _ => TransferModel::BiScaleBunnyMiddle.mesh(1),
+        ModelSize::Printed => TransferModel::BiScaleBunnyMiddle.mesh(1),
     };
     let scene = StandIn::new(mesh, SCENES[2].side, Horizon::Normal)?;
     let biclusters =
