@@ -1,4 +1,4 @@
-//! Figure 6: biclusters beside clusters of rows and wavelets, and what the paper says of other ways (sections II, IV-A).
+//! Figure 6: biclusters beside clusters of rows and wavelets, and beside what sections II and IV-A say of other ways.
 
 mod pictures;
 mod sizes;
@@ -21,9 +21,8 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::sphere::ClearSky;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 use pictures::VertexPictures;
-use sizes::chair_sizes;
+use sizes::{PLACE, chair_sizes};
 
-const PLACE: &str = "figure 6";
 /// The order of harmonics of low-frequency bi-scale transfer.
 const ORDER: usize = 5;
 /// A difference that nobody calls severe, in percent of the light that arrives.
