@@ -38,9 +38,9 @@ const QUESTION: &str = "the chair, its light and camera; whether clusters had me
     what area a wavelet is weighed by.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let mesh = match shared.models {
-        ModelSize::Reduced => TransferModel::BiScaleBunny.mesh(2),
-        ModelSize::Printed => TransferModel::BiScaleBunnyMiddle.mesh(1),
+    let (mesh, sample) = match shared.models {
+        ModelSize::Reduced => (TransferModel::BiScaleBunny.mesh(2), 1024),
+        ModelSize::Printed => (TransferModel::BiScaleBunnyMiddle.mesh(1), 8192),
     };
     let scene = StandIn::new(mesh, SCENES[2].side, Horizon::Normal)?;
     let biclusters =
@@ -50,7 +50,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         matrix: &scene.matrix,
         biclusters: &biclusters,
         transfer: Some(transfer.map_err(|error| failed(HOST)(&error))?),
-        clusters: RowClusterOptions::default(),
+        clusters: RowClusterOptions { sample, ..RowClusterOptions::default() },
         wavelets: HaarRowOptions::default(),
         order: ORDER,
     };
