@@ -18,6 +18,7 @@ use crossbar::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, biclust
 use crossbar::prt::bi_scale::directions::LocalDirections;
 use crossbar::prt::bi_scale::matrix::SparseMatrix;
 use crossbar::prt::bi_scale::product::Gather;
+use crossbar::prt::bi_scale::rivals::WideRows;
 use crossbar::prt::bi_scale::transfer::transfer_matrix;
 use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::built::transfer_models::TransferModel;
@@ -34,54 +35,23 @@ fn matrix(coarser: u32) -> SparseMatrix {
     transfer_matrix(&vertices, &maps, &LocalDirections::new(8).expect("a side")).expect("a matrix")
 }
 
-/// Compressed rows in f32: columns and values of each row one after the other.
-struct Rows {
-    begins: Vec<u32>,
-    columns: Vec<u32>,
-    values: Vec<f32>,
-}
-
-impl Rows {
-    fn new(matrix: &SparseMatrix) -> Self {
-        let mut rows = Self { begins: vec![0], columns: Vec::new(), values: Vec::new() };
-        for entries in (0..matrix.rows()).map(|row| matrix.row(row)) {
-            rows.columns.extend(entries.iter().map(|entry| entry.index));
-            rows.values.extend(entries.iter().map(|entry| (matrix.unit() * f64::from(entry.value)) as f32));
-            rows.begins.push(rows.columns.len() as u32);
-        }
-        rows
-    }
-
-    fn multiply<const C: usize>(&self, light: &[[f32; C]]) -> Vec<[f32; C]> {
-        let row = |ends: &[u32]| {
-            let of = ends[0] as usize..ends[1] as usize;
-            let terms = self.columns[of.clone()].iter().zip(&self.values[of]);
-            terms.fold([0.0; C], |sum, (&column, value)| {
-                let light = light[column as usize];
-                std::array::from_fn(|channel| sum[channel] + value * light[channel])
-            })
-        };
-        self.begins.windows(2).map(row).collect()
-    }
-}
-
 fn biclusters(matrix: &SparseMatrix) -> Biclustering {
     bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("quarters")
 }
 
 /// One light of C channels by both ways.
-fn products<const C: usize>(criterion: &mut Criterion, rows: &Rows, gather: &Gather) {
+fn products<const C: usize>(criterion: &mut Criterion, rows: &WideRows, gather: &Gather) {
     let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
     let mut group = criterion.benchmark_group(format!("light of {C} channels"));
     group.sample_size(20).measurement_time(Duration::from_secs(3));
-    group.throughput(Throughput::Elements(rows.columns.len() as u64));
-    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply(black_box(&light)))));
+    group.throughput(Throughput::Elements(rows.nonzeros() as u64));
+    group.bench_function("times rows", |b| b.iter(|| black_box(rows.multiply_singles(black_box(&light)))));
     group.bench_function("times biclusters", |b| b.iter(|| black_box(gather.multiply(black_box(&light)))));
     group.finish();
 }
 
 fn benches(criterion: &mut Criterion, matrix: &SparseMatrix, found: &Biclustering) {
-    let (rows, gather) = (Rows::new(matrix), Gather::new(found));
+    let (rows, gather) = (WideRows::new(matrix).expect("columns of 32 bits"), Gather::new(found));
     products::<1>(criterion, &rows, &gather);
     products::<3>(criterion, &rows, &gather);
     products::<4>(criterion, &rows, &gather);

@@ -197,8 +197,8 @@ fn bad_input() {
     }
 }
 
-/// A solution in a meshed atlas: texture and view beside the other pictures, the power of its texels in the document; too
-/// small an atlas is refused before the work.
+/// A solution in a meshed atlas: texture and view beside the other pictures, the power of its texels in the document;
+/// too small an atlas is refused before the work.
 #[test]
 fn a_solution_goes_into_an_atlas() {
     let small = ["cornell-room", "--patches", "60", "--factors", "unoccluded", "--size", "24x24"];

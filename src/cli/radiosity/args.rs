@@ -110,8 +110,8 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "N,N", value_delimiter = ',', allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(super) frames: Vec<u32>,
 
-    /// Resample a solution (the direct one, or the first) into a meshed atlas of so many texels along a side, a power of
-    /// two, and draw the room from it
+    /// Resample a solution (the direct one, or the first) into a meshed atlas of so many texels along a side, a power
+    /// of two, and draw the room from it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_SIDE as i64))]
     pub(super) atlas: Option<u32>,
 

@@ -10,6 +10,7 @@ use crate::prt::bi_scale::rivals::{
     CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
     ReshuffledVisibility, RivalError, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
 };
+use crate::report::words::counted;
 use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
 
@@ -76,7 +77,11 @@ impl StoredComparison<'_> {
         ways.make("rows of 8 bytes an entry", || WideRows::new(self.matrix))?;
         for (clusters, what) in self.cluster_settings(budget) {
             let steps = clusters.rounds as u64 + 1;
-            let name = format!("{} clusters of rows, {} vectors each{what}", clusters.clusters, clusters.vectors);
+            let name = format!(
+                "{} of rows, {} each{what}",
+                counted(clusters.clusters as u64, "cluster", "clusters"),
+                counted(clusters.vectors as u64, "vector", "vectors")
+            );
             let mut observe = |round: usize| progress("rounds of clusters", round as u64 + 1, steps);
             ways.make(name, || RowClusters::new(self.matrix, &clusters, &mut observe))?;
         }

@@ -1,4 +1,4 @@
-//! Figure 6: biclusters beside clusters of rows and wavelets, and what the paper says of other ways (sections II, IV-A).
+//! Figure 6: biclusters beside clusters of rows and wavelets, and beside what sections II and IV-A say of other ways.
 
 mod pictures;
 mod sizes;
@@ -23,9 +23,8 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 use crate::study::reproduce::sky::HARD_SUN;
 use pictures::VertexPictures;
-use sizes::chair_sizes;
+use sizes::{PLACE, chair_sizes};
 
-const PLACE: &str = "figure 6";
 /// The order of harmonics of low-frequency bi-scale transfer.
 const ORDER: usize = 5;
 /// A difference that nobody calls severe, in percent of the light that arrives.
@@ -57,9 +56,9 @@ impl ChairModel {
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let mesh = match shared.models {
-        ModelSize::Reduced => TransferModel::BiScaleBunny.mesh(2),
-        _ => TransferModel::BiScaleBunnyMiddle.mesh(1),
+    let (mesh, sample) = match shared.models {
+        ModelSize::Reduced => (TransferModel::BiScaleBunny.mesh(2), 1024),
+        ModelSize::Printed => (TransferModel::BiScaleBunnyMiddle.mesh(1), 8192),
     };
     let scene = ChairModel::new(&mesh)?;
     let biclusters =
@@ -69,7 +68,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         matrix: &scene.matrix,
         biclusters: &biclusters,
         transfer: Some(transfer.map_err(|error| failed(HOST)(&error))?),
-        clusters: RowClusterOptions::default(),
+        clusters: RowClusterOptions { sample, ..RowClusterOptions::default() },
         wavelets: HaarRowOptions::default(),
         order: ORDER,
     };

@@ -1,10 +1,11 @@
 //! Bytes of the chair by each way, from printed numbers alone.
 
 use super::super::printed::SCENES;
-use super::{Bound, HOST, Method, PLACE, PaperFigure, PaperRow, Standing};
+use super::{Bound, HOST, Method, PaperFigure, PaperRow, Standing};
 use crate::prt::all_frequency::grid::LIGHT_TEXELS;
 use crate::report::{Cell, Table};
 
+pub(super) const PLACE: &str = "figure 6";
 /// Printed: clusters of rows, vectors of each, wavelets of a row.
 const CLUSTERS: usize = 32;
 const VECTORS: usize = 8;
