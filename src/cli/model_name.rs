@@ -6,6 +6,7 @@ use super::{Problem, scene_name, view};
 use crate::geom::Mesh;
 use crate::io::scene_file::load;
 use crate::names::did_you_mean;
+use crate::scene::built::flat_models::MaterialMesh;
 use crate::scene::built::{self, meshes};
 use crate::scene::{Material, Scene};
 
@@ -31,6 +32,17 @@ impl Model {
     }
 }
 
+/// The help of an argument that takes a model, with the names of the stand-ins for models of the papers on transfer.
+pub(super) fn transfer_model_help() -> String {
+    let stands_in = |name: &&str| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|of| name.starts_with(of));
+    let names: Vec<&str> = meshes::names().filter(stands_in).collect();
+    format!(
+        "A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of \
+         the papers: {}",
+        names.join(", ")
+    )
+}
+
 /// The path, unless it is the name of a mesh or of a scene of the project.
 pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if meshes::names().any(|name| path == Path::new(name)) { Vec::new() } else { scene_name::named_file(path) }
@@ -44,8 +56,8 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 /// The same with materials.
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
-    if let Some(mesh) = meshes::build(name) {
-        return Ok(Model::plain(mesh));
+    if let Some(MaterialMesh { mesh, materials, material_of }) = meshes::build_with_materials(name) {
+        return Ok(Model { mesh, materials, material_of });
     }
     if let Some(scene) = built::build(name) {
         return Ok(Model::of(&scene));

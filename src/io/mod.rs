@@ -30,10 +30,10 @@ pub use matrix_market::{
     CoordinateMatrix, MatrixMarketError, load_matrix_market, parse_matrix_market, write_matrix_market,
 };
 pub use model::{load_mesh, load_scene};
-pub use npy::{NpyError, parse_npy, write_npy};
+pub use npy::{NpyError, NumberArray, parse_npy, parse_npy_array, write_npy, write_npy_array};
 pub use number::{NumberError, parse_f32, to_f32};
 pub use number_table::{NumberTable, NumberTableError, parse_number_table};
-pub use numbers::{NumbersError, load_numbers, parse_numbers};
+pub use numbers::{NumbersError, load_npy_array, load_numbers, parse_numbers};
 pub use obj::{load_obj, parse_obj, write_obj};
 pub use picture::{PictureFileError, load_picture};
 pub use ply::{load_ply, parse_ply};

@@ -1,4 +1,4 @@
-//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order, as a table. The
+//! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. As a table, the
 //! first axis counts rows; the others together are its columns. f8 is rounded to the nearest f32.
 
 use std::io::{self, Write};
@@ -44,11 +44,29 @@ pub enum NpyError {
     TooLarge { path: PathBuf, index: usize, bits: u64 },
 }
 
-/// Reads an array from bytes; `name` stands for the file in messages.
+/// Numbers along any number of axes, the last one fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberArray {
+    /// How many there are along each axis: at least one axis, each at least 1.
+    pub shape: Vec<usize>,
+    /// All numbers: the product of the shape.
+    pub values: Vec<f32>,
+}
+
+/// Reads an array from bytes as a table; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`NpyError`].
 pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
+    let NumberArray { shape, values } = parse_npy_array(bytes, name)?;
+    Ok(NumberTable { columns: shape.iter().skip(1).product(), values })
+}
+
+/// Reads an array from bytes; `name` stands for the file in messages.
+///
+/// # Errors
+/// [`NpyError`].
+pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, NpyError> {
     let (text, data) = split(bytes, name)?;
     let header = Header::parse(text).map_err(|(what, expected)| NpyError::Header {
         path: name.into(),
@@ -68,10 +86,8 @@ pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
         _ => return Err(unknown()),
     };
     let wrong = |expected: String| NpyError::Size { path: name.into(), expected, found: format!("{:?}", header.shape) };
-    let columns = header.shape.iter().skip(1).try_fold(1_usize, |product, &axis| product.checked_mul(axis));
-    let rows = header.shape.first().copied().unwrap_or(0);
-    let count = columns.filter(|&columns| columns > 0 && rows > 0).and_then(|columns| columns.checked_mul(rows));
-    let (Some(columns), Some(count)) = (columns, count) else {
+    let count = header.shape.iter().try_fold(1_usize, |product, &axis| product.checked_mul(axis));
+    let Some(count) = count.filter(|&count| count > 0 && !header.shape.is_empty()) else {
         return Err(wrong("a shape".to_owned()));
     };
     if count.checked_mul(size) != Some(data.len()) {
@@ -87,7 +103,7 @@ pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
             .collect(),
         _ => singles(data, is_big).map_err(|(index, bits)| NpyError::TooLarge { path: name.into(), index, bits })?,
     };
-    Ok(NumberTable { columns, values })
+    Ok(NumberArray { shape: header.shape, values })
 }
 
 fn singles(data: &[u8], is_big: bool) -> Result<Vec<f32>, (usize, u64)> {
@@ -199,8 +215,23 @@ fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
     let NumberTable { columns, values } = table;
     assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
-    let shape = format!("({}, {columns})", values.len() / columns);
+    write_npy_array(&[values.len() / columns, *columns], values, out)
+}
+
+/// Writes numbers of any shape as an array of little-endian f4, of version 1.
+///
+/// # Errors
+/// Those of `out`.
+///
+/// # Panics
+/// If there are not as many values as the shape says, or there are more axes than a header has room for.
+pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
+    assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
+    let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
+    // A tuple of one has a comma behind it.
+    let shape = format!("({}{})", axes.join(", "), if shape.len() == 1 { "," } else { "" });
     let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
+    assert!(header.len() < 60_000, "a shape of fewer axes");
     // The data begin at a multiple of 64 bytes, behind a line feed.
     let padding = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - (MAGIC.len() + 4 + header.len() + 1);
     header.extend(std::iter::repeat_n(' ', padding).chain(['\n']));
@@ -257,6 +288,17 @@ mod tests {
             assert!(parse(&bytes[..length]).is_err(), "{length} bytes");
         }
         assert!(parse(&[&bytes[..], &[0]].concat()).is_err());
+    }
+
+    #[test]
+    fn shapes_are_kept() {
+        for shape in [&[6][..], &[2, 3], &[1, 2, 1, 3]] {
+            let values = vec![0.5, -1.0, 2.0, 3.0, 4.0, 5.0];
+            let mut bytes = Vec::new();
+            write_npy_array(shape, &values, &mut bytes).expect("written");
+            let found = parse_npy_array(&bytes, Path::new("a.npy")).expect("an array");
+            assert_eq!(found, NumberArray { shape: shape.to_vec(), values });
+        }
     }
 
     #[test]

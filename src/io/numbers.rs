@@ -5,7 +5,7 @@ use std::path::Path;
 use thiserror::Error;
 
 use super::error::{ReadError, read};
-use super::npy::{self, NpyError, parse_npy};
+use super::npy::{self, NpyError, NumberArray, parse_npy, parse_npy_array};
 use super::number_table::{NumberTable, NumberTableError, parse_number_table};
 
 /// Why a file has no numbers.
@@ -44,6 +44,14 @@ pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, NumbersEr
 /// [`NumbersError`].
 pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable, NumbersError> {
     parse_numbers(&read(path, what, limit)?, path)
+}
+
+/// The numbers of an array of NumPy's with its shape, from a file of at most `limit` bytes, which is a `what`.
+///
+/// # Errors
+/// [`NumbersError::Read`] and [`NumbersError::Npy`].
+pub fn load_npy_array(path: &Path, what: &'static str, limit: u64) -> Result<NumberArray, NumbersError> {
+    Ok(parse_npy_array(&read(path, what, limit)?, path)?)
 }
 
 #[cfg(test)]

@@ -121,3 +121,153 @@ fn what_cannot_be_done_is_said() {
         assert!(words.contains(said), "{}", ran.transcript());
     }
 }
+
+const COURT: &str = "docs/examples/court.obj";
+const COURT_BICLUSTERS: &str = "docs/examples/court_biclusters.prt";
+
+/// Fields of the JSON document of a picture of the court.
+fn drawn(options: &str, out: &str) -> Value {
+    document(&format!("prt render {COURT_BICLUSTERS} --model {COURT} --size 24x18 {options} --out {out}"))
+}
+
+fn picture(folder: &str, name: &str) -> Vec<[f32; 3]> {
+    let bytes = fs::read(format!("{folder}/{name}.exr")).expect("written");
+    crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
+}
+
+/// The example that pictures are made of.
+#[test]
+fn the_court_has_its_transfer() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [matrix, biclusters] = ["t.prt", "b.prt"].map(|name| place(folder.path(), name));
+    let options = "--kind bi-scale --directions 4 --tangents texture";
+    document(&format!("prt precompute {COURT} {options} --out {matrix}"));
+    document(&format!("prt bicluster {matrix} --out {biclusters}"));
+    if std::env::var_os("CROSSBAR_BLESS").is_some() {
+        fs::copy(&biclusters, COURT_BICLUSTERS).expect("written");
+    }
+    assert!(
+        fs::read(&biclusters).expect("written") == fs::read(COURT_BICLUSTERS).expect("an example"),
+        "CROSSBAR_BLESS=1"
+    );
+    // The matrix is drawn as its biclusters are, up to single precision.
+    let [one, other] = [&matrix, COURT_BICLUSTERS].map(|file| {
+        let out = place(folder.path(), "p");
+        let options = "--texture mail --texture-size 8 --texture-views 3 --repeat 2 --size 24x18";
+        document(&format!("prt render {file} --model {COURT} {options} --out {out}"));
+        picture(&out, "picture")
+    });
+    for (one, other) in one.as_flattened().iter().zip(other.as_flattened()) {
+        assert_relative_eq!(one, other, max_relative = 1e-4, epsilon = 1e-6);
+    }
+}
+
+/// From a patch to a file to a picture: the same picture as with the patch itself; the same bits in any number of
+/// threads.
+#[test]
+fn textures_take_every_way() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [file, sheet, out] = ["b.npy", "s.png", "p"].map(|name| place(folder.path(), name));
+    let sizes = "--size 8 --directions 4 --views 3";
+    let mut before: Option<(Vec<u8>, Vec<[f32; 3]>)> = None;
+    for threads in [1, 3] {
+        let made = document(&format!("prt texture tiles {sizes} --out {file} --sheet {sheet} --threads {threads}"));
+        assert_eq!((&made["views"], &made["lights"], &made["bytes"]), (&9.into(), &16.into(), &(9 * 16 * 64 * 12).into()));
+        assert!(number(&made["mean_reflectance"][0]) > 0.1);
+        let found = drawn(&format!("--texture {file} --repeat 2 --threads {threads}"), &out);
+        assert_eq!(found["way"], "biclusters");
+        assert!(number(&found["pixels_shown"]) > 100.0);
+        let now = (fs::read(&file).expect("written"), picture(&out, "picture"));
+        assert!(before.get_or_insert_with(|| now.clone()) == &now, "{threads} threads");
+    }
+    let (_, of_file) = before.expect("a picture");
+    drawn("--texture tiles --texture-size 8 --texture-views 3 --repeat 2", &out);
+    assert_eq!(picture(&out, "picture"), of_file);
+    // Another texture on the wall changes the wall's pixels alone.
+    drawn(&format!("--texture {file} --texture wall=bricks --texture-size 8 --texture-views 3 --repeat 2"), &out);
+    let both = picture(&out, "picture");
+    let changed = both.iter().zip(&of_file).filter(|(a, b)| a != b).count();
+    assert!((20..200).contains(&changed), "{changed}");
+    let found = drawn(&format!("--texture {file} --repeat 2 --frames 2 --turn camera"), &out);
+    assert_eq!(found["exit"], Value::Null);
+    assert!(std::path::Path::new(&format!("{out}/frame-1.png")).exists());
+}
+
+/// Without relief and under light from everywhere, all causes but the directions' are small; their table is whole.
+#[test]
+fn errors_are_told_apart() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "p");
+    let options = "--texture tiles --texture-size 16 --texture-views 4 --reference --size 8x6";
+    let document =
+        document(&format!("prt render {COURT_BICLUSTERS} --model {COURT} {options} --light constant --out {out}"));
+    let causes = document["causes"].as_array().expect("a table");
+    assert_eq!(causes.len(), 5, "{document}");
+    // Light from everywhere is the same in any texels.
+    assert!(number(&causes[0]["alone (%)"]) < 1e-6, "{document}");
+    let last = number(&causes[4]["up to here (%)"]);
+    assert!(last > 0.0 && last < 60.0, "{document}");
+    let (exact, drawn) = (picture(&out, "reference"), picture(&out, "picture"));
+    let squares = |values: &mut dyn Iterator<Item = f32>| values.map(|value| f64::from(value * value)).sum::<f64>();
+    let apart = squares(&mut exact.as_flattened().iter().zip(drawn.as_flattened()).map(|(a, b)| a - b));
+    let whole = squares(&mut exact.as_flattened().iter().copied());
+    assert_relative_eq!(100.0 * (apart / whole).sqrt(), last, max_relative = 1e-3);
+}
+
+#[test]
+fn transfer_is_shown() {
+    let found = document(&format!("prt show {BICLUSTERS} --vertex 12"));
+    assert_eq!(found["mesh"]["local_directions"], 64);
+    assert_eq!(found["vertex"]["rows"].as_array().expect("rows").len(), 64);
+    let sizes = found["biclusters"]["sizes"].as_array().expect("sizes");
+    let sum = |key: &str| sizes.iter().map(|size| number(&size[key])).sum::<f64>();
+    assert_eq!(sum("biclusters"), number(&found["biclusters"]["count"]));
+    assert_eq!(sum("operations"), number(&found["biclusters"]["operations"]));
+    let of_matrix = document("prt show docs/examples/quarters.mtx --kind bi-scale");
+    let counts: f64 = of_matrix["values"].as_array().expect("values").iter().map(|value| number(&value["count"])).sum();
+    assert_eq!(counts, number(&of_matrix["nonzeros"]));
+}
+
+#[test]
+fn textures_that_do_not_fit_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let file = place(folder.path(), "b.npy");
+    document(&format!("prt texture plain --size 1 --directions 3 --views 2 --out {file}"));
+    let damaged = place(folder.path(), "nan.npy");
+    let mut bytes = fs::read(&file).expect("written");
+    let end = bytes.len();
+    bytes[end - 4..].copy_from_slice(&f32::NAN.to_le_bytes());
+    fs::write(&damaged, &bytes).expect("written");
+    let cut = place(folder.path(), "cut.npy");
+    fs::write(&cut, &bytes[..end - 12]).expect("written");
+    let court = format!("prt render {COURT_BICLUSTERS} --model {COURT} --size 8x6");
+    for (arguments, said) in [
+        (court.clone(), "drawn with a bidirectional texture, found none"),
+        (format!("{court} --texture {file}"), "expected 16 directions of light, as the transfer has, found 9"),
+        (format!("{court} --texture {damaged}"), "view 3, light 8, row 0, column 0"),
+        (format!("{court} --texture {cut}"), "expected 108 x 4 bytes"),
+        (format!("{court} --texture male"), "did you mean `mail`"),
+        (format!("{court} --texture floor=mail"), "expected a texture for material `wall`, found none"),
+        (format!("{court} --texture flor=mail"), "the model has no material `flor`"),
+        (format!("{court} --texture mail --texture bricks"), "expected one texture for all other materials, found two"),
+        (format!("{court} --texture mail --keep 9"), "`--keep` is for other kinds of transfer"),
+        (format!("{court} --kind glossy --texture mail"), "found bi-scale transfer"),
+        (
+            format!("prt render {BICLUSTERS} --model {STEP} --texture mail --texture-size 1 --size 8x6"),
+            "the model has no texture coordinates",
+        ),
+        (format!("prt render {BICLUSTERS} --model {COURT} --texture mail --size 8x6"), "another mesh"),
+        ("prt render docs/examples/step.prt --model docs/examples/step.obj --repeat 2".to_owned(), "bi-scale transfer"),
+        ("prt texture male --out x.npy".to_owned(), "did you mean `mail`"),
+        ("prt texture mail --color 1,0,0 --out x.npy".to_owned(), "are for `plain`"),
+        ("prt texture mail --relief 1e6 --out x.npy".to_owned(), "expected a patch at most 16 edges deep"),
+        ("prt texture plain --views 2 --sheet-view 4 --sheet s.png --out x.npy".to_owned(), "expected a view below 4"),
+        ("prt texture docs/examples/rays.csv --out x.npy".to_owned(), "expected as many rows as columns"),
+    ] {
+        let ran = crossbar(&arguments.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(ran.code, Some(2), "{arguments}: {}", ran.transcript());
+        // Messages are wrapped.
+        let words = ran.stderr.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+        assert!(words.contains(said), "{arguments}: {words}");
+    }
+}

@@ -18,6 +18,7 @@ pub(crate) const VERBS: &[&str] = &[
     "prt precompute",
     "prt render",
     "prt show",
+    "prt texture",
 ];
 
 #[test]

@@ -75,9 +75,13 @@ const COMMANDS: &[(&str, &str)] = &[
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --kind --original --ground --ground-model --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
     ("prt show nowhere.prt", "--kind --vertex --at --model --arrays"),
+    (
+        "prt texture nowhere.png --out b.npy",
+        "--detail --relief --color --brdf --size --directions --views --samples --out --sheet --sheet-view",
+    ),
     (
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
@@ -263,6 +267,12 @@ fn what_is_wrong_is_said() {
         ("prt lighting --light disk:0,0,1:5 --segments 12", "[possible values: 24, 6]"),
         ("prt render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
         ("prt show x.prt --at 0,0,0", "--model <MODEL>"),
+        ("prt texture mail --size 0 --out b.npy", "0 is not in 1..=1024"),
+        ("prt texture mail --samples 17 --out b.npy", "17 is not in 1..=16"),
+        ("prt texture plain --brdf ward:0.1,0.3,0,0.4 --out b.npy", "for the roughness"),
+        ("prt texture mail --sheet-view 1 --out b.npy", "--sheet <S.png>"),
+        ("prt render x.prt --model white-box --texture =mail", "as in floor=tiles"),
+        ("prt render x.prt --model white-box --texture mail --repeat 0", "above 0"),
         ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),
         ("subsurface stand-in-head --mm-per-unit 1", "add `--material NAME` (see `crossbar materials`)"),
         ("subsurface stand-in-head --mm-per-unit 0 --material marble", "expected a number above 0, found `0`"),
@@ -298,7 +308,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 20] = [
+    let commands: [&[&str]; 21] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
@@ -315,6 +325,7 @@ fn hostile_files() {
         &["prt", "factor", "--merl", "IN"],
         &["prt", "precompute", "IN", "--out", "x.prt"],
         &["prt", "show", "IN"],
+        &["prt", "texture", "IN", "--out", "b.npy"],
         &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
         &[
             "subsurface",

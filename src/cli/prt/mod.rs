@@ -58,11 +58,19 @@ enum Verb {
     Precompute(precompute::Args),
     Render(render::Args),
     Show(show::Args),
+    Texture(bi_scale::texture::Args),
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
-    // Which of the two kinds of transfer the verb is about.
+    // Which of the kinds of transfer the verb is about.
+    let bi_scale = match &args.verb {
+        Verb::Card(args) => bi_scale::is_asked(args.kind, args.file())?,
+        Verb::Render(args) => bi_scale::is_asked(args.kind, args.file())?,
+        Verb::Show(args) => bi_scale::is_asked(args.kind, &args.file)?,
+        _ => false,
+    };
     let all = match &args.verb {
+        _ if bi_scale => false,
         Verb::Card(args) => all_frequency::is_asked(args.kind, args.file())?,
         Verb::Compress(args) => all_frequency::is_asked(args.kind, &args.signal)?,
         Verb::Error(args) => all_frequency::is_asked(args.kind, &args.signal)?,
@@ -71,6 +79,9 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     };
     match &args.verb {
         Verb::Bicluster(args) => bi_scale::bicluster::run(args, out)?,
+        Verb::Card(args) if bi_scale => {
+            return study::run(&bi_scale::card::Args(args), command_line, out);
+        }
         Verb::Card(args) if all => return study::run(&all_frequency::card::Args(args), command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compress(args) if all => all_frequency::compress::run(args, out)?,
@@ -81,11 +92,16 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         Verb::Lighting(args) => lighting::run(args, out)?,
         Verb::Multiply(args) => bi_scale::multiply::run(args, out)?,
         Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Render(args) if bi_scale => {
+            return study::run(&bi_scale::render::Args(args), command_line, out);
+        }
         Verb::Render(args) if all => {
             return study::run(&all_frequency::render::Args(args), command_line, out);
         }
         Verb::Render(args) => return study::run(args, command_line, out),
+        Verb::Show(args) if bi_scale => bi_scale::show::run(args, out)?,
         Verb::Show(args) => show::run(args, out)?,
+        Verb::Texture(args) => bi_scale::texture::run(args, out)?,
     }
     Ok(Verdict::Done)
 }

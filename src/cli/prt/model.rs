@@ -8,6 +8,7 @@ use crate::io::load_mesh;
 use crate::prt::cpca::Clustering;
 use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
+use crate::scene::Material;
 
 /// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
 /// none.
@@ -75,4 +76,22 @@ pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clu
         let what = format!("{}: expected clusters, found transfer alone", path.display());
         Problem::usage(what, "`crossbar prt compress` makes them")
     })?)
+}
+
+/// The materials of a model and that of each triangle: of a file that was read without them, those that it names.
+pub(super) fn materials_of(path: &Path, model: &Model) -> miette::Result<(Vec<Material>, Vec<u32>)> {
+    if !path.is_file() {
+        return Ok((model.materials.clone(), model.material_of.clone()));
+    }
+    let with_materials = model_name::model(path)?;
+    if with_materials.material_of.len() != model.mesh.len() {
+        let what = format!(
+            "{}: expected {} triangles with materials, found {}",
+            path.display(),
+            model.mesh.len(),
+            with_materials.material_of.len()
+        );
+        return Err(Problem::usage(what, "name the model's own file, not a scene").into());
+    }
+    Ok((with_materials.materials, with_materials.material_of))
 }

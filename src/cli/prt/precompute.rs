@@ -10,7 +10,7 @@ use super::model::{load, vertices};
 use super::values::{BrdfArg, ChannelsArg, ExitArg, HatsArg, IncidentArg, KindArg, RowsArg, TangentsArg};
 use super::{all_frequency, bi_scale};
 use crate::cli::materials::published;
-use crate::cli::model_name::Model;
+use crate::cli::model_name::{Model, transfer_model_help};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, number};
 use crate::prt::brdf::Brdf;
@@ -46,11 +46,8 @@ const SOLID_ANGLE: f64 = 0.05;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
-    /// the papers: transfer-smooth, transfer-bumpy, transfer-head, transfer-polygons, all-frequency-bunny,
-    /// all-frequency-teapot, all-frequency-tweety, all-frequency-buddha, bi-scale-bunny, bi-scale-bunny-middle,
-    /// bi-scale-bunny-fine, bi-scale-armor
-    #[arg(value_name = "MODEL")]
+    // The names of built models are one list: `meshes`.
+    #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
     /// What a vertex makes of light

@@ -25,7 +25,9 @@ Examples:
   crossbar prt show docs/examples/step_all_small.prt
       transfer of all frequencies: what is coded, in how many bytes
   crossbar prt show docs/examples/step_all_small.prt --vertex 12 --arrays arrays
-      and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's";
+      and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's
+  crossbar prt show docs/examples/step_biclusters.prt --vertex 12
+      bi-scale transfer: values, sizes of biclusters, and those of one vertex's rows";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;
@@ -36,7 +38,7 @@ const EIGENVALUES: usize = 4;
 pub(super) struct Args {
     /// The file
     #[arg(value_name = "FILE.prt")]
-    file: PathBuf,
+    pub(super) file: PathBuf,
 
     /// What the file must hold [default: whatever it holds]
     #[arg(long, value_enum, value_name = "KIND")]
@@ -44,21 +46,21 @@ pub(super) struct Args {
 
     /// A vertex, or another point, counted from 0
     #[arg(long, value_name = "N")]
-    vertex: Option<u32>,
+    pub(super) vertex: Option<u32>,
 
     /// The vertex nearest to this place of the model
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", conflicts_with = "vertex",
           allow_hyphen_values = true)]
-    at: Option<[f32; 3]>,
+    pub(super) at: Option<[f32; 3]>,
 
     /// The model that the file was made from, for --at
     #[arg(long, value_name = "MODEL", requires = "at")]
-    model: Option<PathBuf>,
+    pub(super) model: Option<PathBuf>,
 
     /// Write what the file holds to this folder as arrays of NumPy's: factors, each segment's representatives, weights
     /// and clusters, and what the vertex sees and its transfer; for transfer of all frequencies
     #[arg(long, value_name = "DIR")]
-    arrays: Option<PathBuf>,
+    pub(super) arrays: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
@@ -107,7 +109,7 @@ fn show_all_frequency(args: &Args, out: &mut Out) -> miette::Result<()> {
 }
 
 /// The vertex nearest to a place, of equals the first.
-fn nearest(positions: &[[f32; 3]], at: [f32; 3]) -> Option<usize> {
+pub(super) fn nearest(positions: &[[f32; 3]], at: [f32; 3]) -> Option<usize> {
     let wide = |place: [f32; 3]| DVec3::from(place.map(f64::from));
     let distance = |vertex: usize| wide(positions[vertex]).distance_squared(wide(at));
     (0..positions.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))

@@ -5,6 +5,7 @@
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
 //! - [`texture`]: the bidirectional textures that local light falls on (section III);
+//! - [`shade`]: pixels, their product (section III, equation 3);
 //! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering).
 
 pub mod bicluster;
@@ -13,5 +14,6 @@ pub mod kernels;
 pub mod matrix;
 pub mod on_card;
 pub mod product;
+pub mod shade;
 pub mod texture;
 pub mod transfer;

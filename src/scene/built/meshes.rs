@@ -1,5 +1,7 @@
 //! The meshes that the project builds itself and that are no scenes, by name.
 
+use super::super::Material;
+use super::flat_models::{FlatModel, MaterialMesh};
 use super::stand_ins;
 use super::transfer_models::TransferModel;
 use crate::geom::Mesh;
@@ -10,6 +12,9 @@ struct BuiltMesh {
     what: &'static str,
     build: fn() -> Mesh,
 }
+
+const CHAIR: &str = "bi-scale-chair";
+const TEMPLE: &str = "bi-scale-temple";
 
 const MESHES: &[BuiltMesh] = &[
     BuiltMesh {
@@ -47,6 +52,16 @@ const MESHES: &[BuiltMesh] = &[
         name: "bi-scale-bunny-middle",
         what: "the same with 12,380 vertices",
         build: || TransferModel::BiScaleBunnyMiddle.mesh(1),
+    },
+    BuiltMesh {
+        name: CHAIR,
+        what: "16,101 vertices, flat parts of three materials",
+        build: || FlatModel::Chair.model(1).mesh,
+    },
+    BuiltMesh {
+        name: TEMPLE,
+        what: "32,409 vertices, flat parts of five materials",
+        build: || FlatModel::Temple.model(1).mesh,
     },
     BuiltMesh { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: stand_ins::bunny },
     BuiltMesh {
@@ -91,4 +106,16 @@ pub fn description(name: &str) -> Option<&'static str> {
 /// The mesh of a name.
 pub fn build(name: &str) -> Option<Mesh> {
     MESHES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
+}
+
+/// The mesh of a name with its materials: one, `plain`, reflectance a half, for those that have none of their own.
+pub fn build_with_materials(name: &str) -> Option<MaterialMesh> {
+    match name {
+        CHAIR => Some(FlatModel::Chair.model(1)),
+        TEMPLE => Some(FlatModel::Temple.model(1)),
+        _ => build(name).map(|mesh| {
+            let materials = vec![Material::diffuse("plain", [0.5; 3])];
+            MaterialMesh { material_of: vec![0; mesh.len()], materials, mesh }
+        }),
+    }
 }

@@ -8,12 +8,14 @@
 //! - one file a scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
 //! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates;
-//! - [`meshes`]: both of these by name;
+//! - [`flat_models`]: models of flat parts with several materials;
+//! - [`meshes`]: all of these by name;
 //! - [`ground`]: a square below a model that receives its shadow.
 
 mod chance;
 mod cornell_box;
 mod desktop;
+pub mod flat_models;
 mod furniture;
 mod geodesic;
 pub mod ground;

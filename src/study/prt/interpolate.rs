@@ -108,7 +108,7 @@ pub(in crate::study) fn linear_picture(camera: &Camera, colors: &[[f64; 3]]) -> 
 }
 
 /// Weights of a triangle's corners at a point of its plane; of one beside it by rounding, at its rim.
-fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
+pub(super) fn weights(at: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     let normal = (b - a).cross(c - a);
     let opposite = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
     let areas = DVec3::new(opposite(b, c), opposite(c, a), opposite(a, b));

@@ -1,9 +1,11 @@
 //! Precomputed radiance transfer from a model to a file ([`Precomputation`]), how far compression is off
 //! ([`CompressionError`]), pictures ([`Rendering`]), pictures by an emulated card ([`OnCard`]), and
 //! factors of a reflectance ([`BrdfFactors`]). The same of all frequencies: [`SightOfModel`],
-//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`].
+//! [`SegmentedCompression`], [`AllFrequencyRendering`], [`AllFrequencyOnCard`]. Bi-scale transfer:
+//! [`BiScaleRendering`].
 
 mod all_frequency;
+mod bi_scale;
 mod card;
 mod compression_error;
 mod exit_radiance;
@@ -17,6 +19,7 @@ pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
+pub use bi_scale::{BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface};
 pub use card::{
     AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision,
     OnCard, PixelErrors, factored_precision, factored_precision_table,

@@ -2,6 +2,8 @@
 
 mod biclusters;
 mod file;
+mod shade;
+mod texture;
 mod transfer;
 
 use crossbar::geom::Sides;

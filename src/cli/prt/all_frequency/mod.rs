@@ -31,7 +31,7 @@ pub(super) fn is_such(path: &Path) -> bool {
 /// The same, held against the kind that was asked for.
 pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
     if kind == Some(KindArg::BiScale) {
-        let what = "bi-scale transfer is for `crossbar prt precompute`, `bicluster` and `multiply`";
+        let what = "bi-scale transfer is for `crossbar prt precompute`, `bicluster`, `multiply`, `render` and `show`";
         return Err(Problem::usage(what, "leave `--kind` out, or use these"));
     }
     let (found, asked) = (is_such(path), kind.map(|kind| kind == KindArg::AllFrequency));

@@ -31,6 +31,7 @@ impl StudyArgs for Args<'_> {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyRendering> {
+        self.0.bi_scale.refuse()?;
         let render::Args { model: name, original, light, keep, frames, size, eye, exposure, .. } = self.0;
         view::require_file(self.0.file(), 3, "name a smaller file")?;
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(self.0.file(), name)?;

@@ -1,15 +1,44 @@
 //! The verbs of `crossbar prt` for bi-scale transfer.
 
 pub(super) mod bicluster;
+pub(super) mod card;
 pub(super) mod multiply;
+mod patch;
 pub(super) mod precompute;
+pub(super) mod render;
+pub(super) mod show;
+pub(super) mod texture;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
+use super::values::KindArg;
 use crate::cli::{Problem, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::file::{BiScaleFile, load_bi_scale};
+use crate::prt::file::{BiScaleFile, is_bi_scale, load_bi_scale};
+
+/// Whether a file is one of bi-scale transfer, by how it begins, held against the kind that was asked for. What is no
+/// file is none.
+pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
+    let mut head = [0; 16];
+    let found = path.is_file()
+        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
+        && is_bi_scale(&head);
+    match kind {
+        Some(KindArg::BiScale) if path.is_file() && !found => {
+            let what = format!("{}: expected bi-scale transfer, found another file", path.display());
+            Err(Problem::usage(what, "leave `--kind` out, or name another file"))
+        }
+        Some(KindArg::BiScale) => Ok(true),
+        Some(_) if found => {
+            let what = format!("{}: expected transfer of another kind, found bi-scale transfer", path.display());
+            Err(Problem::usage(what, "leave `--kind` out, or name another file"))
+        }
+        _ => Ok(found),
+    }
+}
 
 /// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
 fn load(path: &Path) -> miette::Result<BiScaleFile> {

@@ -1,7 +1,6 @@
 //! `crossbar prt multiply`: light times bi-scale transfer.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use serde_json::json;
 
@@ -11,12 +10,12 @@ use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
 use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::all_frequency::light::Decimation;
-use crate::prt::bi_scale::product::{self, Gather};
-use crate::prt::bi_scale::transfer::light_vector;
+use crate::prt::all_frequency::light::{CubeLight, Decimation};
+use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::file::BiScaleFile;
 use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
+use crate::study::prt::LocalLight;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,29 +52,26 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     let light = args.light.distant()?;
     let cube = light.cube(&turn_around_z(args.rotate / 360.0), Decimation::SolidAngle);
     let cube = cube.map_err(|error| Problem::usage(error.to_string(), "see `crossbar prt multiply --help`"))?;
-    let channel =
-        |channel: usize| light_vector(&cube.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>());
-    let channels = [channel(0), channel(1), channel(2)];
-    let product = Product::new(&args.file, &file, &channels)?;
+    let product = multiply(&args.file, &file, &cube)?;
     if let Some(path) = &args.values {
         let local = file.meaning.map(|meaning| meaning.side.pow(2) as usize);
-        write_values(&product.local, local, path)?;
+        write_values(&product.rows, local, path)?;
     }
-    let sums = [0, 1, 2].map(|channel| product.local.iter().map(|row| row[channel]).sum::<f64>());
+    let sums = [0, 1, 2].map(|channel| product.rows.iter().map(|row| row[channel]).sum::<f64>());
     if out.json() {
         return Ok(out.document(&json!({
-            "rows": product.local.len(), "way": product.way, "flux": cube.flux(), "sum": sums,
+            "rows": product.rows.len(), "way": product.way, "flux": cube.flux(), "sum": sums,
             "seconds": product.seconds, "values": args.values,
         }))?);
     }
     let mut table = Table::new("Light that arrives", &["figure", "red", "green", "blue"]);
-    let mean = sums.map(|sum| Cell::measured(sum / product.local.len().max(1) as f64));
+    let mean = sums.map(|sum| Cell::measured(sum / product.rows.len().max(1) as f64));
     table.push(std::iter::once("mean of a row".into()).chain(mean).collect::<Vec<Cell>>());
     out.sentence(format_args!(
         "{} times {}, {} rows, in {:.3} s",
         args.light.name(),
         product.way,
-        counted(product.local.len()),
+        counted(product.rows.len()),
         product.seconds
     ))?;
     out.table(&table)?;
@@ -85,42 +81,15 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
     Ok(())
 }
 
-struct Product {
-    way: &'static str,
-    local: Vec<[f64; 3]>,
-    /// Of the multiplication alone.
-    seconds: f64,
-}
-
-impl Product {
-    /// By biclusters in f32 where there are any, else by rows in f64.
-    fn new(path: &Path, file: &BiScaleFile, channels: &[Vec<f64>; 3]) -> Result<Self, Problem> {
-        let columns = |found: usize| {
-            if found == LIGHT_TEXELS {
-                return Ok(());
-            }
-            let what = format!("{}: expected a matrix of {LIGHT_TEXELS} columns, found {found}", path.display());
-            Err(Problem::usage(what, "name transfer that `crossbar prt precompute --kind bi-scale` wrote"))
-        };
-        if let Some(biclusters) = &file.biclusters {
-            columns(biclusters.matrix_size()[1])?;
-            let gather = Gather::new(biclusters);
-            let light: Vec<[f32; 3]> =
-                (0..LIGHT_TEXELS).map(|texel| [0, 1, 2].map(|channel| channels[channel][texel] as f32)).collect();
-            let start = Instant::now();
-            let local = gather.multiply(&light);
-            let seconds = start.elapsed().as_secs_f64();
-            let local = local.into_iter().map(|row| row.map(f64::from)).collect();
-            return Ok(Self { way: "biclusters", local, seconds });
-        }
-        let matrix = file.matrix.as_ref().ok_or_else(|| Problem::usage("no matrix", "name another file"))?;
-        columns(matrix.columns())?;
-        let start = Instant::now();
-        let [red, green, blue] = [0, 1, 2].map(|channel: usize| product::by_rows(matrix, &channels[channel]));
-        let seconds = start.elapsed().as_secs_f64();
-        let local = red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect();
-        Ok(Self { way: "rows", local, seconds })
+/// L~, unless the matrix is none of transfer.
+fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalLight, Problem> {
+    let of_matrix = file.matrix.as_ref().map(SparseMatrix::columns);
+    let columns = file.biclusters.as_ref().map(|biclusters| biclusters.matrix_size()[1]).or(of_matrix);
+    if let Some(found) = columns.filter(|&columns| columns != LIGHT_TEXELS) {
+        let what = format!("{}: expected a matrix of {LIGHT_TEXELS} columns, found {found}", path.display());
+        return Err(Problem::usage(what, "name transfer that `crossbar prt precompute --kind bi-scale` wrote"));
     }
+    LocalLight::new(file, light).ok_or_else(|| Problem::usage("no matrix", "name another file"))
 }
 
 /// A line per row; with the vertex and its local direction where these are known.

@@ -60,13 +60,7 @@ impl CubeLight {
         rotation: &DMat3,
         decimation: Decimation,
     ) -> Result<Self, CubeLightError> {
-        check_rotation(rotation)?;
-        let back = rotation.transpose();
-        let fine: Vec<[f64; 3]> =
-            FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
-        // A sample that is none would hide in the mean of sixteen.
-        check(&fine, light_texel)?;
-        Self::decimated(&fine, decimation)
+        Self::decimated(&fine_samples(radiance, rotation)?, decimation)
     }
 
     /// Of a picture of the whole sphere, whose radiance is constant over each pixel.
@@ -92,12 +86,7 @@ impl CubeLight {
         rotation: &DMat3,
         decimation: Decimation,
     ) -> Result<Self, CubeLightError> {
-        check_rotation(rotation)?;
-        let mut fine = vec![[0.0; 3]; FINE_DIRECTIONS];
-        for (number, source) in sources.iter().enumerate() {
-            add_disk(&source.checked(number)?, rotation, &mut fine);
-        }
-        Self::decimated(&fine, decimation)
+        Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
 
     /// Of the CIE clear sky over z >= 0 with its sun, and the ground below.
@@ -106,12 +95,8 @@ impl CubeLight {
     /// As [`Self::sampled`], and for a sun that is not above the horizon.
     pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
         sky.relative(DVec3::Z)?;
-        let radiance = |v: DVec3| match v.z >= 0.0 {
-            true => sky.zenith.map(|zenith| zenith * sky.relative(v).unwrap_or(0.0)),
-            false => sky.ground,
-        };
-        let sun = DiskSource { towards: sky.sun, radius: crate::sphere::SUN_RADIUS, radiance: sky.sun_radiance };
-        Ok(Self::sampled(radiance, rotation, decimation)?.plus(&Self::from_disks(&[sun], rotation, decimation)?))
+        let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
+        Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
     }
 
     /// [`HarmonicLight::red_and_blue`], not cut to an order: two disks in a dim surrounding.
@@ -119,13 +104,8 @@ impl CubeLight {
     /// # Errors
     /// [`CubeLightError::Rotation`] if the matrix is no rotation.
     pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
-        let disks = HarmonicLight::RED_AND_BLUE_DISKS.map(|(towards, radiance)| DiskSource {
-            towards,
-            radius: HarmonicLight::RED_AND_BLUE_RADIUS,
-            radiance,
-        });
         let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
-        Ok(Self::from_disks(&disks, rotation, decimation)?.plus(&surrounding))
+        Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))
     }
 
     /// Samples in all fine directions to texels.
@@ -171,6 +151,52 @@ impl CubeLight {
         }
         sum
     }
+}
+
+/// A function of unit directions in all fine directions; direction v of the function shines from `rotation` v.
+pub(super) fn fine_samples(
+    radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+    rotation: &DMat3,
+) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    check_rotation(rotation)?;
+    let back = rotation.transpose();
+    let fine: Vec<[f64; 3]> =
+        FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
+    // A sample that is none would hide in the mean of sixteen.
+    check(&fine, light_texel)?;
+    Ok(fine)
+}
+
+/// The mean radiances of disks over all fine texels.
+pub(super) fn fine_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    check_rotation(rotation)?;
+    let mut fine = vec![[0.0; 3]; FINE_DIRECTIONS];
+    for (number, source) in sources.iter().enumerate() {
+        add_disk(&source.checked(number)?, rotation, &mut fine);
+    }
+    Ok(fine)
+}
+
+/// The clear sky without its sun, and the ground below.
+pub(super) fn sky_radiance(sky: &ClearSky, direction: DVec3) -> [f64; 3] {
+    match direction.z >= 0.0 {
+        true => sky.zenith.map(|zenith| zenith * sky.relative(direction).unwrap_or(0.0)),
+        false => sky.ground,
+    }
+}
+
+/// A clear sky's sun.
+pub(super) fn sun_disk(sky: &ClearSky) -> DiskSource {
+    DiskSource { towards: sky.sun, radius: crate::sphere::SUN_RADIUS, radiance: sky.sun_radiance }
+}
+
+/// The disks of [`CubeLight::red_and_blue`].
+pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
+    HarmonicLight::RED_AND_BLUE_DISKS.map(|(towards, radiance)| DiskSource {
+        towards,
+        radius: HarmonicLight::RED_AND_BLUE_RADIUS,
+        radiance,
+    })
 }
 
 /// Refuses radiances that are none; `texel` gives the light texel of each.

@@ -2,9 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
+use super::cube_light::{fine_disks, fine_samples, red_and_blue_disks, sky_radiance, sun_disk};
 use super::{CubeLight, CubeLightError, Decimation, DiskSource};
-use crate::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE};
-use crate::sphere::{ClearSky, EnvironmentPicture};
+use crate::prt::all_frequency::grid::{FINE_DIRECTIONS, LIGHT_MAP, LIGHT_SIDE};
+use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
 
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
@@ -40,6 +41,31 @@ impl DistantLight {
             Self::Texels(light) => CubeLight::sampled(|v| light.texels()[texel(v)], rotation, decimation),
         }
     }
+
+    /// The radiances in the fine directions, 4 x 4 per texel: what [`Self::cube`] takes the means of.
+    ///
+    /// # Errors
+    /// [`CubeLightError`].
+    pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+        match self {
+            Self::Constant(radiance) => fine_samples(|_| *radiance, rotation),
+            Self::Disks(sources) => fine_disks(sources, rotation),
+            Self::Sky(sky) => {
+                sky.relative(DVec3::Z)?;
+                Ok(sum(&fine_samples(|v| sky_radiance(sky, v), rotation)?, &fine_disks(&[sun_disk(sky)], rotation)?))
+            }
+            Self::RedAndBlue => {
+                let surrounding = vec![HarmonicLight::RED_AND_BLUE_SURROUNDING; FINE_DIRECTIONS];
+                Ok(sum(&fine_disks(&red_and_blue_disks(), rotation)?, &surrounding))
+            }
+            Self::Picture(picture) => fine_samples(|v| picture.radiance(v), rotation),
+            Self::Texels(light) => fine_samples(|v| light.texels()[texel(v)], rotation),
+        }
+    }
+}
+
+fn sum(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    one.iter().zip(other).map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect()
 }
 
 /// The texel that a direction falls into.

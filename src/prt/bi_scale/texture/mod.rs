@@ -1,6 +1,27 @@
 //! The meso-scale half: bidirectional textures, what a small patch of a surface sends out by place, view and light
 //! (section III, equation 3).
+//!
+//! - [`BidirectionalTexture`]: samples of b(u, e, d); [`ViewSamples`]: the four views around a direction; `file`: NPY;
+//! - [`HeightField`], [`MesoMaterial`], [`MesoPatch`]: a repeated patch of heights and materials, seen and lit by rays;
+//! - [`PatchKind`]: bumps, mail, tiles, bricks and weave by code;
+//! - [`TextureSampling`]: textures of patches;
+//! - [`mod@reference`]: rays against heights by plain loops.
 
+mod field;
+mod file;
+mod kinds;
+mod material;
+mod patch;
+mod ray;
+pub mod reference;
 mod response;
+mod sampled;
 
+pub use field::{HeightField, HeightFieldError};
+pub use file::{BidirectionalTextureFileError, load_bidirectional_texture, write_bidirectional_texture};
+pub use kinds::PatchKind;
+pub use material::MesoMaterial;
+pub use patch::{MesoDetail, MesoPatch, MesoPatchError, MesoTexel, SeenPoint};
+pub use ray::REACH;
 pub use response::{BidirectionalTexture, BidirectionalTextureError, ViewSamples};
+pub use sampled::TextureSampling;

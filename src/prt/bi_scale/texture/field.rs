@@ -1,0 +1,213 @@
+//! Heights of a small square patch that repeats in both directions.
+//!
+//! Lengths count in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n,
+//! v = (row + 1/2) / n; between four of them the surface is bilinear. Inside, places are in texels: x = n u - 1/2,
+//! y = n v - 1/2, so that heights stand at whole numbers and cell (i, j) reaches from there to (i + 1, j + 1).
+//!
+//! Heights are at most 0, and the highest is 0: nothing stands out of the mesh's own surface, and what light and view
+//! a mesh's point gets is what comes to the top of the patch. (The paper does not say where its patches lie.)
+
+use glam::DVec3;
+use thiserror::Error;
+
+/// A repeated patch of heights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightField {
+    side: usize,
+    heights: Vec<f64>,
+    /// The largest height of each cell.
+    tops: Vec<f64>,
+    /// The least height, at most 0.
+    bottom: f64,
+}
+
+/// Numbers that are no heights.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum HeightFieldError {
+    /// A patch without texels, or of too many.
+    #[error("expected 1 to {} texels along an edge of the heights, found {found}", HeightField::MOST)]
+    Side { found: usize },
+    /// Heights are lacking or left over.
+    #[error("expected {expected} heights, {side} x {side}, found {found}")]
+    Count { side: usize, expected: usize, found: usize },
+    /// A height that is none, or out of all proportion.
+    #[error(
+        "expected finite heights, the lowest at most {} edges of the patch below the highest; found {found} in row \
+         {row}, column {column}", HeightField::DEEPEST
+    )]
+    Height { found: f64, row: usize, column: usize },
+}
+
+/// The bilinear surface of a cell: h00 + a p + b q + a b s with a, b in [0, 1] from the cell's first corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CellPatch {
+    corner: f64,
+    along: f64,
+    across: f64,
+    twist: f64,
+}
+
+impl CellPatch {
+    /// The height at a place of the cell.
+    pub(super) fn height(&self, [a, b]: [f64; 2]) -> f64 {
+        self.corner + a * self.along + b * self.across + a * b * self.twist
+    }
+
+    /// How fast the height grows along x and y, per texel.
+    pub(super) fn slope(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        [self.along + b * self.twist, self.across + a * self.twist]
+    }
+
+    /// The coefficient of the product of a and b.
+    pub(super) fn twist(&self) -> f64 {
+        self.twist
+    }
+}
+
+impl HeightField {
+    /// The most texels along an edge.
+    pub const MOST: usize = 1024;
+    /// The largest depth in edges of the patch.
+    pub const DEEPEST: f64 = 16.0;
+
+    /// Of heights row by row, in edges of the patch. The highest is moved to 0, the others with it.
+    ///
+    /// # Errors
+    /// [`HeightFieldError`].
+    pub fn new(side: usize, heights: &[f64]) -> Result<Self, HeightFieldError> {
+        if !(1..=Self::MOST).contains(&side) {
+            return Err(HeightFieldError::Side { found: side });
+        }
+        if heights.len() != side * side {
+            return Err(HeightFieldError::Count { side, expected: side * side, found: heights.len() });
+        }
+        let top = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let is_good = |height: f64| height.is_finite() && top - height <= Self::DEEPEST;
+        if let Some(at) = heights.iter().position(|&height| !is_good(height)) {
+            return Err(HeightFieldError::Height { found: heights[at], row: at / side, column: at % side });
+        }
+        let heights: Vec<f64> = heights.iter().map(|height| height - top).collect();
+        let bottom = heights.iter().copied().fold(0.0, f64::min);
+        let mut field = Self { side, heights, tops: Vec::new(), bottom };
+        let top = |at: usize| {
+            let [i, j] = [at % side, at / side].map(usize::cast_signed);
+            let corners = [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]];
+            corners.into_iter().fold(field.bottom, |most, [x, y]| most.max(field.texel(x, y)))
+        };
+        field.tops = (0..side * side).map(top).collect();
+        Ok(field)
+    }
+
+    /// Of a patch without any relief.
+    pub fn flat() -> Self {
+        Self { side: 1, heights: vec![0.0], tops: vec![0.0], bottom: 0.0 }
+    }
+
+    /// Texels along an edge.
+    pub fn side(&self) -> usize {
+        self.side
+    }
+
+    /// Heights, row by row: at most 0.
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// How far the lowest lies below the highest.
+    pub fn depth(&self) -> f64 {
+        -self.bottom
+    }
+
+    /// The height of a texel of the repeated patch.
+    fn texel(&self, column: isize, row: isize) -> f64 {
+        self.heights[self.wrapped(column, row)]
+    }
+
+    /// The number of a texel, or of a cell, of the repeated patch.
+    pub(super) fn wrapped(&self, column: isize, row: isize) -> usize {
+        let side = self.side.cast_signed();
+        (row.rem_euclid(side) * side + column.rem_euclid(side)).cast_unsigned()
+    }
+
+    /// The largest height of a cell.
+    pub(super) fn top(&self, [i, j]: [isize; 2]) -> f64 {
+        self.tops[self.wrapped(i, j)]
+    }
+
+    /// The surface of a cell.
+    pub(super) fn cell(&self, [i, j]: [isize; 2]) -> CellPatch {
+        let [h00, h10, h01, h11] =
+            [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]].map(|[column, row]| self.texel(column, row));
+        CellPatch { corner: h00, along: h10 - h00, across: h01 - h00, twist: (h11 - h01) - (h10 - h00) }
+    }
+
+    /// The height at texture coordinates.
+    pub fn height(&self, place: [f64; 2]) -> f64 {
+        self.height_at(self.texels(place))
+    }
+
+    /// The unit normal at texture coordinates.
+    pub fn normal(&self, place: [f64; 2]) -> DVec3 {
+        let at = self.texels(place);
+        let cell = at.map(|at| at.floor() as isize);
+        self.normal_in(cell, at)
+    }
+
+    /// Texture coordinates as a place in texels, folded into the patch.
+    pub(super) fn texels(&self, place: [f64; 2]) -> [f64; 2] {
+        let side = self.side as f64;
+        place.map(|at| (at - at.floor()) * side - 0.5)
+    }
+
+    /// The height at a place in texels.
+    pub(super) fn height_at(&self, at: [f64; 2]) -> f64 {
+        let cell = at.map(|at| at.floor() as isize);
+        self.cell(cell).height(within(cell, at))
+    }
+
+    /// The unit normal at a place of a cell.
+    pub(super) fn normal_in(&self, cell: [isize; 2], at: [f64; 2]) -> DVec3 {
+        let [along, across] = self.cell(cell).slope(within(cell, at));
+        let side = self.side as f64;
+        DVec3::new(-side * along, -side * across, 1.0).normalize()
+    }
+}
+
+/// A place as seen from a cell's first corner, within the cell.
+pub(super) fn within([i, j]: [isize; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+    [(x - i as f64).clamp(0.0, 1.0), (y - j as f64).clamp(0.0, 1.0)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_abs_diff_eq;
+
+    #[test]
+    fn heights_stand_at_the_middles_of_texels_and_repeat() {
+        let field = HeightField::new(2, &[1.0, 0.5, 0.25, 0.0]).unwrap();
+        let at = |u: f64, v: f64| field.height([u, v]);
+        assert_eq!([at(0.25, 0.25), at(0.75, 0.25), at(0.25, 0.75), at(0.75, 0.75)], [0.0, -0.5, -0.75, -1.0]);
+        assert_eq!((at(-0.75, 2.25), field.depth()), (at(0.25, 0.25), 1.0));
+        assert_eq!([at(0.5, 0.25), at(0.0, 0.25), at(0.5, 0.5)], [-0.25, -0.25, -0.5625]);
+        // Half an edge of the patch goes half an edge down: 45 degrees.
+        let normal = field.normal([0.5, 0.25]);
+        assert_abs_diff_eq!(normal.x / normal.z, 1.0, epsilon = 1e-15);
+        assert_eq!(HeightField::flat().normal([0.3, 0.9]), DVec3::Z);
+    }
+
+    #[test]
+    fn what_is_no_height_is_refused() {
+        let text = [
+            HeightField::new(0, &[]),
+            HeightField::new(2, &[0.0; 3]),
+            HeightField::new(2, &[0.0, 1.0, f64::NAN, 0.0]),
+            HeightField::new(1, &[f64::INFINITY]),
+            HeightField::new(2, &[0.0, 0.0, 0.0, -17.0]),
+        ]
+        .map(|made| made.unwrap_err().to_string());
+        insta::assert_snapshot!(text.join("\n"), @"");
+    }
+}

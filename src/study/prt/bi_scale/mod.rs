@@ -1,0 +1,14 @@
+//! Bi-scale transfer: pictures of a model from its transfer and its bidirectional textures, and what their errors come
+//! from.
+
+mod causes;
+mod error;
+mod light;
+mod render;
+mod subject;
+mod surface;
+
+pub use error::BiScaleError;
+pub use light::LocalLight;
+pub use subject::{BiScaleRendering, SurfaceTexture};
+pub use surface::{SurfaceError, TexturedSurface};

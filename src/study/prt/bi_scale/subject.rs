@@ -1,0 +1,46 @@
+//! What is drawn.
+
+use super::surface::TexturedSurface;
+use crate::prt::all_frequency::light::DistantLight;
+use crate::prt::bi_scale::texture::{BidirectionalTexture, MesoPatch};
+use crate::prt::file::BiScaleFile;
+use crate::scene::Camera;
+use crate::study::prt::Turning;
+
+/// A model with its transfer, its textures, a light and a camera.
+#[derive(Debug)]
+pub struct BiScaleRendering {
+    /// The model's name.
+    pub model: String,
+    /// Its mesh.
+    pub surface: TexturedSurface,
+    /// Its transfer.
+    pub file: BiScaleFile,
+    /// The textures that its triangles name.
+    pub textures: Vec<SurfaceTexture>,
+    /// The light's name.
+    pub light_name: String,
+    /// The light.
+    pub light: DistantLight,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure.
+    pub exposure: Option<f64>,
+    /// Pictures with the light or the camera carried all the way round z in so many steps.
+    pub frames: u32,
+    /// Which of them.
+    pub turning: Turning,
+    /// Whether to hold the picture against one by rays; all textures must have patches.
+    pub reference: bool,
+}
+
+/// A bidirectional texture with its name.
+#[derive(Debug)]
+pub struct SurfaceTexture {
+    /// The name.
+    pub name: String,
+    /// Its samples.
+    pub samples: BidirectionalTexture,
+    /// The patch that it was made of, if it is known.
+    pub patch: Option<MesoPatch>,
+}

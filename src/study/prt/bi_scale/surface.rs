@@ -1,0 +1,102 @@
+//! A mesh whose triangles have textures, and what of it each pixel shows.
+
+use glam::DVec3;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::geom::exact::Sides;
+use crate::geom::vector::{unit, wide};
+use crate::geom::{Hit, Mesh, Ray};
+use crate::prt::bi_scale::shade::{ShadedPixel, pixel_frame};
+use crate::prt::transfer::{LocalFrame, Vertices};
+use crate::scene::Camera;
+use crate::study::prt::interpolate::weights;
+use crate::tracer::HostTracer;
+
+/// A mesh with texture coordinates.
+#[derive(Debug)]
+pub struct TexturedSurface {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Its vertices.
+    pub vertices: Vertices,
+    /// The number of each triangle's texture.
+    texture_of: Vec<u32>,
+    /// How often a patch repeats along an edge of the texture coordinates' square.
+    repeat: f64,
+}
+
+/// Why there is no such surface.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum SurfaceError {
+    /// Nothing says where a point's patch is.
+    #[error("the model has no texture coordinates, which say where on it a patch lies")]
+    NoTextureCoordinates,
+    /// Not a texture per triangle.
+    #[error("expected a texture for each of {triangles} triangles, found {found}")]
+    Textures { triangles: usize, found: usize },
+}
+
+/// What a pixel shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SurfacePixel {
+    pub(super) triangle: u32,
+    pub(super) texture: usize,
+    pub(super) frame: LocalFrame,
+    pub(super) shaded: ShadedPixel,
+}
+
+impl TexturedSurface {
+    /// A mesh, its vertices, a texture's number per triangle, and how often patches repeat where texture coordinates
+    /// grow by 1.
+    ///
+    /// # Errors
+    /// [`SurfaceError`].
+    pub fn new(
+        mesh: Mesh,
+        vertices: Vertices,
+        texture_of: Vec<u32>,
+        repeat: f64,
+    ) -> Result<Self, SurfaceError> {
+        if mesh.texcoords().is_none() {
+            return Err(SurfaceError::NoTextureCoordinates);
+        }
+        if texture_of.len() != mesh.len() {
+            return Err(SurfaceError::Textures { triangles: mesh.len(), found: texture_of.len() });
+        }
+        Ok(Self { mesh, vertices, texture_of, repeat })
+    }
+
+    /// What the pixels of a camera show, front faces only.
+    pub(super) fn pixels(&self, camera: &Camera) -> Vec<Option<SurfacePixel>> {
+        let rays = camera.rays();
+        let (hits, _) = HostTracer::new(&self.mesh, Sides::Front).nearest_all(&rays);
+        let eye = wide(camera.eye());
+        rays.par_iter().zip(&hits).map(|(ray, hit)| Some(self.pixel(ray, hit.as_ref()?, eye))).collect()
+    }
+
+    fn pixel(&self, ray: &Ray, hit: &Hit, eye: DVec3) -> SurfacePixel {
+        let corners = self.vertices.triangles()[hit.triangle as usize];
+        let places = corners.map(|corner| wide(self.vertices.positions()[corner as usize]));
+        let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
+        let weights = weights(at, places).to_array();
+        let frame = pixel_frame(&self.vertices, corners, weights);
+        let texture = self.mesh.texcoords().unwrap_or_default();
+        let mut place = [0.0; 2];
+        for (corner, weight) in self.mesh.triangles()[hit.triangle as usize].into_iter().zip(weights) {
+            for (into, along) in place.iter_mut().zip(texture[corner as usize]) {
+                *into += weight * self.repeat * f64::from(along);
+            }
+        }
+        // An eye on the surface has no direction; none is drawn from there.
+        let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
+        SurfacePixel {
+            triangle: hit.triangle,
+            texture: self.texture_of[hit.triangle as usize] as usize,
+            frame,
+            shaded: ShadedPixel { corners, weights, place, view },
+        }
+    }
+}

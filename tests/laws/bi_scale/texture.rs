@@ -1,0 +1,284 @@
+//! Heights, their bidirectional textures, and pixels shaded with them.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use crossbar::prt::bi_scale::directions::{LocalDirections, hemisphere};
+use crossbar::prt::bi_scale::texture::{
+    BidirectionalTexture, HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind, TextureSampling,
+    load_bidirectional_texture, reference, write_bidirectional_texture,
+};
+use crossbar::prt::brdf::Brdf;
+use glam::DVec3;
+use proptest::prelude::*;
+
+fn directions(side: usize) -> LocalDirections {
+    LocalDirections::new(side).expect("directions")
+}
+
+/// Any direction above the horizon, those almost along it among them.
+fn direction() -> impl Strategy<Value = DVec3> {
+    let at = || prop_oneof![6 => -1.0..1.0_f64, 1 => Just(0.0), 1 => Just(-0.999), 1 => Just(0.9)];
+    [at(), at()].prop_map(hemisphere)
+}
+
+/// Places, texels' middles and borders among them.
+fn place() -> impl Strategy<Value = [f64; 2]> {
+    let at = || prop_oneof![3 => -1.0..2.0_f64, 1 => (0..32_u8).prop_map(|at| f64::from(at) / 16.0)];
+    [at(), at()]
+}
+
+/// Heights of a few texels: any, steps, or almost none.
+fn heights() -> impl Strategy<Value = HeightField> {
+    (1..9_usize, 0.001..0.5_f64).prop_flat_map(|(side, relief)| {
+        let height = prop_oneof![3 => 0.0..1.0_f64, 1 => Just(0.0), 1 => Just(1.0)];
+        prop::collection::vec(height, side * side).prop_map(move |heights| {
+            let heights: Vec<f64> = heights.iter().map(|height| relief * height).collect();
+            HeightField::new(side, &heights).expect("heights")
+        })
+    })
+}
+
+fn glossy() -> MesoMaterial {
+    let lobe = Brdf::Ward { albedo: 0.0, specular: 0.3, roughness: [0.2, 0.5] };
+    MesoMaterial { color: [0.3, 0.4, 0.1], lobe: Some(lobe), lobe_color: [1.0, 0.8, 0.5] }
+}
+
+fn patch(heights: HeightField, material: MesoMaterial) -> MesoPatch {
+    let texels = (0..heights.heights().len()).map(|at| MesoTexel { material: 0, turns: at as f64 / 7.0 });
+    let texels = texels.collect();
+    MesoPatch::new(heights, vec![material], texels).expect("a patch")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn the_fast_rays_are_those_that_ask_every_cell(
+        heights in heights(), place in place(), view in direction(), light in direction(),
+    ) {
+        let patch = patch(heights, glossy());
+        let (fast, slow) = (patch.seen(place, view), reference::seen(&patch, place, view));
+        prop_assert_eq!(fast, slow);
+        let response = patch.response(place, view, light);
+        prop_assert_eq!(response, reference::response(&patch, place, view, light));
+        prop_assert!(response.iter().all(|value| value.is_finite() && *value >= 0.0), "{response:?}");
+    }
+
+    /// The point that is seen lies on the view's line and on the surface, and nothing of the surface is in front of it.
+    #[test]
+    fn what_is_seen_lies_behind_its_place(heights in heights(), place in place(), view in direction()) {
+        prop_assume!(view.z > 0.02);
+        let patch = patch(heights, glossy());
+        let point = patch.seen(place, view).point(&patch);
+        let from = DVec3::new(place[0] - place[0].floor(), place[1] - place[1].floor(), 0.0);
+        let along = (from - point).dot(view);
+        prop_assert!((from - point - along * view).length() < 1e-9, "{point} from {from}");
+        prop_assert!((patch.heights().height([point.x, point.y]) - point.z).abs() < 1e-9);
+        for step in 1..500 {
+            let above = point + along * f64::from(step) / 500.0 * view;
+            let height = patch.heights().height([above.x, above.y]);
+            prop_assert!(height <= above.z + 1e-9, "{height} at {above}, in front of {point}");
+        }
+    }
+
+    /// Shadows against points of the light's ray: what is below the surface at one is dark, what is dark is below or
+    /// almost so at one.
+    #[test]
+    fn shadows_are_where_the_surface_is_in_the_way(
+        heights in heights(), place in place(), view in direction(), light in direction(),
+    ) {
+        prop_assume!(view.z > 0.05 && light.z > 0.05);
+        let patch = patch(heights, MesoMaterial::diffuse([1.0; 3]));
+        let seen = patch.seen(place, view);
+        let point = seen.point(&patch);
+        let cosine = patch.heights().normal([point.x, point.y]).dot(light);
+        prop_assume!(cosine > 1e-6);
+        let is_dark = patch.reflected(&seen, light) == [0.0; 3];
+        let length = -point.z / light.z;
+        let depth = (1..20_000).map(|step| {
+            let at = point + length * f64::from(step) / 20_000.0 * light;
+            patch.heights().height([at.x, at.y]) - at.z
+        });
+        let depth = depth.fold(f64::NEG_INFINITY, f64::max);
+        // Between two of the points the surface rises by its steepest slope times their distance.
+        let steepest = 2.0 * 8.0 * 0.5 * (length / 20_000.0);
+        prop_assert!(if depth > 1e-9 { is_dark } else { !is_dark || depth > -steepest }, "{depth}, {is_dark}");
+    }
+
+    #[test]
+    fn patches_repeat(heights in heights(), view in direction(), light in direction(), u in 0..64_u8, v in 0..64_u8) {
+        let patch = patch(heights, glossy());
+        let place = [u, v].map(|at| f64::from(at) / 64.0);
+        let expected = patch.response(place, view, light);
+        for [right, down] in [[1.0, 0.0], [0.0, -1.0], [-3.0, 5.0]] {
+            prop_assert_eq!(patch.response([place[0] + right, place[1] + down], view, light), expected);
+        }
+    }
+
+    /// A flat patch answers with its BRDF times the cosine, whatever is drawn of it, and the BRDF is reciprocal.
+    #[test]
+    fn flat_patches_are_their_material(
+        place in place(), view in direction(), light in direction(), turns in 0.0..1.0_f64, side in 1..5_usize,
+    ) {
+        prop_assume!(view.z > 1e-6 && light.z > 1e-6);
+        let heights = HeightField::new(side, &vec![0.25; side * side]).expect("heights");
+        let texels = vec![MesoTexel { material: 0, turns }; side * side];
+        let mut patch = MesoPatch::new(heights, vec![glossy()], texels).expect("a patch");
+        let expected = patch.response(place, view, light);
+        let (sine, cosine) = (turns * TAU).sin_cos();
+        let local = |v: DVec3| DVec3::new(cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z);
+        for (found, brdf) in expected.into_iter().zip(glossy().value(local(view), local(light))) {
+            assert_relative_eq!(found, brdf * light.z, max_relative = 1e-9);
+        }
+        for detail in [MesoDetail::Normals, MesoDetail::Flat] {
+            patch.detail = detail;
+            prop_assert_eq!(patch.response(place, view, light), expected);
+        }
+        let back = patch.response(place, light, view);
+        for (one, other) in expected.into_iter().zip(back) {
+            assert_relative_eq!(one / light.z, other / view.z, max_relative = 1e-9);
+        }
+    }
+}
+
+/// A square pit twice as wide as deep, looked into under 45 degrees through its middle: the foot of the wall.
+#[test]
+fn parallax_moves_points_by_their_depth() {
+    let side = 64;
+    let is_deep = |at: usize| (16..48).contains(&(at % side)) && (16..48).contains(&(at / side));
+    let heights: Vec<f64> = (0..side * side).map(|at| if is_deep(at) { -0.125 } else { 0.0 }).collect();
+    let patch = patch(HeightField::new(side, &heights).expect("heights"), MesoMaterial::diffuse([0.5; 3]));
+    let view = DVec3::new(0.6, 0.0, 0.8);
+    let point = patch.seen([0.5, 0.5], view).point(&patch);
+    assert_relative_eq!(point.x, 0.5 - 0.125 * 0.75, max_relative = 1e-12);
+    assert_eq!((point.y, point.z), (0.5, -0.125));
+    // Light along the view reaches it; light from the far side, low, does not.
+    assert!(patch.response([0.5, 0.5], view, view)[0] > 0.0);
+    assert_eq!(patch.response([0.5, 0.5], view, DVec3::new(-0.96, 0.0, 0.28)), [0.0; 3]);
+}
+
+/// Light 1 from everywhere: a Lambert surface sends out its albedo, times 2 mean cosines of the directions, which is
+/// 1 + 2 / k^2 with k x k of them, k even.
+#[test]
+fn white_furnace() {
+    let albedo = [0.25, 0.5, 1.0];
+    let patch = MesoPatch::plain(MesoMaterial::diffuse(albedo)).expect("a patch");
+    for side in [2, 8, 12, 16] {
+        let sampling = TextureSampling { size: 2, view: directions(3), light: directions(side), samples: 1 };
+        let texture = patch.texture(&sampling, &mut |_, _| ()).expect("a texture");
+        let lights = side * side;
+        for (view, texel) in [(0, 0), (4, 3), (8, 1)] {
+            for (channel, albedo) in albedo.into_iter().enumerate() {
+                let sum: f64 = (0..lights).map(|light| f64::from(texture.patch(view, light)[texel][channel])).sum();
+                let found = sum * TAU / lights as f64;
+                assert_relative_eq!(found, albedo * (1.0 + 2.0 / lights as f64), max_relative = 1e-6);
+            }
+        }
+    }
+}
+
+/// Shadows only take light away: no point of a white patch sends out more than comes to it, up to what 32 x 32
+/// directions get wrong of a tilted cosine; where the surface is rough, it sends out less.
+#[test]
+fn relief_makes_no_light() {
+    let light = directions(32);
+    let solid_angle = TAU / light.directions().len() as f64;
+    for kind in PatchKind::ALL {
+        let heights = kind.patch(1.0).heights().clone();
+        let texels = vec![MesoTexel::default(); heights.heights().len()];
+        let patch = MesoPatch::new(heights, vec![MesoMaterial::diffuse([1.0; 3])], texels).expect("a patch");
+        let mut least = 1.0_f64;
+        for at in 0..100 {
+            let place = [f64::from(at % 10) / 10.0, f64::from(at / 10) / 10.0];
+            let sum: f64 = light.directions().iter().map(|&light| patch.response(place, DVec3::Z, light)[0]).sum();
+            assert!(sum * solid_angle <= 1.01, "{kind} at {place:?}: {}", sum * solid_angle);
+            least = least.min(sum * solid_angle);
+        }
+        assert!(least < 0.9, "{kind}: {least}");
+    }
+}
+
+/// Samples are the patch's response at the middles of texels, in the directions that their numbers say, in any number
+/// of threads; several per texel are averaged.
+#[test]
+fn textures_hold_the_response() {
+    let patch = PatchKind::Mail.patch(1.0);
+    let (view, light) = (directions(3), directions(4));
+    let sampling = |samples| TextureSampling { size: 8, view: view.clone(), light: light.clone(), samples };
+    let made = |samples, threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| patch.texture(&sampling(samples), &mut |_, _| ()).expect("a texture"))
+    };
+    let texture = made(1, 1);
+    assert_eq!(texture, made(1, 3));
+    let at = |texel: usize, part: f64| (texel as f64 + part) / 8.0;
+    for (number, texel) in [(0, 0), (4, 13), (8, 63)] {
+        for (d, &toward) in light.directions().iter().enumerate() {
+            let place = [at(texel % 8, 0.5), at(texel / 8, 0.5)];
+            let expected = patch.response(place, view.directions()[number], toward).map(|value| value as f32);
+            assert_eq!(texture.patch(number, d)[texel], expected);
+        }
+    }
+    let four = made(2, 2);
+    let parts = [[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
+    let expected: f64 = parts
+        .iter()
+        .map(|[u, v]| patch.response([at(5, *u), at(1, *v)], view.directions()[7], light.directions()[9])[1])
+        .sum();
+    assert_relative_eq!(f64::from(four.patch(7, 9)[8 + 5][1]), expected / 4.0, max_relative = 1e-6);
+}
+
+#[test]
+fn files_of_textures() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let path = folder.path().join("b.npy");
+    let load = || load_bidirectional_texture(&path);
+    let samples: Vec<[f32; 3]> = (0..4 * 9 * 4).map(|at| [at as f32, 0.5, 0.25]).collect();
+    let texture = BidirectionalTexture::new(2, directions(2), directions(3), samples.clone()).expect("a texture");
+    let mut bytes = Vec::new();
+    write_bidirectional_texture(&texture, &mut bytes).expect("written");
+    std::fs::write(&path, &bytes).expect("written");
+    assert_eq!(load().expect("a texture"), texture);
+    let mut said = Vec::new();
+    let mut refuse = |shape: &[usize], values: &[f32]| {
+        let mut bytes = Vec::new();
+        crossbar::io::write_npy_array(shape, values, &mut bytes).expect("written");
+        std::fs::write(&path, bytes).expect("written");
+        let text = load().expect_err("no texture").to_string();
+        said.push(text.replace(&path.display().to_string(), "b.npy"));
+    };
+    let flat = samples.as_flattened();
+    refuse(&[3, 9, 2, 2, 3], &flat[..3 * 9 * 4 * 3]);
+    refuse(&[4, 8, 2, 2, 3], &flat[..4 * 8 * 4 * 3]);
+    refuse(&[4, 9, 2, 2, 3, 1], flat);
+    refuse(&[4, 9, 2, 6], flat);
+    refuse(&[4, 9, 1, 4, 3], flat);
+    let mut wrong = flat.to_vec();
+    wrong[4 * 3 + 1] = f32::NAN;
+    refuse(&[4, 9, 2, 2, 3], &wrong);
+    wrong[4 * 3 + 1] = -0.5;
+    refuse(&[4, 9, 2, 2, 3], &wrong);
+    for end in [0, 7, 100, bytes.len() - 1] {
+        std::fs::write(&path, &bytes[..end]).expect("written");
+        assert!(load().is_err(), "{end} bytes");
+    }
+    assert!(load_bidirectional_texture(Path::new("nowhere.npy")).is_err());
+    insta::assert_snapshot!(said.join("\n"), @"");
+}
+
+/// Glossy lobes of the patches stay within energy: reflectance at any texel's own frame is at most 1.
+#[test]
+fn materials_reflect_no_more_than_arrives() {
+    for (name, view) in [(0.1_f64, 64), (0.6, 32), (1.0, 32)] {
+        let directions = directions(view);
+        let view = DVec3::new((1.0 - name * name).sqrt(), 0.0, name);
+        let sum = directions.directions().iter().fold([0.0; 3], |sum, &light| {
+            let value = glossy().value(view, light);
+            [0, 1, 2].map(|channel| sum[channel] + value[channel] * light.z)
+        });
+        let solid_angle = 2.0 * PI / directions.directions().len() as f64;
+        assert!(sum.iter().all(|sum| sum * solid_angle <= 1.0), "{sum:?}");
+    }
+}
