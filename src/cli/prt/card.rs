@@ -101,9 +101,6 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X.prt")]
     pub(super) original: Option<PathBuf>,
 
-    #[command(flatten)]
-    pub(super) bi_scale: BiScaleCardArgs,
-
     /// Format of the picture
     #[arg(long, value_name = "F", default_value = "bgra8")]
     pub(super) target_format: TexelFormat,
@@ -137,6 +134,9 @@ pub(in crate::cli) struct Args {
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/prt-card")]
     pub(super) out: PathBuf,
+
+    #[command(flatten)]
+    pub(super) bi_scale: BiScaleCardArgs,
 }
 
 impl Args {
