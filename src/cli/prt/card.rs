@@ -34,7 +34,7 @@ Examples:
       transfer of all frequencies on the Radeon 9800, colors of vertices interpolated as its authors did
   crossbar prt card docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --sweep --size 64x48
       bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
-  crossbar prt card docs/examples/step_biclusters.prt --model docs/examples/step.obj --texture b.npy --light sky:1,-1,1 --size 64x48
+  crossbar prt card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
       bi-scale transfer on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv, for transfer of all \

@@ -1,5 +1,6 @@
 //! `crossbar prt card` of bi-scale transfer.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -11,9 +12,10 @@ use crate::cli::prt::card;
 use crate::cli::prt::model::{load as load_model, vertices};
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, number, view};
+use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::kernels::BlockEdges;
 use crate::prt::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat, corner_coordinates};
-use crate::prt::bi_scale::texture::load_bidirectional_texture;
+use crate::prt::bi_scale::texture::{BidirectionalTexture, PatchKind, TextureSampling, load_bidirectional_texture};
 use crate::prt::file::{MeshDigest, PrtFileError, load_bi_scale};
 use crate::study::prt::BiScaleOnCard;
 
@@ -21,9 +23,18 @@ use crate::study::prt::BiScaleOnCard;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Options of bi-scale transfer")]
 pub(in crate::cli::prt) struct BiScaleCardArgs {
-    /// The bidirectional texture: a file (.npy) that `crossbar prt texture` wrote, or one like it
+    /// The bidirectional texture: a file (.npy) that `crossbar prt texture` wrote or one like it, or a patch: bumps,
+    /// mail, tiles, bricks, weave
     #[arg(long, value_name = "B.npy")]
     texture: Option<PathBuf>,
+
+    /// Texels along an edge of the texture of a patch [default: 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    texture_size: Option<u32>,
+
+    /// Directions of the view along an edge of the square, of the texture of a patch [default: 12]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
+    texture_views: Option<u8>,
 
     /// How often the texture repeats where texture coordinates grow by 1 [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
@@ -69,9 +80,12 @@ enum HeldArg {
 impl BiScaleCardArgs {
     /// Refuses all of these for transfer of other kinds.
     pub(in crate::cli::prt) fn refuse(&self) -> Result<(), Problem> {
-        let Self { texture, repeat, texture_format, blocks, light_format, local_format } = self;
+        let Self { texture, texture_size, texture_views, repeat, texture_format, blocks, light_format, local_format } =
+            self;
         let given = [
             ("--texture", texture.is_some()),
+            ("--texture-size", texture_size.is_some()),
+            ("--texture-views", texture_views.is_some()),
             ("--repeat", repeat.is_some()),
             ("--texture-format", texture_format.is_some()),
             ("--blocks", blocks.is_some()),
@@ -98,6 +112,29 @@ impl BiScaleCardArgs {
         DisplayOptions { edges, texture: self.texture_format.unwrap_or(TexelFormat::Rgba8), local }
     }
 
+    fn kind(&self) -> Option<PatchKind> {
+        self.texture.as_ref()?.to_str()?.parse().ok()
+    }
+
+    /// The texture, for so many directions of light along an edge.
+    fn samples(&self, side: usize) -> miette::Result<BidirectionalTexture> {
+        let refused = |error: &dyn Display| Problem::usage(error.to_string(), "see `crossbar prt card --help`");
+        let Some(kind) = self.kind() else {
+            let Some(path) = &self.texture else {
+                let what = "bi-scale transfer is drawn with a bidirectional texture, found none";
+                return Err(Problem::usage(what, "name one: `--texture mail`, or `--texture B.npy`").into());
+            };
+            view::require_file(path, 8, "name a smaller texture")?;
+            return Ok(load_bidirectional_texture(path)?);
+        };
+        let directions = |side: usize| LocalDirections::new(side).map_err(|error| refused(&error));
+        let view = directions(self.texture_views.unwrap_or(12).into())?;
+        let (size, light) = (self.texture_size.unwrap_or(64) as usize, directions(side)?);
+        let sampling = TextureSampling { size, view, light, samples: 1 };
+        let texture = kind.patch(1.0).texture(&sampling, &mut |_, _| ());
+        Ok(texture.map_err(|error| refused(&error))?)
+    }
+
     fn light(&self) -> LightFormat {
         match self.light_format {
             None | Some(HeldArg::Fp32) => LightFormat::Fp32,
@@ -120,7 +157,8 @@ impl StudyArgs for Args<'_> {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let (model, texture) = (model_name::named_file(&self.0.model), self.0.bi_scale.texture.as_deref());
+        let model = model_name::named_file(&self.0.model);
+        let texture = self.0.bi_scale.texture.as_deref().filter(|_| self.0.bi_scale.kind().is_none());
         [self.0.file()].into_iter().chain(model).chain(self.0.light.file()).chain(texture).collect()
     }
 
@@ -131,10 +169,6 @@ impl StudyArgs for Args<'_> {
     fn study(&self) -> miette::Result<BiScaleOnCard> {
         self.0.refuse_others()?;
         let card::Args { model: name, light, card, target_format, bi_scale, .. } = self.0;
-        let Some(texture) = &bi_scale.texture else {
-            let what = "bi-scale transfer is drawn with a bidirectional texture, found none";
-            return Err(Problem::usage(what, "name one: `--texture B.npy`; `crossbar prt texture` makes them").into());
-        };
         let path = self.0.file();
         view::require_file(path, 6, "name a smaller file")?;
         let file = load_bi_scale(path)?;
@@ -156,14 +190,13 @@ impl StudyArgs for Args<'_> {
         let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
-        view::require_file(texture, 8, "name a smaller texture")?;
         Ok(BiScaleOnCard {
             model: name.display().to_string(),
             camera: self.0.eye.framing(&model.mesh, self.0.size)?,
             vertices,
             coordinates,
             biclusters,
-            texture: load_bidirectional_texture(texture)?,
+            texture: bi_scale.samples(meaning.side as usize)?,
             light_name: light.name(),
             light: light.distant()?,
             exposure: self.0.exposure,
