@@ -12,6 +12,7 @@
 pub mod adjacency;
 pub mod aimed;
 pub mod classify;
+mod crease;
 pub mod exact;
 pub mod mesh;
 pub mod random;

@@ -71,11 +71,11 @@ const COMMANDS: &[(&str, &str)] = &[
     (
         "prt precompute nowhere.obj --out x.prt",
         "--kind --factors --ground --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
-         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --matrix",
+         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --crease --matrix",
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --crease --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
     ),
     ("prt show nowhere.prt", "--kind --vertex --at --model --arrays"),
     (

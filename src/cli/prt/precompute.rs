@@ -137,7 +137,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         return bi_scale::precompute::run((&args.model, args.tangents), &args.bi_scale, &args.out, out);
     }
     if args.bi_scale.is_given() {
-        let what = "`--directions`, `--horizon`, `--samples` and `--matrix` are for bi-scale transfer";
+        let what = "`--directions`, `--horizon`, `--samples`, `--crease` and `--matrix` are for bi-scale transfer";
         return Err(Problem::usage(what, "add `--kind bi-scale`").into());
     }
     if args.kind == KindArg::AllFrequency {

@@ -104,7 +104,8 @@ impl FlatParts {
             let [a, b, c] = self.triangles[at];
             let middle = self.positions.len() as u32;
             let corners = [a, b, c].map(|corner| corner as usize);
-            let mean = |of: &dyn Fn(usize) -> f32| (corners.iter().map(|&at| f64::from(of(at))).sum::<f64>() / 3.0) as f32;
+            let mean =
+                |of: &dyn Fn(usize) -> f32| (corners.iter().map(|&at| f64::from(of(at))).sum::<f64>() / 3.0) as f32;
             self.positions.push([0, 1, 2].map(|axis: usize| mean(&|at| self.positions[at][axis])));
             self.texture.push([0, 1].map(|axis: usize| mean(&|at| self.texture[at][axis])));
             self.normals.push(self.normals[corners[0]]);
@@ -150,24 +151,20 @@ impl FlatParts {
     }
 
     /// A block between two corners.
-    fn block(&mut self, low: [f64; 3], high: [f64; 3], material: u32) {
-        self.block_of(low, high, [material; 6]);
-    }
-
-    /// The same with materials of the sides towards -x, +x, -y, +y, -z, +z.
-    fn block_of(&mut self, low: [f64; 3], high: [f64; 3], [left, right, front, back, below, above]: [u32; 6]) {
-        let [x0, y0, z0] = low;
-        let [x1, y1, z1] = high;
+    fn block(&mut self, [x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], material: u32) {
         let at = DVec3::new;
         let (x, y, z) = (at(x1 - x0, 0.0, 0.0), at(0.0, y1 - y0, 0.0), at(0.0, 0.0, z1 - z0));
-        self.face(at(x0, y1, z0), -y, z, left);
-        self.face(at(x1, y0, z0), y, z, right);
-        self.face(at(x0, y0, z0), x, z, front);
-        self.face(at(x1, y1, z0), -x, z, back);
-        self.face(at(x0, y1, z0), x, -y, below);
-        self.face(at(x0, y0, z1), x, y, above);
+        self.face(at(x0, y1, z0), -y, z, material);
+        self.face(at(x1, y0, z0), y, z, material);
+        self.face(at(x0, y0, z0), x, z, material);
+        self.face(at(x1, y1, z0), -x, z, material);
+        self.face(at(x0, y1, z0), x, -y, material);
+        self.face(at(x0, y0, z1), x, y, material);
     }
 }
+
+/// How deep parts stand in each other, so that no two faces share an edge.
+const SUNK: f64 = 0.001;
 
 /// A chair of 0.5 x 0.5, 1 high. Its front is at -y.
 fn chair(parts: &mut FlatParts) {
@@ -175,16 +172,16 @@ fn chair(parts: &mut FlatParts) {
     for x in [-0.25, 0.2] {
         parts.block([x, -0.25, 0.0], [x + 0.05, -0.2, 0.65], frame);
         parts.block([x, 0.2, 0.0], [x + 0.05, 0.25, 1.0], frame);
-        parts.block([x, -0.2, 0.36], [x + 0.05, 0.2, 0.4], frame);
+        parts.block([x + SUNK, -0.2 - SUNK, 0.36], [x + 0.05 - SUNK, 0.2 + SUNK, 0.4], frame);
         // Arms.
-        parts.block([x - 0.01, -0.27, 0.65], [x + 0.06, 0.2, 0.68], frame);
+        parts.block([x - 0.01, -0.27, 0.65 - SUNK], [x + 0.06, 0.2 + SUNK, 0.68], frame);
     }
-    parts.block([-0.2, -0.24, 0.36], [0.2, -0.21, 0.4], frame);
-    parts.block([-0.2, 0.21, 0.36], [0.2, 0.24, 0.4], frame);
-    parts.block([-0.245, -0.245, 0.401], [0.245, 0.195, 0.47], seat);
-    parts.block([-0.2, 0.21, 0.55], [0.2, 0.245, 0.95], back);
+    parts.block([-0.2 - SUNK, -0.24, 0.36], [0.2 + SUNK, -0.21, 0.4], frame);
+    parts.block([-0.2 - SUNK, 0.21, 0.36], [0.2 + SUNK, 0.24, 0.4], frame);
+    parts.block([-0.245, -0.245, 0.4 - SUNK], [0.245, 0.195, 0.47], seat);
+    parts.block([-0.2 - SUNK, 0.21, 0.55], [0.2 + SUNK, 0.245, 0.95], back);
     // The cushion of the back.
-    parts.block([-0.17, 0.17, 0.58], [0.17, 0.209, 0.92], back);
+    parts.block([-0.17, 0.17, 0.58], [0.17, 0.21 + SUNK, 0.92], back);
 }
 
 /// A temple with six pillars along its front and eight along each side.
@@ -193,7 +190,7 @@ fn temple(parts: &mut FlatParts) {
     for step in 0..3 {
         let inset = 0.06 * f64::from(step);
         let (width, depth, height) = (1.2 - inset, 1.6 - inset, 0.06 * f64::from(step));
-        parts.block([-width, -depth, height], [width, depth, height + 0.06], steps);
+        parts.block([-width, -depth, height - SUNK], [width, depth, height + 0.06], steps);
     }
     let (base, top) = (0.18, 0.98);
     for (across, along) in (0..6).flat_map(|across| (0..8).map(move |along| (across, along))) {
@@ -201,19 +198,25 @@ fn temple(parts: &mut FlatParts) {
             continue;
         }
         let (x, y) = (-0.95 + 0.38 * f64::from(across), -1.35 + 2.7 / 7.0 * f64::from(along));
-        parts.block([x - 0.09, y - 0.09, base], [x + 0.09, y + 0.09, base + 0.05], pillars);
-        parts.block([x - 0.06, y - 0.06, base + 0.05], [x + 0.06, y + 0.06, top - 0.05], pillars);
-        parts.block([x - 0.09, y - 0.09, top - 0.05], [x + 0.09, y + 0.09, top], pillars);
+        let mut drum = |half: f64, low: f64, high: f64| {
+            parts.block([x - half, y - half, low - SUNK], [x + half, y + half, high + SUNK], pillars);
+        };
+        drum(0.09, base, base + 0.05);
+        drum(0.06, base + 0.05, top - 0.05);
+        drum(0.09, top - 0.05, top);
     }
     // The chamber, open in front.
-    parts.block([-0.55, -0.9, base], [-0.5, 0.9, top], walls);
-    parts.block([0.5, -0.9, base], [0.55, 0.9, top], walls);
-    parts.block([-0.5, 0.85, base], [0.5, 0.9, top], walls);
-    parts.block([-0.5, -0.9, base], [-0.2, -0.85, top], walls);
-    parts.block([0.2, -0.9, base], [0.5, -0.85, top], walls);
-    parts.block_of([-1.08, -1.48, top], [1.08, 1.48, top + 0.12], [eaves; 6]);
+    let mut wall = |low: [f64; 2], high: [f64; 2]| {
+        parts.block([low[0], low[1], base - SUNK], [high[0], high[1], top + SUNK], walls);
+    };
+    wall([-0.55, -0.9], [-0.5, 0.9]);
+    wall([0.5, -0.9], [0.55, 0.9]);
+    wall([-0.5 - SUNK, 0.85], [0.5 + SUNK, 0.9 - SUNK]);
+    wall([-0.5 - SUNK, -0.9 + SUNK], [-0.2, -0.85]);
+    wall([0.2, -0.9 + SUNK], [0.5 + SUNK, -0.85]);
+    parts.block([-1.08, -1.48, top], [1.08, 1.48, top + 0.12], eaves);
     // The roof: two slopes and two gables over the eaves.
-    let (foot, ridge, width, depth) = (top + 0.12, top + 0.55, 1.16, 1.56);
+    let (foot, ridge, width, depth) = (top + 0.12 - SUNK, top + 0.55, 1.16, 1.56);
     let at = DVec3::new;
     let (up, along) = (ridge - foot, at(0.0, 2.0 * depth, 0.0));
     parts.face(at(width, -depth, foot), along, at(-width, 0.0, up), roof);

@@ -1,11 +1,19 @@
 //! Pixels shaded by equation 3.
 
 use approx::assert_relative_eq;
+use crossbar::geom::{Mesh, Sides};
+use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, LIGHT_TEXELS};
+use crossbar::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 use crossbar::prt::bi_scale::directions::{LocalDirections, hemisphere};
-use crossbar::prt::bi_scale::shade::{ShadedPixel, TextureLookup, pixel_frame, reference};
-use crossbar::prt::bi_scale::texture::BidirectionalTexture;
+use crossbar::prt::bi_scale::product::by_rows;
+use crossbar::prt::bi_scale::shade::{
+    ShadedPixel, TextureLookup, TracedLight, TracedPoint, TracedRung, TracedScene, pixel_frame, reference,
+};
+use crossbar::prt::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind, TextureSampling};
+use crossbar::prt::bi_scale::transfer::{light_vector, transfer_matrix};
 use crossbar::prt::synthetic::hills;
 use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::tracer::HostTracer;
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -78,4 +86,86 @@ fn frames_are_interpolated() {
         let between = pixel_frame(&vertices, corners, [0.2, 0.3, 0.5]).matrix();
         assert_relative_eq!(between.determinant(), 1.0, max_relative = 1e-12);
     }
+}
+
+const SAMPLING: VisibilitySampling = VisibilitySampling { log2_samples: 1, horizon: Horizon::Normal };
+
+fn square() -> (Mesh, Vertices) {
+    let corners = vec![[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
+    let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
+    let vertices = Vertices::new(&mesh, Tangents::Along(DVec3::X)).expect("vertices");
+    (mesh, vertices)
+}
+
+/// Rungs of a point in the middle of a square, towards an eye above it.
+fn rungs(patch: &MesoPatch, texture: &BidirectionalTexture, radiance: [f64; 3]) -> [[f64; 3]; 5] {
+    let (mesh, vertices) = square();
+    let weights = [0.5, 0.25, 0.25];
+    let frame = pixel_frame(&vertices, vertices.triangles()[0], weights);
+    let point = TracedPoint::new(mesh.corners(0).expect("a triangle"), weights, frame).expect("a point");
+    let view = DVec3::new(0.28, 0.0, 0.96);
+    let pixel = ShadedPixel { corners: vertices.triangles()[0], weights, place: [0.3, 0.7], view };
+    let tracer = HostTracer::new(&mesh, Sides::Both);
+    let scene = TracedScene { tracer: &tracer, length: 8.0, sampling: SAMPLING };
+    let (fine, texels) = (vec![radiance; FINE_DIRECTIONS], vec![radiance; LIGHT_TEXELS]);
+    scene.rungs(&point, &pixel, (patch, texture), TracedLight { fine: &fine, texels: &texels })
+}
+
+fn sampled(patch: &MesoPatch, size: usize, side: usize) -> BidirectionalTexture {
+    let directions = |side: usize| LocalDirections::new(side).expect("directions");
+    let sampling = TextureSampling { size, view: directions(4), light: directions(side), samples: 1 };
+    patch.texture(&sampling, &mut |_, _| ()).expect("a texture")
+}
+
+/// A Lambert square under light 1 from everywhere sends out its albedo: by rays up to what 49,152 directions of the
+/// hemisphere get wrong of the cosine, by transfer up to what M directions do. Their centers have a mean cosine that is
+/// too large by the factor 1 + 2 / M; texels that are routed to the nearest of them give each a share that is off by
+/// less than as much.
+#[test]
+fn white_furnace_of_pixels() {
+    let albedo = [0.25, 0.5, 1.0];
+    let patch = MesoPatch::plain(MesoMaterial::diffuse(albedo)).expect("a patch");
+    let (mesh, vertices) = square();
+    let mut caster = HostTracer::new(&mesh, Sides::Both);
+    let maps = VisibilityMaps::trace_sampled(&vertices, &[0, 1, 2, 3], SAMPLING, &mut caster, &mut |_, _| ());
+    let maps = maps.expect("maps");
+    let light = light_vector(&vec![1.0; LIGHT_TEXELS]);
+    for side in [8, 12, 16, 32] {
+        let texture = sampled(&patch, 1, side);
+        let error = 4.0 / (side * side) as f64 + 1e-3;
+        let matrix = transfer_matrix(&vertices, &maps, texture.light()).expect("a matrix");
+        let local: Vec<[f64; 3]> = by_rows(&matrix, &light).into_iter().map(|value| [value; 3]).collect();
+        let weights = [0.2, 0.3, 0.5];
+        let pixel = ShadedPixel { corners: [0, 1, 2], weights, place: [0.1, 0.2], view: DVec3::Z };
+        let by_transfer = reference::radiance(&texture, &local, &pixel);
+        let by_rays = rungs(&patch, &texture, [1.0; 3]);
+        for (channel, albedo) in albedo.into_iter().enumerate() {
+            assert_relative_eq!(by_transfer[channel], albedo, max_relative = error);
+            let rung = |rung: TracedRung| by_rays[rung as usize][channel];
+            assert_relative_eq!(rung(TracedRung::Exact), albedo, max_relative = 1e-3);
+            assert_eq!(rung(TracedRung::Light), rung(TracedRung::Exact), "the same light");
+            // Nothing is in the way, so that all that changes is the rim of the horizon.
+            assert_relative_eq!(rung(TracedRung::Visibility), albedo, max_relative = 2e-3);
+            assert_relative_eq!(rung(TracedRung::Directions), by_transfer[channel], max_relative = 1e-6);
+            assert_relative_eq!(rung(TracedRung::Texture), rung(TracedRung::Directions), max_relative = 1e-6);
+        }
+    }
+}
+
+/// A rough patch is darker than a flat one, on every rung; with more directions and finer textures the rungs come
+/// together.
+#[test]
+fn rungs_come_together() {
+    let patch = PatchKind::Bricks.patch(1.0);
+    let apart = |size: usize, side: usize| {
+        let found = rungs(&patch, &sampled(&patch, size, side), [1.0; 3]);
+        let [exact, directions, texture] =
+            [TracedRung::Exact, TracedRung::Directions, TracedRung::Texture].map(|rung| found[rung as usize][0]);
+        assert!(exact > 0.0 && exact < 0.6, "{exact}");
+        [(directions - exact).abs() / exact, (texture - directions).abs() / exact]
+    };
+    let [of_8, _] = apart(16, 8);
+    let [of_16, of_texture] = apart(32, 16);
+    assert!(of_16 < 0.02 && of_16 <= of_8 + 1e-3, "{of_8}, {of_16}");
+    assert!(of_texture < 0.5, "{of_texture}");
 }

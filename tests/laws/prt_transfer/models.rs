@@ -13,6 +13,8 @@ fn they_have_as_many_vertices_as_table_1_prints() {
         ("bi-scale-bunny", 3_286, true),
         ("bi-scale-bunny-fine", 47_960, true),
         ("bi-scale-bunny-middle", 12_380, true),
+        ("bi-scale-chair", 16_101, true),
+        ("bi-scale-temple", 32_409, false),
         ("transfer-bumpy", 49_990, true),
         ("transfer-head", 50_060, true),
         ("transfer-polygons", 58_624, false),

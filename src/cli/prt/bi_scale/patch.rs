@@ -89,9 +89,7 @@ impl PatchArgs {
         let color = |default: [f32; 3]| self.color.unwrap_or(default).map(f64::from);
         let material = match self.brdf {
             None => MesoMaterial::diffuse(color(COLOR)),
-            Some(BrdfArg(brdf)) => {
-                MesoMaterial { color: [0.0; 3], lobe: Some(brdf), lobe_color: color([1.0; 3]) }
-            }
+            Some(BrdfArg(brdf)) => MesoMaterial { color: [0.0; 3], lobe: Some(brdf), lobe_color: color([1.0; 3]) },
         };
         material.check().map_err(refused)?;
         Ok(material)
@@ -106,9 +104,9 @@ impl PatchArgs {
             let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.png`", names.join(", "));
             return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
         }
-        let is_table = ["csv", "npy", "txt"].iter().any(|known| {
-            path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known))
-        });
+        let is_table = ["csv", "npy", "txt"]
+            .iter()
+            .any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)));
         let (columns, heights) = if is_table {
             view::require_file(path, 8, "name a smaller table")?;
             let table = load_numbers(path, "table of heights", MAX_BYTES)?;
@@ -134,11 +132,8 @@ impl PatchArgs {
         if self.relief * depth <= HeightField::DEEPEST {
             return Ok(());
         }
-        let what = format!(
-            "expected a patch at most {} edges deep, found {}",
-            HeightField::DEEPEST,
-            self.relief * depth
-        );
+        let what =
+            format!("expected a patch at most {} edges deep, found {}", HeightField::DEEPEST, self.relief * depth);
         Err(Problem::usage(what, "lower `--relief`"))
     }
 }
@@ -147,7 +142,6 @@ impl PatchArgs {
 pub(super) fn names() -> impl Iterator<Item = String> {
     PatchKind::ALL.iter().map(PatchKind::to_string).chain([PLAIN.to_owned()])
 }
-
 
 fn refused(error: impl std::fmt::Display) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar prt texture --help`")

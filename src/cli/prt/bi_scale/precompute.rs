@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::json;
 
-use super::write_matrix;
-use crate::cli::prt::model::{load, refused, vertices};
+use super::{angle, load_creased, write_matrix};
+use crate::cli::prt::model::{refused, vertices};
 use crate::cli::prt::values::TangentsArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
@@ -57,6 +57,11 @@ pub(in crate::cli::prt) struct BiScaleArgs {
     #[arg(long, value_enum, value_name = "N")]
     samples: Option<SamplesArg>,
 
+    /// Take normals anew from the triangles, smooth over edges up to this angle in degrees; `crossbar prt render` needs
+    /// the same [default: the model's own normals]
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
+    crease: Option<f64>,
+
     /// Write the matrix as text too, in the Matrix Market format
     #[arg(long, value_name = "T.mtx")]
     matrix: Option<PathBuf>,
@@ -65,8 +70,8 @@ pub(in crate::cli::prt) struct BiScaleArgs {
 impl BiScaleArgs {
     /// Whether one of them was given.
     pub(in crate::cli::prt) fn is_given(&self) -> bool {
-        let Self { directions, horizon, samples, matrix } = self;
-        directions.is_some() || horizon.is_some() || samples.is_some() || matrix.is_some()
+        let Self { directions, horizon, samples, crease, matrix } = self;
+        directions.is_some() || horizon.is_some() || samples.is_some() || crease.is_some() || matrix.is_some()
     }
 
     fn sampling(&self) -> VisibilitySampling {
@@ -93,7 +98,7 @@ pub(in crate::cli::prt) fn run(
     let side = args.directions.unwrap_or(8);
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar prt precompute --help`"))?;
-    let model = load(model, tangents.0)?;
+    let model = load_creased(model, tangents.0, args.crease)?;
     let vertices = vertices(&model, tangents.0)?;
     let sampling = args.sampling();
     // Entries of rows, at most one per texel of a hemisphere and some below it; the maps; what is written.

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use super::{angle, load_creased};
 use crate::cli::memory::MemoryNeed;
 use crate::cli::model_name::{self, Model};
-use crate::cli::prt::model::{load as load_model, materials_of, vertices};
+use crate::cli::prt::model::{materials_of, vertices};
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, number, view};
@@ -36,6 +37,10 @@ pub(in crate::cli::prt) struct BiScaleRenderArgs {
     /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
     texture_views: Option<u8>,
+
+    /// The crease angle in degrees, as given to `crossbar prt precompute`
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
+    crease: Option<f64>,
 
     /// Draw a picture by rays too, and tell the error apart by its causes; takes milliseconds per pixel. All textures
     /// must be patches
@@ -74,13 +79,13 @@ impl TextureArg {
 impl BiScaleRenderArgs {
     /// Refuses all of these for transfer of other kinds.
     pub(in crate::cli::prt) fn refuse(&self) -> Result<(), Problem> {
-        let Self { texture, repeat, texture_size, texture_views, reference } = self;
-        let given = [repeat.is_some(), texture_size.is_some(), texture_views.is_some(), *reference];
+        let Self { texture, repeat, texture_size, texture_views, crease, reference } = self;
+        let given = [repeat.is_some(), texture_size.is_some(), texture_views.is_some(), crease.is_some(), *reference];
         if texture.is_empty() && !given.contains(&true) {
             return Ok(());
         }
-        let what = "`--texture`, `--repeat`, `--texture-size`, `--texture-views` and `--reference` are for bi-scale \
-                    transfer, found transfer of another kind";
+        let what = "`--texture`, `--repeat`, `--texture-size`, `--texture-views`, `--crease` and `--reference` are for \
+                    bi-scale transfer, found transfer of another kind";
         Err(Problem::usage(what, "leave them out"))
     }
 
@@ -182,7 +187,7 @@ impl Args<'_> {
             let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());
             return Err(Problem::usage(what, "name what `crossbar prt precompute --kind bi-scale` wrote").into());
         };
-        let model = load_model(name, meaning.mesh.tangents)?;
+        let model = load_creased(name, meaning.mesh.tangents, self.0.bi_scale.crease)?;
         let vertices = vertices(&model, meaning.mesh.tangents)?;
         let expected = MeshDigest::new(&vertices);
         if meaning.mesh != expected {
@@ -228,8 +233,8 @@ impl StudyArgs for Args<'_> {
         self.refuse_others()?;
         let (file, model, surface) = self.load()?;
         let side = file.meaning.map_or(0, |meaning| meaning.side as usize);
-        let light = LocalDirections::new(side)
-            .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
+        let light =
+            LocalDirections::new(side).map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
         let render::Args { model: name, light: light_args, frames, size, eye, exposure, .. } = self.0;
         Ok(BiScaleRendering {
             model: name.display().to_string(),

@@ -95,7 +95,10 @@ fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
 
 fn all(file: &BiScaleFile, rows: usize, local: usize, out: &mut Out) -> miette::Result<()> {
     if let Some(meaning) = file.meaning {
-        out.line(format_args!("transfer  bi-scale, {} vertices, {local} local directions each", counted(rows / local)))?;
+        out.line(format_args!(
+            "transfer  bi-scale, {} vertices, {local} local directions each",
+            counted(rows / local)
+        ))?;
         out.line(format_args!("horizon   {}", meaning.horizon))?;
         out.line(format_args!("mesh      {}", meaning.mesh))?;
     } else {
@@ -116,7 +119,8 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, out: &mut Out) -> miette::
     out.table(&table)?;
     if let Some(biclusters) = &file.biclusters {
         out.line("")?;
-        let mut table = Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
+        let mut table =
+            Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
         sizes(biclusters).into_iter().for_each(|size| table.push(size.map(Cell::from)));
         out.table(&table)?;
     }

@@ -98,7 +98,8 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
         let image = png(&sheet(&texture, number))?;
         write_file(path, |out| out.write_all(&image)).map_err(Problem::from)?;
     }
-    let (mean, largest) = (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
+    let (mean, largest) =
+        (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
     if out.json() {
         return Ok(out.document(&json!({
             "out": args.out, "sheet": args.sheet, "views": views, "lights": lights, "size": size,
@@ -107,7 +108,10 @@ pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()>
         }))?);
     }
     out.line(format_args!("patch     {size} x {size} texels, {:.3} of its edge deep", patch.heights().depth()))?;
-    out.line(format_args!("samples   {views} views x {lights} directions of light, {} texels", counted(bytes as usize / 12)))?;
+    out.line(format_args!(
+        "samples   {views} views x {lights} directions of light, {} texels",
+        counted(bytes as usize / 12)
+    ))?;
     let [red, green, blue] = mean.map(|mean| format!("{mean:.3}"));
     out.sentence(format_args!("mean      {red}, {green}, {blue} of light from everywhere, over all texels and views"))?;
     out.sentence(format_args!(

@@ -22,13 +22,14 @@ impl TextureLookup {
         let lights = texture.light().directions().len();
         let (size, texels) = (texture.size(), texture.size() * texture.size());
         let mut samples = vec![[0.0; 3]; texture.samples().len()];
-        samples.par_chunks_exact_mut(lights * texels).zip(texture.samples().par_chunks_exact(lights * texels)).for_each(
-            |(into, of_view)| {
+        samples
+            .par_chunks_exact_mut(lights * texels)
+            .zip(texture.samples().par_chunks_exact(lights * texels))
+            .for_each(|(into, of_view)| {
                 for (light, patch) in of_view.chunks_exact(texels).enumerate() {
                     into[light..].iter_mut().step_by(lights).zip(patch).for_each(|(into, &sample)| *into = sample);
                 }
-            },
-        );
+            });
         Self { size, view: texture.view().clone(), lights, samples }
     }
 

@@ -35,7 +35,8 @@ pub enum HeightFieldError {
     /// A height that is none, or out of all proportion.
     #[error(
         "expected finite heights, the lowest at most {} edges of the patch below the highest; found {found} in row \
-         {row}, column {column}", HeightField::DEEPEST
+         {row}, column {column}",
+        HeightField::DEEPEST
     )]
     Height { found: f64, row: usize, column: usize },
 }
@@ -208,6 +209,12 @@ mod tests {
             HeightField::new(2, &[0.0, 0.0, 0.0, -17.0]),
         ]
         .map(|made| made.unwrap_err().to_string());
-        insta::assert_snapshot!(text.join("\n"), @"");
+        insta::assert_snapshot!(text.join("\n"), @"
+        expected 1 to 1024 texels along an edge of the heights, found 0
+        expected 4 heights, 2 x 2, found 3
+        expected finite heights, the lowest at most 16 edges of the patch below the highest; found NaN in row 1, column 0
+        expected finite heights, the lowest at most 16 edges of the patch below the highest; found inf in row 0, column 0
+        expected finite heights, the lowest at most 16 edges of the patch below the highest; found -17 in row 1, column 1
+        ");
     }
 }

@@ -51,8 +51,7 @@ impl PatchKind {
             Self::Weave => weave,
         };
         let middle = |at: usize| (at as f64 + 0.5) / SIDE as f64;
-        let places: Vec<Place> =
-            (0..SIDE * SIDE).map(|at| place([middle(at % SIDE), middle(at / SIDE)])).collect();
+        let places: Vec<Place> = (0..SIDE * SIDE).map(|at| place([middle(at % SIDE), middle(at / SIDE)])).collect();
         let heights: Vec<f64> = places.iter().map(|place| relief * place.height).collect();
         let texels = places.iter().map(|place| MesoTexel { material: place.material, turns: place.turns });
         let heights = HeightField::new(SIDE, &heights).expect("a relief in range");
@@ -60,8 +59,10 @@ impl PatchKind {
     }
 
     fn materials(self) -> Vec<MesoMaterial> {
-        let glossy = |color: [f64; 3], lobe: Brdf, lobe_color: [f64; 3]| MesoMaterial { color, lobe: Some(lobe), lobe_color };
-        let facets = |roughness: f64| Brdf::CookTorrance { albedo: 0.0, specular: 1.0, roughness, normal_incidence: 0.04 };
+        let glossy =
+            |color: [f64; 3], lobe: Brdf, lobe_color: [f64; 3]| MesoMaterial { color, lobe: Some(lobe), lobe_color };
+        let facets =
+            |roughness: f64| Brdf::CookTorrance { albedo: 0.0, specular: 1.0, roughness, normal_incidence: 0.04 };
         let brushed = |specular: f64, roughness: [f64; 2]| Brdf::Ward { albedo: 0.0, specular, roughness };
         let diffuse = MesoMaterial::diffuse;
         match self {

@@ -166,7 +166,13 @@ impl MesoPatch {
         let [x, y] = on_circle(texel.turns);
         // Normals point upwards, so that no tangent in the plane runs along one.
         let frame = LocalFrame::new(normal, DVec3::new(x, y, 0.0)).unwrap_or_else(|| LocalFrame::of_normal(normal));
-        SeenPoint { at, height: field.height_at(at), frame, view: frame.to_local(view), material: texel.material as usize }
+        SeenPoint {
+            at,
+            height: field.height_at(at),
+            frame,
+            view: frame.to_local(view),
+            material: texel.material as usize,
+        }
     }
 
     /// What comes back of light, by a way of finding whether a ray is blocked.

@@ -43,10 +43,8 @@ impl MesoPatch {
         let mut samples = vec![[0.0_f32; 3]; view.directions().len() * lights.len() * texels];
         let of_views = samples.chunks_exact_mut(lights.len() * texels).zip(view.directions());
         for (number, (samples, &view)) in of_views.enumerate() {
-            let points: Vec<SeenPoint> = (0..texels * fine * fine)
-                .into_par_iter()
-                .map(|at| self.seen(place(at, *size, *fine), view))
-                .collect();
+            let points: Vec<SeenPoint> =
+                (0..texels * fine * fine).into_par_iter().map(|at| self.seen(place(at, *size, *fine), view)).collect();
             samples.par_chunks_exact_mut(texels).zip(lights).for_each(|(patch, &light)| {
                 for (texel, points) in patch.iter_mut().zip(points.chunks_exact(fine * fine)) {
                     *texel = mean(points.iter().map(|seen| self.reflected(seen, light)), fine * fine);

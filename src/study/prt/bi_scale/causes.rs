@@ -57,9 +57,9 @@ impl<'a> Causes<'a> {
     ) -> Result<(), BiScaleError> {
         let mut pictures = self.rungs(pixels, cube, progress);
         let mut names = self.names();
-        // Transfer in f64, if there is a matrix to take it from.
+        // A matrix alone is drawn in f64 as it is.
         if self.rendering.file.biclusters.is_some()
-            && let Some(local) = LocalLight::by_rows(&self.rendering.file, cube)
+            && let Some(local) = LocalLight::exact(&self.rendering.file, cube)
         {
             pictures.push(self.by_reference(pixels, &local));
             names.push(("precision", "biclusters in single precision".to_owned()));
@@ -116,9 +116,10 @@ impl<'a> Causes<'a> {
 
 /// The squares of all channels' differences, and the largest.
 fn apart(one: &[[f64; 3]], other: &[[f64; 3]]) -> (f64, f64) {
-    one.iter().flatten().zip(other.iter().flatten()).fold((0.0, 0.0_f64), |(sum, most), (a, b)| {
-        (sum + (a - b) * (a - b), most.max((a - b).abs()))
-    })
+    one.iter()
+        .flatten()
+        .zip(other.iter().flatten())
+        .fold((0.0, 0.0_f64), |(sum, most), (a, b)| (sum + (a - b) * (a - b), most.max((a - b).abs())))
 }
 
 fn report(
@@ -146,7 +147,12 @@ fn report(
     for ((step, after), name) in pictures.windows(2).zip(&pictures[1..]).zip(names) {
         let (alone, largest) = apart(&step[0], after);
         let (so_far, _) = apart(exact, after);
-        table.push([name.1.as_str().into(), Cell::measured(share(alone)), Cell::measured(share(so_far)), Cell::measured(largest)]);
+        table.push([
+            name.1.as_str().into(),
+            Cell::measured(share(alone)),
+            Cell::measured(share(so_far)),
+            Cell::measured(largest),
+        ]);
         let caption = format!("{}: what it changes; blue -{shown_scale}, white 0, red +{shown_scale}", name.1);
         let image = false_color::signed(width, &signed(&step[0], after), scale);
         differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::prt::all_frequency::light::CubeLight;
-use crate::prt::bi_scale::product::{Gather, by_rows};
+use crate::prt::bi_scale::product::{Gather, by_rows, reference};
 use crate::prt::bi_scale::transfer::light_vector;
 use crate::prt::file::BiScaleFile;
 
@@ -24,7 +24,7 @@ impl LocalLight {
     /// # Panics
     /// If the transfer has not a column per light texel.
     pub fn new(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
-        let Some(biclusters) = &file.biclusters else { return Self::by_rows(file, light) };
+        let Some(biclusters) = &file.biclusters else { return Self::exact(file, light) };
         let gather = Gather::new(biclusters);
         let channels = channels(light);
         let single: Vec<[f32; 3]> = (0..channels[0].len())
@@ -36,18 +36,21 @@ impl LocalLight {
         Some(Self { way: "biclusters", rows: rows.into_iter().map(|row| row.map(f64::from)).collect(), seconds })
     }
 
-    /// The light times a file's matrix; `None` if it has none.
+    /// The same in f64: by the file's matrix, else by its biclusters.
     ///
     /// # Panics
     /// As [`Self::new`].
-    pub fn by_rows(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
-        let matrix = file.matrix.as_ref()?;
+    pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = channels(light);
         let start = Instant::now();
-        let [red, green, blue] = [0, 1, 2].map(|channel: usize| by_rows(matrix, &channels[channel]));
+        let (way, [red, green, blue]) = match (&file.matrix, &file.biclusters) {
+            (Some(matrix), _) => ("rows", channels.map(|channel| by_rows(matrix, &channel))),
+            (None, Some(biclusters)) => ("biclusters", channels.map(|channel| reference(biclusters, &channel))),
+            (None, None) => return None,
+        };
         let seconds = start.elapsed().as_secs_f64();
         let rows = red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect();
-        Some(Self { way: "rows", rows, seconds })
+        Some(Self { way, rows, seconds })
     }
 }
 

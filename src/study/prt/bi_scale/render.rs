@@ -150,10 +150,7 @@ impl BiScaleRendering {
         found.table(FoundTable::from(table).csv("time").field("time"));
         // 16 texels are read for each direction of light.
         found.field("texels_read", json!(16 * lights * shown_pixels));
-        found.field(
-            "seconds",
-            json!({ "light": times.light, "transfer": times.transfer, "shading": times.shading }),
-        );
+        found.field("seconds", json!({ "light": times.light, "transfer": times.transfer, "shading": times.shading }));
     }
 
     /// Frames with light or camera carried round z.

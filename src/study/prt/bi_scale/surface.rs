@@ -54,12 +54,7 @@ impl TexturedSurface {
     ///
     /// # Errors
     /// [`SurfaceError`].
-    pub fn new(
-        mesh: Mesh,
-        vertices: Vertices,
-        texture_of: Vec<u32>,
-        repeat: f64,
-    ) -> Result<Self, SurfaceError> {
+    pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, SurfaceError> {
         if mesh.texcoords().is_none() {
             return Err(SurfaceError::NoTextureCoordinates);
         }
