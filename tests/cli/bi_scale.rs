@@ -300,7 +300,10 @@ fn the_card_draws_what_the_host_draws() {
     for (options, said) in [
         (format!("prt card {matrix} --model {COURT} --texture tiles"), "expected biclusters, found a matrix alone"),
         (format!("prt card {biclusters} --model {COURT}"), "drawn with a bidirectional texture, found none"),
-        (format!("prt card {biclusters} --model {COURT} --texture tiles --way colors"), "`--way` is for transfer of other"),
+        (
+            format!("prt card {biclusters} --model {COURT} --texture tiles --way colors"),
+            "`--way` is for transfer of other",
+        ),
         (
             "prt card docs/examples/step_small.prt --model docs/examples/step.obj --repeat 2".to_owned(),
             "`--repeat` is for bi-scale transfer",

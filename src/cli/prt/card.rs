@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::card_values::{FilterArg, RadianceArg, VertexArg, WayArg, WeightsArg};
 use super::bi_scale::card::BiScaleCardArgs;
+use super::card_values::{FilterArg, RadianceArg, VertexArg, WayArg, WeightsArg};
 use super::light::LightArgs;
 use super::model::{FileOfModel, clusters_of, light_order};
 use super::values::KindArg;

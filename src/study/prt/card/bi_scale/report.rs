@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::picture::{Drawn, CardLight, doubles};
+use super::picture::{CardLight, Drawn, doubles};
 use super::precision::{count, precision};
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
 use crate::prt::all_frequency::on_card::seen_pixels;
