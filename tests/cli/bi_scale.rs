@@ -307,3 +307,43 @@ fn textures_that_do_not_fit_are_refused() {
         assert!(words.contains(said), "{arguments}: {words}");
     }
 }
+
+/// The card's picture is the host's but for the rounding of its target; what is coarser shows more, and does not go with
+/// other kinds of transfer.
+#[test]
+fn the_card_draws_what_the_host_draws() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [matrix, biclusters, out] = ["t.prt", "b.prt", "out"].map(|name| place(folder.path(), name));
+    document(&format!("prt precompute {COURT} --kind bi-scale --directions 4 --tangents texture --out {matrix}"));
+    document(&format!("prt bicluster {matrix} --out {biclusters}"));
+    let texture = "--texture tiles --texture-size 8 --texture-views 4 --repeat 4";
+    let on_card = |options: &str| {
+        let fixed = format!("--model {COURT} --size 40x30 --light sky:1,-1,1 --exposure 0.5 {texture}");
+        document(&format!("prt card {biclusters} {fixed} {options} --out {out}"))
+    };
+    let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
+    let fine = on_card("--device ideal-fp32 --target-format rgba32f --texture-format rgba32f");
+    assert!(rms(&fine) < 0.3 && fine["time"].is_null(), "{}", rms(&fine));
+    let bytes = on_card("--sweep");
+    assert!(rms(&bytes) > rms(&fine) && rms(&bytes) < 2.0, "{}", rms(&bytes));
+    assert!(bytes["time"].as_array().is_some_and(|times| times.len() == 5));
+    let rows = bytes["precision"].as_array().expect("ways");
+    assert_eq!(rows.len(), 10, "one fine, two coarse ones of four things, seams");
+    for (options, said) in [
+        (format!("prt card {matrix} --model {COURT} --texture tiles"), "expected biclusters, found a matrix alone"),
+        (format!("prt card {biclusters} --model {COURT}"), "drawn with a bidirectional texture, found none"),
+        (
+            format!("prt card {biclusters} --model {COURT} --texture tiles --way colors"),
+            "`--way` is for transfer of other",
+        ),
+        (
+            "prt card docs/examples/step_small.prt --model docs/examples/step.obj --repeat 2".to_owned(),
+            "`--repeat` is for bi-scale transfer",
+        ),
+    ] {
+        let ran = crossbar(&format!("{options} --out {out}").split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(ran.code, Some(2), "{}", ran.transcript());
+        let words = ran.stderr.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+        assert!(words.contains(said), "{}", ran.transcript());
+    }
+}

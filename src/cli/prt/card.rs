@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
+use super::bi_scale::card::BiScaleCardArgs;
 use super::card_values::{FilterArg, RadianceArg, VertexArg, WayArg, WeightsArg};
 use super::light::LightArgs;
 use super::model::{FileOfModel, clusters_of, light_order};
@@ -33,9 +34,11 @@ Examples:
       transfer of all frequencies on the Radeon 9800, colors of vertices interpolated as its authors did
   crossbar prt card docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --sweep --size 64x48
       bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
+  crossbar prt card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
+      bi-scale transfer on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv, for transfer of all \
-frequencies blame.csv. docs/papers/cpca.md and docs/papers/all_frequency.md explain all of it.";
+frequencies and bi-scale transfer blame.csv. docs/papers/cpca.md, all_frequency.md and bi_scale.md explain all of it.";
 
 /// Draw a model under distant light on an emulated card, from clusters
 #[derive(Debug, clap::Args)]
@@ -131,6 +134,9 @@ pub(in crate::cli) struct Args {
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/prt-card")]
     pub(super) out: PathBuf,
+
+    #[command(flatten)]
+    pub(super) bi_scale: BiScaleCardArgs,
 }
 
 impl Args {
@@ -162,6 +168,7 @@ impl Args {
 
     /// The way to draw transfer of all frequencies.
     pub(super) fn place(&self, profile: &Profile) -> Result<ProductPlace, Problem> {
+        self.bi_scale.refuse()?;
         let of_others = [("--weights", self.weights.is_some()), ("--map", self.map.is_some()), ("--alone", self.alone)];
         refuse(of_others, "transfer of low frequency, found all frequencies")?;
         if self.way == Some(WayArg::Colors) {
@@ -193,6 +200,27 @@ impl Args {
         }))
     }
 
+    /// Refuses what is for transfer of other kinds than bi-scale.
+    pub(super) fn refuse_others(&self) -> Result<(), Problem> {
+        refuse(
+            [
+                ("--weights", self.weights.is_some()),
+                ("--map", self.map.is_some()),
+                ("--map-format", self.map_format.is_some()),
+                ("--way", self.way.is_some()),
+                ("--filter", self.filter.is_some()),
+                ("--radiance", self.radiance.is_some()),
+                ("--pass-per-channel", self.pass_per_channel),
+                ("--partial", self.partial),
+                ("--keep", self.keep.is_some()),
+                ("--original", self.original.is_some()),
+                ("--vertex", self.vertex.is_some()),
+                ("--alone", self.alone),
+            ],
+            "transfer of other kinds, found bi-scale transfer",
+        )
+    }
+
     /// Whether the card sums over representatives.
     pub(super) fn sums_on_card(&self) -> bool {
         self.way == Some(WayArg::Sums)
@@ -200,6 +228,7 @@ impl Args {
 
     /// Refuses what is for transfer of all frequencies alone.
     fn refuse_all_frequency(&self) -> Result<(), Problem> {
+        self.bi_scale.refuse()?;
         let of_others = [
             ("--way", self.way.is_some()),
             ("--filter", self.filter.is_some()),

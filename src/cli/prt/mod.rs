@@ -65,6 +65,7 @@ enum Verb {
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     // Which of the kinds of transfer the verb is about.
     let bi_scale = match &args.verb {
+        Verb::Card(args) => bi_scale::is_asked(args.kind, args.file())?,
         Verb::Render(args) => bi_scale::is_asked(args.kind, args.file())?,
         Verb::Show(args) => bi_scale::is_asked(args.kind, &args.file)?,
         _ => false,
@@ -79,6 +80,9 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     };
     match &args.verb {
         Verb::Bicluster(args) => bi_scale::bicluster::run(args, out)?,
+        Verb::Card(args) if bi_scale => {
+            return study::run(&bi_scale::card::Args(args), command_line, out);
+        }
         Verb::Card(args) if all => return study::run(&all_frequency::card::Args(args), command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
         Verb::Compare(args) => bi_scale::compare::run(args, out)?,

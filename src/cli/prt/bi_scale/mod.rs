@@ -1,6 +1,7 @@
 //! The verbs of `crossbar prt` for bi-scale transfer.
 
 pub(super) mod bicluster;
+pub(super) mod card;
 pub(super) mod compare;
 pub(super) mod multiply;
 mod patch;

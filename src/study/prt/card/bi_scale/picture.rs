@@ -14,7 +14,7 @@ use crate::prt::bi_scale::on_card::{
 use crate::prt::on_card::PrtView;
 
 /// L~ by the card, and what it asked of it.
-pub(super) struct LocalLight {
+pub(super) struct CardLight {
     pub(super) local: Vec<[f32; 3]>,
     pub(super) counts: GatherCounts,
     pub(super) log: Vec<Event>,
@@ -29,11 +29,11 @@ pub(super) struct Drawn {
 
 impl BiScaleOnCard {
     /// Algorithm 2 on the card.
-    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<LocalLight, BiScaleCardStudyError> {
+    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, BiScaleCardStudyError> {
         let singles: Vec<[f32; 3]> = light.iter().map(|texel| texel.map(|value| value as f32)).collect();
         let mut card = GatherCard::new(self.profile.clone(), self.executor.clone(), &self.biclusters, format)?;
         let (local, log) = card.logged_multiply(&singles)?;
-        Ok(LocalLight { local, counts: card.counts(), log })
+        Ok(CardLight { local, counts: card.counts(), log })
     }
 
     /// The display.

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::picture::{Drawn, LocalLight, doubles};
+use super::picture::{CardLight, Drawn, doubles};
 use super::precision::{count, precision};
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
 use crate::prt::all_frequency::on_card::seen_pixels;
@@ -111,7 +111,7 @@ impl BiScaleOnCard {
         host.iter().map(held).collect()
     }
 
-    fn times(&self, local: &LocalLight, drawn: &Drawn) -> Result<Times, BiScaleCardStudyError> {
+    fn times(&self, local: &CardLight, drawn: &Drawn) -> Result<Times, BiScaleCardStudyError> {
         let host = host_of_table_1().map_err(FrameTimeError::from)?;
         let both: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
         match [&drawn.log, &both].map(|log| frame_time(&self.profile, log, &host)) {
@@ -155,7 +155,7 @@ impl BiScaleOnCard {
         Ok(())
     }
 
-    fn sizes(&self, local: &LocalLight, drawn: &Drawn) -> Table {
+    fn sizes(&self, local: &CardLight, drawn: &Drawn) -> Table {
         let mut table = Table::new("Sizes and counts", &["what", "number"]);
         let (gather, display) = (local.counts, drawn.counts);
         for (what, number) in [
