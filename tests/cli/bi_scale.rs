@@ -347,3 +347,39 @@ fn the_card_draws_what_the_host_draws() {
         assert!(words.contains(said), "{}", ran.transcript());
     }
 }
+
+/// Where floor and wall meet, a crease angle below a right angle keeps their vertices apart; a picture needs the same.
+#[test]
+fn creases_keep_vertices_apart() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [file, out] = ["c.prt", "p"].map(|name| place(folder.path(), name));
+    let made = |crease: &str| {
+        let options = format!("--kind bi-scale --directions 2 --tangents texture {crease}");
+        number(&document(&format!("prt precompute {COURT} {options} --out {file}"))["vertices"])
+    };
+    assert_eq!([made(""), made("--crease 100"), made("--crease 30")], [35.0, 35.0, 40.0]);
+    let options = "--texture bricks --texture-size 4 --texture-views 2 --size 8x6";
+    let render = format!("prt render {file} --model {COURT} {options} --out {out}");
+    document(&format!("{render} --crease 30"));
+    let ran = crossbar(&render.split(' ').collect::<Vec<_>>(), "");
+    assert_eq!(ran.code, Some(2), "{}", ran.transcript());
+}
+
+/// A table of heights makes a patch: one of a step is darker than a plain one, by as much as its shadow.
+#[test]
+fn heights_come_from_files() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [heights, out] = ["h.csv", "b.npy"].map(|name| place(folder.path(), name));
+    fs::write(&heights, "0,0,0,0\n0,0,0,0\n1,1,1,1\n1,1,1,1\n").expect("written");
+    let mean = |patch: &str| {
+        let sizes = "--size 8 --directions 8 --views 2 --color 1,0.5,0";
+        let made = document(&format!("prt texture {patch} {sizes} --out {out}"));
+        [0, 1, 2].map(|channel: usize| number(&made["mean_reflectance"][channel]))
+    };
+    let [plain, flat, steep] =
+        ["plain", &format!("{heights} --relief 0"), &format!("{heights} --relief 0.5")].map(mean);
+    assert_eq!(plain, flat);
+    assert_relative_eq!(plain[0], 1.0 + 2.0 / 64.0, max_relative = 1e-6);
+    assert_relative_eq!(plain[1], plain[0] / 2.0, max_relative = 1e-6);
+    assert!(steep[0] > 0.2 && steep[0] < 0.8 && steep[2] == 0.0, "{steep:?}");
+}

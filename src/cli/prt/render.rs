@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
-use super::bi_scale::render::BiScaleRenderArgs;
+use super::bi_scale::render_args::BiScaleRenderArgs;
 use super::light::LightArgs;
 use super::model::{FileOfModel, light_order};
 use super::values::KindArg;

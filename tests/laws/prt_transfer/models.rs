@@ -40,3 +40,23 @@ fn they_have_as_many_vertices_as_table_1_prints() {
     assert_eq!(Vertices::new(&teapot, Tangents::Any).expect("vertices").len(), 51_361);
     assert!(models::build("transfer-bird").is_none());
 }
+
+/// The models of several materials use all of them, and no two of their parts share a vertex.
+#[test]
+fn flat_models_have_their_materials() {
+    for (name, expected) in [
+        ("bi-scale-chair", &["frame", "seat", "back"][..]),
+        ("bi-scale-temple", &["steps", "pillars", "walls", "eaves", "roof"]),
+    ] {
+        let model = models::build_with_materials(name).expect("a model");
+        assert!(model.materials.iter().map(|material| material.name.as_str()).eq(expected.iter().copied()));
+        for number in 0..expected.len() as u32 {
+            assert!(model.material_of.contains(&number), "{name} is nowhere of {number}");
+        }
+        assert_eq!(model.material_of.len(), model.mesh.len());
+        let vertices = Vertices::with_materials(&model.mesh, &model.material_of, Tangents::Texture).expect("vertices");
+        assert_eq!(vertices.len(), models::build(name).expect("a mesh").positions().len(), "{name}");
+    }
+    let plain = models::build_with_materials("bi-scale-bunny").expect("a model");
+    assert_eq!((plain.materials.len(), plain.material_of.len()), (1, plain.mesh.len()));
+}

@@ -7,6 +7,7 @@ pub(super) mod multiply;
 mod patch;
 pub(super) mod precompute;
 pub(super) mod render;
+pub(super) mod render_args;
 pub(super) mod show;
 pub(super) mod texture;
 
