@@ -19,7 +19,9 @@ pub use all_frequency::{
     AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, RenderedGround, SegmentTally,
     SegmentedCompression, SegmentedError, SightOfModel, coded_errors,
 };
-pub use bi_scale::{BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface};
+pub use bi_scale::{
+    BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface, creased,
+};
 pub use card::{
     AllFrequencyCardError, AllFrequencyOnCard, CardError, FactoredPrecision, OnCard, PixelErrors, factored_precision,
     factored_precision_table,
