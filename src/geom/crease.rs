@@ -8,7 +8,7 @@ use glam::DVec3;
 
 impl Mesh {
     /// The mesh with a normal per corner: the mean of the triangles at the corner's place whose normals lie within an
-    /// angle of the corner's own triangle, weighted by their areas. `cosine` is that of the angle. Vertices with several
+    /// angle of the corner's own triangle, weighted by area. `cosine` is that of the angle. Vertices with several
     /// normals are repeated; triangles keep their order, vertices their texture coordinates.
     #[must_use]
     pub fn creased(&self, cosine: f64) -> Self {

@@ -46,7 +46,7 @@ const SOLID_ANGLE: f64 = 0.05;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    // The names of built models are one list: `meshes`.
+    // Names come from the one list of built models, `meshes`.
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 

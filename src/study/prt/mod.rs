@@ -21,7 +21,9 @@ pub use all_frequency::{
     KeptSegmentsError, LitModel, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel,
     coded_errors,
 };
-pub use bi_scale::{BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface};
+pub use bi_scale::{
+    BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface, creased,
+};
 pub use card::{
     AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision,
     OnCard, PixelErrors, factored_precision, factored_precision_table,

@@ -20,13 +20,13 @@ use super::model::load as load_model;
 use super::values::KindArg;
 use crate::cli::model_name::Model;
 use crate::cli::{Problem, number, view};
-use crate::elementary::on_circle;
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::prt::all_frequency::light::{CubeLight, Decimation};
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::file::{BiScaleFile, is_bi_scale, load_bi_scale};
 use crate::prt::transfer::Tangents;
 use crate::sphere::turn_around_z;
+use crate::study::prt::creased;
 
 /// An angle from 0 to 180 degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
@@ -41,7 +41,7 @@ pub(super) fn angle(text: &str) -> Result<f64, String> {
 fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
     let model = load_model(path, tangents)?;
     let Some(degrees) = crease else { return Ok(model) };
-    Ok(Model { mesh: model.mesh.creased(on_circle(degrees / 360.0)[0]), ..model })
+    Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
 /// Whether a file is one of bi-scale transfer, by how it begins, held against the kind that was asked for. What is no

@@ -1,8 +1,8 @@
 //! A pixel by rays (the paper's reference pictures), and by the same with one thing after the other done as transfer
 //! does it, so that the error of a picture can be told apart by its causes.
 //!
-//! Exact here means: light in 128 x 128 texels a face, each seen or not from the pixel's own point, the patch of heights
-//! asked at the exact directions. Sums run over directions in the order of their numbers, in f64.
+//! Exact here means: light in 128 x 128 texels a face, each seen or not from the pixel's own point, the patch of
+//! heights asked at the exact directions. Sums run over directions in the order of their numbers, in f64.
 
 use glam::DVec3;
 

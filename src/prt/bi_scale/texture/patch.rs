@@ -1,7 +1,7 @@
 //! A patch of heights, each texel of a material: b(u, e, d) at any directions.
 //!
-//! A place u of the mesh's surface is seen along the view: the point of the patch that lies behind it (parallax) answers
-//! with its BRDF times the cosine at the patch's own surface, unless the patch is in the light's way.
+//! A place u of the mesh's surface is seen along the view: the point of the patch that lies behind it (parallax)
+//! answers with its BRDF times the cosine at the patch's own surface, unless the patch is in the light's way.
 
 use std::ops::ControlFlow;
 

@@ -11,4 +11,4 @@ mod surface;
 pub use error::BiScaleError;
 pub use light::LocalLight;
 pub use subject::{BiScaleRendering, SurfaceTexture};
-pub use surface::{SurfaceError, TexturedSurface};
+pub use surface::{SurfaceError, TexturedSurface, creased};

@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::elementary::on_circle;
 use crate::geom::exact::Sides;
 use crate::geom::vector::{unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
@@ -37,6 +38,11 @@ pub enum SurfaceError {
     /// Not a texture per triangle.
     #[error("expected a texture for each of {triangles} triangles, found {found}")]
     Textures { triangles: usize, found: usize },
+}
+
+/// A mesh with normals of its triangles, smooth over edges up to an angle in degrees (section VII).
+pub fn creased(mesh: &Mesh, degrees: f64) -> Mesh {
+    mesh.creased(on_circle(degrees / 360.0)[0])
 }
 
 /// What a pixel shows.
