@@ -68,7 +68,8 @@ fn rounds_begin_with_the_clusters_of_the_dense_signal() {
             let of = |cluster: u32| {
                 let subspace = &dense.subspaces()[cluster as usize];
                 let left: Vec<f64> = dense_row(&matrix, row).iter().zip(&subspace.mean).map(|(a, b)| a - b).collect();
-                dot(&left, &left) - subspace.vectors().map(|vector| dot(vector, &left).powf(2.0)).sum::<f64>()
+                let along = subspace.vectors().map(|vector| dot(vector, &left));
+                dot(&left, &left) - along.map(|along| along * along).sum::<f64>()
             };
             let best = of(found.of_row()[row]);
             assert!((0..5).all(|cluster| best <= of(cluster) + 1e-9), "row {row}");
