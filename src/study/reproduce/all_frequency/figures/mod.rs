@@ -3,6 +3,7 @@
 mod clusters;
 mod lit;
 mod models;
+mod parts;
 mod rates;
 mod rivals;
 mod scene;
@@ -13,17 +14,8 @@ use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
 };
-use crate::report::{NamedPicture, Table};
 use crate::study::reproduce::ModelSize;
-
-/// What a figure adds to the entry.
-#[derive(Default)]
-struct FigureParts {
-    text: Vec<Prose>,
-    rows: Vec<PaperRow>,
-    tables: Vec<Table>,
-    pictures: Vec<NamedPicture>,
-}
+use parts::FigureParts;
 
 const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
     it, which the scan has lost.";

@@ -1,0 +1,13 @@
+//! What a figure adds to the entry.
+
+use super::{PaperRow, Prose};
+use crate::report::{NamedPicture, Table};
+
+/// What a figure adds to the entry.
+#[derive(Default)]
+pub(super) struct FigureParts {
+    pub(super) text: Vec<Prose>,
+    pub(super) rows: Vec<PaperRow>,
+    pub(super) tables: Vec<Table>,
+    pub(super) pictures: Vec<NamedPicture>,
+}
