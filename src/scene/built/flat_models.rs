@@ -36,7 +36,7 @@ impl FlatModel {
     /// 16.
     pub fn model(self, coarser: u32) -> MaterialMesh {
         let coarser = coarser.clamp(1, 16);
-        let (vertices, build, materials): (u32, fn(&mut FlatParts), &[(&str, [f32; 3])]) = match self {
+        let (vertices, build, materials): (u32, fn(&mut FlatParts), &[Paint]) = match self {
             Self::Chair => {
                 (16_101, chair, &[("frame", [0.45, 0.3, 0.2]), ("seat", [0.5, 0.2, 0.2]), ("back", [0.4, 0.35, 0.2])])
             }
@@ -62,6 +62,9 @@ impl FlatModel {
         MaterialMesh { mesh, materials, material_of }
     }
 }
+
+/// A material's name and its reflectance.
+type Paint = (&'static str, [f32; 3]);
 
 /// Flat parts in the making.
 #[derive(Clone, Debug, Default)]
