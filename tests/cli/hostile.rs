@@ -313,7 +313,7 @@ fn what_is_wrong_is_said() {
 /// Every place for a file with everything that is no such file.
 #[test]
 fn hostile_files() {
-    let commands: [&[&str]; 21] = [
+    let commands: [&[&str]; 22] = [
         &["check", "IN", "--device", "r200"],
         &["run", "IN"],
         &["compare", "IN"],
