@@ -10,6 +10,7 @@ pub(super) mod render;
 pub(super) mod render_args;
 pub(super) mod show;
 pub(super) mod texture;
+mod textures;
 
 use std::fs::File;
 use std::io::Read;

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use super::load_creased;
+use super::textures::{TransferOfModel, no_texture};
+use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::model_name::{self, Model};
-use crate::cli::prt::model::{materials_of, vertices};
+use crate::cli::model_name;
+use crate::cli::prt::model::materials_of;
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
-use crate::cli::{Problem, view};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::file::{BiScaleFile, MeshDigest, PrtFileError, load_bi_scale};
 use crate::study::prt::{BiScaleRendering, TexturedSurface};
 
 /// The options of `render`, for such a file.
@@ -31,38 +29,9 @@ impl Args<'_> {
             }
         }
         if self.0.bi_scale.texture.is_empty() {
-            let what = "bi-scale transfer is drawn with a bidirectional texture, found none";
-            return Err(Problem::usage(what, "name one: `--texture mail`, or `--texture B.npy`"));
+            return Err(no_texture());
         }
         Ok(())
-    }
-
-    /// The model of a file, and its transfer.
-    fn load(&self) -> miette::Result<(BiScaleFile, Model, TexturedSurface)> {
-        let path = self.0.file();
-        view::require_file(path, 6, "name a smaller file")?;
-        let file = load_bi_scale(path)?;
-        let name = &self.0.model;
-        let Some(meaning) = file.meaning else {
-            let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());
-            return Err(Problem::usage(what, "name what `crossbar prt precompute --kind bi-scale` wrote").into());
-        };
-        let model = load_creased(name, meaning.mesh.tangents, self.0.bi_scale.crease)?;
-        let vertices = vertices(&model, meaning.mesh.tangents)?;
-        let expected = MeshDigest::new(&vertices);
-        if meaning.mesh != expected {
-            let found = Some(meaning.mesh);
-            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found }.into());
-        }
-        let (materials, material_of) = materials_of(name, &model)?;
-        let of_material = self.0.bi_scale.of_materials(&materials)?;
-        let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
-        let repeat = self.0.bi_scale.repeat.unwrap_or(1.0);
-        let mesh = model.mesh.clone();
-        let surface = TexturedSurface::new(mesh, vertices, texture_of, repeat).map_err(|error| {
-            Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
-        })?;
-        Ok((file, model, surface))
     }
 }
 
@@ -87,15 +56,21 @@ impl StudyArgs for Args<'_> {
 
     fn study(&self) -> miette::Result<BiScaleRendering> {
         self.refuse_others()?;
-        let (file, model, surface) = self.load()?;
-        let side = file.meaning.map_or(0, |meaning| meaning.side as usize);
-        let light =
-            LocalDirections::new(side).map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
-        let render::Args { model: name, light: light_args, frames, size, eye, exposure, .. } = self.0;
+        let render::Args { model: name, bi_scale, .. } = self.0;
+        let TransferOfModel { file, model, vertices, light } =
+            TransferOfModel::load(self.0.file(), name, bi_scale.patches.crease())?;
+        let (materials, material_of) = materials_of(name, &model)?;
+        let of_material = bi_scale.of_materials(&materials)?;
+        let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
+        let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, bi_scale.patches.repeat());
+        let surface = surface.map_err(|error| {
+            Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
+        })?;
+        let render::Args { light: light_args, frames, size, eye, exposure, .. } = self.0;
         Ok(BiScaleRendering {
             model: name.display().to_string(),
             camera: eye.framing(&model.mesh, *size)?,
-            textures: self.0.bi_scale.textures(&light)?,
+            textures: bi_scale.textures(&light)?,
             surface,
             file,
             light_name: light_args.name(),
@@ -103,7 +78,7 @@ impl StudyArgs for Args<'_> {
             exposure: *exposure,
             frames: *frames,
             turning: self.0.turning(),
-            reference: self.0.bi_scale.reference,
+            reference: bi_scale.reference,
         })
     }
 }

@@ -3,11 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::angle;
-use crate::cli::{Problem, number, view};
+use super::textures::{PatchArgs, patch_kind, refuse};
+use crate::cli::Problem;
 use crate::names::did_you_mean;
 use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
 use crate::scene::Material;
 use crate::study::prt::SurfaceTexture;
 
@@ -20,21 +19,8 @@ pub(in crate::cli::prt) struct BiScaleRenderArgs {
     #[arg(long, value_name = "[MATERIAL=]B.npy")]
     pub(super) texture: Vec<TextureArg>,
 
-    /// How often a texture repeats where texture coordinates grow by 1 [default: 1]
-    #[arg(long, value_name = "X", value_parser = number::positive)]
-    pub(super) repeat: Option<f64>,
-
-    /// Texels along an edge of the textures of patches [default: 64]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    texture_size: Option<u32>,
-
-    /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
-    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
-    texture_views: Option<u8>,
-
-    /// The crease angle in degrees, as given to `crossbar prt precompute`
-    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
-    pub(super) crease: Option<f64>,
+    #[command(flatten)]
+    pub(super) patches: PatchArgs,
 
     /// Draw a picture by rays too, and tell the error apart by its causes; takes milliseconds per pixel. All textures
     /// must be patches
@@ -64,43 +50,22 @@ impl FromStr for TextureArg {
     }
 }
 
-impl TextureArg {
-    fn kind(&self) -> Option<PatchKind> {
-        self.source.to_str().and_then(|name| name.parse().ok())
-    }
-}
-
 impl BiScaleRenderArgs {
     /// Refuses all of these for transfer of other kinds.
     pub(in crate::cli::prt) fn refuse(&self) -> Result<(), Problem> {
-        let Self { texture, repeat, texture_size, texture_views, crease, reference } = self;
-        let given = [repeat.is_some(), texture_size.is_some(), texture_views.is_some(), crease.is_some(), *reference];
-        if texture.is_empty() && !given.contains(&true) {
-            return Ok(());
-        }
-        let what = "`--texture`, `--repeat`, `--texture-size`, `--texture-views`, `--crease` and `--reference` are for \
-                    bi-scale transfer, found transfer of another kind";
-        Err(Problem::usage(what, "leave them out"))
+        let own = [("--texture", !self.texture.is_empty()), ("--reference", self.reference)];
+        refuse(own.into_iter().chain(self.patches.given()))
     }
 
-    /// Bytes of the samples of patches, and the same laid out for shading, with up to 16 x 16 directions of light.
+    /// Bytes of the samples of patches.
     pub(super) fn bytes(&self) -> u64 {
-        let patches = self.texture.iter().filter(|texture| texture.kind().is_some()).count() as u64;
-        let samples = 2 * 12 * 256 * u64::from(self.views()).pow(2) * u64::from(self.size()).pow(2);
-        patches.saturating_mul(samples)
-    }
-
-    fn views(&self) -> u8 {
-        self.texture_views.unwrap_or(12)
-    }
-
-    fn size(&self) -> u32 {
-        self.texture_size.unwrap_or(64)
+        let patches = self.texture.iter().filter(|texture| patch_kind(&texture.source).is_some()).count() as u64;
+        patches.saturating_mul(self.patches.bytes())
     }
 
     /// The files of textures.
     pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
-        self.texture.iter().filter(|texture| texture.kind().is_none()).map(|texture| texture.source.as_path())
+        self.texture.iter().map(|texture| texture.source.as_path()).filter(|source| patch_kind(source).is_none())
     }
 
     /// The texture of each material, by its number among those given.
@@ -131,27 +96,6 @@ impl BiScaleRenderArgs {
 
     /// The textures, those of patches sampled in a transfer's local directions.
     pub(super) fn textures(&self, light: &LocalDirections) -> miette::Result<Vec<SurfaceTexture>> {
-        let of = |texture: &TextureArg| {
-            let name = texture.source.display().to_string();
-            let Some(kind) = texture.kind() else {
-                let path = &texture.source;
-                if !path.exists() && !name.contains(['.', '/']) {
-                    let names: Vec<String> = PatchKind::ALL.iter().map(PatchKind::to_string).collect();
-                    let meant = did_you_mean(&name, names.iter().map(String::as_str));
-                    let help = format!("{meant}there are {}; a file needs its ending", names.join(", "));
-                    return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
-                }
-                view::require_file(path, 5, "name a smaller texture")?;
-                return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(path)?, patch: None });
-            };
-            let directions = LocalDirections::new(self.views().into());
-            let refused = |error: String| Problem::usage(error, "see `crossbar prt render --help`");
-            let view = directions.map_err(|error| refused(error.to_string()))?;
-            let sampling = TextureSampling { size: self.size() as usize, view, light: light.clone(), samples: 1 };
-            let patch = kind.patch(1.0);
-            let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|error| refused(error.to_string()))?;
-            Ok(SurfaceTexture { name, samples, patch: Some(patch) })
-        };
-        self.texture.iter().map(of).collect()
+        self.texture.iter().map(|texture| self.patches.texture(&texture.source, light)).collect()
     }
 }

@@ -1,0 +1,141 @@
+//! Options of bidirectional textures that `crossbar prt render` and `crossbar prt card` share, and the transfer of a
+//! model, which both need.
+
+use std::path::Path;
+
+use super::{angle, load_creased};
+use crate::cli::model_name::Model;
+use crate::cli::prt::model::vertices;
+use crate::cli::{Problem, number, view};
+use crate::names::did_you_mean;
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
+use crate::prt::file::{BiScaleFile, MeshDigest, PrtFileError, load_bi_scale};
+use crate::prt::transfer::Vertices;
+use crate::study::prt::SurfaceTexture;
+
+/// How patches are sampled, and where they lie.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli::prt) struct PatchArgs {
+    /// How often a texture repeats where texture coordinates grow by 1 [default: 1]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    repeat: Option<f64>,
+
+    /// Texels along an edge of the textures of patches [default: 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    texture_size: Option<u32>,
+
+    /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
+    texture_views: Option<u8>,
+
+    /// The crease angle in degrees, as given to `crossbar prt precompute`
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
+    crease: Option<f64>,
+}
+
+impl PatchArgs {
+    /// The options, and whether each was given.
+    pub(super) fn given(&self) -> [(&'static str, bool); 4] {
+        let Self { repeat, texture_size, texture_views, crease } = self;
+        [
+            ("--repeat", repeat.is_some()),
+            ("--texture-size", texture_size.is_some()),
+            ("--texture-views", texture_views.is_some()),
+            ("--crease", crease.is_some()),
+        ]
+    }
+
+    pub(super) fn repeat(&self) -> f64 {
+        self.repeat.unwrap_or(1.0)
+    }
+
+    pub(super) fn crease(&self) -> Option<f64> {
+        self.crease
+    }
+
+    fn views(&self) -> u8 {
+        self.texture_views.unwrap_or(12)
+    }
+
+    fn size(&self) -> u32 {
+        self.texture_size.unwrap_or(64)
+    }
+
+    /// Bytes of the samples of a patch, and the same laid out for shading, with up to 16 x 16 directions of light.
+    pub(super) fn bytes(&self) -> u64 {
+        2 * 12 * 256 * u64::from(self.views()).pow(2) * u64::from(self.size()).pow(2)
+    }
+
+    /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
+    pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
+        let name = source.display().to_string();
+        let Some(kind) = patch_kind(source) else {
+            if !source.exists() && !name.contains(['.', '/']) {
+                let names: Vec<String> = PatchKind::ALL.iter().map(PatchKind::to_string).collect();
+                let meant = did_you_mean(&name, names.iter().map(String::as_str));
+                let help = format!("{meant}there are {}; a file needs its ending", names.join(", "));
+                return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
+            }
+            view::require_file(source, 5, "name a smaller texture")?;
+            return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
+        };
+        let refused = |error: String| Problem::usage(error, "see `--help`");
+        let view = LocalDirections::new(self.views().into()).map_err(|error| refused(error.to_string()))?;
+        let sampling = TextureSampling { size: self.size() as usize, view, light: light.clone(), samples: 1 };
+        let patch = kind.patch(1.0);
+        let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|error| refused(error.to_string()))?;
+        Ok(SurfaceTexture { name, samples, patch: Some(patch) })
+    }
+}
+
+/// The patch of a name.
+pub(super) fn patch_kind(source: &Path) -> Option<PatchKind> {
+    source.to_str().and_then(|name| name.parse().ok())
+}
+
+/// Refuses the first option that was given with transfer of another kind.
+pub(super) fn refuse(options: impl IntoIterator<Item = (&'static str, bool)>) -> Result<(), Problem> {
+    match options.into_iter().find(|(_, given)| *given) {
+        Some((option, _)) => {
+            let what = format!("`{option}` is for bi-scale transfer, found transfer of another kind");
+            Err(Problem::usage(what, "leave it out"))
+        }
+        None => Ok(()),
+    }
+}
+
+/// That nothing is drawn without a texture.
+pub(super) fn no_texture() -> Problem {
+    let what = "bi-scale transfer is drawn with a bidirectional texture, found none";
+    Problem::usage(what, "name one: `--texture mail`, or `--texture B.npy`")
+}
+
+/// Transfer with the model that it was made from.
+pub(super) struct TransferOfModel {
+    pub(super) file: BiScaleFile,
+    pub(super) model: Model,
+    pub(super) vertices: Vertices,
+    /// The local directions of its rows.
+    pub(super) light: LocalDirections,
+}
+
+impl TransferOfModel {
+    pub(super) fn load(path: &Path, name: &Path, crease: Option<f64>) -> miette::Result<Self> {
+        view::require_file(path, 6, "name a smaller file")?;
+        let file = load_bi_scale(path)?;
+        let Some(meaning) = file.meaning else {
+            let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());
+            return Err(Problem::usage(what, "name what `crossbar prt precompute --kind bi-scale` wrote").into());
+        };
+        let model = load_creased(name, meaning.mesh.tangents, crease)?;
+        let vertices = vertices(&model, meaning.mesh.tangents)?;
+        let (expected, found) = (MeshDigest::new(&vertices), Some(meaning.mesh));
+        if found != Some(expected) {
+            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found }.into());
+        }
+        let light = LocalDirections::new(meaning.side as usize)
+            .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
+        Ok(Self { file, model, vertices, light })
+    }
+}
