@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::bi_scale::card::BiScaleCardArgs;
+use super::bi_scale::card_args::BiScaleCardArgs;
 use super::card_values::{FilterArg, RadianceArg, VertexArg, WayArg, WeightsArg};
 use super::light::LightArgs;
 use super::model::{FileOfModel, clusters_of, light_order};

@@ -2,6 +2,7 @@
 
 pub(super) mod bicluster;
 pub(super) mod card;
+pub(super) mod card_args;
 pub(super) mod compare;
 pub(super) mod multiply;
 mod patch;

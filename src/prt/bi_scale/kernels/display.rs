@@ -1,5 +1,5 @@
-//! The pixel program of the display (equation 3; section V, Rendering): b(u, e) times local light, for the directions of
-//! a pass. The four samples of the view around e are found by the program, in the square that their directions are
+//! The pixel program of the display (equation 3; section V, Rendering): b(u, e) times local light, for the directions
+//! of a pass. The four samples of the view around e are found by the program, in the square that their directions are
 //! mapped from: "we map the view direction back to the direction sphere and retrieve the four adjacent samples".
 //!
 //! - t0 on: the numbers of [`LocalLayout`].
@@ -8,8 +8,8 @@
 //! - c[`FIRST_ORIGIN`] on: where the block of each direction of the pass begins, in coordinates of the volume.
 //! - Out: the sum over the directions of the pass; alpha is 1.
 //!
-//! The arc tangent of the map from the sphere to the square is an odd polynomial of degree 15, which is off by less than
-//! 5e-8 of a quarter turn's half.
+//! The arc tangent of the map from the sphere to the square is an odd polynomial of degree 15, which is off by less
+//! than 5e-8 of a quarter turn's half.
 
 use std::fmt::Write as _;
 

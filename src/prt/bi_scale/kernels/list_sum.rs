@@ -5,8 +5,8 @@
 //! - c0: 1 / width and 1 / (width x height) of texture 1, which are powers of two; c1: from texel to texel of a list.
 //! - texture 0: lists. A texel holds four places, or two places each with its value; a place is that of a texel of
 //!   texture 1, counted row by row, plus one half.
-//! - texture 1: what is summed, repeated along its rows: its two coordinates are products of one number with c0, without
-//!   rounding while places have 23 bits.
+//! - texture 1: what is summed, repeated along its rows: its two coordinates are products of one number with c0,
+//!   without rounding while places have 23 bits.
 //! - texture 2: the sum so far; not in the first program.
 //!
 //! One addition after the other, beginning with 0, as the host's sums. Places that fill up a texel are those of a texel

@@ -1,6 +1,6 @@
 //! The display of bi-scale transfer by an emulated card (section V): passes over the mesh, each with as many directions
-//! as its interpolated numbers hold, added up by blending. The depth buffer is filled first, so that a pass adds what is
-//! nearest and nothing else.
+//! as its interpolated numbers hold, added up by blending. The depth buffer is filled first, so that a pass adds what
+//! is nearest and nothing else.
 
 use std::sync::Arc;
 

@@ -144,7 +144,8 @@ impl GatherCard {
     /// Local light of each row: red, green, blue.
     ///
     /// # Errors
-    /// [`BiScaleCardError`]: light of another size, numbers that are negative or not finite, draws that the card refuses.
+    /// [`BiScaleCardError`]: light of another size, numbers that are negative or not finite, draws that the card
+    /// refuses.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, BiScaleCardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;

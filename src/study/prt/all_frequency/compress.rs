@@ -17,6 +17,7 @@ use crate::prt::transfer::{TransferError, Vertices};
 use crate::study::ProgressFn;
 
 use super::kept::{KeptSegments, KeptSegmentsError};
+use super::tally::{CompressionTally, SegmentTally};
 
 /// What is compressed, and how.
 #[derive(Debug)]
@@ -35,34 +36,6 @@ pub struct SegmentedCompression<'a> {
     pub code: CodeOptions,
     /// Where finished segments are kept, and taken from.
     pub kept: Option<KeptSegments>,
-}
-
-/// What became of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SegmentTally {
-    /// The segment.
-    pub segment: usize,
-    /// Vertices at which it is not 0.
-    pub vertices: usize,
-    /// Their clusters.
-    pub clusters: usize,
-    /// The squares of its transfer.
-    pub squares: f64,
-    /// The squared error of its compression.
-    pub squared_error: f64,
-    /// The same after coding.
-    pub coded_squared_error: f64,
-    /// Time of transfer, compression and coding, in seconds.
-    pub seconds: [f64; 3],
-}
-
-/// What became of all segments.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct CompressionTally {
-    /// Segment by segment, without empty ones.
-    pub segments: Vec<SegmentTally>,
-    /// Segments that were finished before.
-    pub kept: usize,
 }
 
 /// Why transfer cannot be compressed.
@@ -90,13 +63,6 @@ pub enum SegmentedError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Kept(#[from] KeptSegmentsError),
-}
-
-impl CompressionTally {
-    /// A figure summed over segments.
-    pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
-        self.segments.iter().map(of).sum()
-    }
 }
 
 impl SegmentedCompression<'_> {

@@ -12,7 +12,7 @@ use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::compress::SegmentTally;
+use super::tally::SegmentTally;
 use crate::io::{WriteError, write_file};
 use crate::prt::all_frequency::Reflectance;
 use crate::prt::all_frequency::code::{CodedSegment, CodedTransfer};
@@ -32,7 +32,7 @@ type Work = BTreeMap<String, String>;
 
 /// What became of a segment: nothing where all of its transfer is 0.
 #[derive(Debug, Serialize, Deserialize)]
-struct Record(Option<SegmentRecord>);
+struct FinishedSegment(Option<SegmentRecord>);
 
 /// Sums stand as text, which is read back to the same bits.
 #[derive(Debug, Serialize, Deserialize)]
@@ -127,7 +127,7 @@ impl KeptSegments {
         segment: usize,
     ) -> Result<Option<Option<(CodedSegment, SegmentTally)>>, KeptSegmentsError> {
         let path = self.path(segment, "json");
-        let Some(Record(record)) = read_json(&path, "what became of a segment")? else { return Ok(None) };
+        let Some(FinishedSegment(record)) = read_json(&path, "what became of a segment")? else { return Ok(None) };
         let Some(record) = record else { return Ok(Some(None)) };
         let code_path = self.path(segment, "prt");
         let found = load_all_frequency(&code_path, Some(&self.mesh))?;
@@ -159,7 +159,7 @@ impl KeptSegments {
     /// # Errors
     /// [`KeptSegmentsError::Write`].
     pub(super) fn keep_empty(&self, segment: usize) -> Result<(), KeptSegmentsError> {
-        write_json(&self.path(segment, "json"), &Record(None))
+        write_json(&self.path(segment, "json"), &FinishedSegment(None))
     }
 
     /// Keeps a segment; `coded` has it alone.
@@ -181,7 +181,7 @@ impl KeptSegments {
             coded_squared_error: tally.coded_squared_error.to_string(),
             seconds: tally.seconds,
         };
-        write_json(&self.path(tally.segment, "json"), &Record(Some(record)))
+        write_json(&self.path(tally.segment, "json"), &FinishedSegment(Some(record)))
     }
 
     fn path(&self, segment: usize, ending: &str) -> PathBuf {

@@ -10,10 +10,12 @@ mod lit_model;
 mod part;
 mod precompute;
 mod render;
+mod tally;
 
-pub use compress::{CompressionTally, SegmentTally, SegmentedCompression, SegmentedError};
+pub use compress::{SegmentedCompression, SegmentedError};
 pub use errors::{CodedErrors, coded_errors};
 pub use kept::{KeptSegments, KeptSegmentsError};
 pub use lit_model::LitModel;
 pub use precompute::{FoundSight, SightOfModel};
 pub use render::{AllFrequencyError, AllFrequencyRendering, RenderedGround};
+pub use tally::{CompressionTally, SegmentTally};

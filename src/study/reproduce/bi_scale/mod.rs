@@ -22,6 +22,4 @@ use super::shared::Shared;
 use super::{
     Bound, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number,
 };
-
-/// Where biclusters are made.
-const HOST: &str = "host";
+use printed::HOST;

@@ -1,5 +1,8 @@
 //! Tables I and II.
 
+/// Where biclusters are made.
+pub(super) const HOST: &str = "host";
+
 /// A scene of either table.
 pub(super) struct PrintedScene {
     pub(super) name: &'static str,

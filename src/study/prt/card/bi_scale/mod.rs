@@ -1,5 +1,5 @@
-//! Bi-scale transfer on an emulated card: a picture with its errors and its times, and one thing after the other held in
-//! fewer bits.
+//! Bi-scale transfer on an emulated card: a picture with its errors and its times, and one thing after the other held
+//! in fewer bits.
 
 mod picture;
 mod precision;

@@ -1,21 +1,18 @@
 //! Figure 6: biclusters beside clusters of rows and wavelets, and beside what sections II and IV-A say of other ways.
 
+mod chair;
 mod pictures;
 mod sizes;
 
 use glam::DMat3;
 
-use super::models::SeenModel;
 use super::printed::SCENES;
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, failed, number,
 };
-use crate::geom::Mesh;
 use crate::prt::all_frequency::light::{CubeLight, Decimation, DistantLight};
-use crate::prt::all_frequency::visibility::Horizon;
 use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::prt::bi_scale::transfer::light_vectors;
@@ -23,6 +20,7 @@ use crate::scene::built::flat_models::FlatModel;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 use crate::study::reproduce::sky::HARD_SUN;
+use chair::ChairModel;
 use pictures::VertexPictures;
 use sizes::{PLACE, chair_sizes};
 
@@ -39,22 +37,6 @@ const CAPTIONS: &str = "The text calls (c) the picture of biclusters and (d) the
     and the reference are (a) and (b), and only so what the text says of them makes sense.";
 const QUESTION: &str = "the chair, its light and camera; whether clusters had means, from how many rows they were found, and their size, which the scan has lost; \
     what area a wavelet is weighed by.";
-
-/// What stands for the chair, with its transfer to local directions.
-struct ChairModel {
-    seen: SeenModel,
-    directions: LocalDirections,
-    matrix: SparseMatrix,
-}
-
-impl ChairModel {
-    fn new(mesh: &Mesh) -> Result<Self, ReproduceError> {
-        let seen = SeenModel::new(mesh, Horizon::Normal)?;
-        let directions = LocalDirections::new(SCENES[2].side).map_err(|error| failed(HOST)(&error))?;
-        let matrix = seen.matrix(SCENES[2].side)?;
-        Ok(Self { seen, directions, matrix })
-    }
-}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let (mesh, sample) = match shared.models {

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{ChairModel, HOST, ReproduceError, failed};
+use super::chair::ChairModel;
+use super::{HOST, ReproduceError, failed};
 use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::prt::all_frequency::grid::texel_center;

@@ -1,0 +1,36 @@
+//! What became of transfer that was compressed and coded.
+
+/// What became of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentTally {
+    /// The segment.
+    pub segment: usize,
+    /// Vertices at which it is not 0.
+    pub vertices: usize,
+    /// Their clusters.
+    pub clusters: usize,
+    /// The squares of its transfer.
+    pub squares: f64,
+    /// The squared error of its compression.
+    pub squared_error: f64,
+    /// The same after coding.
+    pub coded_squared_error: f64,
+    /// Time of transfer, compression and coding, in seconds.
+    pub seconds: [f64; 3],
+}
+
+/// What became of all segments.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CompressionTally {
+    /// Segment by segment, without empty ones.
+    pub segments: Vec<SegmentTally>,
+    /// Segments that were finished before.
+    pub kept: usize,
+}
+
+impl CompressionTally {
+    /// A figure summed over segments.
+    pub fn sum(&self, of: impl Fn(&SegmentTally) -> f64) -> f64 {
+        self.segments.iter().map(of).sum()
+    }
+}
