@@ -50,7 +50,8 @@ const COMMANDS: &[(&str, &str)] = &[
         "prt card nowhere.prt --model nowhere.obj",
         "--model --kind --light --window --weights --map --map-format --way --filter --radiance --pass-per-channel \
          --partial --keep --original --target-format --vertex --alone --sweep --device --switch --executor --adapter \
-         --size --eye --target --up --tan-half-height --exposure --out",
+         --texture --repeat --texture-size --texture-views --crease \
+         --texture-format --blocks --light-format --local-format --size --eye --target --up --tan-half-height --exposure --out",
     ),
     (
         "prt compare nowhere.mtx",

@@ -46,13 +46,15 @@ fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette:
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
-/// Whether a file is one of bi-scale transfer, by how it begins, held against the kind that was asked for. What is no
-/// file is none.
+/// Whether a file is one of bi-scale transfer, by how it begins, or a matrix by its name, held against the kind that was
+/// asked for. What is no file is none.
 pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
     let mut head = [0; 16];
-    let found = path.is_file()
-        && File::open(path).and_then(|mut file| file.read_exact(&mut head)).is_ok()
-        && is_bi_scale(&head);
+    let mut is_such = || {
+        let read = File::open(path).and_then(|mut file| file.read_exact(&mut head));
+        read.is_ok() && is_bi_scale(&head)
+    };
+    let found = path.is_file() && (is_text(path) || is_such());
     match kind {
         Some(KindArg::BiScale) if path.is_file() && !found => {
             let what = format!("{}: expected bi-scale transfer, found another file", path.display());
@@ -67,9 +69,14 @@ pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Probl
     }
 }
 
+/// Whether a file is a matrix as text, by its name.
+fn is_text(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
+}
+
 /// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
 fn load(path: &Path) -> miette::Result<BiScaleFile> {
-    let is_text = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"));
+    let is_text = is_text(path);
     // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.
     view::require_file(path, if is_text { 4 } else { 6 }, "name a smaller matrix")?;
     if !is_text {

@@ -48,7 +48,7 @@ struct SegmentRecord {
 #[derive(Debug, Error, Diagnostic)]
 pub enum KeptSegmentsError {
     /// The folder cannot be made, or a file in it not read.
-    #[error("cannot use {}: {source}", path.display())]
+    #[error("cannot use {}", path.display())]
     #[diagnostic(code(crossbar::prt::kept), help("name another folder for finished segments"))]
     Unusable {
         /// The folder or file.
