@@ -122,7 +122,7 @@ fn sentences(shared: &Shared, run: &DisplayRun, constant: f64) -> Result<[PaperR
     Ok([
         PaperRow::new("transfer over display", (CARD, Method::Pipeline), comparable, (ratio, from), Bound::TooVague),
         PaperRow::new(
-            "operations of a transfer that gather",
+            "share of a transfer's operations that gather",
             (super::HOST, Method::Solver),
             dominates,
             (share, Standing::Counted),
