@@ -78,7 +78,7 @@ impl SegmentedCompression<'_> {
     /// [`SegmentedError`].
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), SegmentedError> {
         let hats = Hats::new(self.hats);
-        let transfer = transfer_of(self.vertices, self.maps, &hats, &self.reflectance);
+        let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let mut tally = CompressionTally::default();
         let count = Segmentation::Quarters.count();
         let mut segments = Vec::new();
