@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use approx::assert_relative_eq;
+use crossbar::elementary::on_circle;
 use crossbar::prt::bi_scale::directions::{LocalDirections, hemisphere};
 use crossbar::prt::bi_scale::texture::{
     BidirectionalTexture, HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind, TextureSampling,
@@ -131,7 +132,7 @@ proptest! {
         let texels = vec![MesoTexel { material: 0, turns }; side * side];
         let mut patch = MesoPatch::new(heights, vec![glossy()], texels).expect("a patch");
         let expected = patch.response(place, view, light);
-        let (sine, cosine) = (turns * TAU).sin_cos();
+        let [cosine, sine] = on_circle(turns);
         let local = |v: DVec3| DVec3::new(cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z);
         for (found, brdf) in expected.into_iter().zip(glossy().value(local(view), local(light))) {
             assert_relative_eq!(found, brdf * light.z, max_relative = 1e-9);
