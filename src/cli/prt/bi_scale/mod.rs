@@ -46,8 +46,8 @@ fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette:
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
 }
 
-/// Whether a file is one of bi-scale transfer, by how it begins, or a matrix by its name, held against the kind that was
-/// asked for. What is no file is none.
+/// Whether a file is one of bi-scale transfer, by how it begins, or a matrix by its name, held against the kind that
+/// was asked for. What is no file is none.
 pub(super) fn is_asked(kind: Option<KindArg>, path: &Path) -> Result<bool, Problem> {
     let mut head = [0; 16];
     let mut is_such = || {
