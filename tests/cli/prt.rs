@@ -137,7 +137,7 @@ fn a_card_draws_what_the_host_draws() {
     let radeon = card(&[]);
     assert!(ideal["time"].is_null() && rms(&ideal) < 0.1 * rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
     let time = radeon["time"].as_array().expect("times");
-    assert_eq!(time.len(), 5);
+    assert_eq!(time.len(), 6);
     let sweep = card(&["--sweep"]);
     let rows = sweep["precision"].as_array().expect("a sweep");
     assert_eq!(rows.len(), 18);
