@@ -1,6 +1,6 @@
 //! Tolerances, stated before values are computed.
 
-use super::figure::PaperFigure;
+use super::figure::{Origin, PaperFigure};
 use crate::study::reproduce::prose::number;
 
 /// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed
@@ -40,6 +40,8 @@ impl Bound {
             Self::Print => around(target.rounding()),
             Self::Relative(share) => around(share * target.value.abs() + target.rounding()),
             Self::Gain { share, over } => around(share * (target.value - over).abs() + target.rounding()),
+            // What was inferred was not rounded in print.
+            Self::AtLeast if matches!(target.origin, Origin::Inferred(_)) => Some([target.value, f64::INFINITY]),
             Self::AtLeast => Some([target.value - target.rounding(), f64::INFINITY]),
             Self::Order if target.value > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
             Self::Order => Some([f64::NEG_INFINITY, 1.0_f64.next_down()]),
