@@ -21,6 +21,7 @@ pub use all_frequency::{
     KeptSegmentsError, LitModel, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel,
     coded_errors,
 };
+pub(super) use bi_scale::{BiScaleDrawing, CausePictures};
 pub use bi_scale::{
     BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface, creased,
 };

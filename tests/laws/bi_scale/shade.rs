@@ -98,13 +98,21 @@ fn square() -> (Mesh, Vertices) {
 }
 
 /// Rungs of a point in the middle of a square, towards an eye above it.
-fn rungs(patch: &MesoPatch, texture: &BidirectionalTexture, radiance: [f64; 3]) -> [[f64; 3]; 5] {
+fn rungs(patch: &MesoPatch, texture: &BidirectionalTexture, radiance: [f64; 3]) -> [[f64; 3]; TracedRung::ALL.len()] {
+    rungs_at(patch, texture, radiance, ([0.3, 0.7], DVec3::new(0.28, 0.0, 0.96)))
+}
+
+fn rungs_at(
+    patch: &MesoPatch,
+    texture: &BidirectionalTexture,
+    radiance: [f64; 3],
+    (place, view): ([f64; 2], DVec3),
+) -> [[f64; 3]; TracedRung::ALL.len()] {
     let (mesh, vertices) = square();
     let weights = [0.5, 0.25, 0.25];
     let frame = pixel_frame(&vertices, vertices.triangles()[0], weights);
     let point = TracedPoint::new(mesh.corners(0).expect("a triangle"), weights, frame).expect("a point");
-    let view = DVec3::new(0.28, 0.0, 0.96);
-    let pixel = ShadedPixel { corners: vertices.triangles()[0], weights, place: [0.3, 0.7], view };
+    let pixel = ShadedPixel { corners: vertices.triangles()[0], weights, place, view };
     let tracer = HostTracer::new(&mesh, Sides::Both);
     let scene = TracedScene { tracer: &tracer, length: 8.0, sampling: SAMPLING };
     let (fine, texels) = (vec![radiance; FINE_DIRECTIONS], vec![radiance; LIGHT_TEXELS]);
@@ -147,7 +155,9 @@ fn white_furnace_of_pixels() {
             // Nothing is in the way, so that all that changes is the rim of the horizon.
             assert_relative_eq!(rung(TracedRung::Visibility), albedo, max_relative = 2e-3);
             assert_relative_eq!(rung(TracedRung::Directions), by_transfer[channel], max_relative = 1e-6);
-            assert_relative_eq!(rung(TracedRung::Texture), rung(TracedRung::Directions), max_relative = 1e-6);
+            for last in [TracedRung::Views, TracedRung::Texture] {
+                assert_relative_eq!(rung(last), rung(TracedRung::Directions), max_relative = 1e-6);
+            }
         }
     }
 }
@@ -168,4 +178,28 @@ fn rungs_come_together() {
     let [of_16, of_texture] = apart(32, 16);
     assert!(of_16 < 0.02 && of_16 <= of_8 + 1e-3, "{of_8}, {of_16}");
     assert!(of_texture < 0.5, "{of_texture}");
+}
+
+/// Where a texture has a sample, at the middle of a texel towards one of its views, it costs nothing but single
+/// precision; at the middle of a texel its texels alone cost nothing, whatever the view.
+#[test]
+fn samples_cost_nothing() {
+    let patch = PatchKind::Bricks.patch(1.0);
+    let texture = sampled(&patch, 8, 4);
+    let middle = [0.3125, 0.6875];
+    let view = texture.view().directions()[5];
+    let at = |place, view| {
+        let found = rungs_at(&patch, &texture, [1.0; 3], (place, view));
+        [TracedRung::Directions, TracedRung::Views, TracedRung::Texture].map(|rung| found[rung as usize][0])
+    };
+    let [directions, views, texels] = at(middle, view);
+    assert!(directions > 0.0);
+    assert_relative_eq!(views, directions, max_relative = 1e-9);
+    assert_relative_eq!(texels, directions, max_relative = 1e-6);
+    let oblique = DVec3::new(0.6, 0.0, 0.8);
+    let [directions, views, texels] = at(middle, oblique);
+    assert!((views - directions).abs() > 1e-4 * directions, "{views}, {directions}");
+    assert_relative_eq!(texels, views, max_relative = 1e-6);
+    let [_, views, texels] = at([0.25, 0.6], view);
+    assert!((texels - views).abs() > 1e-4 * views, "{texels}, {views}");
 }

@@ -12,7 +12,7 @@ use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::prt::all_frequency::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS, light_texel, texel_center};
 use crate::prt::all_frequency::visibility::{Horizon, VisibilitySampling};
-use crate::prt::bi_scale::texture::{BidirectionalTexture, MesoPatch};
+use crate::prt::bi_scale::texture::{BidirectionalTexture, MesoPatch, SeenPoint, ViewSamples};
 use crate::prt::transfer::LocalFrame;
 use crate::tracer::HostTracer;
 use crate::tracer::offset::SurfacePoint;
@@ -29,14 +29,20 @@ pub enum TracedRung {
     Visibility,
     /// A texel's light comes from the local direction that is nearest to its center.
     Directions,
-    /// The patch is a texture: texels and views, with samples between them interpolated.
+    /// The patch is known from some views, and interpolated between them.
+    Views,
+    /// And at texels, and interpolated between them: it is a texture.
     Texture,
 }
 
 impl TracedRung {
     /// All, in order.
-    pub const ALL: [Self; 5] = [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Texture];
+    pub const ALL: [Self; 6] =
+        [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Views, Self::Texture];
 }
+
+/// How many rungs there are.
+const RUNGS: usize = TracedRung::ALL.len();
 
 /// A light as both a pixel by rays and transfer have it.
 #[derive(Clone, Copy, Debug)]
@@ -68,8 +74,8 @@ pub struct TracedScene<'a> {
 }
 
 impl TracedScene<'_> {
-    /// Per fine direction of a sampling whether a point sees the light there.
-    fn visible(&self, of: &TracedPoint, directions: &FineDirections) -> Vec<bool> {
+    /// Per direction of a sampling whether a point sees light there.
+    fn sees_light(&self, of: &TracedPoint, directions: &FineDirections, texels: &[[f64; 3]]) -> Vec<bool> {
         let origin = of.point.lifted(of.point.normal, 0.0);
         let sees = |direction: DVec3| {
             let is_above = self.sampling.horizon == Horizon::Geometry || of.frame.normal().dot(direction) > 0.0;
@@ -79,7 +85,12 @@ impl TracedScene<'_> {
             let ray = Ray::new(origin, narrow(self.length * direction));
             ray.is_ok_and(|ray| !self.tracer.occluded_before(&ray, 1.0).0)
         };
-        directions.directions().iter().map(|&direction| sees(direction)).collect()
+        let mut found = vec![false; directions.directions().len()];
+        let lit = texels.iter().enumerate().filter(|(_, radiance)| **radiance != [0.0; 3]);
+        for number in lit.flat_map(|(texel, _)| directions.in_texel(texel)) {
+            found[number] = sees(directions.directions()[number]);
+        }
+        found
     }
 
     /// The pixel's radiance on every rung, in their order.
@@ -92,12 +103,12 @@ impl TracedScene<'_> {
         pixel: &ShadedPixel,
         (patch, texture): (&MesoPatch, &BidirectionalTexture),
         light: TracedLight<'_>,
-    ) -> [[f64; 3]; 5] {
+    ) -> [[f64; 3]; RUNGS] {
         assert_eq!((light.fine.len(), light.texels.len()), (FINE_DIRECTIONS, LIGHT_TEXELS), "radiance of each");
         let (fine, coarse) = (FineDirections::get(), self.sampling.directions());
-        let (sees, sees_coarsely) = (self.visible(of, fine), self.visible(of, coarse));
+        let [sees, sees_coarsely] = [fine, coarse].map(|directions| self.sees_light(of, directions, light.texels));
         let seen = patch.seen(pixel.place, pixel.view);
-        let mut rungs = [[0.0; 3]; 5];
+        let mut rungs = [[0.0; 3]; RUNGS];
         let mut add = |rung: TracedRung, b: [f64; 3], radiance: [f64; 3], solid_angle: f64| {
             let into = &mut rungs[rung as usize];
             (0..3).for_each(|channel| into[channel] += b[channel] * radiance[channel] * solid_angle);
@@ -119,8 +130,10 @@ impl TracedScene<'_> {
             (0..3).for_each(|channel| of_texel[texel][channel] += b[channel] * solid_angle);
         }
         let directions = texture.light();
-        let responses: Vec<[f64; 3]> =
-            directions.directions().iter().map(|&direction| patch.reflected(&seen, direction)).collect();
+        let of_view = |seen: &SeenPoint| -> Vec<[f64; 3]> {
+            directions.directions().iter().map(|&direction| patch.reflected(seen, direction)).collect()
+        };
+        let responses = of_view(&seen);
         let mut local = vec![[0.0; 3]; responses.len()];
         for (texel, &radiance) in light.texels.iter().enumerate() {
             let open = coarse.in_texel(texel).filter(|&number| sees_coarsely[number]).count();
@@ -129,6 +142,13 @@ impl TracedScene<'_> {
             let nearest = directions.nearest(of.frame.to_local(texel_center(texel)));
             add(TracedRung::Directions, responses[nearest], radiance, share * solid_angles[texel]);
             (0..3).for_each(|channel| local[nearest][channel] += radiance[channel] * share * solid_angles[texel]);
+        }
+        let around = ViewSamples::around(texture.view(), pixel.view);
+        for (view, weight) in around.numbers.into_iter().zip(around.weights).filter(|(_, weight)| *weight > 0.0) {
+            let responses = of_view(&patch.seen(pixel.place, texture.view().directions()[view]));
+            for (b, &arriving) in responses.into_iter().zip(&local) {
+                add(TracedRung::Views, b, arriving, weight);
+            }
         }
         let own = ShadedPixel { corners: [0; 3], weights: [1.0, 0.0, 0.0], ..*pixel };
         rungs[TracedRung::Texture as usize] = reference::radiance(texture, &local, &own);

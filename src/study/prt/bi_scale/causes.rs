@@ -4,6 +4,7 @@
 use glam::DMat3;
 use rayon::prelude::*;
 
+use super::cause_pictures::CausePictures;
 use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::BiScaleRendering;
@@ -15,7 +16,7 @@ use crate::prt::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedSc
 use crate::prt::file::BiScaleMeaning;
 use crate::prt::transfer::ray_length;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Table, false_color};
+use crate::report::{Findings, FoundTable, NamedPicture, false_color};
 use crate::study::ProgressFn;
 use crate::study::prt::linear_picture;
 use crate::tracer::HostTracer;
@@ -46,26 +47,24 @@ impl<'a> Causes<'a> {
         Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine(&DMat3::IDENTITY)? })
     }
 
-    /// Adds what is found; `drawn` is the picture of transfer.
-    pub(super) fn find(
+    /// All pictures; `drawn` is that of transfer.
+    pub(super) fn pictures(
         &self,
         pixels: &[Option<SurfacePixel>],
         (cube, drawn): (&CubeLight, &[[f64; 3]]),
-        exposure: f64,
-        found: &mut Findings,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<(), BiScaleError> {
+    ) -> CausePictures {
         let mut pictures = self.rungs(pixels, cube, progress);
-        let mut names = self.names();
+        let mut causes = self.names();
         // A matrix alone is drawn in f64 as it is.
         if self.rendering.file.biclusters.is_some()
             && let Some(local) = LocalLight::exact(&self.rendering.file, cube)
         {
             pictures.push(self.by_reference(pixels, &local));
-            names.push(("precision", "biclusters in single precision".to_owned()));
+            causes.push(("precision", "biclusters in single precision".to_owned()));
         }
         pictures.push(drawn.to_vec());
-        report(self.rendering, &pictures, &names, exposure, found)
+        CausePictures { causes, pictures }
     }
 
     fn names(&self) -> Vec<(&'static str, String)> {
@@ -75,7 +74,8 @@ impl<'a> Causes<'a> {
             ("light", "light of 6 x 32 x 32 texels".to_owned()),
             ("visibility", format!("visibility of {along} x {along} directions a texel")),
             ("directions", format!("{lights} local directions")),
-            ("texture", "texels and views of the texture".to_owned()),
+            ("views", "views of the texture".to_owned()),
+            ("texture", "texels of the texture".to_owned()),
             ("interpolation", "interpolation over vertices".to_owned()),
         ]
     }
@@ -114,28 +114,15 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// The squares of all channels' differences, and the largest.
-fn apart(one: &[[f64; 3]], other: &[[f64; 3]]) -> (f64, f64) {
-    one.iter()
-        .flatten()
-        .zip(other.iter().flatten())
-        .fold((0.0, 0.0_f64), |(sum, most), (a, b)| (sum + (a - b) * (a - b), most.max((a - b).abs())))
-}
-
-fn report(
+/// What the pictures show, with the picture by rays.
+pub(super) fn report(
     rendering: &BiScaleRendering,
-    pictures: &Pictures,
-    names: &[(&'static str, String)],
+    found_pictures: &CausePictures,
     exposure: f64,
     found: &mut Findings,
 ) -> Result<(), BiScaleError> {
-    let (exact, drawn) = (&pictures[0], &pictures[pictures.len() - 1]);
-    let squares = apart(exact, &vec![[0.0; 3]; exact.len()]).0;
-    let share = |sum: f64| if squares > 0.0 { 100.0 * (sum / squares).sqrt() } else { 0.0 };
-    let mut table = Table::new(
-        "Error by cause, of the root mean square of the picture by rays",
-        &["cause", "alone (%)", "up to here (%)", "largest (radiance)"],
-    );
+    let CausePictures { causes, pictures } = found_pictures;
+    let (exact, drawn) = (found_pictures.exact(), found_pictures.drawn());
     let width = rendering.camera.width();
     let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
     let signed = |before: &[[f64; 3]], after: &[[f64; 3]]| -> Vec<f64> {
@@ -144,17 +131,9 @@ fn report(
     let scale = signed(exact, drawn).iter().fold(0.0_f64, |most, value| most.max(value.abs())).max(1e-30);
     let shown_scale = shown(scale, Quantity::Measured);
     let mut differences = Vec::new();
-    for ((step, after), name) in pictures.windows(2).zip(&pictures[1..]).zip(names) {
-        let (alone, largest) = apart(&step[0], after);
-        let (so_far, _) = apart(exact, after);
-        table.push([
-            name.1.as_str().into(),
-            Cell::measured(share(alone)),
-            Cell::measured(share(so_far)),
-            Cell::measured(largest),
-        ]);
+    for (step, name) in pictures.windows(2).zip(causes) {
         let caption = format!("{}: what it changes; blue -{shown_scale}, white 0, red +{shown_scale}", name.1);
-        let image = false_color::signed(width, &signed(&step[0], after), scale);
+        let image = false_color::signed(width, &signed(&step[0], &step[1]), scale);
         differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));
     }
     found.heading("Against a picture by rays");
@@ -167,11 +146,12 @@ fn report(
         NamedPicture::new("reference", image, "by rays, every pixel for itself"),
         NamedPicture::new("difference", whole, caption),
     ]);
+    let table = found_pictures.table("Error by cause, of the root mean square of the picture by rays");
     found.table(FoundTable::from(table).csv("causes").field("causes"));
     found.pictures(differences);
     found.conclusion(format!(
         "Against a picture by rays the root mean square error is {} %.",
-        shown(share(apart(exact, drawn).0), Quantity::Measured)
+        shown(found_pictures.apart(exact, drawn), Quantity::Measured)
     ));
     Ok(())
 }

@@ -1,0 +1,60 @@
+//! Pictures between one by rays and that of transfer, each with one thing more done as transfer does it, and how far
+//! they lie apart.
+
+use crate::prt::bi_scale::shade::TracedRung;
+use crate::report::{Cell, Table};
+
+/// The pictures.
+#[derive(Clone, Debug)]
+pub(in crate::study) struct CausePictures {
+    /// What each picture but the first does more than the one before: in a word, and in full.
+    pub(in crate::study) causes: Vec<(&'static str, String)>,
+    /// One by rays, ..., that of transfer.
+    pub(in crate::study) pictures: Vec<Vec<[f64; 3]>>,
+}
+
+impl CausePictures {
+    /// That by rays.
+    pub(in crate::study) fn exact(&self) -> &[[f64; 3]] {
+        self.pictures.first().map_or(&[], Vec::as_slice)
+    }
+
+    /// That of transfer.
+    pub(in crate::study) fn drawn(&self) -> &[[f64; 3]] {
+        self.pictures.last().map_or(&[], Vec::as_slice)
+    }
+
+    /// That by rays whose patches are textures, as those of transfer are.
+    pub(in crate::study) fn textured(&self) -> &[[f64; 3]] {
+        self.pictures.get(TracedRung::Texture as usize).map_or(&[], Vec::as_slice)
+    }
+
+    /// The root mean square of two pictures' differences in percent of that of the picture by rays; 0 where that is
+    /// black.
+    pub(in crate::study) fn apart(&self, one: &[[f64; 3]], other: &[[f64; 3]]) -> f64 {
+        let whole: f64 = self.exact().iter().flatten().map(|value| value * value).sum();
+        if whole > 0.0 { 100.0 * (differences(one, other).0 / whole).sqrt() } else { 0.0 }
+    }
+
+    /// A row per cause.
+    pub(in crate::study) fn table(&self, title: &str) -> Table {
+        let mut table = Table::new(title, &["cause", "step (%)", "up to here (%)", "largest (radiance)"]);
+        for ((before, after), cause) in self.pictures.iter().zip(&self.pictures[1..]).zip(&self.causes) {
+            table.push([
+                cause.1.as_str().into(),
+                Cell::measured(self.apart(before, after)),
+                Cell::measured(self.apart(self.exact(), after)),
+                Cell::measured(differences(before, after).1),
+            ]);
+        }
+        table
+    }
+}
+
+/// The sum of squares of all channels' differences, and the largest.
+fn differences(one: &[[f64; 3]], other: &[[f64; 3]]) -> (f64, f64) {
+    one.iter()
+        .flatten()
+        .zip(other.iter().flatten())
+        .fold((0.0, 0.0_f64), |(sum, most), (a, b)| (sum + (a - b) * (a - b), most.max((a - b).abs())))
+}

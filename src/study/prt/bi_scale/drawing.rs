@@ -1,0 +1,108 @@
+//! A rendering in the making: what its pixels show, and its textures laid out.
+
+use std::time::Instant;
+
+use glam::DMat3;
+use rayon::prelude::*;
+
+use super::cause_pictures::CausePictures;
+use super::causes::Causes;
+use super::error::BiScaleError;
+use super::light::LocalLight;
+use super::subject::{BiScaleRendering, SurfaceTexture};
+use super::surface::SurfacePixel;
+use crate::prt::all_frequency::light::{CubeLight, Decimation};
+use crate::prt::bi_scale::shade::TextureLookup;
+use crate::prt::file::BiScaleMeaning;
+use crate::scene::Camera;
+use crate::study::ProgressFn;
+
+/// What steps of a frame took, in seconds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct StepTimes {
+    pub(super) light: f64,
+    pub(super) transfer: f64,
+    pub(super) shading: f64,
+}
+
+/// A rendering whose pixels are known.
+pub(in crate::study) struct BiScaleDrawing<'a> {
+    rendering: &'a BiScaleRendering,
+    meaning: BiScaleMeaning,
+    pub(super) pixels: Vec<Option<SurfacePixel>>,
+    lookups: Vec<TextureLookup>,
+}
+
+impl<'a> BiScaleDrawing<'a> {
+    /// Casts the rays of the camera.
+    ///
+    /// # Errors
+    /// [`BiScaleError::NoTransfer`], [`BiScaleError::Directions`], [`BiScaleError::NoPatch`].
+    pub(in crate::study) fn new(rendering: &'a BiScaleRendering) -> Result<Self, BiScaleError> {
+        let meaning = rendering.file.meaning.ok_or(BiScaleError::NoTransfer)?;
+        let expected = (meaning.side as usize).pow(2);
+        for SurfaceTexture { name, samples, patch } in &rendering.textures {
+            let found = samples.light().directions().len();
+            if found != expected {
+                return Err(BiScaleError::Directions { name: name.clone(), expected, found });
+            }
+            if rendering.reference && patch.is_none() {
+                return Err(BiScaleError::NoPatch { name: name.clone() });
+            }
+        }
+        let lookups = rendering.textures.iter().map(|texture| TextureLookup::new(&texture.samples)).collect();
+        Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.camera), lookups })
+    }
+
+    /// The light's texels, and L~.
+    ///
+    /// # Errors
+    /// [`BiScaleError::Light`], [`BiScaleError::NoTransfer`].
+    pub(in crate::study) fn light(&self, rotation: &DMat3) -> Result<(CubeLight, LocalLight), BiScaleError> {
+        self.timed_light(rotation, &mut StepTimes::default())
+    }
+
+    pub(super) fn timed_light(
+        &self,
+        rotation: &DMat3,
+        times: &mut StepTimes,
+    ) -> Result<(CubeLight, LocalLight), BiScaleError> {
+        let start = Instant::now();
+        let cube = self.rendering.light.cube(rotation, Decimation::SolidAngle)?;
+        times.light = start.elapsed().as_secs_f64();
+        let local = LocalLight::new(&self.rendering.file, &cube).ok_or(BiScaleError::NoTransfer)?;
+        times.transfer = local.seconds;
+        Ok((cube, local))
+    }
+
+    /// Equation 3 at all pixels with L~; black where there is nothing.
+    pub(in crate::study) fn shade(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        self.shade_pixels(&self.pixels, local)
+    }
+
+    /// The same as another camera sees it.
+    pub(super) fn shade_from(&self, camera: &Camera, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        self.shade_pixels(&self.rendering.surface.pixels(camera), local)
+    }
+
+    fn shade_pixels(&self, pixels: &[Option<SurfacePixel>], local: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let color = |b: &mut Vec<[f64; 3]>, pixel: &Option<SurfacePixel>| {
+            let pixel = pixel.as_ref();
+            pixel.map_or([0.0; 3], |pixel| self.lookups[pixel.texture].radiance(local, &pixel.shaded, b))
+        };
+        pixels.par_iter().map_init(Vec::new, color).collect()
+    }
+
+    /// The pictures between one by rays and `drawn`, that of transfer.
+    ///
+    /// # Errors
+    /// [`BiScaleError::Light`], [`BiScaleError::NoTransfer`].
+    pub(in crate::study) fn causes(
+        &self,
+        cube: &CubeLight,
+        drawn: &[[f64; 3]],
+        progress: &mut ProgressFn<'_>,
+    ) -> Result<CausePictures, BiScaleError> {
+        Ok(Causes::new(self.rendering, &self.meaning)?.pictures(&self.pixels, (cube, drawn), progress))
+    }
+}
