@@ -428,20 +428,35 @@ fn said(name: &str) -> String {
     format!("\n\n{}\n", markdown(&table))
 }
 
+/// The README and the pages of the papers.
+fn pages() -> Vec<String> {
+    let folder = std::fs::read_dir(file("docs/papers")).expect("the papers' pages");
+    let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in ASCII"));
+    let mut pages: Vec<String> =
+        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/papers/{name}")).collect();
+    pages.sort();
+    pages.insert(0, "README.md".to_owned());
+    pages
+}
+
 /// The book's figures are the program's.
 #[test]
 fn the_book_says_what_the_program_says() {
-    for path in [
-        "README.md",
-        "docs/papers/ray_engine.md",
-        "docs/papers/radiosity.md",
-        "docs/papers/cpca.md",
-        "docs/papers/all_frequency.md",
-        "docs/papers/bi_scale.md",
-    ] {
-        let text = std::fs::read_to_string(file(path)).expect("a page");
+    for path in pages() {
+        let text = std::fs::read_to_string(file(&path)).expect("a page");
         assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
-        hold(path, &filled(&text, said));
+        hold(&path, &filled(&text, said));
+    }
+}
+
+/// No entry that judges figures is left out of the book.
+#[test]
+fn every_row_stands_in_the_book() {
+    let texts = pages().iter().map(|path| std::fs::read_to_string(file(path)).expect("a page")).collect::<String>();
+    let blocks = texts.split("<!-- reproduce: rows ").skip(1).filter_map(|rest| rest.split_once(" -->"));
+    let shown: BTreeSet<&str> = blocks.flat_map(|(ids, _)| ids.split(' ')).collect();
+    for (entry, found) in FOUND.iter() {
+        assert!(found.rows.is_empty() || shown.contains(entry.id), "{} has rows that no page shows", entry.id);
     }
 }
 

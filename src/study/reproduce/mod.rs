@@ -234,6 +234,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: bi_scale::figure_8,
     },
     ReproduceEntry {
+        id: "bi-scale-figures",
+        title: "Pictures by transfer and by rays, errors by cause (bi-scale transfer, figures 1, 3 and 5 to 8)",
+        work: bi_scale::figures,
+    },
+    ReproduceEntry {
         id: "bi-scale-frames",
         title: "Frame rates, views alone and light too (bi-scale transfer, tables I and II)",
         work: bi_scale::frames,

@@ -1,0 +1,109 @@
+//! A figure's pictures: by transfer, by rays, by light of low frequency, and where errors come from.
+
+use glam::DMat3;
+
+use super::scene::{FigureSize, TexturedModel};
+use super::{HOST, ReproduceError, failed};
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::prt::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
+use crate::prt::bi_scale::transfer::light_vectors;
+use crate::report::NamedPicture;
+use crate::study::prt::{BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, linear_picture};
+
+/// The order of harmonics of low-frequency bi-scale transfer.
+pub(super) const ORDER: usize = 5;
+
+/// What a figure shows.
+pub(super) struct DrawnFigure {
+    pub(super) causes: CausePictures,
+    /// By light of low frequency.
+    pub(super) smooth: Option<Vec<[f64; 3]>>,
+    /// What was drawn.
+    pub(super) rendering: BiScaleRendering,
+}
+
+impl DrawnFigure {
+    /// Draws a model with so many local directions along an edge.
+    pub(super) fn new(
+        model: &TexturedModel,
+        side: usize,
+        size: FigureSize,
+        has_smooth: bool,
+    ) -> Result<Self, ReproduceError> {
+        let fail = |error: BiScaleError| failed(HOST)(&error);
+        let rendering = model.rendering(side, size)?;
+        let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
+        let (cube, local) = drawing.light(&DMat3::IDENTITY).map_err(fail)?;
+        let drawn = drawing.shade(&local.rows);
+        let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(fail)?;
+        let smooth = match &rendering.file.matrix {
+            Some(matrix) if has_smooth => {
+                let channels = light_vectors(&cube);
+                Some(drawing.shade(&low_frequency(&rendering, matrix, side, &channels)?))
+            }
+            _ => None,
+        };
+        Ok(Self { causes, smooth, rendering })
+    }
+
+    /// How far a picture lies off that by rays, and off that by rays with the same textures, in percent.
+    pub(super) fn errors(&self, picture: &[[f64; 3]]) -> [f64; 2] {
+        [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
+    }
+
+    /// The pictures, exposed alike; `name` is the beginning of their files' names.
+    pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
+        let model = &self.rendering.model;
+        let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
+        let mut shown = vec![
+            self.picture(&format!("{name}-rays"), exact, format!("{model}, by rays"))?,
+            self.picture(&format!("{name}-transfer"), drawn, format!("{model}, by biclusters"))?,
+        ];
+        if let Some(smooth) = &self.smooth {
+            let caption = format!("{model}, harmonics of order {ORDER} on both sides");
+            shown.push(self.picture(&format!("{name}-smooth"), smooth, caption)?);
+        }
+        Ok(shown)
+    }
+
+    /// A picture, exposed as that by rays.
+    pub(super) fn picture(
+        &self,
+        name: &str,
+        colors: &[[f64; 3]],
+        caption: String,
+    ) -> Result<NamedPicture, ReproduceError> {
+        let exposure = auto_exposure(self.causes.exact());
+        let image = linear_picture(&self.rendering.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+        Ok(NamedPicture::new(format!("bi-scale-{name}"), image, caption))
+    }
+}
+
+/// The picture of a model by biclusters alone.
+pub(super) fn by_transfer(
+    model: &TexturedModel,
+    side: usize,
+    size: FigureSize,
+) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    let fail = |error: BiScaleError| failed(HOST)(&error);
+    let rendering = model.rendering(side, size)?;
+    let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
+    Ok(drawing.shade(&drawing.light(&DMat3::IDENTITY).map_err(fail)?.1.rows))
+}
+
+/// L~ by low-frequency bi-scale transfer: harmonics on both sides.
+fn low_frequency(
+    rendering: &BiScaleRendering,
+    matrix: &SparseMatrix,
+    side: usize,
+    channels: &[Vec<f64>; 3],
+) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    let fail = failed(HOST);
+    let directions = LocalDirections::new(side).map_err(|e| fail(&e))?;
+    let transfer =
+        LocalTransfer::new(matrix, rendering.surface.vertices.frames(), &directions).map_err(|e| fail(&e))?;
+    let rows = HarmonicRows::of_both(&transfer, ORDER).map_err(|e| fail(&e))?;
+    let [red, green, blue] = channels.each_ref().map(|channel| rows.multiply(channel));
+    Ok(red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect())
+}

@@ -1,0 +1,96 @@
+//! Figures 1, 3 and 5 to 8: pictures by transfer beside pictures by rays, with errors by cause.
+
+mod drawn;
+mod matrix;
+mod models;
+mod scene;
+
+use super::{
+    Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
+    Standing, failed, number,
+};
+use crate::report::{Cell, NamedPicture, Table};
+use drawn::{DrawnFigure, ORDER, by_transfer};
+use scene::{FigureSize, TexturedModel};
+
+const HOW: &str = "Models, materials, light and cameras are not at hand. Stand-ins are drawn in {} x {} pixels under a clear sky with a small sun: by biclusters of \
+    transfer, with textures of {} x {} or {} x {} texels and {} x {} views, and by rays, every pixel for itself, with patches of heights. Between them stand \
+    pictures that do one thing after the other as transfer does it; a step is how far one lies from the one before, in percent of the root mean square of the \
+    picture by rays. Low frequency is transfer of harmonics of order {} on both sides, as low-frequency bi-scale rendering has it, with the same textures.";
+const QUESTION: &str = "the models, their textures, the light and the cameras; whether the references are by rays at every pixel or by transfer that was not compressed.";
+/// Local directions along an edge of Table I's scenes, and of the armor.
+const SIDE: usize = 8;
+const ARMOR_SIDE: usize = 12;
+/// Figure 8's.
+const SIDES: [usize; 4] = [8, 12, 16, 32];
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let size = FigureSize::of(shared.models);
+    let ([width, height], [fine, coarse]) = (size.picture, size.texels);
+    let sizes = [width as usize, height as usize, fine, fine, coarse, coarse, size.views, size.views, ORDER];
+    let mut found = EntryFindings {
+        text: vec![Prose::new(HOW, sizes.map(|size| number(size as f64, 0)))],
+        questions: vec![QUESTION],
+        ..EntryFindings::default()
+    };
+    let figure_3 = matrix::figure(size.coarser, SIDE)?;
+    found.text.push(figure_3.text);
+    found.rows.push(figure_3.row);
+    let mut smooth = Table::of(
+        "Low frequency beside biclusters: off the picture by rays, and off that with the same textures",
+        "figure biclusters_% low_frequency_% biclusters_with_textures_% low_frequency_with_textures_%",
+    );
+    for (figure, place, model, side) in [
+        ("figure-1", "figure 1", models::bunny(size), SIDE),
+        ("figure-5", "figure 5", models::armor(size), ARMOR_SIDE),
+        ("figure-6", "figure 6", models::chair(size), SIDE),
+        ("figure-7", "figure 7", models::temple(size), SIDE),
+    ] {
+        let drawn = DrawnFigure::new(&model, side, size, true)?;
+        found.pictures.extend(drawn.pictures(figure)?);
+        found.tables.push(drawn.causes.table(&format!("Error by cause, {place}: {}", model.name)));
+        let ours = drawn.errors(drawn.causes.drawn());
+        let low = drawn.smooth.as_deref().map_or([0.0; 2], |picture| drawn.errors(picture));
+        let errors = [ours[0], low[0], ours[1], low[1]].map(Cell::measured);
+        smooth.push(std::iter::once(Cell::from(place)).chain(errors));
+        if ["figure 1", "figure 5"].contains(&place) {
+            found.rows.push(faithful(place, model.name, low[1] / ours[1]));
+        }
+    }
+    found.tables.insert(0, smooth);
+    found.pictures.extend(figure_3.pictures);
+    let (table, pictures) = more_directions(&models::rough_bunny(size), size)?;
+    found.tables.push(table);
+    found.pictures.extend(pictures);
+    Ok(found)
+}
+
+fn faithful(place: &'static str, model: &str, ours: f64) -> PaperRow {
+    let origin = Origin::Inferred("the figure shows low frequency farther off".to_owned());
+    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", place) };
+    let what = format!("error of low frequency over ours with the same textures, {model}");
+    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
+}
+
+/// Figure 8: what more local directions do to the picture.
+fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Vec<NamedPicture>), ReproduceError> {
+    let mut table =
+        Table::of("Figure 8: off the picture by rays, and off that of most directions", "along_an_edge rays_% most_%");
+    // Textures of many directions are large.
+    let size = FigureSize { texels: [size.texels[1]; 2], ..size };
+    let first = DrawnFigure::new(model, SIDES[0], size, false)?;
+    let mut pictures = first.pictures("figure-8-8")?;
+    let mut drawn = vec![first.causes.drawn().to_vec()];
+    for side in &SIDES[1..] {
+        let colors = by_transfer(model, *side, size)?;
+        let caption = format!("{}, {side} x {side} local directions", model.name);
+        pictures.push(first.picture(&format!("figure-8-{side}"), &colors, caption)?);
+        drawn.push(colors);
+    }
+    let most = &drawn[SIDES.len() - 1];
+    for (side, colors) in SIDES.into_iter().zip(&drawn) {
+        let of_most = first.causes.apart(most, colors);
+        table.push([side.into(), Cell::measured(first.errors(colors)[0]), Cell::measured(of_most)]);
+    }
+    Ok((table, pictures))
+}

@@ -1,0 +1,102 @@
+//! Models with bidirectional textures, as pictures of transfer and of rays need them.
+
+use glam::DVec3;
+
+use super::super::models::SeenModel;
+use super::{HOST, ModelSize, ReproduceError, failed};
+use crate::geom::vector::wide;
+use crate::prt::all_frequency::light::DistantLight;
+use crate::prt::all_frequency::visibility::Horizon;
+use crate::prt::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crate::prt::bi_scale::directions::LocalDirections;
+use crate::prt::bi_scale::texture::{PatchKind, TextureSampling};
+use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest};
+use crate::scene::Camera;
+use crate::scene::built::flat_models::MaterialMesh;
+use crate::study::prt::{BiScaleRendering, SurfaceTexture, TexturedSurface, Turning};
+use crate::study::reproduce::sky::HARD_SUN;
+
+/// How large things are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FigureSize {
+    /// Edges of models are so many times as long as the paper's.
+    pub(super) coarser: u32,
+    /// Pixels.
+    pub(super) picture: [u32; 2],
+    /// Texels along an edge of patches: of fine ones, of others.
+    pub(super) texels: [usize; 2],
+    /// Directions of the view along an edge.
+    pub(super) views: usize,
+    /// How often patches repeat where texture coordinates grow by 1: so that pictures of so many pixels show them.
+    pub(super) repeat: f64,
+}
+
+impl FigureSize {
+    pub(super) fn of(models: ModelSize) -> Self {
+        match models {
+            ModelSize::Reduced => Self { coarser: 3, picture: [40, 30], texels: [20, 10], views: 12, repeat: 2.0 },
+            ModelSize::Printed => Self { coarser: 1, picture: [160, 120], texels: [64, 32], views: 12, repeat: 5.0 },
+        }
+    }
+}
+
+/// A model to be drawn.
+pub(super) struct TexturedModel {
+    pub(super) name: &'static str,
+    pub(super) model: MaterialMesh,
+    /// The patch of each material, and its place among [`FigureSize::texels`].
+    pub(super) patches: Vec<(PatchKind, usize)>,
+    /// From where it is looked at, in units of its size, from its middle.
+    pub(super) eye: DVec3,
+}
+
+impl TexturedModel {
+    /// Its transfer to so many local directions along an edge as biclusters, textures and a camera, under a clear sky
+    /// with a sun.
+    pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, ReproduceError> {
+        let fail = failed(HOST);
+        let MaterialMesh { mesh, material_of, .. } = &self.model;
+        let seen = SeenModel::new(mesh, Horizon::Normal)?;
+        let matrix = seen.matrix(side)?;
+        let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|e| fail(&e))?;
+        let meaning =
+            BiScaleMeaning { mesh: MeshDigest::new(&seen.vertices), side: side as u32, horizon: Horizon::Normal };
+        let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: Some(biclusters) };
+        let camera = self.camera(size.picture)?;
+        let surface = TexturedSurface::new(mesh.clone(), seen.vertices, material_of.clone(), size.repeat);
+        Ok(BiScaleRendering {
+            model: self.name.to_owned(),
+            surface: surface.map_err(|e| fail(&e))?,
+            file,
+            textures: self.textures(side, size)?,
+            light_name: "a clear sky with a sun".to_owned(),
+            light: DistantLight::Sky(HARD_SUN),
+            camera,
+            exposure: None,
+            frames: 0,
+            turning: Turning::Light,
+            reference: true,
+        })
+    }
+
+    fn textures(&self, side: usize, size: FigureSize) -> Result<Vec<SurfaceTexture>, ReproduceError> {
+        let fail = failed(HOST);
+        let directions = |side| LocalDirections::new(side).map_err(|e| fail(&e));
+        let texture = |&(kind, texels): &(PatchKind, usize)| {
+            let (view, light) = (directions(size.views)?, directions(side)?);
+            let sampling = TextureSampling { size: size.texels[texels], view, light, samples: 1 };
+            let patch = kind.patch(1.0);
+            let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|e| fail(&e))?;
+            Ok(SurfaceTexture { name: kind.to_string(), samples, patch: Some(patch) })
+        };
+        self.patches.iter().map(texture).collect()
+    }
+
+    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, ReproduceError> {
+        let [low, high] = self.model.mesh.bounds().unwrap_or_default().map(wide);
+        let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
+        let eye = (middle + size * self.eye).as_vec3().to_array();
+        Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.17, width, height)
+            .map_err(|e| failed(HOST)(&e))
+    }
+}
