@@ -90,10 +90,18 @@ fn pictures_are_the_same_everywhere() {
         let count = (size * size * views * views * lights * lights) as u64;
         let samples = (0..count).map(|at| [0, 1, 2].map(|channel| random.unit(at, channel, 0) as f32)).collect();
         let texture = BidirectionalTexture::new(size, of(views), of(lights), samples).expect("a texture");
+        let flat = BidirectionalTexture::new(1, of(1), of(lights), vec![[0.3, 0.2, 0.1]; lights * lights]);
+        let textures = [texture, flat.expect("a texture")];
+        let texture_of: Vec<u32> = (0..coordinates.len() as u32).map(|triangle| triangle % 3 / 2).collect();
         let numbers = (vertices.len() * lights * lights) as u64;
         let local: Vec<[f32; 3]> =
             (0..numbers).map(|at| [0, 1, 2].map(|channel| (0.2 * random.unit(at, channel, 1)) as f32)).collect();
-        let mesh = TexturedMesh { vertices: &vertices, coordinates: &coordinates, texture: &texture };
+        let mesh = TexturedMesh {
+            vertices: &vertices,
+            coordinates: &coordinates,
+            textures: &textures,
+            texture_of: &texture_of,
+        };
         let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
             .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));
         let mut reference = None;

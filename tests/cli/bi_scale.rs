@@ -332,6 +332,14 @@ fn the_card_draws_what_the_host_draws() {
     let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
     let fine = on_card("--device ideal-fp32 --target-format rgba32f --texture-format rgba32f");
     assert!(rms(&fine) < 0.3 && fine["time"].is_null(), "{}", rms(&fine));
+    let with_one = picture(&out, "card");
+    // The floor has a texture of its own, of which the host's picture knows too.
+    let both = on_card("--texture floor=mail --device ideal-fp32 --target-format rgba32f --texture-format rgba32f");
+    assert!(rms(&both) < 0.3, "{}", rms(&both));
+    assert!(number(&both["sizes"][4]["number"]) == 2.0, "{}", both["sizes"]);
+    let changed = with_one.iter().zip(picture(&out, "card")).filter(|(a, b)| *a != b).count();
+    let lit = with_one.iter().filter(|color| color.iter().any(|&value| value > 0.0)).count();
+    assert!((50..lit - 50).contains(&changed), "{changed} of {lit}");
     let bytes = on_card("--sweep");
     assert!(rms(&bytes) > rms(&fine) && rms(&bytes) < 2.0, "{}", rms(&bytes));
     assert!(bytes["time"].as_array().is_some_and(|times| times.len() == 5));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::textures::{TransferOfModel, no_texture, patch_kind};
+use super::textures::TransferOfModel;
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::model_name;
@@ -25,27 +25,32 @@ impl StudyArgs for Args<'_> {
 
     fn inputs(&self) -> Vec<&Path> {
         let model = model_name::named_file(&self.0.model);
-        let texture = self.0.bi_scale.texture.as_deref().filter(|source| patch_kind(source).is_none());
-        [self.0.file()].into_iter().chain(model).chain(self.0.light.file()).chain(texture).collect()
+        [self.0.file()]
+            .into_iter()
+            .chain(model)
+            .chain(self.0.light.file())
+            .chain(self.0.bi_scale.textures.files())
+            .collect()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         let pictures = self.0.pictures();
-        let bytes = pictures.bytes.saturating_add(self.0.bi_scale.patches.bytes());
+        let bytes = pictures.bytes.saturating_add(self.0.bi_scale.textures.bytes());
         Ok(Some(MemoryNeed { bytes, help: "ask for a smaller `--size` or `--texture-size`", ..pictures }))
     }
 
     fn study(&self) -> miette::Result<BiScaleOnCard> {
         self.0.refuse_others()?;
         let card::Args { model: name, light, card, target_format, bi_scale, .. } = self.0;
-        let source = bi_scale.texture.as_deref().ok_or_else(no_texture)?;
-        let TransferOfModel { file, model, vertices, light: directions } =
-            TransferOfModel::load(self.0.file(), name, bi_scale.patches.crease())?;
+        let textures = &bi_scale.textures;
+        textures.require()?;
+        let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
+            textures.transfer(self.0.file(), name)?;
         let Some(biclusters) = file.biclusters else {
             let what = format!("{}: expected biclusters, found a matrix alone", self.0.file().display());
             return Err(Problem::usage(what, "`crossbar prt bicluster` makes them").into());
         };
-        let repeat = bi_scale.patches.repeat() as f32;
+        let repeat = textures.patches.repeat() as f32;
         let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
@@ -55,7 +60,8 @@ impl StudyArgs for Args<'_> {
             vertices,
             coordinates,
             biclusters,
-            texture: bi_scale.patches.texture(source, &directions)?.samples,
+            textures: textures.textures(&directions)?.into_iter().map(|texture| texture.samples).collect(),
+            texture_of,
             light_name: light.name(),
             light: light.distant()?,
             exposure: self.0.exposure,

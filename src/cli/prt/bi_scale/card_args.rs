@@ -1,11 +1,10 @@
 //! Options of `crossbar prt card` for bi-scale transfer.
 
-use std::path::PathBuf;
-
 use clap::ValueEnum;
 use refsim::texture::TexelFormat;
 
-use super::textures::{PatchArgs, refuse};
+use super::texture_args::TextureArgs;
+use super::textures::refuse;
 use crate::cli::Problem;
 use crate::prt::bi_scale::kernels::BlockEdges;
 use crate::prt::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
@@ -14,15 +13,10 @@ use crate::prt::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Options of bi-scale transfer")]
 pub(in crate::cli::prt) struct BiScaleCardArgs {
-    /// The bidirectional texture: a file (.npy) that `crossbar prt texture` wrote or one like it, or a patch: bumps,
-    /// mail, tiles, bricks, weave
-    #[arg(long, value_name = "B.npy")]
-    pub(super) texture: Option<PathBuf>,
-
     #[command(flatten)]
-    pub(super) patches: PatchArgs,
+    pub(super) textures: TextureArgs,
 
-    /// Format of the volume that holds it: rgba8, of the largest sample, rgba16f or rgba32f [default: rgba8]
+    /// Format of the volumes that hold textures: rgba8, of the largest sample, rgba16f or rgba32f [default: rgba8]
     #[arg(long, value_name = "F")]
     texture_format: Option<TexelFormat>,
 
@@ -62,15 +56,14 @@ enum HeldArg {
 impl BiScaleCardArgs {
     /// Refuses all of these for transfer of other kinds.
     pub(in crate::cli::prt) fn refuse(&self) -> Result<(), Problem> {
-        let Self { texture, patches, texture_format, blocks, light_format, local_format } = self;
+        let Self { textures, texture_format, blocks, light_format, local_format } = self;
         let own = [
-            ("--texture", texture.is_some()),
             ("--texture-format", texture_format.is_some()),
             ("--blocks", blocks.is_some()),
             ("--light-format", light_format.is_some()),
             ("--local-format", local_format.is_some()),
         ];
-        refuse(own.into_iter().chain(patches.given()))
+        refuse(textures.given().chain(own))
     }
 
     /// Variants of the display.

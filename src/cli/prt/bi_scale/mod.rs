@@ -11,6 +11,7 @@ pub(super) mod render;
 pub(super) mod render_args;
 pub(super) mod show;
 pub(super) mod texture;
+mod texture_args;
 mod textures;
 
 use std::fs::File;

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use super::textures::{TransferOfModel, no_texture};
+use super::textures::TransferOfModel;
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::model_name;
-use crate::cli::prt::model::materials_of;
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
 use crate::study::prt::{BiScaleRendering, TexturedSurface};
@@ -28,10 +27,7 @@ impl Args<'_> {
                 return Err(Problem::usage(what, "leave it out"));
             }
         }
-        if self.0.bi_scale.texture.is_empty() {
-            return Err(no_texture());
-        }
-        Ok(())
+        self.0.bi_scale.textures.require()
     }
 }
 
@@ -45,24 +41,26 @@ impl StudyArgs for Args<'_> {
 
     fn inputs(&self) -> Vec<&Path> {
         let model = model_name::named_file(&self.0.model);
-        [self.0.file()].into_iter().chain(model).chain(self.0.light.file()).chain(self.0.bi_scale.files()).collect()
+        [self.0.file()]
+            .into_iter()
+            .chain(model)
+            .chain(self.0.light.file())
+            .chain(self.0.bi_scale.textures.files())
+            .collect()
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         let pictures = self.0.pictures();
-        let bytes = pictures.bytes.saturating_add(self.0.bi_scale.bytes());
+        let bytes = pictures.bytes.saturating_add(self.0.bi_scale.textures.bytes());
         Ok(Some(MemoryNeed { bytes, help: "ask for a smaller `--size` or `--texture-size`", ..pictures }))
     }
 
     fn study(&self) -> miette::Result<BiScaleRendering> {
         self.refuse_others()?;
         let render::Args { model: name, bi_scale, .. } = self.0;
-        let TransferOfModel { file, model, vertices, light } =
-            TransferOfModel::load(self.0.file(), name, bi_scale.patches.crease())?;
-        let (materials, material_of) = materials_of(name, &model)?;
-        let of_material = bi_scale.of_materials(&materials)?;
-        let texture_of = material_of.iter().map(|&material| of_material[material as usize]).collect();
-        let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, bi_scale.patches.repeat());
+        let textures = &bi_scale.textures;
+        let (TransferOfModel { file, model, vertices, light }, texture_of) = textures.transfer(self.0.file(), name)?;
+        let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, textures.patches.repeat());
         let surface = surface.map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
@@ -70,7 +68,7 @@ impl StudyArgs for Args<'_> {
         Ok(BiScaleRendering {
             model: name.display().to_string(),
             camera: eye.framing(&model.mesh, *size)?,
-            textures: bi_scale.textures(&light)?,
+            textures: textures.textures(&light)?,
             surface,
             file,
             light_name: light_args.name(),

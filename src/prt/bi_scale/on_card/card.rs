@@ -15,13 +15,13 @@ use refsim::raster::{PixelCenter, Primitive};
 use super::error::BiScaleCardError;
 use super::gather::version;
 use super::options::DisplayOptions;
+use super::parts::{CardPart, parts};
 use super::streams::LocalStream;
 use super::subject::{CardVertices, TexturedMesh};
-use super::volume::VolumeTexture;
 use crate::card::{Attribute, BILINEAR, NearestTarget, Texels, ViewTarget, attribute, constants, vertex_streams};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
-use crate::prt::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout, LocalVertexKernel};
+use crate::prt::bi_scale::kernels::{FIRST_ORIGIN, LocalLayout, LocalVertexKernel};
 use crate::prt::kernels::{DEPTH, SHADE_COLOR};
 use crate::prt::on_card::{PrtCardError, PrtView, positions};
 
@@ -36,7 +36,9 @@ const LEAST_SETS: usize = 3;
 /// What a frame takes, whatever is in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplayCounts {
-    /// Passes, beside that into the depth buffer.
+    /// Draws, beside that into the depth buffer: passes for each texture.
+    pub draws: usize,
+    /// Passes for a texture.
     pub passes: usize,
     /// Directions of a whole pass.
     pub directions_per_pass: usize,
@@ -44,24 +46,15 @@ pub struct DisplayCounts {
     pub pixel_slots: [u32; 2],
     /// Slots of the vertex program, and attributes of a vertex.
     pub vertex: [usize; 2],
-    /// Bytes of the volume.
+    /// Bytes of the volumes.
     pub volume_bytes: u64,
-    /// Width, height and depth of the volume in texels.
-    pub volume: [usize; 3],
     /// Vertices of the card: corners of different texture coordinates are apart.
     pub vertices: usize,
     /// Triangles.
     pub triangles: usize,
 }
 
-/// The pixel program for so many directions.
-#[derive(Clone, Debug)]
-struct PixelProgram {
-    directions: usize,
-    program: CheckedProgram,
-}
-
-/// A mesh with a bidirectional texture on a card.
+/// A mesh with bidirectional textures on a card.
 #[derive(Debug)]
 pub struct BiScaleCard<'a> {
     machine: Machine,
@@ -73,21 +66,20 @@ pub struct BiScaleCard<'a> {
     positions: Attribute,
     /// Texture coordinates, tangents, normals.
     beside: [Attribute; 3],
-    volume: VolumeTexture,
+    /// Of each texture that triangles name.
+    parts: Vec<CardPart>,
     depth: [CheckedProgram; 2],
     vertex: CheckedProgram,
     vertex_counts: [usize; 2],
-    /// Of a whole pass, and of the last one if that has fewer directions.
-    pixels: Vec<PixelProgram>,
     target: ViewTarget,
 }
 
 impl<'a> BiScaleCard<'a> {
-    /// Uploads a mesh and its texture.
+    /// Uploads a mesh and its textures.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the device lacks programs, coordinates, a volume of the size or its format, or the parts
-    /// of the mesh do not go together.
+    /// [`BiScaleCardError`] if the device lacks programs, coordinates, volumes of the size or their format, or the
+    /// parts of the mesh do not go together.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -109,16 +101,8 @@ impl<'a> BiScaleCard<'a> {
         let (vertex, vertex_counts) = (kernel.checked(&profile)?, [kernel.slots(), kernel.attributes()]);
         let depth = [DEPTH.checked(&profile)?, SHADE_COLOR.checked(&profile)?];
         let mut machine = executor.into().machine(profile.clone())?;
-        let volume = VolumeTexture::new(&mut machine, mesh.texture, (options.edges, options.texture))?;
-        let (whole, left) = (layout.directions().min(mesh.directions()), mesh.directions() % layout.directions());
-        let mut pixels = Vec::new();
-        for directions in [whole, left].into_iter().filter(|&directions| directions > 0) {
-            if pixels.iter().all(|known: &PixelProgram| known.directions != directions) {
-                let program = DisplayKernel { layout, grid: volume.grid, directions, version: ps }.checked(&profile)?;
-                pixels.push(PixelProgram { directions, program });
-            }
-        }
         let vertices = CardVertices::new(&mesh);
+        let parts = parts(&mut machine, (&mesh, &vertices), options, (layout, ps))?;
         let frame = UnitFrame::new(mesh.vertices.positions().iter().copied().map(wide));
         let of_mesh = positions(mesh.vertices, &frame);
         let frames = || vertices.vertices.iter().map(|&vertex| &mesh.vertices.frames()[vertex as usize]);
@@ -136,11 +120,10 @@ impl<'a> BiScaleCard<'a> {
             vertices,
             frame,
             beside,
-            volume,
+            parts,
             depth,
             vertex,
             vertex_counts,
-            pixels,
             target: ViewTarget::default(),
         })
     }
@@ -152,18 +135,20 @@ impl<'a> BiScaleCard<'a> {
 
     /// What a frame takes.
     pub fn counts(&self) -> DisplayCounts {
-        let slots = &self.pixels[0].program.facts().slots;
+        let whole = self.parts.first().and_then(|part| part.pixels.first());
+        let slots = whole.map_or(&[][..], |whole| &whole.program.facts().slots);
+        let passes = self.layout.passes(self.mesh.directions());
+        let texels: usize = self.parts.iter().map(|part| part.volume.grid.extents().iter().product::<usize>()).sum();
         DisplayCounts {
-            passes: self.layout.passes(self.mesh.directions()),
-            directions_per_pass: self.pixels[0].directions,
+            draws: passes * self.parts.len(),
+            passes,
+            directions_per_pass: whole.map_or(0, |whole| whole.directions),
             pixel_slots: [
                 slots.iter().map(|phase| phase.texture).sum(),
                 slots.iter().map(|phase| phase.arithmetic).sum(),
             ],
             vertex: self.vertex_counts,
-            volume_bytes: self.volume.grid.extents().iter().product::<usize>() as u64
-                * self.options.texture.bytes() as u64,
-            volume: self.volume.grid.extents(),
+            volume_bytes: texels as u64 * self.options.texture.bytes() as u64,
             vertices: self.vertices.vertices.len(),
             triangles: self.mesh.vertices.triangles().len(),
         }
@@ -214,18 +199,20 @@ impl<'a> BiScaleCard<'a> {
         self.draw_depth(target, &head)?;
         let [x, y, z] = self.frame.of_scene(wide(view.camera.eye())).to_array().map(|value| value as f32);
         head.push([x, y, z, 1.0]);
-        for first in (0..directions).step_by(self.layout.directions()) {
-            let count = self.layout.directions().min(directions - first);
-            let stream = LocalStream {
-                vertices: &self.vertices,
-                layout: self.layout,
-                local,
-                directions,
-                factor: view.exposure * self.volume.scale,
-                format: self.options.local,
-            };
-            let sets = stream.sets(first, count)?;
-            self.draw_pass(target, &head, (&sets, first, count))?;
+        for part in 0..self.parts.len() {
+            for first in (0..directions).step_by(self.layout.directions()) {
+                let count = self.layout.directions().min(directions - first);
+                let stream = LocalStream {
+                    vertices: &self.vertices,
+                    layout: self.layout,
+                    local,
+                    directions,
+                    factor: view.exposure * self.parts[part].volume.scale,
+                    format: self.options.local,
+                };
+                let sets = stream.sets(first, count)?;
+                self.draw_pass((target, part), &head, (&sets, first, count))?;
+            }
         }
         Ok(target)
     }
@@ -244,14 +231,15 @@ impl<'a> BiScaleCard<'a> {
         Ok(())
     }
 
-    /// The directions of a pass, where the mesh is what the depth buffer shows, added to the target.
+    /// The directions of a pass, where a texture's triangles are what the depth buffer shows, added to the target.
     fn draw_pass(
         &mut self,
-        target: NearestTarget,
+        (target, part): (NearestTarget, usize),
         head: &[[f32; 4]],
         (sets, first, count): (&[Attribute], usize, usize),
     ) -> Result<(), BiScaleCardError> {
-        let grid = &self.volume.grid;
+        let part = &self.parts[part];
+        let grid = &part.volume.grid;
         let [width, height, _] = grid.extents().map(|side| side as f64);
         let origin = |direction: usize| {
             let [x, y] = grid.origin(direction);
@@ -266,16 +254,16 @@ impl<'a> BiScaleCard<'a> {
             constants: &vertex_constants,
             streams: vertex_streams(attributes),
         };
-        let known = self.pixels.iter().find(|known| known.directions == count);
+        let known = part.pixels.iter().find(|known| known.directions == count);
         let pixel = &known.expect("a program for each number of directions").program;
         let mut call = DrawCall::new(source, Primitive::TriangleList, pixel, &pixel_constants, target.color);
         call.center = PixelCenter::OpenGl;
         call.depth = DepthState { test: Some(CompareFunction::Equal), write: false };
         call.depth_buffer = Some(target.depth);
-        call.indices = Some(&self.vertices.indices);
+        call.indices = Some(&part.indices);
         call.blend = Some(ADD);
         call.masks[0] = if first == 0 { WriteMask::ALL } else { COLORS };
-        call = call.with_texture(0, self.volume.id, BILINEAR);
+        call = call.with_texture(0, part.volume.id, BILINEAR);
         self.machine.draw(&call)?;
         Ok(())
     }

@@ -11,6 +11,7 @@ mod error;
 mod gather;
 mod lists;
 mod options;
+mod parts;
 pub mod reference;
 mod streams;
 mod subject;

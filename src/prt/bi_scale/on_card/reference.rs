@@ -38,7 +38,7 @@ pub fn pixel(
     (eye, edges): ([f32; 3], BlockEdges),
     seen: &SeenPixel,
 ) -> [f64; 3] {
-    let (texture, directions) = (mesh.texture, mesh.texture.light().directions().len());
+    let (texture, directions) = (mesh.texture(seen.triangle), mesh.directions());
     let (mut uv, mut view) = ([0.0; 2], DVec3::ZERO);
     let of_corner = mesh.coordinates[seen.triangle as usize];
     for ((corner, weight), coordinates) in seen.corners.into_iter().zip(seen.weights).zip(of_corner) {

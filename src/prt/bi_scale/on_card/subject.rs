@@ -7,15 +7,17 @@ use crate::geom::Mesh;
 use crate::prt::bi_scale::texture::BidirectionalTexture;
 use crate::prt::transfer::Vertices;
 
-/// A mesh that one bidirectional texture covers.
+/// A mesh that bidirectional textures cover.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedMesh<'a> {
     /// The mesh, with local frames.
     pub vertices: &'a Vertices,
     /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
     pub coordinates: &'a [[[f32; 2]; 3]],
-    /// The texture.
-    pub texture: &'a BidirectionalTexture,
+    /// The textures, of the same directions of light.
+    pub textures: &'a [BidirectionalTexture],
+    /// The number of each triangle's texture.
+    pub texture_of: &'a [u32],
 }
 
 /// Texture coordinates of the corners of a mesh's triangles, in units of a patch that is repeated so many times.
@@ -63,14 +65,34 @@ impl CardVertices {
 impl TexturedMesh<'_> {
     /// The directions of light M.
     pub(super) fn directions(&self) -> usize {
-        self.texture.light().directions().len()
+        self.textures.first().map_or(0, |texture| texture.light().directions().len())
+    }
+
+    /// The texture of a triangle.
+    pub(super) fn texture(&self, triangle: u32) -> &BidirectionalTexture {
+        &self.textures[self.texture_of[triangle as usize] as usize]
     }
 
     /// Checks that the parts go together.
     pub(super) fn check(&self) -> Result<(), BiScaleCardError> {
-        let (expected, found) = (self.vertices.triangles().len(), self.coordinates.len());
-        if expected != found {
-            return Err(BiScaleCardError::Size { what: "triangles with texture coordinates", expected, found });
+        let expected = self.vertices.triangles().len();
+        for (what, found) in [
+            ("triangles with texture coordinates", self.coordinates.len()),
+            ("triangles with a texture", self.texture_of.len()),
+        ] {
+            if expected != found {
+                return Err(BiScaleCardError::Size { what, expected, found });
+            }
+        }
+        if let Some(&number) = self.texture_of.iter().find(|&&number| number as usize >= self.textures.len()) {
+            let (expected, found) = (number as usize + 1, self.textures.len());
+            return Err(BiScaleCardError::Size { what: "textures, which triangles name", expected, found });
+        }
+        let expected = self.directions();
+        let mut lights = self.textures.iter().map(|texture| texture.light().directions().len());
+        if let Some(found) = lights.find(|&found| found != expected) {
+            let what = "directions of light in each texture";
+            return Err(BiScaleCardError::Size { what, expected, found });
         }
         let bad = self.coordinates.as_flattened().as_flattened().iter().find(|value| !value.is_finite());
         match bad {

@@ -209,7 +209,8 @@ fn blocks_repeat_as_the_hosts_patch_does() {
 struct Hills {
     vertices: Vertices,
     coordinates: Vec<[[f32; 2]; 3]>,
-    texture: BidirectionalTexture,
+    textures: Vec<BidirectionalTexture>,
+    texture_of: Vec<u32>,
     local: Vec<[f32; 3]>,
 }
 
@@ -224,12 +225,13 @@ impl Hills {
         let random = CounterRng::new(21);
         let numbers = vertices.len() * texture.light().directions().len();
         let local = (0..numbers as u64).map(|at| [0, 1, 2].map(|channel| (0.1 * random.unit(at, channel, 0)) as f32));
-        Self { local: local.collect(), coordinates, texture, vertices }
+        let texture_of = vec![0; vertices.triangles().len()];
+        Self { local: local.collect(), coordinates, textures: vec![texture], texture_of, vertices }
     }
 
     fn mesh(&self) -> TexturedMesh<'_> {
-        let Self { vertices, coordinates, texture, .. } = self;
-        TexturedMesh { vertices, coordinates, texture }
+        let Self { vertices, coordinates, textures, texture_of, .. } = self;
+        TexturedMesh { vertices, coordinates, textures, texture_of }
     }
 
     fn draw(&self, profile: &Profile, options: DisplayOptions, format: TexelFormat) -> Texels {
@@ -302,6 +304,29 @@ fn pictures_are_equation_3_of_what_is_interpolated() {
     }
 }
 
+/// Triangles show their own textures, of any sizes and views; what is drawn twice are directions alone, and no pixel
+/// belongs to two textures. A texture that no triangle names takes nothing.
+#[test]
+fn triangles_show_their_own_textures() {
+    let mut hills = Hills::new(flat(5, 4));
+    let other = CounterRng::new(24);
+    let size = |at: usize| [0, 1, 2].map(|channel| other.unit((at / 4) as u64, channel, 0) as f32);
+    hills.textures.extend([texture(2, 3, 4, size), flat(2, 4)]);
+    hills.texture_of = (0..50).map(|triangle| u32::from(triangle % 3 == 1)).collect();
+    let options = floats(BlockEdges::default());
+    let profile = device("gt200");
+    let drawing = hills.draw(&profile, options, FLOATS);
+    let [_, error] = hills.error(&profile, options.edges, &drawing);
+    assert!(error < 3e-6, "{error}");
+    let counts =
+        BiScaleCard::new(profile.clone(), ExecutorKind::Batch, hills.mesh(), options).expect("a card").counts();
+    assert_eq!((counts.passes, counts.draws), (2, 4));
+    hills.texture_of = vec![0; 50];
+    let one = hills.draw(&profile, options, FLOATS);
+    let differ = one.texels.iter().zip(&drawing.texels).filter(|(a, b)| a != b).count();
+    assert!((100..1400).contains(&differ), "{differ}");
+}
+
 /// Each thing held in fewer bits, the others in single precision.
 #[test]
 fn fewer_bits_show() {
@@ -331,7 +356,6 @@ fn passes_fill_the_sets_of_coordinates() {
         .expect("a card");
     let counts = card.counts();
     assert_eq!((counts.passes, counts.directions_per_pass), (2, 9));
-    assert_eq!(counts.volume, [24, 24, 9]);
     assert_eq!(counts.volume_bytes, 4 * 24 * 24 * 9);
     let view = PrtView { camera: camera(), exposure: 1.0, format: FLOATS };
     let (_, log) = card.logged_view(&hills.local, &view).expect("a frame");
@@ -396,7 +420,11 @@ fn parts_that_do_not_go_together_are_refused() {
     let mut lost = hills.coordinates.clone();
     lost[3][1][0] = f32::NAN;
     let lost = TexturedMesh { coordinates: &lost, ..hills.mesh() };
-    for mesh in [fewer, lost] {
+    let untextured = TexturedMesh { texture_of: &hills.texture_of[1..], ..hills.mesh() };
+    let other = TexturedMesh { texture_of: &[2; 50], ..hills.mesh() };
+    let unlike = [flat(2, 2), flat(2, 3)];
+    let unlike = TexturedMesh { textures: &unlike, ..hills.mesh() };
+    for mesh in [fewer, lost, untextured, other, unlike] {
         let card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, mesh, DisplayOptions::default());
         messages.push(card.map(|_| ()).expect_err("refused").to_string());
     }
@@ -413,6 +441,9 @@ fn parts_that_do_not_go_together_are_refused() {
     expected an exposure of 0 to 1e30, found NaN
     expected 50 triangles with texture coordinates, found 49
     expected finite texture coordinates, found NaN
+    expected 50 triangles with a texture, found 49
+    expected 3 textures, which triangles name, found 1
+    expected 4 directions of light in each texture, found 9
     the mesh has no texture coordinates, by which a bidirectional texture is placed
     expected 10 numbers of light, found 9
     expected light of finite numbers, of 0 or more in bytes, found -1

@@ -43,7 +43,8 @@ pub(super) fn display(
     let samples = vec![[0.0; 3]; VIEWS * VIEWS * lights * PATCH * PATCH];
     let texture = BidirectionalTexture::new(PATCH, view, light, samples).map_err(|error| fail(&error))?;
     let coordinates = corner_coordinates(mesh, [1.0; 2]).map_err(|error| fail(&error))?;
-    let textured = TexturedMesh { vertices, coordinates: &coordinates, texture: &texture };
+    let (textures, texture_of) = ([texture], vec![0; mesh.len()]);
+    let textured = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of: &texture_of };
     let profile = Profile::named(CARD).map_err(|error| fail(&error))?;
     let options = DisplayOptions::default();
     let mut card =

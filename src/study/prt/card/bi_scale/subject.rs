@@ -21,7 +21,7 @@ use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
 use crate::study::timeline_trace::TimelineError;
 
-/// A model with biclusters of its transfer, a bidirectional texture, a light and a camera, and the card.
+/// A model with biclusters of its transfer, bidirectional textures, a light and a camera, and the card.
 #[derive(Debug)]
 pub struct BiScaleOnCard {
     /// The model's name.
@@ -30,10 +30,12 @@ pub struct BiScaleOnCard {
     pub vertices: Vertices,
     /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
     pub coordinates: Vec<[[f32; 2]; 3]>,
-    /// Transfer to the texture's directions of light.
+    /// Transfer to the textures' directions of light.
     pub biclusters: Biclustering,
-    /// The texture.
-    pub texture: BidirectionalTexture,
+    /// The textures.
+    pub textures: Vec<BidirectionalTexture>,
+    /// The number of each triangle's texture.
+    pub texture_of: Vec<u32>,
     /// The light's name.
     pub light_name: String,
     /// The light.
@@ -98,14 +100,19 @@ pub enum BiScaleCardStudyError {
 
 impl BiScaleOnCard {
     pub(super) fn mesh(&self) -> TexturedMesh<'_> {
-        let Self { vertices, coordinates, texture, .. } = self;
-        TexturedMesh { vertices, coordinates, texture }
+        let Self { vertices, coordinates, textures, texture_of, .. } = self;
+        TexturedMesh { vertices, coordinates, textures, texture_of }
+    }
+
+    /// The directions of light of a texture.
+    pub(super) fn directions(&self) -> usize {
+        self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
 
     /// Refuses biclusters of other vertices, directions or light.
     pub(super) fn check(&self) -> Result<(), BiScaleCardStudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
-        let expected = self.vertices.len() * self.texture.light().directions().len();
+        let expected = self.vertices.len() * self.directions();
         for (what, expected, found) in [
             ("vertices times the texture's directions of light", expected, rows),
             ("light texels", LIGHT_TEXELS, columns),
