@@ -126,8 +126,25 @@ impl LowerBounds {
     }
 
     /// The bounds of a lane, cluster by cluster.
+    #[cfg(test)]
     pub(super) fn of(&self, lane: usize) -> impl Iterator<Item = f32> {
         self.errors.iter().map(move |errors| errors[lane])
+    }
+
+    /// The bounds of a cluster, lane by lane.
+    #[inline(always)]
+    pub(super) fn of_cluster(&self, cluster: u32) -> &[f32; LANES] {
+        &self.errors[cluster as usize]
+    }
+
+    /// The cluster of a lane's least bound, the first of equals.
+    #[inline(always)]
+    pub(super) fn least(&self, lane: usize) -> u32 {
+        let mut first = 0;
+        for (cluster, errors) in self.errors.iter().enumerate() {
+            first = if errors[lane] < self.errors[first][lane] { cluster } else { first };
+        }
+        first as u32
     }
 
     /// Takes the points' squared lengths, which are the distances from means that are 0.

@@ -186,7 +186,10 @@ impl Residuals<'_> {
     fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
         let (length, points) = (self.mean.len(), self.points.len());
         let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
-        let columns = Packed::<f64, COLUMNS>::new(length, points, |j, into| self.component(self.points, j, into));
+        let columns = Packed::<f64, COLUMNS>::across(length, points, |at, first, into| {
+            let values = self.signal.point(self.points[at] as usize)[first..].iter().zip(&self.mean[first..]);
+            into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
+        });
         let mut combined = vec![0.0; count * length];
         for (rows, into) in rows.groups().zip(combined.chunks_mut(ROWS * length)) {
             for (group, columns) in columns.groups().enumerate() {

@@ -20,6 +20,7 @@ mod compress;
 mod estimate;
 mod fit;
 mod gram;
+mod least;
 mod members;
 mod nearest;
 mod options;

@@ -10,6 +10,7 @@ use refsim::exec::batch::SimdLevel;
 
 use super::axes::Axes;
 use super::estimate::{Estimator, LANES, LowerBounds, ScaledSubspace};
+use super::least::{LeastScratch, least};
 use super::products::Packed;
 use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
@@ -61,21 +62,17 @@ impl<'a> Points<'a> {
         let estimator = self.estimator(subspaces);
         let mut found = vec![(0, 0.0); order.len()];
         let blocks = found.par_chunks_mut(BLOCK).zip(order.par_chunks(BLOCK));
-        let scratch = || (vec![LowerBounds::new(subspaces.len()); GROUPS], Vec::new(), Vec::new());
-        blocks.for_each_init(scratch, |(groups, lower, residual), (found, points)| {
+        let scratch = || (vec![LowerBounds::new(subspaces.len()); GROUPS], LeastScratch::default());
+        blocks.for_each_init(scratch, |(groups, scratch), (found, points)| {
             self.level.run(
                 #[inline(always)]
                 || estimator.estimate(&self.packed(points), groups),
             );
-            for (i, (found, &point)) in found.iter_mut().zip(points).enumerate() {
-                lower.clear();
-                lower.extend(groups[i / LANES].of(i % LANES));
-                let point = self.signal.point(point as usize);
-                *found = self.level.run(
-                    #[inline(always)]
-                    || least(point, subspaces, lower, self.scale, residual),
-                );
-            }
+            let points: Vec<&[f32]> = points.iter().map(|&point| self.signal.point(point as usize)).collect();
+            self.level.run(
+                #[inline(always)]
+                || least(&points, subspaces, (groups, self.scale), scratch, found),
+            );
         });
         let mut nearest = Nearest { cluster: vec![0; order.len()], squared_error: vec![0.0; order.len()] };
         for (&point, (cluster, error)) in order.iter().zip(found) {
@@ -117,30 +114,6 @@ impl<'a> Points<'a> {
             }),
         }
     }
-}
-
-/// The cluster of least error in f64, the lower of equals, and its error. `lower` has a lower bound for each, scaled.
-#[inline(always)]
-fn least(
-    point: &[f32],
-    subspaces: &[&AffineSubspace],
-    lower: &[f32],
-    scale: f64,
-    residual: &mut Vec<f64>,
-) -> (u32, f64) {
-    let mut first = 0;
-    (1..lower.len()).for_each(|cluster| first = if lower[cluster] < lower[first] { cluster } else { first });
-    let mut best = (first as u32, subspaces[first].squared_error(point, residual));
-    for (cluster, &lower) in lower.iter().enumerate() {
-        if cluster == first || f64::from(lower) > best.1 * scale * scale {
-            continue;
-        }
-        let error = subspaces[cluster].squared_error(point, residual);
-        if error < best.1 || (error == best.1 && cluster < best.0 as usize) {
-            best = (cluster as u32, error);
-        }
-    }
-    best
 }
 
 fn component_mean(signal: &Signal, component: usize) -> f64 {

@@ -63,7 +63,7 @@ impl AffineSubspace {
     }
 
     #[inline(always)]
-    fn residual(&self, point: &[f32], into: &mut Vec<f64>) {
+    pub(super) fn residual(&self, point: &[f32], into: &mut Vec<f64>) {
         into.clear();
         into.extend(point.iter().zip(&self.mean).map(|(&value, mean)| f64::from(value) - mean));
     }
