@@ -244,6 +244,11 @@ pub const ENTRIES: &[ReproduceEntry] = &[
         work: bi_scale::frames,
     },
     ReproduceEntry {
+        id: "bi-scale-table-1",
+        title: "Biclusters of an armor, a chair and a temple (bi-scale transfer, table I)",
+        work: bi_scale::table_1,
+    },
+    ReproduceEntry {
         id: "bi-scale-table-2",
         title: "Biclusters of bunnies (bi-scale transfer, table II)",
         work: bi_scale::table_2,

@@ -8,6 +8,7 @@ mod figures;
 mod frames;
 mod models;
 mod printed;
+mod table_1;
 mod table_2;
 
 pub(super) use counts::findings as counts;
@@ -16,6 +17,7 @@ pub(super) use figure_8::findings as figure_8;
 pub(super) use figures::findings as figures;
 pub(super) use frames::findings as frames;
 pub(super) use models::BiScaleShared;
+pub(super) use table_1::findings as table_1;
 pub(super) use table_2::findings as table_2;
 
 use super::once::get_or_try;

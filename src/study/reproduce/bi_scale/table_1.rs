@@ -1,0 +1,82 @@
+//! Table I on stand-ins: biclusters of an armor, a chair and a temple; the bunny is Table II's.
+
+use super::models::{ClusteredModel, SeenModel};
+use super::printed::{PrintedScene, SCENES};
+use super::{
+    Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
+    Standing, number,
+};
+use crate::geom::Mesh;
+use crate::prt::all_frequency::visibility::Horizon;
+use crate::report::{Cell, Table};
+use crate::scene::built::flat_models::FlatModel;
+use crate::scene::built::transfer_models::TransferModel;
+
+const HOW: &str = "The paper's models are not at hand. Ours are made by code: a bumpy body, and a chair and a temple of flat parts, with edges {} times as long as in \
+    models of the printed sizes. Nonzero values are judged by vertex; more vertices of a coarse model of parts stand inside of other parts and see nothing. \
+    Which share of operations is left falls as a model grows, since neighbors become alike. Vertices see what triangles leave free.";
+const QUESTION: &str =
+    "the models, and how many of their vertices stand inside of other parts, where they see nothing.";
+/// Edges of reduced models, in edges of whole ones.
+const COARSER: u32 = 4;
+
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+    let coarser = if shared.models == ModelSize::Reduced { COARSER } else { 1 };
+    let models: [(&PrintedScene, Mesh); 3] = [
+        (&SCENES[1], TransferModel::BiScaleArmor.mesh(coarser)),
+        (&SCENES[2], FlatModel::Chair.model(coarser).mesh),
+        (&SCENES[3], FlatModel::Temple.model(coarser).mesh),
+    ];
+    let mut table = Table::of(
+        "Biclusters of the stand-ins",
+        "scene vertices_printed vertices nonzeros_M biclusters thousand_per_vertex_printed thousand_per_vertex \
+         operations_left_%_printed operations_left_% MB by_rows_3_bytes_MB",
+    );
+    let mut rows = Vec::new();
+    for (scene, mesh) in models {
+        let seen = SeenModel::new(&mesh, Horizon::Geometry)?;
+        let (vertices, found) = (seen.vertices.len(), seen.clustered(scene.side)?);
+        rows.extend(scene_rows(scene, vertices, &found));
+        table.push([
+            scene.name.into(),
+            scene.vertices.into(),
+            vertices.into(),
+            Cell::decimals(1e-6 * found.nonzeros as f64, 2),
+            found.biclusters.len().into(),
+            Cell::decimals(1e3 * scene.nonzeros / scene.vertices as f64, 2),
+            Cell::decimals(per_vertex(&found, vertices), 2),
+            Cell::decimals(scene.operations_left, 1),
+            Cell::decimals(found.operations_left(), 1),
+            Cell::decimals(found.megabytes(), 1),
+            Cell::decimals(3e-6 * found.nonzeros as f64, 1),
+        ]);
+    }
+    Ok(EntryFindings {
+        text: vec![Prose::new(HOW, [number(f64::from(coarser), 0)])],
+        rows,
+        questions: vec![QUESTION],
+        tables: vec![table],
+        ..EntryFindings::default()
+    })
+}
+
+/// Thousands of values other than 0.
+fn per_vertex(found: &ClusteredModel, vertices: usize) -> f64 {
+    1e-3 * found.nonzeros as f64 / vertices as f64
+}
+
+fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> [PaperRow; 2] {
+    let implied = Origin::Implied(format!("{} million of {} vertices", scene.nonzeros, scene.vertices));
+    let printed = 1e3 * scene.nonzeros / scene.vertices as f64;
+    let values =
+        PaperFigure { origin: implied, ..PaperFigure::printed(printed, 2, "thousand per vertex", scene.place) };
+    let left = PaperFigure::printed(scene.operations_left, 1, "%", scene.place);
+    let row = |what: &str, target, ours| {
+        let name = format!("{}: {what}", scene.name);
+        PaperRow::new(name, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
+    };
+    [
+        row("values of our model's T other than 0", values, per_vertex(found, vertices)),
+        row("operations that our model's biclusters leave", left, found.operations_left()),
+    ]
+}
