@@ -76,6 +76,11 @@ pub fn light_vectors(light: &CubeLight) -> [Vec<f64>; 3] {
         .map(|channel: usize| light_vector(&light.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>()))
 }
 
+/// Red, green and blue side by side: a color of each number of three vectors.
+pub fn side_by_side([red, green, blue]: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
+    red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+}
+
 /// L: radiance per texel times the texel's solid angle in steradians, which T leaves out.
 ///
 /// # Panics

@@ -5,7 +5,6 @@ use std::path::Path;
 use super::textures::TransferOfModel;
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::model_name;
 use crate::cli::prt::render;
 use crate::cli::study::StudyArgs;
 use crate::study::prt::{BiScaleRendering, TexturedSurface};
@@ -40,19 +39,11 @@ impl StudyArgs for Args<'_> {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        let model = model_name::named_file(&self.0.model);
-        [self.0.file()]
-            .into_iter()
-            .chain(model)
-            .chain(self.0.light.file())
-            .chain(self.0.bi_scale.textures.files())
-            .collect()
+        self.0.bi_scale.textures.inputs(self.0.file(), &self.0.model, &self.0.light)
     }
 
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        let pictures = self.0.pictures();
-        let bytes = pictures.bytes.saturating_add(self.0.bi_scale.textures.bytes());
-        Ok(Some(MemoryNeed { bytes, help: "ask for a smaller `--size` or `--texture-size`", ..pictures }))
+        Ok(Some(self.0.bi_scale.textures.memory(self.0.pictures())))
     }
 
     fn study(&self) -> miette::Result<BiScaleRendering> {

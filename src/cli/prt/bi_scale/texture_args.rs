@@ -5,6 +5,9 @@ use std::str::FromStr;
 
 use super::textures::{PatchArgs, TransferOfModel, no_texture, patch_kind};
 use crate::cli::Problem;
+use crate::cli::memory::MemoryNeed;
+use crate::cli::model_name;
+use crate::cli::prt::light::LightArgs;
 use crate::cli::prt::model::materials_of;
 use crate::names::did_you_mean;
 use crate::prt::bi_scale::directions::LocalDirections;
@@ -65,15 +68,18 @@ impl TextureArgs {
         Ok((transfer, texture_of))
     }
 
-    /// Bytes of the samples of patches.
-    pub(super) fn bytes(&self) -> u64 {
-        let patches = self.texture.iter().filter(|texture| patch_kind(&texture.source).is_some()).count() as u64;
-        patches.saturating_mul(self.patches.bytes())
+    /// The files that pictures are made from: transfer, model, light, textures.
+    pub(super) fn inputs<'a>(&'a self, transfer: &'a Path, model: &'a Path, light: &'a LightArgs) -> Vec<&'a Path> {
+        let files = self.texture.iter().map(|texture| texture.source.as_path());
+        let files = files.filter(|source| patch_kind(source).is_none());
+        [transfer].into_iter().chain(model_name::named_file(model)).chain(light.file()).chain(files).collect()
     }
 
-    /// The files of textures.
-    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
-        self.texture.iter().map(|texture| texture.source.as_path()).filter(|source| patch_kind(source).is_none())
+    /// What pictures need, and the samples of patches.
+    pub(super) fn memory(&self, pictures: MemoryNeed) -> MemoryNeed {
+        let patches = self.texture.iter().filter(|texture| patch_kind(&texture.source).is_some()).count() as u64;
+        let bytes = pictures.bytes.saturating_add(patches.saturating_mul(self.patches.bytes()));
+        MemoryNeed { bytes, help: "ask for a smaller `--size` or `--texture-size`", ..pictures }
     }
 
     /// The texture of each material, by its number among those given.

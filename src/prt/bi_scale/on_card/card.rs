@@ -16,7 +16,7 @@ use super::error::BiScaleCardError;
 use super::gather::version;
 use super::options::DisplayOptions;
 use super::parts::{CardPart, parts};
-use super::streams::LocalStream;
+use super::streams::{LocalStream, largest};
 use super::subject::{CardVertices, TexturedMesh};
 use crate::card::{Attribute, BILINEAR, NearestTarget, Texels, ViewTarget, attribute, constants, vertex_streams};
 use crate::geom::UnitFrame;
@@ -133,12 +133,17 @@ impl<'a> BiScaleCard<'a> {
         &mut self.machine
     }
 
+    /// Width, height and depth of each texture's volume in texels.
+    pub fn volumes(&self) -> impl Iterator<Item = [usize; 3]> {
+        self.parts.iter().map(|part| part.volume.grid.extents())
+    }
+
     /// What a frame takes.
     pub fn counts(&self) -> DisplayCounts {
         let whole = self.parts.first().and_then(|part| part.pixels.first());
         let slots = whole.map_or(&[][..], |whole| &whole.program.facts().slots);
         let passes = self.layout.passes(self.mesh.directions());
-        let texels: usize = self.parts.iter().map(|part| part.volume.grid.extents().iter().product::<usize>()).sum();
+        let texels: usize = self.volumes().map(|extents| extents.iter().product::<usize>()).sum();
         DisplayCounts {
             draws: passes * self.parts.len(),
             passes,
@@ -200,6 +205,8 @@ impl<'a> BiScaleCard<'a> {
         let [x, y, z] = self.frame.of_scene(wide(view.camera.eye())).to_array().map(|value| value as f32);
         head.push([x, y, z, 1.0]);
         for part in 0..self.parts.len() {
+            let factor = view.exposure * self.parts[part].volume.scale;
+            let largest = largest(local, factor)?;
             for first in (0..directions).step_by(self.layout.directions()) {
                 let count = self.layout.directions().min(directions - first);
                 let stream = LocalStream {
@@ -207,7 +214,8 @@ impl<'a> BiScaleCard<'a> {
                     layout: self.layout,
                     local,
                     directions,
-                    factor: view.exposure * self.parts[part].volume.scale,
+                    factor,
+                    largest,
                     format: self.options.local,
                 };
                 let sets = stream.sets(first, count)?;

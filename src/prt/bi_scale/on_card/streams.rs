@@ -18,25 +18,21 @@ pub(super) struct LocalStream<'a> {
     pub(super) directions: usize,
     /// Exposure, and what texels are to be multiplied by.
     pub(super) factor: f64,
+    /// The largest number times that.
+    pub(super) largest: f64,
     pub(super) format: LocalFormat,
 }
 
 impl LocalStream<'_> {
     /// The sets of a pass but the last, which is begun by the first direction of the pass.
     pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, BiScaleCardError> {
-        let numbers = self.local.as_flattened().iter();
-        let largest = numbers.fold(0.0_f64, |most, &value| most.max((self.factor * f64::from(value)).abs()));
-        if !largest.is_finite() || largest > f64::from(f32::MAX) {
-            let what = "local light times exposure that single precision holds";
-            return Err(BiScaleCardError::Figure { what, found: largest });
-        }
         let of_vertex = |&vertex: &u32| {
             let mut sets = vec![[0_u32; 4]; self.layout.last()];
             let light = &self.local[vertex as usize * self.directions..][..self.directions];
             for (direction, rgb) in light[first..first + count].iter().enumerate() {
                 for (channel, &value) in rgb.iter().enumerate() {
                     let (set, component) = self.layout.place(direction, channel);
-                    let value = self.format.rounded(self.factor * f64::from(value), largest);
+                    let value = self.format.rounded(self.factor * f64::from(value), self.largest);
                     sets[set][component] = value.to_bits();
                 }
             }
@@ -49,4 +45,17 @@ impl LocalStream<'_> {
         }
         Ok((0..self.layout.last()).map(|set| by_vertex.iter().map(|sets| sets[set]).collect()).collect())
     }
+}
+
+/// The largest number of local light times a factor.
+///
+/// # Errors
+/// [`BiScaleCardError::Figure`] if single precision does not hold it.
+pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, BiScaleCardError> {
+    let numbers = local.as_flattened().iter();
+    let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));
+    if found.is_finite() && found <= f64::from(f32::MAX) {
+        return Ok(found);
+    }
+    Err(BiScaleCardError::Figure { what: "local light times exposure that single precision holds", found })
 }

@@ -356,6 +356,7 @@ fn passes_fill_the_sets_of_coordinates() {
         .expect("a card");
     let counts = card.counts();
     assert_eq!((counts.passes, counts.directions_per_pass), (2, 9));
+    assert_eq!(card.volumes().collect::<Vec<_>>(), [[24, 24, 9]]);
     assert_eq!(counts.volume_bytes, 4 * 24 * 24 * 9);
     let view = PrtView { camera: camera(), exposure: 1.0, format: FLOATS };
     let (_, log) = card.logged_view(&hills.local, &view).expect("a frame");

@@ -1,7 +1,5 @@
 //! A rendering in the making: what its pixels show, and its textures laid out.
 
-use std::time::Instant;
-
 use glam::DMat3;
 use rayon::prelude::*;
 
@@ -16,14 +14,6 @@ use crate::prt::bi_scale::shade::TextureLookup;
 use crate::prt::file::BiScaleMeaning;
 use crate::scene::Camera;
 use crate::study::ProgressFn;
-
-/// What steps of a frame took, in seconds.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct StepTimes {
-    pub(super) light: f64,
-    pub(super) transfer: f64,
-    pub(super) shading: f64,
-}
 
 /// A rendering whose pixels are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {
@@ -54,25 +44,20 @@ impl<'a> BiScaleDrawing<'a> {
         Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.camera), lookups })
     }
 
-    /// The light's texels, and L~.
+    /// The light's texels, turned by a rotation.
     ///
     /// # Errors
-    /// [`BiScaleError::Light`], [`BiScaleError::NoTransfer`].
-    pub(in crate::study) fn light(&self, rotation: &DMat3) -> Result<(CubeLight, LocalLight), BiScaleError> {
-        self.timed_light(rotation, &mut StepTimes::default())
+    /// [`BiScaleError::Light`].
+    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, BiScaleError> {
+        Ok(self.rendering.light.cube(rotation, Decimation::SolidAngle)?)
     }
 
-    pub(super) fn timed_light(
-        &self,
-        rotation: &DMat3,
-        times: &mut StepTimes,
-    ) -> Result<(CubeLight, LocalLight), BiScaleError> {
-        let start = Instant::now();
-        let cube = self.rendering.light.cube(rotation, Decimation::SolidAngle)?;
-        times.light = start.elapsed().as_secs_f64();
-        let local = LocalLight::new(&self.rendering.file, &cube).ok_or(BiScaleError::NoTransfer)?;
-        times.transfer = local.seconds;
-        Ok((cube, local))
+    /// L~ of the light's texels.
+    ///
+    /// # Errors
+    /// [`BiScaleError::NoTransfer`].
+    pub(in crate::study) fn local(&self, cube: &CubeLight) -> Result<LocalLight, BiScaleError> {
+        LocalLight::new(&self.rendering.file, cube).ok_or(BiScaleError::NoTransfer)
     }
 
     /// Equation 3 at all pixels with L~; black where there is nothing.

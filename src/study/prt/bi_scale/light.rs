@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::prt::all_frequency::light::CubeLight;
 use crate::prt::bi_scale::product::{Gather, by_rows, reference};
-use crate::prt::bi_scale::transfer::light_vectors;
+use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::prt::file::BiScaleFile;
 
 /// L~ of all vertices.
@@ -43,13 +43,12 @@ impl LocalLight {
     pub fn exact(file: &BiScaleFile, light: &CubeLight) -> Option<Self> {
         let channels = light_vectors(light);
         let start = Instant::now();
-        let (way, [red, green, blue]) = match (&file.matrix, &file.biclusters) {
+        let (way, channels) = match (&file.matrix, &file.biclusters) {
             (Some(matrix), _) => ("rows", channels.map(|channel| by_rows(matrix, &channel))),
             (None, Some(biclusters)) => ("biclusters", channels.map(|channel| reference(biclusters, &channel))),
             (None, None) => return None,
         };
         let seconds = start.elapsed().as_secs_f64();
-        let rows = red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect();
-        Some(Self { way, rows, seconds })
+        Some(Self { way, rows: side_by_side(channels), seconds })
     }
 }

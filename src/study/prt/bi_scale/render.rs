@@ -6,7 +6,7 @@ use glam::DMat3;
 use serde_json::json;
 
 use super::causes;
-use super::drawing::{BiScaleDrawing, StepTimes};
+use super::drawing::BiScaleDrawing;
 use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
@@ -18,6 +18,21 @@ use crate::study::prt::render::carried;
 use crate::study::prt::{Turning, auto_exposure, linear_picture};
 use crate::study::{ProgressFn, Study};
 
+/// What steps of a frame took, in seconds.
+#[derive(Clone, Copy, Debug)]
+struct StepTimes {
+    light: f64,
+    transfer: f64,
+    shading: f64,
+}
+
+/// What some work gives, and its seconds.
+fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
+    let start = Instant::now();
+    let found = work();
+    (found, start.elapsed().as_secs_f64())
+}
+
 impl Study for BiScaleRendering {
     type Error = BiScaleError;
 
@@ -26,11 +41,11 @@ impl Study for BiScaleRendering {
         progress("rays", 0, steps);
         let drawing = BiScaleDrawing::new(self)?;
         progress("radiance", 1, steps);
-        let mut times = StepTimes::default();
-        let (cube, local) = drawing.timed_light(&DMat3::IDENTITY, &mut times)?;
-        let start = Instant::now();
-        let drawn = drawing.shade(&local.rows);
-        times.shading = start.elapsed().as_secs_f64();
+        let (cube, light) = timed(|| drawing.cube(&DMat3::IDENTITY));
+        let cube = cube?;
+        let local = drawing.local(&cube)?;
+        let (drawn, shading) = timed(|| drawing.shade(&local.rows));
+        let times = StepTimes { light, transfer: local.seconds, shading };
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("Bi-scale transfer");
         found.taken_from(self.camera.world_to_camera());
@@ -112,7 +127,7 @@ impl BiScaleRendering {
             let turns = f64::from(frame) / f64::from(self.frames);
             let turn = turn_around_z(turns);
             let colors = match self.turning {
-                Turning::Light => drawing.shade(&drawing.light(&turn)?.1.rows),
+                Turning::Light => drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows),
                 // View alone changed: L~ is that of before.
                 Turning::Camera => drawing.shade_from(&carried(&self.camera, &self.surface.mesh, &turn), still),
             };

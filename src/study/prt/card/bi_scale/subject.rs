@@ -15,7 +15,7 @@ use crate::prt::bi_scale::bicluster::Biclustering;
 use crate::prt::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
 use crate::prt::bi_scale::product::reference;
 use crate::prt::bi_scale::texture::BidirectionalTexture;
-use crate::prt::bi_scale::transfer::light_vectors;
+use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::prt::on_card::time::FrameTimeError;
 use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
@@ -127,8 +127,7 @@ impl BiScaleOnCard {
     /// L: of each light texel red, green and blue times its solid angle.
     pub(super) fn light_texels(&self) -> Result<Vec<[f64; 3]>, CubeLightError> {
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
-        let [red, green, blue] = light_vectors(&cube);
-        Ok(red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect())
+        Ok(side_by_side(light_vectors(&cube)))
     }
 
     /// L~ in f64.
@@ -136,7 +135,6 @@ impl BiScaleOnCard {
         let channel = |channel: usize| {
             reference(&self.biclusters, &light.iter().map(|texel| texel[channel]).collect::<Vec<f64>>())
         };
-        let [red, green, blue] = [0, 1, 2].map(channel);
-        red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+        side_by_side([0, 1, 2].map(channel))
     }
 }

@@ -7,7 +7,7 @@ use super::{HOST, ReproduceError, failed};
 use crate::prt::bi_scale::directions::LocalDirections;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
-use crate::prt::bi_scale::transfer::light_vectors;
+use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::report::NamedPicture;
 use crate::study::prt::{BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, linear_picture};
 
@@ -34,7 +34,8 @@ impl DrawnFigure {
         let fail = |error: BiScaleError| failed(HOST)(&error);
         let rendering = model.rendering(side, size)?;
         let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
-        let (cube, local) = drawing.light(&DMat3::IDENTITY).map_err(fail)?;
+        let cube = drawing.cube(&DMat3::IDENTITY).map_err(fail)?;
+        let local = drawing.local(&cube).map_err(fail)?;
         let drawn = drawing.shade(&local.rows);
         let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(fail)?;
         let smooth = match &rendering.file.matrix {
@@ -89,7 +90,8 @@ pub(super) fn by_transfer(
     let fail = |error: BiScaleError| failed(HOST)(&error);
     let rendering = model.rendering(side, size)?;
     let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
-    Ok(drawing.shade(&drawing.light(&DMat3::IDENTITY).map_err(fail)?.1.rows))
+    let cube = drawing.cube(&DMat3::IDENTITY).map_err(fail)?;
+    Ok(drawing.shade(&drawing.local(&cube).map_err(fail)?.rows))
 }
 
 /// L~ by low-frequency bi-scale transfer: harmonics on both sides.
@@ -104,6 +106,5 @@ fn low_frequency(
     let transfer =
         LocalTransfer::new(matrix, rendering.surface.vertices.frames(), &directions).map_err(|e| fail(&e))?;
     let rows = HarmonicRows::of_both(&transfer, ORDER).map_err(|e| fail(&e))?;
-    let [red, green, blue] = channels.each_ref().map(|channel| rows.multiply(channel));
-    Ok(red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect())
+    Ok(side_by_side(channels.each_ref().map(|channel| rows.multiply(channel))))
 }
