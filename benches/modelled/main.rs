@@ -9,11 +9,11 @@
 
 mod runs;
 
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::{BenchmarkId, Criterion};
 use refsim::device::Profile;
 use refsim::event::{Event, ReadBackMode};
 use refsim::timing::replay::Options;
-use refsim::timing::{Level, Model, Picoseconds};
+use refsim::timing::{Level, Model};
 use refsim_criterion::ModelledTime;
 use runs::Batches;
 
@@ -25,20 +25,12 @@ fn model(device: &str) -> Model {
     Model::new(Level::Pipeline, &profile).expect("the card has a time")
 }
 
-/// How long a log takes.
-fn makespan(log: &[Event], model: &Model, read_back: Option<ReadBackMode>) -> Picoseconds {
-    let options = Options { read_back, double_buffered: true, ..Options::default() };
-    ModelledTime::of(log, model, &options).expect("the log can be replayed")
-}
-
 type Group<'a> = criterion::BenchmarkGroup<'a, ModelledTime>;
 
 fn measure(group: &mut Group<'_>, id: BenchmarkId, elements: u64, log: &[Event], model: &Model) {
-    group.throughput(Throughput::Elements(elements));
-    group.bench_function(id, |bencher| {
-        // Replayed every time, so that criterion's idea of how often it can is right.
-        bencher.iter_custom(|times| (0..times).map(|_| makespan(log, model, None)).sum());
-    });
+    let options = Options { double_buffered: true, ..Options::default() };
+    let time = ModelledTime::of(log, model, &options).expect("the log can be replayed");
+    ModelledTime::measure(group, id, elements, time);
 }
 
 /// Fill against read-back: R rays, T triangles.

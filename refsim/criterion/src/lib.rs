@@ -18,12 +18,13 @@
 //! ```
 //!
 //! Logs that are there already go through [`ModelledTime::of`], benchmarks of several kinds through
-//! [`ModelledTime::criterion`].
+//! [`ModelledTime::criterion`] and [`ModelledTime::measure`].
 
+use std::thread;
 use std::time::Duration;
 
 use criterion::measurement::{Measurement, ValueFormatter};
-use criterion::{Criterion, Throughput};
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::{ExecutorKind, Machine, MachineError};
@@ -50,17 +51,25 @@ pub enum RunError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelledTime;
 
+/// Host time of an iteration. Criterion chooses how many iterations to ask for by the host's clock: iterations that take
+/// no time at all are doubled until their count and their picoseconds overflow.
+const HOST_TIME: Duration = Duration::from_micros(100);
+
+/// [`ModelledTime::criterion`] before the command line.
+fn settings() -> Criterion<ModelledTime> {
+    Criterion::default()
+        .with_measurement(ModelledTime)
+        .sample_size(10)
+        .nresamples(1000)
+        .warm_up_time(Duration::from_millis(1))
+        .measurement_time(Duration::from_millis(10))
+}
+
 impl ModelledTime {
     /// Criterion in modelled time. Every sample is the same one, so that ten are enough; arguments of the command line
     /// are heeded.
     pub fn criterion() -> Criterion<Self> {
-        Criterion::default()
-            .with_measurement(Self)
-            .sample_size(10)
-            .nresamples(1000)
-            .warm_up_time(Duration::from_millis(1))
-            .measurement_time(Duration::from_millis(10))
-            .configure_from_args()
+        settings().configure_from_args()
     }
 
     /// How long `run` takes on `card`: clocks of each unit, drawn by the batch executor.
@@ -82,9 +91,20 @@ impl ModelledTime {
     pub fn bench(group: &str, name: &str, elements: u64, run: Picoseconds) {
         let mut criterion = Self::criterion();
         let mut group = criterion.benchmark_group(group);
-        group.throughput(Throughput::Elements(elements));
-        group.bench_function(name, |bencher| bencher.iter_custom(|times| Self::repeat(run, times)));
+        Self::measure(&mut group, BenchmarkId::from_parameter(name), elements, run);
         group.finish();
+    }
+
+    /// Adds a run that does `elements` things to a group. Criterion's estimate is `run` without variance, for runs of up
+    /// to 90 s.
+    pub fn measure(group: &mut BenchmarkGroup<'_, Self>, id: BenchmarkId, elements: u64, run: Picoseconds) {
+        group.throughput(Throughput::Elements(elements));
+        group.bench_function(id, |bencher| {
+            bencher.iter_custom(|times| {
+                thread::sleep(HOST_TIME.saturating_mul(u32::try_from(times).unwrap_or(u32::MAX)));
+                Picoseconds(run.0.saturating_mul(times))
+            });
+        });
     }
 
     /// How long a recorded run takes: the makespan of its timeline.
@@ -93,11 +113,6 @@ impl ModelledTime {
     /// If the log is not one that a machine has recorded.
     pub fn of(log: &[Event], model: &Model, options: &Options<'_>) -> Result<Picoseconds, ReplayError> {
         Ok(replay(log, model, options)?.timeline.makespan())
-    }
-
-    /// The time of so many equal runs.
-    pub fn repeat(run: Picoseconds, times: u64) -> Picoseconds {
-        Picoseconds(run.0.saturating_mul(times))
     }
 }
 
@@ -201,9 +216,24 @@ mod tests {
     }
 
     #[test]
-    fn samples_add_up() {
-        let twice = ModelledTime::repeat(Picoseconds(21), 2);
-        assert_eq!(ModelledTime.to_f64(&ModelledTime.add(&twice, &ModelledTime.zero())), 42.0);
-        assert_eq!(ModelledTime::repeat(Picoseconds(u64::MAX), 2), Picoseconds(u64::MAX));
+    fn criterion_estimates_the_time_of_the_run_without_variance() {
+        // The GeForce3's full-screen quad, a run below a nanosecond, one of a minute.
+        for time in [85_710_000, 7, 60_000_000_000_000] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let mut criterion = settings().output_directory(folder.path());
+            let mut group = criterion.benchmark_group("card");
+            ModelledTime::measure(&mut group, BenchmarkId::from_parameter("run"), 65_536, Picoseconds(time));
+            group.finish();
+            let text = std::fs::read_to_string(folder.path().join("card/run/new/estimates.json")).expect("estimates");
+            let estimates: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+            let time = time as f64;
+            for estimate in ["mean", "median", "slope"] {
+                let found = &estimates[estimate];
+                let interval = &found["confidence_interval"];
+                let figures = [&found["point_estimate"], &interval["lower_bound"], &interval["upper_bound"]];
+                assert_eq!(figures.map(serde_json::Value::as_f64), [Some(time); 3], "{estimate} of {time} ps");
+            }
+            assert_eq!(estimates["std_dev"]["point_estimate"].as_f64(), Some(0.0), "{time} ps");
+        }
     }
 }
