@@ -89,13 +89,12 @@ impl Cell {
         }
     }
 
-    /// The entry for programs: numbers with every digit and no commas.
+    /// The entry for programs: numbers with every digit, no commas and no mark.
     pub fn machine_text(&self) -> String {
         match self {
             Self::Count(count) => count.to_string(),
             Self::Int(int) => int.to_string(),
-            Self::Real(figure) => behind(digits::exact(figure.value), figure.mark),
-            Self::Folded(folded) => folded.whole_text(),
+            Self::Real(figure) => digits::exact(figure.value),
             other => other.text(),
         }
     }

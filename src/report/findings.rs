@@ -69,7 +69,7 @@ pub struct TallyEntry {
 #[derive(Clone, Debug)]
 pub struct FoundTable {
     pub(super) table: Table,
-    /// The table for the document, where it has more rows.
+    /// The table for programs, where it has more rows.
     whole: Option<Table>,
     pub(super) csv: Option<&'static str>,
     field: Option<&'static str>,
@@ -96,8 +96,8 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) everywhere but in the
-    /// document, which keeps all.
+    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) on the page and in print; CSV
+    /// and document keep all.
     #[must_use]
     pub fn folded(
         self,
@@ -107,6 +107,11 @@ impl FoundTable {
     ) -> Self {
         let table = self.table.folded(first, called, what);
         Self { whole: Some(self.table), table, ..self }
+    }
+
+    /// The table with all its rows.
+    pub(super) fn whole(&self) -> &Table {
+        self.whole.as_ref().unwrap_or(&self.table)
     }
 
     /// Does not print the table.
@@ -312,7 +317,7 @@ impl Findings {
         document.insert("conclusion".to_owned(), json!(self.conclusion));
         for found in &self.tables {
             if let Some(name) = found.field {
-                document.insert(name.to_owned(), found.whole.as_ref().unwrap_or(&found.table).json());
+                document.insert(name.to_owned(), found.whole().json());
             }
         }
         Value::Object(document)

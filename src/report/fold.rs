@@ -3,8 +3,6 @@
 /// What stands in place of rows that found the same as one above.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folded {
-    /// What comes before the number of rows, as in `as it is; `.
-    pub before: &'static str,
     /// What the rows are, one and several of them: `switch`, `switches`.
     pub rows: [&'static str; 2],
     /// What they have in common with the row above: `the same bits`.
@@ -19,12 +17,7 @@ impl Folded {
     /// How many there are and what they have in common: `17 switches: the same bits`.
     pub fn text(&self) -> String {
         let rows = self.rows[usize::from(self.names.len() != 1)];
-        format!("{}{} {rows}: {}", self.before, self.names.len(), self.same)
-    }
-
-    /// The same with their names, for where there is room.
-    pub fn whole_text(&self) -> String {
-        format!("{}: {}", self.text(), self.names.join(", "))
+        format!("{} {rows}: {}", self.names.len(), self.same)
     }
 
     /// A sentence with their names, for under a table.

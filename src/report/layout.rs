@@ -1,7 +1,8 @@
 //! Tables as text within a width: words and numbers stay whole.
 //!
-//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the first
-//! column; where it is too narrow even for one column beside the first, every row becomes a list of its entries. Only
+//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the columns
+//! that tell rows apart, or the first alone where these leave no room; where it is too narrow even for one column beside
+//! the first, every row becomes a list of its entries. Only
 //! there a word that is longer than a line goes over two; numbers never do, in [`MIN_WIDTH`] columns or more.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
@@ -90,13 +91,15 @@ pub fn wrapped(text: &str, width: usize, indent: &str) -> Vec<String> {
     textwrap::wrap(text, options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
-/// Columns side by side within a width.
-pub(super) fn within(columns: &[Column], width: usize) -> String {
+/// Columns side by side within a width; the first `keys` of them tell rows apart.
+pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     let width = width.max(MIN_WIDTH);
-    match cut(columns, width) {
-        Some(parts) => {
+    let parts = |keys: usize| cut(columns, keys, width).map(|parts| (keys, parts));
+    match parts(keys).or_else(|| parts(1)) {
+        Some((keys, parts)) => {
             // As few parts in less room are parts of more equal widths.
-            let even = (MIN_WIDTH..width).filter_map(|less| cut(columns, less)).find(|even| even.len() == parts.len());
+            let narrower = (MIN_WIDTH..width).filter_map(|less| cut(columns, keys, less));
+            let even = { narrower }.find(|even| even.len() == parts.len());
             let parts: Vec<String> = even.unwrap_or(parts).iter().map(|part| side_by_side(part, width)).collect();
             parts.join("\n\n")
         }
@@ -104,17 +107,19 @@ pub(super) fn within(columns: &[Column], width: usize) -> String {
     }
 }
 
-/// The columns in as few groups as fit, each after the first with the table's first column; `None` if one column does
-/// not fit beside it.
-fn cut(columns: &[Column], width: usize) -> Option<Vec<Vec<&Column>>> {
+/// The columns in as few groups as fit, each with the first `keys` columns; `None` if one column does not fit beside
+/// these.
+fn cut(columns: &[Column], keys: usize, width: usize) -> Option<Vec<Vec<&Column>>> {
     let fits = |group: &[&Column], least: usize| taken(group.iter().map(|column| column.widths[least])) <= width;
-    let (first, others) = columns.split_first()?;
-    let (mut groups, mut group) = (Vec::new(), vec![first]);
+    let (keys, others) = columns.split_at_checked(keys.min(columns.len()))?;
+    let keys: Vec<&Column> = keys.iter().collect();
+    let with_keys = |column| keys.iter().copied().chain([column]).collect();
+    let (mut groups, mut group) = (Vec::new(), keys.clone());
     for column in others {
         group.push(column);
-        if !fits(&group, 1) && group.len() > 2 {
+        if !fits(&group, 1) && group.len() > keys.len() + 1 {
             group.pop();
-            groups.push(std::mem::replace(&mut group, vec![first, column]));
+            groups.push(std::mem::replace(&mut group, with_keys(column)));
         }
     }
     groups.push(group);

@@ -1,5 +1,7 @@
 //! Tables.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Map, Value, json};
 
 use super::ReportError;
@@ -17,7 +19,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table. The headings double as the names of the fields in CSV and JSON.
+    /// An empty table. CSV and JSON name its columns by [`Table::keys`].
     pub fn new(title: impl Into<String>, headings: &[impl AsRef<str>]) -> Self {
         let headings = headings.iter().map(|heading| heading.as_ref().to_owned()).collect();
         Self { title: title.into(), headings, rows: Vec::new() }
@@ -55,6 +57,18 @@ impl Table {
         self.headings.iter().map(|heading| visible_line(&heading.replace('_', " ")).trim().to_owned()).collect()
     }
 
+    /// The names of the columns for programs: the words of each heading in letters, digits and single underscores, with
+    /// `%` as `percent`.
+    pub fn keys(&self) -> Vec<String> {
+        let word = |word: &str| word.replace('%', "percent");
+        let words = |heading: &String| {
+            let spaced = heading.replace('%', " % ");
+            let words = spaced.split(|c: char| !c.is_alphanumeric() && c != '%').filter(|word| !word.is_empty());
+            words.map(word).collect::<Vec<_>>().join("_")
+        };
+        self.headings.iter().map(words).collect()
+    }
+
     /// The table for people, without the title, in lines of at most `width` columns (of at least
     /// [`super::layout::MIN_WIDTH`]): words and numbers stay whole.
     pub fn text_within(&self, width: usize) -> String {
@@ -62,7 +76,22 @@ impl Table {
             let cell = |row: &Vec<Cell>| (visible_line(&row[i].text()).into_owned(), row[i].is_number());
             Column::new(heading, self.rows.iter().map(cell).collect())
         };
-        within(&self.shown_headings().into_iter().enumerate().map(column).collect::<Vec<_>>(), width)
+        let columns: Vec<_> = self.shown_headings().into_iter().enumerate().map(column).collect();
+        within(&columns, self.key_columns(), width)
+    }
+
+    /// How many of the first columns tell the rows apart, if they hold words; else one.
+    fn key_columns(&self) -> usize {
+        let words = |column: usize| self.rows.iter().all(|row| matches!(row[column], Cell::Text(_) | Cell::Empty));
+        let rows: Vec<&Vec<Cell>> =
+            self.rows.iter().filter(|row| !row.iter().any(|cell| matches!(cell, Cell::Folded(_)))).collect();
+        let apart = |columns: &usize| {
+            let names: BTreeSet<Vec<String>> =
+                rows.iter().map(|row| row[..*columns].iter().map(Cell::text).collect()).collect();
+            names.len() == rows.len()
+        };
+        let leading = (0..self.headings.len()).take_while(|column| *column == 0 || words(*column)).count();
+        (1..=leading).find(apart).unwrap_or(1)
     }
 
     /// The table with one row in place of those that found the same as a row above: `first[i]` is the first row that
@@ -83,7 +112,7 @@ impl Table {
             table.rows.push(self.rows[row].clone());
             if !others.is_empty() {
                 let names = others.into_iter().map(&called).collect();
-                let folded = Folded { before: "", rows, same, first: called(row), names };
+                let folded = Folded { rows, same, first: called(row), names };
                 table.push([Cell::Folded(folded)]);
             }
         }
@@ -96,27 +125,40 @@ impl Table {
         self.rows.iter().flatten().filter_map(folded).collect()
     }
 
-    /// The table as CSV with a line of headings.
+    /// The names of the columns whose numbers have a mark in this row.
+    fn marked<'a>(keys: &'a [String], row: &'a [Cell]) -> impl Iterator<Item = &'a str> {
+        keys.iter().zip(row).filter(|(_, cell)| cell.mark().is_some()).map(|(key, _)| key.as_str())
+    }
+
+    /// The table as CSV with a line of [`Table::keys`]; where any number has a mark, a last column `marked` names the
+    /// columns of such numbers, with semicolons between them.
     ///
     /// # Errors
     /// If the encoder refuses.
     pub fn csv(&self) -> Result<String, ReportError> {
         let fail = |error: csv::Error| ReportError::encode("CSV")(&error);
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(&self.headings).map_err(fail)?;
-        for row in &self.rows {
-            writer.write_record(row.iter().map(Cell::machine_text)).map_err(fail)?;
+        let keys = self.keys();
+        let marks: Vec<String> =
+            self.rows.iter().map(|row| Self::marked(&keys, row).collect::<Vec<_>>().join(";")).collect();
+        let with_marks = marks.iter().any(|mark| !mark.is_empty());
+        let last = |mark: &str| with_marks.then(|| mark.to_owned());
+        writer.write_record(keys.iter().cloned().chain(last("marked"))).map_err(fail)?;
+        for (row, mark) in self.rows.iter().zip(&marks) {
+            writer.write_record(row.iter().map(Cell::machine_text).chain(last(mark))).map_err(fail)?;
         }
         let bytes = writer.into_inner().map_err(|error| ReportError::encode("CSV")(&error))?;
         String::from_utf8(bytes).map_err(|error| ReportError::encode("CSV")(&error))
     }
 
-    /// The rows as a JSON array of objects; `marked` lists the columns whose numbers have a mark, where any has.
+    /// The rows as a JSON array of objects by [`Table::keys`]; `marked` lists the columns whose numbers have a mark,
+    /// where any has.
     pub fn json(&self) -> Value {
+        let keys = self.keys();
         let row = |row: &Vec<Cell>| {
-            let fields = || self.headings.iter().zip(row);
-            let mut object: Map<_, _> = fields().map(|(name, cell)| (name.clone(), cell.json())).collect();
-            let marked: Vec<_> = fields().filter(|(_, cell)| cell.mark().is_some()).map(|(name, _)| name).collect();
+            let fields = keys.iter().zip(row);
+            let mut object: Map<_, _> = fields.map(|(key, cell)| (key.clone(), cell.json())).collect();
+            let marked: Vec<_> = Self::marked(&keys, row).collect();
             if !marked.is_empty() {
                 object.insert("marked".to_owned(), json!(marked));
             }
@@ -165,7 +207,7 @@ mod tests {
         }
         let name = |row: usize| ["a", "b", "c", "d"][row].to_owned();
         let folded = table.folded(&[0, 0, 2, 0], name, (["row", "rows"], "the same bits"));
-        assert_eq!(folded.csv().expect("text"), "row,leaks\na,3\n\"2 rows: the same bits: b, d\",\nc,4\n");
+        assert_eq!(folded.rows().len(), 3);
         assert_eq!(folded.rows()[1][0].text(), "2 rows: the same bits");
         assert_eq!(folded.notes(), ["The same bits as a: b, d"]);
         assert_eq!(table.folded(&[0, 1, 2, 3], name, (["row", "rows"], "the same bits")), table);
@@ -177,5 +219,31 @@ mod tests {
         table.push(["a".into(), Cell::percent(23.456).marked("*")]);
         assert_eq!(table.rows()[0][1].text(), "23.5 *");
         assert_eq!(table.json().to_string(), r#"[{"marked":["ours"],"ours":23.456,"what":"a"}]"#);
+        table.push(["b".into(), Cell::percent(1.5)]);
+        assert_eq!(table.csv().expect("text"), "what,ours,marked\na,23.456,ours\nb,1.5,\n");
+    }
+
+    #[test]
+    fn columns_have_names_for_programs() {
+        let headings =
+            ["bandwidth_used_%", "of the signal (%)", "MFLOP/s_of_Gauss-Seidel", "sc+rec", "%", "rms_255ths"];
+        let keys = ["bandwidth_used_percent", "of_the_signal_percent", "MFLOP_s_of_Gauss_Seidel", "sc_rec", "percent"];
+        assert_eq!(Table::new("t", &headings).keys()[..5], keys);
+        assert_eq!(Table::new("t", &headings).keys()[5], headings[5]);
+    }
+
+    #[test]
+    fn parts_of_a_table_repeat_the_columns_that_tell_rows_apart() {
+        let mut table = Table::of("t", "way switch value rounds largest_relative_error");
+        for (way, switch, rounds) in [("fp16", "rounding", 1.5), ("fp16", "dot_order", 2.5), ("fp32", "rounding", 3.5)]
+        {
+            table.push([way.into(), switch.into(), "1".into(), rounds.into(), 1e-9.into()]);
+        }
+        let text = table.text_within(44);
+        let (first, second) = text.split_once("\n\n").expect("two parts");
+        for part in [first, second] {
+            assert!(part.lines().any(|line| line.contains("fp16") && line.contains("dot_order")), "{text}");
+        }
+        assert!(!second.contains("value"), "{text}");
     }
 }

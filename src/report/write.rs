@@ -1,6 +1,6 @@
 //! The one writer of findings: tables, pictures, charts, document and page as files.
 
-use super::findings::{Findings, FoundTable, NamedFile, NamedPicture};
+use super::findings::{Findings, NamedFile, NamedPicture};
 use super::{Provenance, ReportError, page};
 use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
@@ -20,9 +20,9 @@ impl Findings {
         for (name, picture) in std::mem::take(&mut self.layers) {
             files.push((format!("{name}.exr"), exr_with_notes(&picture, &notes)?));
         }
-        for FoundTable { table, csv, .. } in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
-            if let Some(name) = csv {
-                files.push((format!("{name}.csv"), table.csv()?.into_bytes()));
+        for found in self.tables.iter().filter(|found| !found.table.rows().is_empty()) {
+            if let Some(name) = found.csv {
+                files.push((format!("{name}.csv"), found.whole().csv()?.into_bytes()));
             }
         }
         files.extend(self.pictures.iter().zip(pngs).map(|(found, png)| (format!("{}.png", found.name), png)));

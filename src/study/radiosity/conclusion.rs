@@ -71,8 +71,7 @@ fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
     let darkest = rows().min_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
     let brightest = rows().max_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
     let said = |row: &SweepRow| {
-        let turned = row.switches.first().filter(|_| !row.as_it_is);
-        let switch = turned.map_or_else(String::new, |(name, value)| format!(", {name}={value}"));
+        let switch = row.switch.as_ref().map_or_else(String::new, |_| format!(", {}", row.setting()));
         let patches = counted(row.patches as u64, "patch", "patches");
         format!("{} at {patches} ({}{switch})", shade(row.off.bias), row.way)
     };

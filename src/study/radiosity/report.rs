@@ -85,7 +85,10 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         found.heading("Other numbers of patches, other answers to open questions");
         darkness.into_iter().for_each(|chart| found.chart(chart));
     }
-    found.explained_table(FoundTable::from(sweep).csv("sweep").field("sweep"), SWEEP);
+    let first: Vec<usize> = outcome.sweep.iter().map(|row| row.same_as).collect();
+    let named = |row: usize| outcome.sweep[row].setting();
+    let sweep = FoundTable::from(sweep).folded(&first, named, (["switch", "switches"], "the same bits"));
+    found.explained_table(sweep.csv("sweep").field("sweep"), SWEEP);
     Ok(found)
 }
 
@@ -177,16 +180,21 @@ const APART: f64 = 1.5;
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
     let apart = |row: &SweepRow| {
-        let same = |other: &&SweepRow| other.as_it_is && (other.patches, &other.way) == (row.patches, &row.way);
+        let same = |other: &&SweepRow| other.switch.is_none() && (other.patches, &other.way) == (row.patches, &row.way);
         let default = outcome.sweep.iter().find(same).map_or(0.0, error);
         error(row).max(default) > APART * error(row).min(default)
     };
     let label = |row: &SweepRow| {
-        let turned = row.switches.iter().filter(|_| !row.as_it_is).map(|(name, value)| format!("{name}={value}"));
-        std::iter::once(row.way.clone()).chain(turned.take(1)).collect::<Vec<_>>().join(", ")
+        let turned = row.switch.as_ref().map(|_| row.setting());
+        std::iter::once(row.way.clone()).chain(turned).collect::<Vec<_>>().join(", ")
     };
     let mut lines: Vec<Series> = Vec::new();
-    for row in outcome.sweep.iter().filter(|row| row.as_it_is || apart(row)) {
+    for (_, row) in outcome
+        .sweep
+        .iter()
+        .enumerate()
+        .filter(|(place, row)| row.switch.is_none() || (row.same_as == *place && apart(row)))
+    {
         let (label, point) = (label(row), (row.patches as f64, error(row)));
         match lines.iter_mut().find(|line| line.label == label) {
             Some(line) => line.points.push(point),

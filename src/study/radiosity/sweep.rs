@@ -10,17 +10,17 @@ use crate::radiosity::solve::{Options, Solver};
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::study::configuration::Configuration;
 
-/// One number of patches, one method on the card, and all settings of its switches that give the same bits.
+/// One number of patches, one method on the card, and one setting of its switches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRow {
     /// How many patches the room was cut into.
     pub patches: usize,
     /// The method's name.
     pub way: String,
-    /// Whether the card as it was asked for is among the settings.
-    pub as_it_is: bool,
-    /// The switches, each turned alone, with which the same bits come out.
-    pub switches: Vec<(String, String)>,
+    /// The switch that was turned, and its value; `None` for the card as it was asked for.
+    pub switch: Option<(String, String)>,
+    /// The first row of the sweep with the same bits: this one, or one of the same patches and method before it.
+    pub same_as: usize,
     /// How many iterations it took.
     pub iterations: u32,
     /// Why it stopped.
@@ -29,6 +29,13 @@ pub struct SweepRow {
     pub off: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub predicted: Option<f64>,
+}
+
+impl SweepRow {
+    /// The setting in words.
+    pub fn setting(&self) -> String {
+        self.switch.as_ref().map_or_else(|| "as it is".to_owned(), |(name, value)| format!("{name}={value}"))
+    }
 }
 
 /// Rows by patches, method and settings.
@@ -48,20 +55,17 @@ pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Res
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
         let truth = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
         for &how in &ways {
-            let mut found: Vec<(Vec<[f32; 3]>, SweepRow)> = Vec::new();
+            let mut found: Vec<(usize, Vec<[f32; 3]>)> = Vec::new();
             for setting in &settings {
                 progress("sweep", done, all);
                 done += 1;
                 let (radiosity, row) = solved(how, setting, &system, &truth, parameters)?;
-                match found.iter_mut().find(|(other, _)| same_bits(other, &radiosity)) {
-                    Some((_, same)) => {
-                        same.as_it_is |= row.as_it_is;
-                        same.switches.extend(row.switches);
-                    }
-                    None => found.push((radiosity, row)),
+                let same = found.iter().find(|(_, other)| same_bits(other, &radiosity)).map(|(row, _)| *row);
+                if same.is_none() {
+                    found.push((rows.len(), radiosity));
                 }
+                rows.push(SweepRow { same_as: same.unwrap_or(rows.len()), ..row });
             }
-            rows.extend(found.into_iter().map(|(_, row)| row));
         }
     }
     Ok(rows)
@@ -83,8 +87,8 @@ fn solved(
     let row = SweepRow {
         patches: truth.len(),
         way: SolveMethod::Card(how).label(profile),
-        as_it_is: setting.switch.is_none(),
-        switches: setting.switch.iter().cloned().collect(),
+        switch: setting.switch.clone(),
+        same_as: 0,
         iterations: solution.iterations(),
         stopped: StopReason::on_card(&solution),
         off: SolutionError::between(&widened, truth, system.emittance()),

@@ -1,7 +1,7 @@
 //! The tables of the study.
 
-use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason, SweepRow};
-use crate::report::{Cell, Folded, Table};
+use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
+use crate::report::{Cell, Table};
 
 /// The tables of a study.
 pub(super) struct Tables {
@@ -108,14 +108,14 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
 
 /// The sweep over numbers of patches and switches.
 fn sweep(outcome: &RadiosityOutcome) -> Table {
-    let columns = "patches way switches iterations stopped_by largest_error mean_relative predicted_mean";
+    let columns = "patches way setting iterations stopped_by largest_error mean_relative predicted_mean";
     let mut table =
         Table::of("Other numbers of patches, and each open switch of the card turned alone; errors as above", columns);
     for row in &outcome.sweep {
         table.push([
             row.patches.into(),
             row.way.as_str().into(),
-            settings(row),
+            row.setting().into(),
             row.iterations.into(),
             row.stopped.to_string().into(),
             Cell::error(row.off.largest),
@@ -124,22 +124,6 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
         ]);
     }
     table
-}
-
-/// The settings of the switches with which the same bits come out, in words.
-fn settings(row: &SweepRow) -> Cell {
-    let names = row.switches.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>();
-    match (row.as_it_is, &names[..]) {
-        (true, []) => "as it is".into(),
-        (true, _) => Cell::Folded(Folded {
-            before: "as it is; ",
-            rows: ["switch", "switches"],
-            same: "the same bits",
-            first: format!("{}, {} patches", row.way, row.patches),
-            names,
-        }),
-        (false, _) => names.join(", ").into(),
-    }
 }
 
 fn card(outcome: &RadiosityOutcome) -> Table {
