@@ -52,6 +52,8 @@ struct Part<T> {
 const NONE: u32 = u32::MAX;
 /// No square has this stamp.
 const NEVER: u64 = 0;
+/// No part has this stamp: that of squares larger than the atlas.
+const NO_SQUARE: u64 = u64::MAX;
 
 impl<const N: usize> Node<N> {
     fn new(level: u32, place: u32, parent: u32) -> Self {
@@ -81,7 +83,7 @@ impl<T> Part<T> {
 
 impl<'a, const N: usize> BlockReceiver<'a, N> {
     pub(in crate::subsurface) fn new(receiver: Receiver<'a, N>) -> Self {
-        let present = [NEVER; BLOCK_LEVEL as usize + 1];
+        let present = [NO_SQUARE; BLOCK_LEVEL as usize + 1];
         Self { receiver, nodes: Vec::new(), stamp: NEVER, present, divided: Vec::new() }
     }
 

@@ -1,5 +1,6 @@
 //! Squares of texels that gather together against texels that gather alone.
 
+use crossbar::geom::Mesh;
 use crossbar::subsurface::Dipole;
 use crossbar::subsurface::factor::Factors;
 use crossbar::subsurface::links::{LinkChoice, Links};
@@ -42,5 +43,28 @@ fn sixteen_links_are_far_within_it() {
     for mm_per_unit in [1.5, 5.0] {
         let worst = worst(mm_per_unit, figure_7(), 64, LinkChoice::Fixed { level: 4 });
         assert!(worst <= 0.01 / 4.0, "{mm_per_unit} mm: {worst}");
+    }
+}
+
+/// Atlases of all sides down to one texel, smaller than the squares of texels that gather together.
+#[test]
+fn small_atlases_have_links() {
+    let corners = vec![[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
+    let triangle = Mesh::new(corners, vec![[0, 1, 2]]).expect("a mesh");
+    for side in [1, 2, 4, 8, 16] {
+        let surface = surface(&atlas(&triangle, side), 3.0);
+        let factors = Factors::new(&surface, [figure_7()], 0.01).expect("a tolerance");
+        let mut receiver = factors.receiver();
+        let fixed = (0..surface.level_count().min(4)).map(|level| LinkChoice::Fixed { level });
+        for choice in fixed.chain([1, 4, 16].map(|count| LinkChoice::Adaptive { count })) {
+            let links = Links::with(&factors, choice, &|_, _| ()).expect("links");
+            for texel in texels(side) {
+                for (cluster, found) in links.of(texel).filter(|(_, found)| found[0] > 0.0) {
+                    let [exact] = receiver.factor(texel, cluster);
+                    let difference = (f64::from(found[0]) - exact).abs();
+                    assert!(difference <= 0.02 * exact, "{side}, {choice:?}, {texel:?}: {found:?} and {exact}");
+                }
+            }
+        }
     }
 }
