@@ -33,7 +33,7 @@ pub(crate) type TriangleTest = fn(&Ray, [[f32; 3]; 3]) -> Option<f32>;
 pub(crate) const TESTS: [(&str, TriangleTest); 2] = [("Woop", woop), ("Moeller-Trumbore", moeller_trumbore)];
 
 /// The first hit among all triangles.
-pub(crate) fn nearest(mesh: &Mesh, ray: &Ray, test: TriangleTest) -> Option<Hit> {
+pub(crate) fn nearest(mesh: &Mesh, ray: &Ray, test: impl Fn(&Ray, [[f32; 3]; 3]) -> Option<f32>) -> Option<Hit> {
     let hit = |(triangle, corners)| Some(Hit { triangle, t: test(ray, corners)? });
     let hits = (0..).zip(mesh.iter_corners()).filter_map(hit);
     hits.reduce(|first, hit| if hit.t < first.t { hit } else { first })

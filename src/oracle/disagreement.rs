@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::hard::Aim;
 use crate::geom::{ExactT, Hit, Ray, RayError};
 
 /// In what way an answer is wrong; the worst first.
@@ -37,7 +38,9 @@ pub enum DisagreementKind {
     TOff,
     /// A surface missed, or met, beside its outline: the answer is right for a ray whose direction differs by a few
     /// ULPs. Of a surface missed before another, it is enough that such a ray meets nothing in front of half-way to the
-    /// other: seen from far away, triangles are smaller than an ULP.
+    /// other: seen from far away, triangles are smaller than an ULP. Of a triangle that was met, it is enough that such
+    /// a ray passes the vertex or edge which it shares with the first one, or a corner of it as far away: at a vertex
+    /// of the outline triangles that face away tie with those in front of them.
     Silhouette,
     /// A surface missed, or met, where the ray starts: the answer is right for an origin moved a few ULPs along the
     /// ray.
@@ -66,6 +69,12 @@ impl DisagreementKind {
     #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
+    }
+
+    /// Whether a surface was hit that is not there, for this ray and every ray nearby.
+    #[must_use]
+    pub const fn is_false_hit(self) -> bool {
+        matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
     }
 
     /// What to call it: `leak`, `wrong neighbour`.
@@ -113,6 +122,8 @@ fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::
 pub struct Disagreement {
     /// Its place among the rays that were judged.
     pub ray: usize,
+    /// What it was aimed at, if the rays say.
+    pub aim: Option<Aim>,
     /// Where it starts.
     pub origin: [f32; 3],
     /// Where it goes.
@@ -134,6 +145,12 @@ pub struct Disagreement {
     /// unless the triangle does not exist or is the right one.
     #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
+    /// Where there is no such ray: this ray, or one within a few ULPs, that passes, within as many, the vertex or edge
+    /// which the triangle found shares with the first one that it hits, or a corner of it as far away.
+    #[serde(serialize_with = "ray_if_any")]
+    pub touched_by: Option<Ray>,
+    /// The corners of the triangle that was found; where none was, or there is none of that id, of the one expected.
+    pub corners: Option<[[f32; 3]; 3]>,
 }
 
 fn ray_if_any<S: serde::Serializer>(ray: &Option<Ray>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -172,6 +189,27 @@ impl Disagreement {
     /// [`RayError`] if the fields have been changed and are no ray any more.
     pub fn ray(&self) -> Result<Ray, RayError> {
         Ray::new(self.origin, self.direction)
+    }
+
+    /// Whether rounding explains it: the answer is right for a ray within a few ULPs, or names a neighbour of the right
+    /// triangle where such a ray passes what the two share, or t's of the tolerance cannot tell.
+    #[must_use]
+    pub fn is_rounding(&self) -> bool {
+        match self.kind {
+            DisagreementKind::Silhouette | DisagreementKind::Start | DisagreementKind::NearTie => true,
+            DisagreementKind::WrongNeighbour => self.right_for.is_some() || self.touched_by.is_some(),
+            _ => false,
+        }
+    }
+
+    /// The ray and [`Disagreement::corners`] as Rust, to be pasted into a test: every number reads back to the same
+    /// bits.
+    #[must_use]
+    pub fn literal(&self) -> String {
+        let Self { origin, direction, .. } = self;
+        let ray = format!("let ray = Ray::new({origin:?}, {direction:?}).unwrap();");
+        let Some(corners) = &self.corners else { return ray };
+        format!("{ray} let triangle: [[f32; 3]; 3] = {corners:?};")
     }
 
     fn write_found(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -222,7 +260,11 @@ fn short_double(x: f64) -> String {
 impl fmt::Display for Disagreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (from, along) = (ShownVector(self.origin), ShownVector(self.direction));
-        write!(f, "ray {} from {from} along {along}: {}: expected ", self.ray, self.kind)?;
+        write!(f, "ray {}", self.ray)?;
+        if let Some(aim) = self.aim {
+            write!(f, ", {},", aim.words())?;
+        }
+        write!(f, " from {from} along {along}: {}: expected ", self.kind)?;
         match &self.expected {
             None => f.write_str("nothing")?,
             Some(Expected { triangles, t }) => {
@@ -234,8 +276,12 @@ impl fmt::Display for Disagreement {
             }
         }
         self.write_found(f)?;
-        let Some(ray) = self.right_for else { return Ok(()) };
-        f.write_str("; right for a ray")?;
+        let (ray, what) = match (self.right_for, self.touched_by) {
+            (Some(ray), _) => (ray, "right for a ray"),
+            (None, Some(ray)) if ray.direction() != self.direction => (ray, "ties with the first hit of a ray"),
+            _ => return Ok(()),
+        };
+        write!(f, "; {what}")?;
         if ray.origin() != self.origin {
             write!(f, " from {}", ShownVector(ray.origin()))?;
         }

@@ -44,6 +44,18 @@ impl Aim {
             Self::Far => "far",
         }
     }
+
+    /// How reports say it: `aimed at a vertex`.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Edge => "aimed at an edge",
+            Self::Vertex => "aimed at a vertex",
+            Self::Axis => "along an axis",
+            Self::Plane => "in the plane of a triangle",
+            Self::Surface => "from a surface",
+            Self::Far => "from far away at an edge",
+        }
+    }
 }
 
 impl fmt::Display for Aim {
@@ -64,6 +76,28 @@ pub struct HardRay {
 impl AsRef<Ray> for HardRay {
     fn as_ref(&self) -> &Ray {
         &self.ray
+    }
+}
+
+/// A ray that an oracle judges: a [`Ray`], a [`HardRay`], or one of your own that knows what it was aimed at.
+pub trait JudgedRay: AsRef<Ray> {
+    /// What it was aimed at, if that is known.
+    fn aim(&self) -> Option<Aim> {
+        None
+    }
+}
+
+impl JudgedRay for Ray {}
+
+impl JudgedRay for HardRay {
+    fn aim(&self) -> Option<Aim> {
+        Some(self.aim)
+    }
+}
+
+impl<R: JudgedRay> JudgedRay for &R {
+    fn aim(&self) -> Option<Aim> {
+        (*self).aim()
     }
 }
 

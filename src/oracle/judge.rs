@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::disagreement::{Disagreement, DisagreementKind, Expected};
-use super::nearby::{moved, passes_contact, turned};
+use super::hard::{Aim, JudgedRay};
+use super::nearby::{moved, passes_contact, passes_corner_at, turned};
 use super::{Report, Tolerance};
 use crate::compare::f32_ulps as ulps;
 use crate::geom::classify::{Candidate, HitVerdict, classify};
@@ -59,7 +60,7 @@ impl<'a> Oracle<'a> {
     ///
     /// # Errors
     /// [`OracleError::Count`] unless there are as many answers as rays.
-    pub fn judge<R: AsRef<Ray>>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
+    pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
         if rays.len() != hits.len() {
             return Err(OracleError::Count { rays: rays.len(), hits: hits.len() });
         }
@@ -67,7 +68,7 @@ impl<'a> Oracle<'a> {
     }
 
     /// Asks an intersector for every ray, one after the other, and judges its answers.
-    pub fn examine<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Report {
+    pub fn examine<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Report {
         let hits: Vec<_> = rays.iter().map(AsRef::as_ref).map(intersector).collect();
         self.report(rays, &hits)
     }
@@ -76,7 +77,7 @@ impl<'a> Oracle<'a> {
     ///
     /// # Errors
     /// The report, if anything disagrees.
-    pub fn agrees<R: AsRef<Ray>>(
+    pub fn agrees<R: JudgedRay>(
         &self,
         rays: &[R],
         intersector: impl FnMut(&Ray) -> Option<Hit>,
@@ -90,7 +91,7 @@ impl<'a> Oracle<'a> {
     /// # Errors
     /// The report of the leaks alone, if there is one: surfaces missed by this ray and by every ray nearby. Everything
     /// else passes.
-    pub fn watertight<R: AsRef<Ray>>(
+    pub fn watertight<R: JudgedRay>(
         &self,
         rays: &[R],
         intersector: impl FnMut(&Ray) -> Option<Hit>,
@@ -99,12 +100,28 @@ impl<'a> Oracle<'a> {
         if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
     }
 
+    /// As [`Oracle::examine`]: whether every answer is the exact one of a ray within a few ULPs of the ray asked, up to
+    /// which of the triangles that it passes there comes first. So nothing is missed, and nothing is hit that is not
+    /// there, for which rounding is no reason: [`Disagreement::is_rounding`]. A t beyond the tolerance does not pass
+    /// ([`Tolerance::ANY_T`] judges triangles alone).
+    ///
+    /// # Errors
+    /// The report of what rounding does not explain, if there is anything.
+    pub fn faithful<R: JudgedRay>(
+        &self,
+        rays: &[R],
+        intersector: impl FnMut(&Ray) -> Option<Hit>,
+    ) -> Result<(), Box<Report>> {
+        let wrong = self.examine(rays, intersector).retain(|wrong| !wrong.is_rounding());
+        if wrong.agrees() { Ok(()) } else { Err(Box::new(wrong)) }
+    }
+
     /// As [`Oracle::agrees`], for tests.
     ///
     /// # Panics
     /// With the report, if anything disagrees.
     #[track_caller]
-    pub fn assert_agrees<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
+    pub fn assert_agrees<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.agrees(rays, intersector) {
             panic!("{report}");
         }
@@ -115,20 +132,31 @@ impl<'a> Oracle<'a> {
     /// # Panics
     /// With the report of the leaks, if there is one.
     #[track_caller]
-    pub fn assert_watertight<R: AsRef<Ray>>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
+    pub fn assert_watertight<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.watertight(rays, intersector) {
             panic!("{report}");
         }
     }
 
-    fn report<R: AsRef<Ray>>(&self, rays: &[R], hits: &[Option<Hit>]) -> Report {
-        let rays: Vec<Ray> = rays.iter().map(|ray| *ray.as_ref()).collect();
+    /// As [`Oracle::faithful`], for tests: no leaks and no false hits.
+    ///
+    /// # Panics
+    /// With the report of what rounding does not explain, if there is anything.
+    #[track_caller]
+    pub fn assert_faithful<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
+        if let Err(report) = self.faithful(rays, intersector) {
+            panic!("{report}");
+        }
+    }
+
+    fn report<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Report {
+        let rays: Vec<(Ray, Option<Aim>)> = rays.iter().map(|ray| (*ray.as_ref(), ray.aim())).collect();
         let judged: Vec<(bool, Option<Disagreement>)> = (&rays, hits)
             .into_par_iter()
             .enumerate()
-            .map(|(place, (ray, hit))| {
+            .map(|(place, ((ray, aim), hit))| {
                 let truth = self.tracer.nearest(ray, self.sides);
-                (truth.is_some(), self.disagreement(place, ray, truth, *hit))
+                (truth.is_some(), self.disagreement((place, *aim), ray, truth, *hit))
             })
             .collect();
         let surface = judged.iter().filter(|(surface, _)| *surface).count();
@@ -139,7 +167,7 @@ impl<'a> Oracle<'a> {
 
     fn disagreement(
         &self,
-        place: usize,
+        (place, aim): (usize, Option<Aim>),
         ray: &Ray,
         truth: Option<NearestHit>,
         found: Option<Hit>,
@@ -181,13 +209,61 @@ impl<'a> Oracle<'a> {
             },
             (HitVerdict::WrongTriangle { .. }, None) => DisagreementKind::WrongTriangle,
         };
-        let (kind, right_for) = match kind {
-            DisagreementKind::TOff | DisagreementKind::NoSuchTriangle => (kind, None),
-            _ => self.right_nearby(ray, truth.as_ref(), found, (kind, met_at.as_ref())),
+        let (kind, right_for, touched_by) = match kind {
+            DisagreementKind::TOff | DisagreementKind::NoSuchTriangle => (kind, None, None),
+            _ => {
+                let (kind, right_for) = self.right_nearby(ray, truth.as_ref(), found, (kind, met_at.as_ref()));
+                match found.filter(|_| right_for.is_none()) {
+                    Some(hit) => self.touched_nearby(ray, truth.as_ref(), hit, kind),
+                    None => (kind, right_for, None),
+                }
+            }
         };
+        let shown = found.filter(|_| corners.is_some()).map(|hit| hit.triangle);
+        let shown = shown.or_else(|| truth.as_ref().map(|truth| truth.triangle));
+        let corners = shown.and_then(|triangle| self.mesh.corners(triangle));
         let expected = truth.map(|truth| Expected { triangles: truth.ties, t: truth.t });
         let (origin, direction) = (ray.origin(), ray.direction());
-        Some(Disagreement { ray: place, origin, direction, kind, expected, found, t_ulps, met_at, right_for })
+        Some(Disagreement {
+            ray: place,
+            aim,
+            origin,
+            direction,
+            kind,
+            expected,
+            found,
+            t_ulps,
+            met_at,
+            right_for,
+            touched_by,
+            corners,
+        })
+    }
+
+    /// A ray, this one or one nearby, that passes what the triangle found has in common with the first that it hits, or
+    /// a corner of it as far away; and what the answer is called then. Where a surface ends in a vertex, a triangle
+    /// that faces away ties with those in front of it at this one point, and no ray of f32 may meet it first; from
+    /// far away whole surfaces are such a point.
+    fn touched_nearby(
+        &self,
+        ray: &Ray,
+        truth: Option<&NearestHit>,
+        hit: Hit,
+        kind: DisagreementKind,
+    ) -> (DisagreementKind, Option<Ray>, Option<Ray>) {
+        use DisagreementKind::{FalseHit, Silhouette, WrongNeighbour, WrongTriangle};
+        let touches = |ray: &Ray, truth: Option<&NearestHit>| {
+            let ties =
+                |truth: &NearestHit| passes_corner_at(self.mesh, ray, hit.triangle, truth.t.to_f64(), self.nearby_ulps);
+            truth.is_some_and(|truth| self.passes_contact(ray, truth, hit) || ties(truth)).then_some(*ray)
+        };
+        if !matches!(kind, WrongNeighbour | FalseHit | WrongTriangle) {
+            return (kind, None, None);
+        }
+        let nearby = || turned(ray, self.nearby_ulps);
+        let found = touches(ray, truth)
+            .or_else(|| nearby().find_map(|ray| touches(&ray, self.tracer.nearest(&ray, self.sides).as_ref())));
+        (if found.is_some() && kind != WrongNeighbour { Silhouette } else { kind }, None, found)
     }
 
     fn passes_contact(&self, ray: &Ray, truth: &NearestHit, hit: Hit) -> bool {

@@ -10,6 +10,14 @@
 //! intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
 //! `assert_` give it back as a [`Result`].
 //!
+//! Three assertions, each stronger than the one before:
+//!
+//! | assertion | lets pass |
+//! |---|---|
+//! | [`Oracle::assert_watertight`] | everything but leaks |
+//! | [`Oracle::assert_faithful`] | what is right for a ray a few ULPs away: no leaks, no false hits |
+//! | [`Oracle::assert_agrees`] | nothing: the exact answer, with t within the tolerance |
+//!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
 //! use crossbar::oracle::{Aim, DisagreementKind, Oracle, Tolerance, hard_rays};
@@ -55,7 +63,7 @@ mod tolerance;
 pub use aims::AimCounts;
 pub use disagreement::{Disagreement, DisagreementKind, Expected};
 pub use equal::{Unequal, assert_bits_eq, assert_hits_eq, assert_within_ulps, bits_equal, hits_equal, within_ulps};
-pub use hard::{Aim, HardRay, hard_rays};
+pub use hard::{Aim, HardRay, JudgedRay, hard_rays};
 pub use judge::{Oracle, OracleError};
 pub use pictures::{Sample, assert_images_equal, images_equal};
 pub use report::Report;

@@ -110,6 +110,16 @@ pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32
     mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
 }
 
+/// Whether a ray passes within some ULPs of a corner of a triangle that is as far away as `t`, up to as many ULPs.
+pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ulps: u32) -> bool {
+    let plane = ImagePlane::of(ray);
+    let (reach, step) = (f64::from(ulps) * std::f64::consts::SQRT_2, f64::from(ulps) * ulp(t.abs() as f32));
+    let distance =
+        |corner: [f32; 3]| (wide(corner)[plane.depth] - plane.origin[plane.depth]) / plane.direction[plane.depth];
+    let near = |corner: [f32; 3]| plane.offset(corner).is_some_and(|off| off.length() <= reach);
+    mesh.corners(triangle).into_iter().flatten().any(|corner| near(corner) && (distance(corner) - t).abs() <= step)
+}
+
 /// How far zero is from a segment.
 fn distance_to_segment(from: DVec2, to: DVec2) -> f64 {
     let along = to - from;

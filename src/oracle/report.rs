@@ -87,8 +87,14 @@ impl Report {
 
     /// The report of some kinds alone.
     #[must_use]
-    pub fn only(mut self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
-        self.disagreements.retain(|wrong| wanted(wrong.kind));
+    pub fn only(self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
+        self.retain(|wrong| wanted(wrong.kind))
+    }
+
+    /// The report of some disagreements alone.
+    #[must_use]
+    pub fn retain(mut self, wanted: impl Fn(&Disagreement) -> bool) -> Self {
+        self.disagreements.retain(wanted);
         self
     }
 }
@@ -105,7 +111,7 @@ impl fmt::Display for Report {
             write!(f, "{}{kind}: {count}", if at == 0 { "\n  " } else { ", " })?;
         }
         for wrong in self.disagreements.iter().take(LISTED) {
-            write!(f, "\n  {wrong}")?;
+            write!(f, "\n  {wrong}\n    {}", wrong.literal())?;
         }
         match self.disagreements.len().saturating_sub(LISTED) {
             0 => Ok(()),

@@ -112,13 +112,39 @@ fn the_report_reads_well() {
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
 
+/// What a report says of a ray can be pasted into a test: the same bits, and what the ray was aimed at.
+#[test]
+fn disagreements_can_be_pasted() {
+    let mesh = teapot(2).expect("a teapot");
+    let rays = hard_rays(&mesh, 20, 1);
+    let report = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T).examine(&rays, |_| None);
+    for wrong in report.disagreements() {
+        assert_eq!(wrong.aim, Some(rays[wrong.ray].aim));
+        assert!(wrong.to_string().starts_with(&format!("ray {}, {}, from ", wrong.ray, rays[wrong.ray].aim.words())));
+        let literal = wrong.literal();
+        let numbers: Vec<u32> = literal
+            .split(|c: char| !c.is_ascii_alphanumeric() && !".-".contains(c))
+            .filter_map(|word| word.parse::<f32>().ok())
+            .map(f32::to_bits)
+            .collect();
+        let triangle = wrong.expected.as_ref().expect("a surface").triangles[0];
+        let corners = mesh.corners(triangle).expect("a triangle");
+        // `[[f32; 3]; 3]` has two numbers of its own.
+        let expected = [wrong.origin, wrong.direction].into_iter().flatten().chain([3.0, 3.0]);
+        let expected: Vec<u32> = expected.chain(corners.into_iter().flatten()).map(f32::to_bits).collect();
+        assert_eq!(numbers, expected, "{literal}");
+    }
+    let unknown = Oracle::new(&mesh, Sides::Both, Tolerance::ANY_T).examine(&[rays[0].ray], |_| None);
+    assert!(unknown.disagreements().iter().all(|wrong| wrong.aim.is_none()));
+}
+
 #[test]
 fn long_reports_are_cut() {
     let mesh = scene();
     let rays = vec![down(0.5, 0.25); 1500];
     let report = Oracle::new(&mesh, Sides::Front, Tolerance::ANY_T).examine(&rays, |_| None);
     let text = report.to_string();
-    assert_eq!(text.lines().count(), 13, "{text}");
+    assert_eq!(text.lines().count(), 3 + 10 * 2, "{text}");
     assert!(text.ends_with("and 1490 more"), "{text}");
     let json = serde_json::to_value(&report).expect("JSON");
     assert_eq!((json["worst"].as_array().map(Vec::len), json["not_listed"].as_u64()), (Some(1000), Some(500)));
