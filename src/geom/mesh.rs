@@ -109,6 +109,21 @@ impl Mesh {
         Ok(self)
     }
 
+    /// The mesh with every position and normal passed through a rotation.
+    #[must_use]
+    pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        self.positions.iter_mut().chain(&mut self.normals).for_each(|vector| *vector = rotation(*vector));
+        self
+    }
+
+    pub(super) fn turn_round(&mut self, triangles: &[u32]) {
+        for &triangle in triangles {
+            if let Some([_, b, c]) = self.triangles.get_mut(triangle as usize) {
+                std::mem::swap(b, c);
+            }
+        }
+    }
+
     fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), MeshError> {
         let vertices = self.positions.len();
         if values.len() != vertices {

@@ -15,6 +15,7 @@ pub mod classify;
 mod crease;
 pub mod exact;
 pub mod mesh;
+mod orient;
 pub mod random;
 pub mod ray;
 pub mod teapot;

@@ -74,7 +74,7 @@ pub enum ModelError {
     #[error("{place}: expected {expected}, found {found}")]
     #[diagnostic(
         code(crossbar::model::syntax),
-        help("models are Wavefront OBJ, PLY or glTF files: is the file one, and whole?")
+        help("models are Wavefront OBJ, PLY, STL or glTF files: is the file one, and whole?")
     )]
     Syntax { place: FilePlace, expected: Cow<'static, str>, found: String },
     /// A face of an OBJ names a vertex, a texture coordinate or a normal that the file does not have.

@@ -9,6 +9,7 @@ pub mod light_sources;
 mod lines;
 pub mod matrix_market;
 pub mod model;
+pub mod model_note;
 pub mod npy;
 mod number;
 pub mod number_table;
@@ -19,6 +20,7 @@ pub mod ply;
 pub mod rays;
 pub mod scene_file;
 pub mod scene_obj;
+pub mod stl;
 
 pub use atomic::{FileSet, WriteError, write_file};
 pub use cube_map::{CubeTableError, load_cube_table, parse_cube_table, write_cube_table};
@@ -29,7 +31,8 @@ pub use light_sources::{LightSourceRow, LightSourcesError, load_light_sources, p
 pub use matrix_market::{
     CoordinateMatrix, MatrixMarketError, load_matrix_market, parse_matrix_market, write_matrix_market,
 };
-pub use model::{load_mesh, load_scene};
+pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
+pub use model_note::ModelNote;
 pub use npy::{NpyError, NumberArray, parse_npy, parse_npy_array, write_npy, write_npy_array};
 pub use number::{NumberError, parse_f32, to_f32};
 pub use number_table::{NumberTable, NumberTableError, parse_number_table};
@@ -40,6 +43,7 @@ pub use ply::{load_ply, parse_ply};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};
 pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
+pub use stl::{load_stl, parse_stl};
 
 use std::fs::File;
 use std::io::{self, Read};

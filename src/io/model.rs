@@ -5,10 +5,12 @@ use std::path::Path;
 
 use super::error::ModelError;
 use super::gltf::parse_gltf;
+use super::model_note::ModelNote;
 use super::obj::{MAX_BYTES, load_model, parse_obj};
 use super::ply::parse_ply;
 use super::read_limited;
-use super::scene_obj::{parse_scene, plain_scene};
+use super::scene_obj::{plain_scene, read_scene};
+use super::stl::{is_stl, parse_stl};
 use crate::geom::Mesh;
 use crate::scene::Scene;
 
@@ -17,6 +19,7 @@ use crate::scene::Scene;
 enum ModelFormat {
     Obj,
     Ply,
+    Stl,
     Gltf,
 }
 
@@ -28,37 +31,124 @@ impl ModelFormat {
             Self::Ply
         } else if ending("gltf") || ending("glb") || bytes.starts_with(b"glTF") {
             Self::Gltf
+        } else if ending("stl") || (!ending("obj") && is_stl(bytes)) {
+            Self::Stl
         } else {
             Self::Obj
         }
     }
 }
 
-/// Reads a mesh from an OBJ, PLY or glTF file.
+/// Which axis of a model file points up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UpAxis {
+    /// As in glTF, and where modellers say so on export.
+    Y,
+    /// As in this project's scenes.
+    Z,
+}
+
+/// How a model file is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ModelOptions {
+    /// The axis of the file that points up: y of glTF and z of all others, unless it is said here. z points up in what
+    /// is read.
+    pub up: Option<UpAxis>,
+    /// Whether materials that cannot be used are refused and triangles stay as they are, or what is odd about a model
+    /// is mended and noted.
+    pub strict: bool,
+}
+
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, as it is.
 ///
 /// # Errors
 /// [`ModelError`], with the path, and the line, element or part where there is one.
 pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
     let bytes = load_model(path)?;
-    match ModelFormat::of(&bytes, path) {
-        ModelFormat::Obj => parse_obj(&bytes, path),
-        ModelFormat::Ply => parse_ply(&bytes, path),
-        ModelFormat::Gltf => Ok(parse_gltf(&bytes, path, &mut beside(path))?.mesh().clone()),
-    }
+    mesh_of(&bytes, ModelFormat::of(&bytes, path), path)
 }
 
-/// Reads a scene from an OBJ file and the libraries that it names, from a glTF file and its buffers, or from a PLY
-/// file, all of one grey material. It has no views and no point lights.
+/// Reads a scene from an OBJ file and the libraries that it names, from a glTF file and its buffers, or from a PLY or
+/// STL file, all of one grey material, as it is. It has no views and no point lights.
 ///
 /// # Errors
 /// [`ModelError`], with the path, and the line, element or part where there is one.
 pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
+    load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
+}
+
+/// [`load_mesh`] with options, and what the user should know of the model: unless it is to stay as it is, triangles
+/// that face another way than their neighbours are turned round ([`Mesh::misoriented`]).
+///
+/// # Errors
+/// As [`load_mesh`].
+pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<ModelNote>), ModelError> {
     let bytes = load_model(path)?;
-    match ModelFormat::of(&bytes, path) {
-        ModelFormat::Obj => parse_scene(&bytes, path, &mut beside(path)),
-        ModelFormat::Ply => plain_scene(parse_ply(&bytes, path)?, path),
-        ModelFormat::Gltf => parse_gltf(&bytes, path, &mut beside(path)),
+    let format = ModelFormat::of(&bytes, path);
+    let mut mesh = mesh_of(&bytes, format, path)?;
+    if let Some(rotation) = rotation(format, options) {
+        mesh = mesh.rotated(rotation);
     }
+    if options.strict {
+        return Ok((mesh, Vec::new()));
+    }
+    let (wrong, notes) = oddities(&mesh);
+    Ok((mesh.turned_round(&wrong), notes))
+}
+
+/// [`load_scene`] with options, and what the user should know of the model: unless it is to stay as it is, its
+/// triangles are mended as by [`load_mesh_with`], and materials as [`super::scene_obj::mtl`] says.
+///
+/// # Errors
+/// As [`load_scene`].
+pub fn load_scene_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), ModelError> {
+    let bytes = load_model(path)?;
+    let format = ModelFormat::of(&bytes, path);
+    let (mut scene, mut notes) = match format {
+        ModelFormat::Obj => read_scene(&bytes, path, &mut beside(path), options.strict)?,
+        ModelFormat::Gltf => (parse_gltf(&bytes, path, &mut beside(path))?, Vec::new()),
+        ModelFormat::Ply | ModelFormat::Stl => (plain_scene(mesh_of(&bytes, format, path)?, path)?, Vec::new()),
+    };
+    if let Some(rotation) = rotation(format, options) {
+        scene = scene.rotated(rotation);
+    }
+    if !options.strict {
+        let (wrong, odd) = oddities(scene.mesh());
+        scene = scene.turned_round(&wrong);
+        notes.extend(odd);
+    }
+    Ok((scene, notes))
+}
+
+fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path) -> Result<Mesh, ModelError> {
+    match format {
+        ModelFormat::Obj => parse_obj(bytes, path),
+        ModelFormat::Ply => parse_ply(bytes, path),
+        ModelFormat::Stl => parse_stl(bytes, path),
+        ModelFormat::Gltf => Ok(parse_gltf(bytes, path, &mut beside(path))?.mesh().clone()),
+    }
+}
+
+/// What brings the axis asked for to z, of coordinates as the format's reader gives them.
+fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
+    match (options.up?, format == ModelFormat::Gltf) {
+        (UpAxis::Y, false) => Some(|[x, y, z]| [x, -z, y]),
+        // What the reader of glTF has turned goes back.
+        (UpAxis::Z, true) => Some(|[x, y, z]| [x, z, -y]),
+        (UpAxis::Y, true) | (UpAxis::Z, false) => None,
+    }
+}
+
+/// The triangles to turn round, and what is odd about a mesh.
+fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
+    let wrong = mesh.misoriented();
+    let crowded = mesh.welded().edges().iter().filter(|edge| !edge.is_manifold()).count();
+    let notes = [
+        (wrong.len(), ModelNote::TurnedRound { triangles: wrong.len() }),
+        (mesh.degenerate_count(), ModelNote::Degenerate { triangles: mesh.degenerate_count() }),
+        (crowded, ModelNote::CrowdedEdges { edges: crowded }),
+    ];
+    (wrong, notes.into_iter().filter(|(count, _)| *count > 0).map(|(_, note)| note).collect())
 }
 
 /// Reads files in the folder of a model.

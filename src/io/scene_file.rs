@@ -15,8 +15,8 @@
 //! intensity = [10.0, 10.0, 9.0]
 //! ```
 //!
-//! The mesh is an OBJ, PLY or glTF file beside the scene file, read by [`super::load_scene`]. A model alone is a scene
-//! without views and point lights.
+//! The mesh is an OBJ, PLY, STL or glTF file beside the scene file, read by [`super::load_scene`]. A model alone is a
+//! scene without views and point lights.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -25,7 +25,8 @@ use serde::Deserialize;
 use thiserror::Error;
 
 use super::error::ModelError;
-use super::model::load_scene;
+use super::model::{ModelOptions, load_scene_with};
+use super::model_note::ModelNote;
 use super::number::Single;
 use super::read_limited;
 use super::scene_obj::{write_mtl, write_scene};
@@ -111,22 +112,27 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 }
 
 /// Endings of models.
-const MODELS: [&str; 4] = ["obj", "ply", "gltf", "glb"];
+const MODELS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 
 /// Reads a scene: a model by the name's ending, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
+    load_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
+}
+
+/// [`load`] with options for the model, and what the user should know of it. Views and point lights stay as they are.
+pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), SceneFileError> {
     let is = |known: &&str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
     if MODELS.iter().any(is) {
-        return Ok(load_scene(path)?);
+        return Ok(load_scene_with(path, options)?);
     }
     let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;
     let text = read.and_then(|bytes| String::from_utf8(bytes).ok());
     let text = text.ok_or_else(|| SceneFileError::NoText { path: path.into() })?;
     let (mesh, views, point_lights) = parse(&text, path)?;
-    let mut scene = load_scene(&path.parent().unwrap_or(Path::new("")).join(mesh))?;
+    let (mut scene, notes) = load_scene_with(&path.parent().unwrap_or(Path::new("")).join(mesh), options)?;
     scene.views = views;
     scene.point_lights = point_lights;
-    Ok(scene)
+    Ok((scene, notes))
 }
 
 /// The mesh's path, the views and the lights of a scene file's text.

@@ -143,6 +143,26 @@ impl Scene {
         mesh.unwrap_or_else(|_| self.mesh.clone())
     }
 
+    /// The scene with its mesh and normals passed through a rotation; views and lights stay.
+    #[must_use]
+    pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        self.normals.iter_mut().flatten().for_each(|normal| *normal = rotation(*normal));
+        self.mesh = self.mesh.rotated(rotation);
+        self
+    }
+
+    /// The scene with some triangles turned round: their second and third corners change places, with their normals.
+    #[must_use]
+    pub fn turned_round(mut self, triangles: &[u32]) -> Self {
+        for &triangle in triangles {
+            if let Some([_, b, c]) = self.normals.get_mut(triangle as usize) {
+                std::mem::swap(b, c);
+            }
+        }
+        self.mesh = self.mesh.turned_round(triangles);
+        self
+    }
+
     /// The triangles that shine, in rising order.
     pub fn emitters(&self) -> Vec<u32> {
         (0..self.mesh.len() as u32).filter(|&triangle| self.material(triangle).emits()).collect()

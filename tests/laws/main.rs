@@ -37,6 +37,7 @@ mod ranges;
 mod ray_tree;
 mod scene_files;
 mod sphere;
+mod stl;
 mod subsurface;
 mod tables;
 mod timing;

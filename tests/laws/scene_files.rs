@@ -4,7 +4,10 @@ use std::io;
 use std::path::Path;
 
 use crossbar::geom::Mesh;
-use crossbar::io::{parse_mtl, parse_scene, scene_file, scene_files, write_mtl, write_scene};
+use crossbar::io::{
+    ModelOptions, UpAxis, load_mesh_with, load_scene_with, parse_mtl, parse_scene, scene_file, scene_files, write_mtl,
+    write_scene,
+};
 use crossbar::scene::{Material, Scene, Surface, built};
 use proptest::prelude::*;
 
@@ -162,4 +165,95 @@ proptest! {
         let scene = Scene::new(triangle, materials, vec![0], Vec::new()).expect("a scene");
         prop_assert_eq!(round_trip(&scene), scene);
     }
+}
+
+/// What modellers write and we refuse: scaled under a note, and refused where files are to stay as they are.
+#[test]
+fn materials_of_modellers_are_scaled_and_noted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+    let model = folder.path().join("m.obj");
+    write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+    let read = |strict| load_scene_with(&model, ModelOptions { strict, ..ModelOptions::default() });
+    let at = |line: usize| format!("{}:{line}: material a: ", folder.path().join("m.mtl").display());
+    for (mtl, note, surface) in [
+        (
+            "newmtl a\nNs 225\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nNi 1.45\nd 1\nillum 2\n",
+            "`Kd` and `Ks` scaled by 1 / 1.3, to reflect at most all light",
+            Surface::Glossy { albedo: [0.8 / 1.3; 3], specular: [0.5 / 1.3; 3], exponent: 225.0 },
+        ),
+        (
+            "newmtl a\nKd 0.8 0.4 0.2\nd 0.5\nillum 1\n",
+            "taken as opaque; only glass (`illum 6`) lets 0.5 pass",
+            Surface::Diffuse { albedo: [0.8, 0.4, 0.2] },
+        ),
+        (
+            "newmtl a\nKd 2 1 0\n",
+            "`Kd` and `Ks` scaled by 1 / 2, to reflect at most all light",
+            Surface::Diffuse { albedo: [1.0, 0.5, 0.0] },
+        ),
+        (
+            "newmtl a\nNs 0\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nillum 2\n",
+            "`Ns 0` taken as 1, the widest lobe",
+            Surface::Glossy { albedo: [0.5; 3], specular: [0.5; 3], exponent: 1.0 },
+        ),
+    ] {
+        write("m.mtl", mtl);
+        let (scene, notes) = read(false).expect("a scene");
+        assert_eq!(scene.material(0).surface, surface, "{mtl}");
+        assert_eq!(notes.iter().map(ToString::to_string).collect::<Vec<_>>(), [at(1) + note]);
+        assert!(read(true).is_err() && parse_mtl(mtl.as_bytes(), Path::new("m.mtl")).is_err(), "{mtl}");
+    }
+    write("m.mtl", "newmtl a\nKd 0.5 0.5 0.5\n");
+    assert_eq!(read(false).expect("a scene").1, []);
+}
+
+/// A model with y up is the same one with z up, to the bit, and so is its scene; glTF has y up by itself.
+#[test]
+fn models_stand_up() {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
+    let up = |up| ModelOptions { up, strict: true };
+    for name in ["square.obj", "square.stl", "square.ply", "square.gltf"] {
+        let path = models.join(name);
+        let [plain, y, z] = [None, Some(UpAxis::Y), Some(UpAxis::Z)].map(|axis| {
+            let (mesh, _) = load_mesh_with(&path, up(axis)).expect("a mesh");
+            let (scene, _) = load_scene_with(&path, up(axis)).expect("a scene");
+            assert_eq!(
+                scene.mesh().iter_corners().collect::<Vec<_>>(),
+                mesh.iter_corners().collect::<Vec<_>>(),
+                "{name}"
+            );
+            mesh
+        });
+        assert_eq!(plain, if name == "square.gltf" { y.clone() } else { z.clone() }, "{name}");
+        assert_eq!(z.rotated(|[x, y, z]| [x, -z, y]), y, "{name}");
+    }
+}
+
+/// Flipped triangles are turned and counted, with their normals; so are triangles without area and crowded edges.
+#[test]
+fn odd_models_are_mended_and_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let model = folder.path().join("m.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\nf 1//1 2//2 3//3\n\
+                f 1//1 4//2 3//3\nf 2//1 5//1 3//1\nf 5//1 6//1 3//1\nf 2//1 2//1 3//1\n";
+    std::fs::write(&model, text).expect("written");
+    let lenient = ModelOptions::default();
+    let (scene, notes) = load_scene_with(&model, lenient).expect("a scene");
+    let said: Vec<String> = notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        said,
+        [
+            "1 triangle turned round, to face as the triangles beside",
+            "1 triangle without area: never hit",
+            "1 edge of three triangles or more"
+        ]
+    );
+    assert_eq!(scene.mesh().triangles()[1], [0, 2, 3]);
+    assert_eq!(scene.corner_normals(1), Some([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]));
+    let (mesh, of_mesh) = load_mesh_with(&model, lenient).expect("a mesh");
+    assert_eq!(of_mesh, notes);
+    assert_eq!(mesh.iter_corners().collect::<Vec<_>>(), scene.mesh().iter_corners().collect::<Vec<_>>());
+    let as_it_is = load_mesh_with(&model, ModelOptions { strict: true, ..lenient }).expect("a mesh");
+    assert_eq!(as_it_is, (crossbar::io::load_mesh(&model).expect("a mesh"), Vec::new()));
 }

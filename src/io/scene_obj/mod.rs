@@ -20,6 +20,7 @@ pub use write::{write_mtl, write_scene};
 
 use super::error::ModelError;
 use super::lines::{logical_lines, words};
+use super::model_note::ModelNote;
 use super::obj::within_limit;
 use crate::scene::Scene;
 use reader::SceneReader;
@@ -34,8 +35,19 @@ pub fn parse_scene(
     name: &Path,
     library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Scene, ModelError> {
+    read_scene(bytes, name, library, true).map(|(scene, _)| scene)
+}
+
+/// [`parse_scene`]; unless `strict`, materials that are none of ours are changed into such, and what was changed is
+/// said.
+pub(super) fn read_scene(
+    bytes: &[u8],
+    name: &Path,
+    library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
+    strict: bool,
+) -> Result<(Scene, Vec<ModelNote>), ModelError> {
     within_limit(bytes, name)?;
-    let mut reader = SceneReader::new(name);
+    let mut reader = SceneReader::new(name, strict);
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &words(&text), &text, library)?;
     }

@@ -10,18 +10,22 @@
 //! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
 //!
 //! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above
-//! 0) needs glass.
+//! 0) needs glass, and gloss an `Ns` above 0. Modellers write files that keep to none of these: [`read_mtl`] with notes
+//! scales `Kd` and `Ks` together, takes what is not glass as opaque, and says so.
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::super::error::{FilePlace, ModelError};
 use super::super::lines::{logical_lines, single, words};
+use super::super::model_note::ModelNote;
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
 
 /// Exponent of a glossy material that names none.
 const EXPONENT: f32 = 10.0;
+/// The exponent that stands for `Ns 0`.
+const LEAST_EXPONENT: f32 = 1.0;
 /// Index of refraction of glass that names none.
 const INDEX: f32 = 1.5;
 /// How far `Kd` + `Ks` may lie above 1: what rounding makes of figures that sum to 1.
@@ -32,20 +36,32 @@ const ROUNDING: f32 = 1e-6;
 /// # Errors
 /// [`ModelError`], with the line where there is one.
 pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, ModelError> {
-    let mut reader = MtlReader { name, clean: String::new(), materials: Vec::new(), seen: BTreeSet::new() };
+    read_mtl(bytes, name, None)
+}
+
+/// [`parse_mtl`]; with a list of notes, what is no material of ours is changed into one and noted.
+pub(super) fn read_mtl(
+    bytes: &[u8],
+    name: &Path,
+    mut notes: Option<&mut Vec<ModelNote>>,
+) -> Result<Vec<Material>, ModelError> {
+    let (clean, lenient) = (String::new(), notes.is_some());
+    let mut reader = MtlReader { name, clean, lenient, materials: Vec::new(), seen: BTreeSet::new() };
     for (line, text) in logical_lines(bytes) {
         reader.line(line, &text)?;
     }
     let (read, _) =
         tobj::load_mtl_buf(&mut reader.clean.as_bytes()).map_err(|reason| ModelError::Loader(name.into(), reason))?;
     let pairs = reader.materials.iter().zip(read);
-    pairs.map(|((line, material), read)| assemble(&read, name, *line, material)).collect()
+    pairs.map(|((line, material), read)| assemble(&read, name, *line, material, notes.as_deref_mut())).collect()
 }
 
 /// The first pass: the checked lines for tobj, and each material's line and name.
 struct MtlReader<'a> {
     name: &'a Path,
     clean: String,
+    /// Whether reflectances above 1 are left to be scaled.
+    lenient: bool,
     materials: Vec<(usize, String)>,
     seen: BTreeSet<String>,
 }
@@ -65,6 +81,7 @@ impl MtlReader<'_> {
         let here = &Statement { line, text, key, values };
         match key {
             b"newmtl" => self.material(line, text[6..].trim_ascii()),
+            b"Kd" | b"Ks" if self.lenient => self.color(here, "three numbers of at least 0", |_| true),
             b"Kd" | b"Ks" | b"Tf" => self.color(here, "three numbers from 0 to 1", |v| v <= 1.0),
             b"Ke" => self.color(here, "three numbers of at least 0", |_| true),
             b"Ns" => self.number(here, "`Ns` with a number of at least 0", |_| true),
@@ -154,7 +171,17 @@ fn number(word: &[u8]) -> Option<f32> {
 }
 
 /// A material of what tobj has read.
-fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Result<Material, ModelError> {
+fn assemble(
+    read: &tobj::Material,
+    path: &Path,
+    line: usize,
+    name: &str,
+    mut notes: Option<&mut Vec<ModelNote>>,
+) -> Result<Material, ModelError> {
+    let mut note = |of: &dyn Fn(FilePlace, String) -> ModelNote| {
+        let notes = notes.as_deref_mut();
+        notes.map(|notes| notes.push(of(FilePlace::line(path, line), name.into()))).is_some()
+    };
     let wrong = |expected, found: String| ModelError::Material {
         place: FilePlace::line(path, line),
         name: name.into(),
@@ -165,8 +192,16 @@ fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Resu
         let text = read.unknown_param.get(key)?;
         text.split_whitespace().map(|word| word.parse().ok()).collect()
     };
-    let albedo = read.diffuse.unwrap_or([0.0; 3]);
     let model = read.illumination_model.unwrap_or(2);
+    let (mut diffuse, mut specular) = (read.diffuse, read.specular);
+    let sum = largest_reflectance(model, diffuse, specular);
+    if sum > 1.0 + ROUNDING && note(&|place, material| ModelNote::Scaled { place, material, sum }) {
+        for channel in diffuse.iter_mut().chain(&mut specular).flatten() {
+            // Rounding up would reflect more than all.
+            *channel = (*channel / sum).min(1.0);
+        }
+    }
+    let albedo = diffuse.unwrap_or([0.0; 3]);
     let passes = match (read.dissolve, unknown("Tr").as_deref()) {
         (Some(opaque), _) => Some(1.0 - opaque),
         (None, Some(&[clear])) => Some(clear),
@@ -178,15 +213,22 @@ fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Resu
             let transmittance = filter.unwrap_or([passes.unwrap_or(1.0); 3]);
             Surface::Glass { index: read.optical_density.unwrap_or(INDEX), transmittance }
         }
-        _ if passes.is_some_and(|share| share > 0.0) => {
+        _ if passes.is_some_and(|passes| {
+            passes > 0.0 && !note(&|place, material| ModelNote::Opaque { place, material, passes })
+        }) =>
+        {
             let expected = "`illum 6` where `d` is below 1 or `Tr` above 0: only glass lets light pass";
             return Err(wrong(expected, format!("illum {model}")));
         }
-        3 | 5 | 8 => Surface::Mirror { reflectance: read.specular.unwrap_or([1.0; 3]) },
-        _ => match read.specular.filter(|specular| specular.iter().any(|&channel| channel > 0.0)) {
+        3 | 5 | 8 => Surface::Mirror { reflectance: specular.unwrap_or([1.0; 3]) },
+        _ => match specular.filter(|specular| specular.iter().any(|&channel| channel > 0.0)) {
             None => Surface::Diffuse { albedo },
             Some(specular) => {
-                let exponent = read.shininess.unwrap_or(EXPONENT);
+                let mut exponent = read.shininess.unwrap_or(EXPONENT);
+                let widest = |place, material| ModelNote::Exponent { place, material, exponent: LEAST_EXPONENT };
+                if exponent <= 0.0 && note(&widest) {
+                    exponent = LEAST_EXPONENT;
+                }
                 if exponent <= 0.0 {
                     return Err(wrong("`Ns` above 0 where `Ks` is", exponent.to_string()));
                 }
@@ -200,4 +242,15 @@ fn assemble(read: &tobj::Material, path: &Path, line: usize, name: &str) -> Resu
     };
     let emission = read.emissive.unwrap_or([0.0; 3]);
     Ok(Material { name: name.into(), surface, emission })
+}
+
+/// The largest share of light that a material of these reflects in any channel.
+fn largest_reflectance(model: u8, diffuse: Option<Color>, specular: Option<Color>) -> f32 {
+    let (diffuse, specular) = (diffuse.unwrap_or_default(), specular.unwrap_or_default());
+    let of = |channel: usize| match model {
+        4 | 6 | 7 | 9 => 0.0,
+        3 | 5 | 8 => specular[channel],
+        _ => diffuse[channel] + specular[channel],
+    };
+    [0, 1, 2].map(of).into_iter().fold(0.0, f32::max)
 }

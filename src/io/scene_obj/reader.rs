@@ -5,8 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::super::error::{FilePlace, ModelError};
+use super::super::model_note::ModelNote;
 use super::super::obj::ObjReader;
-use super::parse_mtl;
+use super::mtl::read_mtl;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::scene::{Material, Scene};
@@ -31,11 +32,14 @@ pub(super) struct SceneReader {
     used: Vec<String>,
     place_of: BTreeMap<String, usize>,
     current: Option<usize>,
+    /// What was changed in materials; `None` where they are refused instead.
+    notes: Option<Vec<ModelNote>>,
 }
 
 impl SceneReader {
-    pub(super) fn new(name: &Path) -> Self {
-        Self { name: name.into(), geometry: ObjReader::new(name), ..Self::default() }
+    pub(super) fn new(name: &Path, strict: bool) -> Self {
+        let notes = (!strict).then(Vec::new);
+        Self { name: name.into(), geometry: ObjReader::new(name), notes, ..Self::default() }
     }
 
     pub(super) fn line(
@@ -91,7 +95,7 @@ impl SceneReader {
             let place = FilePlace::line(&self.name, line);
             ModelError::Library { place, library: path.clone(), source }
         })?;
-        self.materials.extend(parse_mtl(&bytes, &path)?);
+        self.materials.extend(read_mtl(&bytes, &path, self.notes.as_mut())?);
         self.libraries.push(file);
         Ok(())
     }
@@ -101,9 +105,9 @@ impl SceneReader {
         name.map(str::to_owned).ok_or_else(|| self.geometry.syntax(line, expected, rest.trim_ascii()))
     }
 
-    /// The whole scene, once everything has been read.
-    pub(super) fn scene(self) -> Result<Scene, ModelError> {
-        let Self { name, mut geometry, material_of: faces, mut materials, used, .. } = self;
+    /// The whole scene, once everything has been read, and what was changed in it.
+    pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), ModelError> {
+        let Self { name, mut geometry, material_of: faces, mut materials, used, notes, .. } = self;
         let mesh = geometry.mesh(false)?;
         let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
         let mut place_of = BTreeMap::<String, u32>::new();
@@ -129,8 +133,9 @@ impl SceneReader {
                 normals.push(if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan });
             }
         }
-        Scene::new(mesh, materials, material_of, normals)
-            .map_err(|reason| ModelError::Scene(name.as_path().into(), reason))
+        let scene = Scene::new(mesh, materials, material_of, normals)
+            .map_err(|reason| ModelError::Scene(name.as_path().into(), reason))?;
+        Ok((scene, notes.unwrap_or_default()))
     }
 }
 

@@ -1,0 +1,121 @@
+//! Surfaces whose triangles do not all run the same way round.
+
+use super::{Adjacency, Mesh};
+
+impl Mesh {
+    /// The triangles to turn round so that neighbours run through their common edge in opposite ways, in rising order.
+    /// Corners count as one vertex where they are at one place. Of each connected surface the smaller part is turned,
+    /// of equal parts the one without its first triangle. Only edges of exactly two triangles connect, and a surface
+    /// that has no consistent orientation (a Moebius strip) stays as it is.
+    ///
+    /// ```
+    /// use crossbar::geom::Mesh;
+    ///
+    /// # fn main() -> Result<(), crossbar::geom::MeshError> {
+    /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let square = Mesh::new(corners, vec![[0, 1, 2], [0, 3, 2]])?;
+    /// assert_eq!(square.misoriented(), [1]);
+    /// assert!(square.turned_round(&[1]).misoriented().is_empty());
+    /// # Ok(())
+    /// # }
+    /// ```
+    pub fn misoriented(&self) -> Vec<u32> {
+        let welded = self.welded();
+        let adjacency = welded.adjacency();
+        // Whether a triangle runs as the first of its surface does.
+        let mut same_way: Vec<Option<bool>> = vec![None; welded.len()];
+        let mut wrong = Vec::new();
+        for first in 0..welded.len() as u32 {
+            if same_way[first as usize].is_none() {
+                wrong.extend(smaller_part(&welded, &adjacency, first, &mut same_way));
+            }
+        }
+        wrong.sort_unstable();
+        wrong
+    }
+
+    /// The mesh with some triangles turned round: their second and third corners change places. Ids that do not exist
+    /// are passed over.
+    #[must_use]
+    pub fn turned_round(mut self, triangles: &[u32]) -> Self {
+        self.turn_round(triangles);
+        self
+    }
+}
+
+/// The part to turn round of the surface of a triangle; empty where there is none.
+fn smaller_part(mesh: &Mesh, adjacency: &Adjacency, first: u32, same_way: &mut [Option<bool>]) -> Vec<u32> {
+    let (mut parts, mut orientable, mut waiting) = ([Vec::new(), Vec::new()], true, vec![first]);
+    same_way[first as usize] = Some(true);
+    while let Some(triangle) = waiting.pop() {
+        let way = same_way[triangle as usize].unwrap_or(true);
+        parts[usize::from(!way)].push(triangle);
+        for edge in adjacency.edges_of(triangle).into_iter().flatten() {
+            let edge = &adjacency.edges()[edge as usize];
+            let &[a, b] = &edge.triangles[..] else { continue };
+            let other = if a == triangle { b } else { a };
+            let agree = runs_forward(mesh, triangle, edge.vertices) != runs_forward(mesh, other, edge.vertices);
+            match same_way[other as usize] {
+                None => {
+                    same_way[other as usize] = Some(way == agree);
+                    waiting.push(other);
+                }
+                Some(known) => orientable &= known == (way == agree),
+            }
+        }
+    }
+    let [kept, turned] = parts;
+    match orientable {
+        false => Vec::new(),
+        true if turned.len() <= kept.len() => turned,
+        true => kept,
+    }
+}
+
+/// Whether a triangle runs through an edge from its first vertex to its second.
+fn runs_forward(mesh: &Mesh, triangle: u32, [from, to]: [u32; 2]) -> bool {
+    let [a, b, c] = mesh.triangles()[triangle as usize];
+    [[a, b], [b, c], [c, a]].contains(&[from, to])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh(triangles: Vec<[u32; 3]>) -> Mesh {
+        let positions = vec![
+            [0.0; 3],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [-1.0, 0.0, 0.0],
+            [1.0, 1.0, 1.0],
+            [2.0, 0.0, 0.0],
+        ];
+        Mesh::new(positions, triangles).expect("a mesh")
+    }
+
+    #[test]
+    fn the_smaller_part_is_turned() {
+        let tetrahedron = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        assert!(mesh(tetrahedron.to_vec()).misoriented().is_empty());
+        for wrong in 0..4 {
+            let mut triangles = tetrahedron.to_vec();
+            triangles[wrong].swap(1, 2);
+            let found = mesh(triangles);
+            assert_eq!(found.misoriented(), [wrong as u32]);
+            assert_eq!(found.turned_round(&[wrong as u32]).triangles(), tetrahedron);
+        }
+        let inside_out = tetrahedron.map(|[a, b, c]| [a, c, b]);
+        assert!(mesh(inside_out.to_vec()).misoriented().is_empty(), "consistent, so a room perhaps");
+    }
+
+    #[test]
+    fn what_has_no_orientation_stays() {
+        let moebius = vec![[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 6], [5, 0, 6], [6, 0, 1]];
+        assert!(mesh(moebius.clone()).orientation_conflicts() > 0);
+        assert!(mesh(moebius).misoriented().is_empty());
+        let fins = vec![[0, 1, 2], [0, 1, 3], [0, 1, 4], [5, 5, 6]];
+        assert!(mesh(fins).misoriented().is_empty(), "three triangles on an edge");
+    }
+}
