@@ -12,15 +12,15 @@ use serde_json::json;
 use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
 use super::words::counted;
-use super::{Out, Problem, Verdict, view};
+use super::{Out, Problem, Verdict, model_file, view};
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::io::atomic::write_file;
-use crate::io::load_mesh;
 use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
+use crate::study::leaky_teapot::FormatLimits;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -35,13 +35,17 @@ Examples:
 
 Rays: CSV with the header ox,oy,oz,dx,dy,dz; directions are not renormalised. Hits: CSV with the header ray,triangle,t, a line
 a ray; triangle counts from 0 in the order of the mesh file, -1 where nothing is hit (t is then inf); t is in multiples of
-the ray's direction, written so that it reads back to the same f32.";
+the ray's direction, written so that it reads back to the same f32.
 
-/// First hits of the rays of a CSV file on the triangles of an OBJ, PLY or glTF file
+`crossbar leaks --mesh M.obj --rays R.csv` judges the same rays on any card: which hits leak, are false or name a wrong triangle.
+
+Where the format of a card leaves no bits of the triangles or of t, a warning says so.";
+
+/// First hits of the rays of a CSV file on the triangles of an OBJ, PLY, STL or glTF file
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// The mesh, a Wavefront OBJ, PLY or glTF file
+    /// The mesh, a Wavefront OBJ, PLY, STL or glTF file
     #[arg(long, value_name = "M.obj")]
     mesh: PathBuf,
 
@@ -89,6 +93,8 @@ enum HitSource {
 struct Answer {
     hits: Vec<Candidate>,
     engine: Option<EngineCounts>,
+    /// What is left of the answer in the card's number format, where that is next to nothing.
+    warning: Option<String>,
     build_s: f64,
     cast_s: f64,
 }
@@ -96,14 +102,10 @@ struct Answer {
 /// No hit.
 const NONE: Candidate = Candidate { triangle: None, t: f32::INFINITY };
 
-/// Memory that rays and their hits take at most, per byte of the rays' file: 90 bytes for a line of at least 12.
-const RAYS_PER_BYTE: u64 = 8;
-
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let way = choose(args)?;
-    view::require_mesh(&args.mesh)?;
-    let mesh = load_mesh(&args.mesh)?;
-    view::require_file(&args.rays, RAYS_PER_BYTE, "share the rays out to several files")?;
+    let mesh = model_file::mesh(&args.mesh)?;
+    view::require_file(&args.rays, view::RAYS_PER_BYTE, "share the rays out to several files")?;
     let rays = load_rays(&args.rays)?;
     let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;
     write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
@@ -126,28 +128,30 @@ impl HitSource {
     fn answer(self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> miette::Result<Answer> {
         let start = Instant::now();
         let of_hit = |h: Option<Hit>| h.map_or(NONE, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-        let (hits, engine, built): (Vec<Candidate>, _, _) = match self {
+        let (hits, engine, warning, built): (Vec<Candidate>, _, _, _) = match self {
             Self::Exact => {
                 let tracer = Tracer::new(mesh);
                 let built = Instant::now();
                 let candidate = |(triangle, t)| Candidate { triangle: Some(triangle), t };
                 let hits = view::exact_hits(&tracer, rays, sides).into_iter();
-                (hits.map(|h| h.map_or(NONE, candidate)).collect(), None, built)
+                (hits.map(|h| h.map_or(NONE, candidate)).collect(), None, None, built)
             }
             Self::Card(profile, executor) => {
                 let crossbar = Crossbar::new(*profile, executor);
                 let built = Instant::now();
                 let hits = crossbar.intersect_list(mesh, rays, sides)?;
-                (hits.into_iter().map(of_hit).collect(), None, built)
+                let warning = FormatLimits::new(crossbar.bits_left(mesh, rays, sides)?, &hits).warning();
+                (hits.into_iter().map(of_hit).collect(), None, warning, built)
             }
             Self::Caster(choice) => {
                 let mut caster = choice.build(mesh, sides)?;
                 let built = Instant::now();
                 let hits = caster.caster().cast(rays).into_diagnostic()?;
-                (hits.into_iter().map(of_hit).collect(), caster.counts(), built)
+                (hits.into_iter().map(of_hit).collect(), caster.counts(), None, built)
             }
         };
-        Ok(Answer { hits, engine, build_s: (built - start).as_secs_f64(), cast_s: built.elapsed().as_secs_f64() })
+        let (build_s, cast_s) = ((built - start).as_secs_f64(), built.elapsed().as_secs_f64());
+        Ok(Answer { hits, engine, warning, build_s, cast_s })
     }
 }
 
@@ -161,8 +165,15 @@ fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
         writeln!(std::io::stderr().lock(), "time: {cast_s:.4} s to cast, {rate:.3} M rays/s; {build_s:.4} s to build")
             .ok();
     }
+    if let Some(warning) = &answer.warning {
+        // Nothing is to be done if nobody reads this.
+        writeln!(std::io::stderr().lock(), "warning: {warning}").ok();
+    }
     if out.json() {
         let mut document = json!({ "rays": rays, "hits": found, "out": args.out });
+        if let Some(warning) = &answer.warning {
+            document["warning"] = json!(warning);
+        }
         if let Some(engine) = &answer.engine {
             document["engine"] = caster::document(engine);
         }

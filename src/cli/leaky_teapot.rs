@@ -6,12 +6,15 @@ use miette::IntoDiagnostic as _;
 use refsim::num::Format;
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::memory::{self, MemoryNeed};
+use super::memory::MemoryNeed;
+use super::model_name;
+use super::scene_name::EyeArgs;
 use super::size::Size;
 use super::study::StudyArgs;
 use super::view;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
+use crate::io::load_rays;
 use crate::ray_engine::RayBatch;
 use crate::scene::Camera;
 use crate::study::configuration::Configuration;
@@ -25,17 +28,35 @@ Examples:
       number formats of your own choice, on a device without limits
   crossbar leaky-teapot --device r300 --device nv35 --json
       two cards as they are, the rows as JSON on standard output
+  crossbar leaks --mesh docs/examples/step.obj --size 128x128 --device r200 --out leaks
+      a model of your own on a Radeon 8500: `leaks` is another name of the command
+  crossbar leaks --mesh docs/examples/teapot.obj --rays docs/examples/rays.csv --device r200 --device r300 --out leaks
+      rays of your own, as for `crossbar intersect`, on two cards
 
 With --device and --format both, every device runs in every format. Written to --out: index.html (self-contained), rows.csv,
 edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where), NAME.exr (t and triangle).";
 
-/// Trace the teapot in each number format, against exact arithmetic
+/// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
+/// triangles
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true, visible_alias = "leaks")]
 pub(super) struct Args {
+    /// A model in place of the teapot: a Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), or a scene or
+    /// a mesh of the project
+    #[arg(long, value_name = "MODEL", conflicts_with = "tessellation")]
+    mesh: Option<PathBuf>,
+
+    /// Rays in place of a camera's: a CSV file, as `crossbar intersect` takes it
+    #[arg(long, value_name = "R.csv", requires = "mesh",
+          conflicts_with_all = ["size", "eye", "target", "up", "tan_half_height"])]
+    rays: Option<PathBuf>,
+
     /// Pixels of the pictures
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
     size: Size,
+
+    #[command(flatten)]
+    eye: EyeArgs,
 
     /// Quads along each side of each of the 32 Bezier patches
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
@@ -86,39 +107,73 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        Vec::new()
+        let model = self.mesh.as_deref().map(model_name::named_file).unwrap_or_default();
+        model.into_iter().chain(self.rays.as_deref()).collect()
     }
 
-    /// What the rays, the truth about them and the files of every row take.
+    /// Of the teapot; what models and lists take is known when they are read.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        const PER_PIXEL: u64 = 350;
-        const PER_PIXEL_AND_ROW: u64 = 50;
-        const PER_TRIANGLE: u64 = 450;
-        const PER_AIMED_RAY: u64 = 350;
-        let rows = configurations(self)?.len() as u64;
-        let triangles = 64 * u64::from(self.tessellation).pow(2);
-        // Two triangles share an edge, and as many rays as three edges have go to corners at most.
-        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.rays_per_edge) + 1) * PER_AIMED_RAY;
-        let fixed = triangles * PER_TRIANGLE + aimed;
-        Ok(Some(MemoryNeed {
-            what: format!("a study of {} pixels in {rows} rows", self.size),
-            bytes: memory::of_pixels(self.size.width, self.size.height, PER_PIXEL + rows * PER_PIXEL_AND_ROW, fixed),
-            help: "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows",
-        }))
+        let pixels = u64::from(self.size.width) * u64::from(self.size.height);
+        let triangles = if self.mesh.is_some() { 0 } else { 64 * u64::from(self.tessellation).pow(2) };
+        self.need(if self.rays.is_some() { 0 } else { pixels }, triangles).map(Some)
     }
 
     fn study(&self) -> miette::Result<Parameters> {
         let Size { width, height } = self.size;
-        let camera = Camera::teapot(width, height).into_diagnostic()?;
+        let mesh = match &self.mesh {
+            Some(path) => model_name::mesh(path)?,
+            None => teapot(self.tessellation).into_diagnostic()?,
+        };
+        let (view, listed) = match &self.rays {
+            Some(path) => {
+                view::require_file(path, view::RAYS_PER_BYTE, "share the rays out to several files")?;
+                let (view, count) = Parameters::of_list(&load_rays(path)?);
+                (view, Some(count))
+            }
+            None => {
+                let camera = match self.mesh.is_none() && self.eye.is_default() {
+                    true => Camera::teapot(width, height).into_diagnostic()?,
+                    false => self.eye.framing(&mesh, self.size)?,
+                };
+                (RayBatch::new(width, height, camera.rays()).into_diagnostic()?, None)
+            }
+        };
+        self.need(view.rays().len() as u64, mesh.len() as u64)?.require()?;
         Ok(Parameters {
-            mesh: teapot(self.tessellation).into_diagnostic()?,
-            view: RayBatch::new(width, height, camera.rays()).into_diagnostic()?,
+            model: self.mesh.as_ref().map(|path| path.display().to_string()),
+            mesh,
+            view,
+            listed,
             sides: Sides::from(self.sides),
             configurations: configurations(self)?,
             rays_per_edge: self.rays_per_edge,
             seed: self.seed,
             executor: self.executor.open(&self.gpu)?,
             all_pairs: self.all_pairs,
+        })
+    }
+}
+
+impl Args {
+    /// What so many rays, the truth about them and the files of every row take.
+    fn need(&self, rays: u64, triangles: u64) -> miette::Result<MemoryNeed> {
+        const PER_PIXEL: u64 = 350;
+        const PER_PIXEL_AND_ROW: u64 = 50;
+        const PER_TRIANGLE: u64 = 450;
+        const PER_AIMED_RAY: u64 = 350;
+        let rows = configurations(self)?.len() as u64;
+        // Two triangles share an edge, and as many rays as three edges have go to corners at most.
+        let aimed = (triangles * 3 / 2).saturating_mul(u64::from(self.rays_per_edge) + 1) * PER_AIMED_RAY;
+        let what = match self.rays {
+            Some(_) => format!("a study of {rays} rays in {rows} rows"),
+            None => format!("a study of {} pixels in {rows} rows", self.size),
+        };
+        Ok(MemoryNeed {
+            what,
+            bytes: rays
+                .saturating_mul(PER_PIXEL + rows * PER_PIXEL_AND_ROW)
+                .saturating_add(triangles * PER_TRIANGLE + aimed),
+            help: "ask for a smaller `--size` or `--tessellation`, fewer `--rays-per-edge` or fewer rows",
         })
     }
 }

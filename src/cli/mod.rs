@@ -21,6 +21,7 @@ mod leaky_teapot;
 mod man;
 mod materials;
 mod memory;
+mod model_file;
 mod model_name;
 mod number;
 mod out;
@@ -125,18 +126,24 @@ enum Command {
     Timeline(timeline::Args),
 }
 
+/// The program with all its options.
+fn program() -> clap::Command {
+    model_file::with_options(Cli::command())
+}
+
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
-    let mut program = Cli::command();
+    let mut program = program();
     let parsed = program.try_get_matches_from_mut(&arguments).and_then(|matches| {
         let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
+        model_file::choose(&matches);
         Ok((cli, resolved::command_line(&program, &matches)))
     });
     let (cli, command_line) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments, |safe| Cli::try_parse_from(safe).err());
+            error::print_usage(&error, &arguments, |safe| self::program().try_get_matches_from(safe).err());
             // Help and `--version` come this way too, with code 0.
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
@@ -178,12 +185,12 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::Atlas(args) => study::run(&args, command_line, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
-        Command::Completions(args) => completions::run(&args, Cli::command(), out),
+        Command::Completions(args) => completions::run(&args, program(), out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Diff(args) => diff::run(&args, command_line, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
-        Command::Man(args) => man::run(&args, Cli::command(), out),
+        Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
         Command::Prt(args) => prt::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),

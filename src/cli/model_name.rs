@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::{Problem, scene_name, view};
+use super::{Problem, model_file, scene_name};
 use crate::geom::Mesh;
-use crate::io::scene_file::load;
 use crate::names::did_you_mean;
 use crate::scene::built::flat_models::MaterialMesh;
 use crate::scene::built::{self, meshes};
@@ -37,7 +36,7 @@ pub(super) fn transfer_model_help() -> String {
     let stands_in = |name: &&str| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|of| name.starts_with(of));
     let names: Vec<&str> = meshes::names().filter(stands_in).collect();
     format!(
-        "A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of \
+        "A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of \
          the papers: {}",
         names.join(", ")
     )
@@ -57,9 +56,11 @@ pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
 pub(super) fn model(path: &Path) -> miette::Result<Model> {
     let name = path.to_str().unwrap_or_default();
     if let Some(MaterialMesh { mesh, materials, material_of }) = meshes::build_with_materials(name) {
+        model_file::refuse_options(name)?;
         return Ok(Model { mesh, materials, material_of });
     }
     if let Some(scene) = built::build(name) {
+        model_file::refuse_options(name)?;
         return Ok(Model::of(&scene));
     }
     // A word without a dot or a folder is a name, not a file.
@@ -69,6 +70,5 @@ pub(super) fn model(path: &Path) -> miette::Result<Model> {
         let help = format!("{meant}there are {}; a file needs its ending, as in `{name}.obj`", names.join(", "));
         return Err(Problem::usage(format!("there is no model `{name}`"), help).into());
     }
-    view::require_mesh(path)?;
-    Ok(Model::of(&load(path)?))
+    Ok(Model::of(&model_file::scene(path)?))
 }

@@ -5,9 +5,8 @@ use std::path::Path;
 use miette::IntoDiagnostic as _;
 
 use super::size::Size;
-use super::{Problem, number, view};
+use super::{Problem, model_file, number, view};
 use crate::geom::Mesh;
-use crate::io::scene_file::load;
 use crate::names::did_you_mean;
 use crate::scene::{Camera, Scene, built};
 
@@ -15,6 +14,7 @@ use crate::scene::{Camera, Scene, built};
 pub(super) fn by_name(path: &Path) -> Result<Option<Scene>, Problem> {
     let name = path.to_str().unwrap_or_default();
     if let Some(scene) = built::build(name) {
+        model_file::refuse_options(name)?;
         return Ok(Some(scene));
     }
     // A word without a dot or a folder is a name, not a file.
@@ -32,11 +32,11 @@ pub(super) fn named_file(path: &Path) -> Vec<&Path> {
     if built::names().any(|name| path == Path::new(name)) { Vec::new() } else { vec![path] }
 }
 
-/// A scene of the project by its name, or of a scene file, an OBJ, PLY or glTF file.
+/// A scene of the project by its name, or of a scene file, an OBJ, PLY, STL or glTF file.
 pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
     Ok(match by_name(path)? {
         Some(scene) => scene,
-        None => load(path)?,
+        None => model_file::scene(path)?,
     })
 }
 
@@ -61,6 +61,12 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
+    /// Whether nothing was asked for.
+    pub(super) fn is_default(&self) -> bool {
+        let Self { eye, target, up, tan_half_height } = *self;
+        eye.is_none() && target.is_none() && up == [0.0, 0.0, 1.0] && tan_half_height == 0.375
+    }
+
     /// A camera there; without an eye, one that sees all of the mesh.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
         view::framing(mesh, size, self.tan_half_height, (self.eye, self.target, self.up))

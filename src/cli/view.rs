@@ -34,6 +34,9 @@ impl From<SidesArg> for Sides {
 /// The card where none is named.
 pub(super) const DEFAULT_DEVICE: &str = "ideal-fp32";
 
+/// Memory that rays and their hits take at most, per byte of the rays' file: 90 bytes for a line of at least 12.
+pub(super) const RAYS_PER_BYTE: u64 = 8;
+
 /// For `map_err` on parsing a number format.
 pub(super) fn bad_format(error: FormatError) -> miette::Report {
     Problem::usage(format!("{error}"), "formats are s3.12, e5m10:rtz, fp24 and the like: see `crossbar alu --help`")
@@ -54,7 +57,7 @@ pub(super) fn framing(
     let Some([low, high]) = mesh.bounds() else {
         return Err(Problem::usage(
             "the mesh has no triangles",
-            "name an OBJ, PLY or glTF file with at least one face",
+            "name an OBJ, PLY, STL or glTF file with at least one face",
         )
         .into());
     };
@@ -86,7 +89,7 @@ pub(super) fn exact_hits(tracer: &Tracer<'_>, rays: &[Ray], sides: Sides) -> Vec
     hits
 }
 
-/// Refuses a mesh, a Wavefront OBJ, PLY or glTF file, whose text would take more memory than there is.
+/// Refuses a mesh, a Wavefront OBJ, PLY, STL or glTF file, whose text would take more memory than there is.
 pub(super) fn require_mesh(path: &Path) -> Result<(), MemoryError> {
     require_file(path, 12, "name a smaller mesh")
 }

@@ -10,6 +10,7 @@ use refsim::num::{Format, FormatKind};
 use refsim::texture::Region;
 
 use super::answer::{Answer, EngineError, MAX_TRIANGLES};
+use super::bits_left::BitsLeft;
 use super::bundle::{Bundle, regions};
 use super::card::{Card, CardHit, Streams};
 use super::outputs::{Outputs, TargetEncoding};
@@ -218,6 +219,19 @@ impl Crossbar {
             hits.extend((0..chunk.len()).map(|i| answer.hits[batch.pixel_of(i)]));
         }
         Ok(hits)
+    }
+
+    /// What the format leaves of a mesh for these rays, taken as one batch: their extent decides the units.
+    ///
+    /// # Errors
+    /// As [`Crossbar::intersect`].
+    pub fn bits_left(&self, mesh: &Mesh, rays: &[Ray], sides: Sides) -> Result<BitsLeft, EngineError> {
+        let batch = RayBatch::from_list(rays);
+        let kernel = self.kernel((batch.common_origin().is_some(), sides))?;
+        if rays.is_empty() || mesh.is_empty() {
+            return Ok(BitsLeft::default());
+        }
+        Ok(BitsLeft::of(mesh, &Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, &batch)))
     }
 
     /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that

@@ -6,6 +6,7 @@
 
 mod answer;
 mod barycentrics;
+mod bits_left;
 mod bundle;
 mod card;
 mod crossbar;
@@ -26,6 +27,7 @@ mod units;
 mod vertex_crossbar;
 
 pub use answer::{Answer, EngineError};
+pub use bits_left::BitsLeft;
 pub use crossbar::{Crossbar, MakeWatcher};
 pub use kernel::{Form, Kernel};
 pub use outputs::Outputs;

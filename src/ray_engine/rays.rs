@@ -46,6 +46,13 @@ impl RayBatch {
         }
     }
 
+    /// As many whole rows of `width` rays as there are; what is left over is dropped.
+    pub fn rows(width: u32, mut rays: Vec<Ray>) -> Self {
+        let height = rays.len() / (width as usize).max(1);
+        rays.truncate(width as usize * height);
+        Self { width, height: u32::try_from(height).unwrap_or(u32::MAX), rays }
+    }
+
     /// A list of rays, 256 after 256 in squares of 16 x 16 pixels, 16 squares per row: neighbours in the list are
     /// neighbours on the screen. The last square is padded by repeating the last ray; [`Self::pixel_of`] finds the
     /// answers again. An empty list gives a batch of no rows.

@@ -117,6 +117,12 @@ impl Units {
         scale(sums.into_iter().fold(0.0, f64::max))
     }
 
+    /// The largest component of a triangle's normal as the card gets it, and the step of its format.
+    pub(super) fn largest_normal(&self, corners: [[f32; 3]; 3]) -> (f64, f64) {
+        let [a, b, c] = corners.map(|corner| wide(corner) * self.scale);
+        (largest((b - a).cross(c - a)) * self.edge_scale(corners), self.range.step)
+    }
+
     /// `c0` is the program's own; `c1` scene scale, unused, 1 / t_max; `c2` the common origin.
     pub(super) fn vertex_constants(&self) -> Vec<[u32; 4]> {
         let [x, y, z] = self.origin;

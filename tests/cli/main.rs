@@ -19,6 +19,7 @@ mod hostile;
 mod interrupted;
 mod materials;
 mod memory;
+mod models;
 mod program;
 mod prt;
 mod radiosity;

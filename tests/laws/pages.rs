@@ -185,6 +185,8 @@ fn every_wrong_pixel_is_shown() {
         view: RayBatch::new(width, height, camera.rays()).expect("rays"),
         sides: Sides::Front,
         configurations: vec![Configuration::device("r200").expect("a card")],
+        model: None,
+        listed: None,
         rays_per_edge: 0,
         seed: 1,
         executor: ExecutorKind::Batch.into(),

@@ -1,5 +1,6 @@
 //! Stored bits: they fail when they change.
 
+mod leaky_page;
 mod leaky_teapot;
 mod linalg;
 mod probes;

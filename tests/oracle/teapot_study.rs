@@ -16,6 +16,8 @@ pub(crate) fn parameters(size: u32, rate: u32, configurations: Vec<Configuration
         view: RayBatch::new(size, size, camera.rays()).expect("a square of rays"),
         sides: Sides::Front,
         configurations,
+        model: None,
+        listed: None,
         rays_per_edge: 2,
         seed: 1,
         executor: ExecutorKind::Batch.into(),

@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use crate::cli::model_name::{self, Model};
-use crate::cli::{Problem, view};
-use crate::io::load_mesh;
+use crate::cli::{Problem, model_file, view};
 use crate::prt::cpca::Clustering;
 use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
 use crate::prt::transfer::{Tangents, TransferError, Vertices};
@@ -14,8 +13,7 @@ use crate::scene::Material;
 /// none.
 pub(super) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
     if tangents == Tangents::Texture && path.is_file() {
-        view::require_mesh(path)?;
-        return Ok(Model::plain(load_mesh(path)?));
+        return Ok(Model::plain(model_file::mesh(path)?));
     }
     model_name::model(path)
 }

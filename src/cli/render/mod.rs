@@ -1,4 +1,4 @@
-//! `crossbar render`: an OBJ, PLY or glTF file by eye rays on a card, and scenes by the host renderers.
+//! `crossbar render`: an OBJ, PLY, STL or glTF file by eye rays on a card, and scenes by the host renderers.
 
 mod args;
 mod light;
@@ -11,11 +11,10 @@ use refsim::device::Profile;
 use super::executor::Decider;
 use super::size::Size;
 use super::words::counted;
-use super::{Out, Problem, memory, scene_name, study, view};
+use super::{Out, Problem, memory, model_file, scene_name, study, view};
 use crate::geom::Mesh;
 use crate::geom::exact::{Sides, Tracer};
 use crate::io::atomic::FileSet;
-use crate::io::load_mesh;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::report::{Provenance, Verdict};
@@ -34,8 +33,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
         return light::run(args, &asked, command_line, out);
     }
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
-    view::require_mesh(&args.scene)?;
-    let mesh = load_mesh(&args.scene)?;
+    let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;
     let Size { width, height } = args.size;
     let need = memory::of_pixels(width, height, PER_PIXEL, 0);

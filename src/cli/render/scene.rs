@@ -1,9 +1,8 @@
 //! The scene of `crossbar render`, and its camera.
 
 use super::args::Args;
+use crate::cli::model_file;
 use crate::cli::scene_name::{self, Viewpoint};
-use crate::cli::view;
-use crate::io::scene_file::load;
 use crate::scene::{Camera, Scene};
 
 /// A scene to be lit.
@@ -13,7 +12,7 @@ pub(super) struct LitScene {
     pub(super) lit: bool,
 }
 
-/// The scene, if it is to be lit; `None` for an OBJ, PLY or glTF file by its eye rays on a card.
+/// The scene, if it is to be lit; `None` for an OBJ, PLY, STL or glTF file by its eye rays on a card.
 pub(super) fn lit(args: &Args) -> miette::Result<Option<LitScene>> {
     if let Some(scene) = scene_name::by_name(&args.scene)? {
         return Ok(Some(LitScene { scene, lit: true }));
@@ -22,8 +21,7 @@ pub(super) fn lit(args: &Args) -> miette::Result<Option<LitScene>> {
     if !described && !args.light.asked() {
         return Ok(None);
     }
-    view::require_mesh(&args.scene)?;
-    Ok(Some(LitScene { scene: load(&args.scene)?, lit: described }))
+    Ok(Some(LitScene { scene: model_file::scene(&args.scene)?, lit: described }))
 }
 
 /// The camera: see [`Viewpoint::camera`].

@@ -28,8 +28,8 @@ timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.e
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(in crate::cli) struct Args {
-    /// A Wavefront OBJ, PLY or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model of
-    /// the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
+    /// A Wavefront OBJ, PLY, STL or glTF file, a scene file (.toml), a scene of the project, or a stand-in for a model
+    /// of the paper: stand-in-bunny, stand-in-dolphin, stand-in-head
     #[arg(value_name = "MODEL")]
     pub(super) model: PathBuf,
 

@@ -15,11 +15,10 @@ use super::sensitivity::{Sensitivity, sensitivity};
 use crate::case::{self, Overrides, Setup};
 use crate::cli::run::setup_memory;
 use crate::cli::size::Size;
-use crate::cli::{Problem, memory, view};
+use crate::cli::{Problem, memory, model_file, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
-use crate::io::load_mesh;
 use crate::ray_engine::{Crossbar, RayBatch};
 use crate::scene::Camera;
 
@@ -116,8 +115,7 @@ fn no_figure(error: TimingError) -> Problem {
 fn scene(mesh: Option<&Path>, size: Size) -> miette::Result<(Mesh, Camera, String)> {
     match mesh {
         Some(path) => {
-            view::require_mesh(path)?;
-            let mesh = load_mesh(path)?;
+            let mesh = model_file::mesh(path)?;
             let camera = view::framing(&mesh, size, TANGENT, (None, None, [0.0, 0.0, 1.0]))?;
             Ok((mesh, camera, path.display().to_string()))
         }

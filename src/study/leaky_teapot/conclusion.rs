@@ -17,37 +17,57 @@ impl Tally {
     }
 }
 
+/// What answers are counted in: one and more of them.
+pub(super) type Unit = [&'static str; 2];
+
 /// Puts verdict, worst row, seams and tally into the findings.
-pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow]) {
-    let sentences = [verdict(rows), most_leaks(rows), seams(rows)];
-    sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
+pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Unit) {
+    let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
+    sentences.into_iter().flatten().chain(limits(rows)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
-    found.tally(rows_with(|t| t.wrong() == 0), ["row right in every pixel", "rows right in every pixel"], Tone::Good);
+    let right = [format!("row right in every {}", unit[0]), format!("rows right in every {}", unit[0])];
+    found.tally(rows_with(|t| t.wrong() == 0), right.each_ref().map(String::as_str), Tone::Good);
     let wrong = rows_with(|t| t.wrong() > 0 && t.leaks == 0);
     found.tally(wrong, ["row wrong without a leak", "rows wrong without a leak"], Tone::Neutral);
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
+/// Where next to nothing is left in a format: each warning once, with the rows that it is of.
+fn limits(rows: &[TeapotRow]) -> Vec<String> {
+    let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
+    for (row, warning) in rows.iter().filter_map(|row| Some((row, row.limits.warning()?))) {
+        match warnings.iter_mut().find(|(known, _)| *known == warning) {
+            Some((_, rows)) => rows.push(label(row)),
+            None => warnings.push((warning, vec![label(row)])),
+        }
+    }
+    let names = |rows: &[&str]| match rows.len() {
+        0..=MAX_NAMES => listed(rows),
+        more => counted(more as u64, "row", "rows"),
+    };
+    warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
+}
+
 /// Which rows are right everywhere.
-fn verdict(rows: &[TeapotRow]) -> Option<String> {
+fn verdict(rows: &[TeapotRow], [one, more]: &Unit) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
     let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
-    let wrong = counted(best.tally.wrong(), "pixel", "pixels");
+    let wrong = counted(best.tally.wrong(), one, more);
     Some(match (right.len(), rows.len() - right.len()) {
         (0, 1) => format!("{} is wrong in {wrong} of {}.", label(best), count(best.tally.rays)),
-        (1, 0) => format!("{} is right in every pixel.", label(best)),
+        (1, 0) => format!("{} is right in every {one}.", label(best)),
         (0, _) => {
-            format!("No row is right in every pixel; {} is wrong in the fewest: {wrong}.", label(best))
+            format!("No row is right in every {one}; {} is wrong in the fewest: {wrong}.", label(best))
         }
-        (_, 0) => "Every row is right in every pixel.".to_owned(),
-        (1, others) => format!("Of {} rows only {names} is right in every pixel.", count(others as u64 + 1)),
-        (some, others) => format!("Of {} rows {names} are right in every pixel.", count((some + others) as u64)),
+        (_, 0) => format!("Every row is right in every {one}."),
+        (1, others) => format!("Of {} rows only {names} is right in every {one}.", count(others as u64 + 1)),
+        (some, others) => format!("Of {} rows {names} are right in every {one}.", count((some + others) as u64)),
     })
 }
 
 /// Which row leaks most; nothing if none does.
-fn most_leaks(rows: &[TeapotRow]) -> Option<String> {
+fn most_leaks(rows: &[TeapotRow], [one, more]: &Unit) -> Option<String> {
     // The first of those that leak alike.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
@@ -56,7 +76,7 @@ fn most_leaks(rows: &[TeapotRow]) -> Option<String> {
         label(worst),
         if rows.len() > 1 { " most" } else { "" },
         count(leaks),
-        counted(surface, "pixel", "pixels"),
+        counted(surface, one, more),
         percent(worst.tally.leak_share()),
     ))
 }

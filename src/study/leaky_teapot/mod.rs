@@ -6,6 +6,7 @@
 //! that triangles share, where the paper's equations are evaluated once for each neighbour and need not agree.
 
 mod conclusion;
+mod format_limits;
 mod outcome;
 mod pixel_verdict;
 mod report;
@@ -23,6 +24,7 @@ use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EngineError};
 use crate::report::{Findings, Provenance, ReportError};
 
+pub use format_limits::FormatLimits;
 pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
 
@@ -79,23 +81,31 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
     let steps = parameters.configurations.len() as u64 + 1;
     progress("exact arithmetic", 0, steps);
     let tracer = Tracer::new(mesh);
-    let view = JudgedRays::new(&tracer, parameters.view.rays().to_vec(), *sides);
+    let view = JudgedRays::new(&tracer, parameters.rays().to_vec(), *sides);
     let eye = parameters.view.common_origin().filter(|_| parameters.rays_per_edge > 0);
     let aim = |aimed: Vec<Aimed>| JudgedRays::new(&tracer, aimed.into_iter().map(|a| a.ray).collect(), *sides);
     let edges = eye.map(|eye| aim(aimed_at_edges(mesh, eye, parameters.rays_per_edge, parameters.seed)));
     let vertices = eye.map(|eye| aim(aimed_at_vertices(mesh, eye)));
 
     let shader = TeapotShader::new(mesh);
-    let exact: Vec<Option<u32>> = view.truth.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
+    let pixels = parameters.view.rays().len();
+    let mut exact: Vec<Option<u32>> = view.truth.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
+    exact.resize(pixels, None);
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
     for (done, configuration) in (1..).zip(&parameters.configurations) {
         progress(&configuration.label, done, steps);
         let crossbar =
             Crossbar::new(configuration.profile.clone(), parameters.executor.clone()).all_pairs(parameters.all_pairs);
-        let answer = crossbar.intersect(mesh, &parameters.view, *sides)?;
-        let (verdicts, tally) = view.judge(mesh, &answer.hits);
-        let triangles: Vec<Option<u32>> = answer.hits.iter().map(|h| h.map(|h| h.triangle)).collect();
+        let mut hits = match parameters.listed {
+            None => crossbar.intersect(mesh, &parameters.view, *sides)?.hits,
+            Some(_) => crossbar.intersect_list(mesh, &view.rays, *sides)?,
+        };
+        let limits = FormatLimits::new(crossbar.bits_left(mesh, &view.rays, *sides)?, &hits);
+        let (mut verdicts, tally) = view.judge(mesh, &hits);
+        hits.resize(pixels, None);
+        verdicts.resize(pixels, HitVerdict::Right);
+        let triangles: Vec<Option<u32>> = hits.iter().map(|h| h.map(|h| h.triangle)).collect();
         let picture = shader.picture(&parameters.view, &triangles);
         let aimed = |judged: &Option<JudgedRays>| -> Result<Tally, EngineError> {
             let Some(judged) = judged else { return Ok(Tally::default()) };
@@ -103,7 +113,6 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
         };
         rows.push(TeapotRow {
             configuration: configuration.clone(),
-            kernel: answer.kernel,
             tally,
             pixels_differing: pixels_differing(&picture, &exact_picture),
             map: rgb8(
@@ -113,15 +122,16 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
             ),
             verdicts,
             picture,
-            t: answer.hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
+            t: hits.iter().map(|h| h.map_or(f32::INFINITY, |h| h.t)).collect(),
             triangle: triangles.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
             edges: aimed(&edges)?,
             vertices: aimed(&vertices)?,
+            limits,
         });
     }
     Ok(TeapotOutcome {
         exact_picture,
-        exact_t: view.truth.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())).collect(),
+        exact_t: filled(view.truth.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())), pixels),
         exact_triangle: exact.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
         rows,
     })
@@ -144,6 +154,11 @@ impl Study for Parameters {
         }
         provenance
     }
+}
+
+/// The values, and infinities up to a length.
+fn filled(values: impl Iterator<Item = f32>, length: usize) -> Vec<f32> {
+    values.chain(std::iter::repeat(f32::INFINITY)).take(length).collect()
 }
 
 fn pixels_differing(a: &RgbImage, b: &RgbImage) -> u64 {

@@ -3,9 +3,10 @@
 use refsim::machine::Executor;
 use serde::Serialize;
 
-use crate::geom::Mesh;
+use super::format_limits::FormatLimits;
 use crate::geom::classify::HitVerdict;
 use crate::geom::exact::Sides;
+use crate::geom::{Mesh, Ray};
 use crate::picture::RgbImage;
 use crate::ray_engine::RayBatch;
 use crate::study::configuration::Configuration;
@@ -13,10 +14,15 @@ use crate::study::configuration::Configuration;
 /// What to trace, and in which configurations.
 #[derive(Clone, Debug)]
 pub struct Parameters {
+    /// What the surface is called; `None` for the teapot.
+    pub model: Option<String>,
     /// The surface.
     pub mesh: Mesh,
-    /// The eye rays: what the pictures show.
+    /// The rays: what the pictures show.
     pub view: RayBatch,
+    /// Of rays that are a list and no view, how many there are; the pictures show them row by row, and the rest of
+    /// `view` fills the last row and is not asked.
+    pub listed: Option<usize>,
     /// Which faces count.
     pub sides: Sides,
     /// The rows.
@@ -29,6 +35,24 @@ pub struct Parameters {
     pub executor: Executor,
     /// Whether every ray meets every triangle, or only those near its bucket.
     pub all_pairs: bool,
+}
+
+impl Parameters {
+    /// A list of rays as rows of a picture that is about square, and how many there are.
+    pub fn of_list(rays: &[Ray]) -> (RayBatch, usize) {
+        let width = rays.len().isqrt().max(1);
+        let width = if width * width < rays.len() { width + 1 } else { width };
+        let height = rays.len().div_ceil(width);
+        let padded: Vec<Ray> =
+            rays.iter().chain(rays.last().into_iter().cycle()).take(width * height).copied().collect();
+        (RayBatch::rows(width as u32, padded), rays.len())
+    }
+
+    /// The rays that are asked.
+    pub fn rays(&self) -> &[Ray] {
+        let rays = self.view.rays();
+        &rays[..self.listed.unwrap_or(rays.len()).min(rays.len())]
+    }
 }
 
 /// Counts of verdicts over a set of rays.
@@ -82,8 +106,6 @@ impl Tally {
 pub struct TeapotRow {
     /// The configuration.
     pub configuration: Configuration,
-    /// The intersection program.
-    pub kernel: &'static str,
     /// The eye rays' verdicts.
     pub tally: Tally,
     /// Pixels of the shaded picture that differ from the exact one.
@@ -102,6 +124,8 @@ pub struct TeapotRow {
     pub edges: Tally,
     /// Rays aimed at vertices.
     pub vertices: Tally,
+    /// What the number format leaves.
+    pub limits: FormatLimits,
 }
 
 /// Every configuration's hits, and the exact ones.

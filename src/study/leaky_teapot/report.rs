@@ -23,7 +23,7 @@ fn head(row: &TeapotRow) -> [Cell; 4] {
 /// The two tables: eye rays, and rays aimed at shared edges and vertices, if any were.
 fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
     let mut rows = Table::of(
-        "Eye rays against exact first hits",
+        if parameters.listed.is_some() { "Rays against exact first hits" } else { "Eye rays against exact first hits" },
         "row hits leaks false_hits wrong_triangle wrong_not_adjacent largest_t_error pixels_differing device format \
          switch",
     );
@@ -44,7 +44,7 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
         ];
         let [label, device, format, switch] = head(row);
         rows.push([label].into_iter().chain(counts).chain([device, format, switch]));
-        if parameters.rays_per_edge == 0 {
+        if !aimed(parameters) {
             continue;
         }
         let (e, v) = (&row.edges, &row.vertices);
@@ -60,6 +60,11 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
         edges.push([label].into_iter().chain(shares).chain([device, format, switch]));
     }
     [rows, edges]
+}
+
+/// Whether rays were aimed at edges and vertices: there are some for each edge, and one eye.
+fn aimed(parameters: &Parameters) -> bool {
+    parameters.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
 /// For each row the first that has the same hits to the bit, and the same counts of aimed rays.
@@ -143,8 +148,10 @@ fn pair(group: &Group<'_>, exact: &RgbImage) -> [NamedPicture; 2] {
 }
 
 pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Result<Findings, ReportError> {
-    let mut found = Findings::new("The leaky teapot");
-    conclude(&mut found, &outcome.rows);
+    let title = parameters.model.as_ref().map(|model| format!("Leaks of {model}"));
+    let mut found = Findings::new(title.as_deref().unwrap_or("The leaky teapot"));
+    let unit = if parameters.listed.is_some() { ["ray", "rays"] } else { ["pixel", "pixels"] };
+    conclude(&mut found, &outcome.rows, &unit);
     pictures(&mut found, parameters, &outcome);
     let [rows, edges] = tables(parameters, &outcome);
     let (first, names): (Vec<usize>, Vec<String>) = (first_alike(&outcome), outcome.rows.iter().map(called).collect());
@@ -162,7 +169,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
          card as its profile has it, then each open question of the hardware answered otherwise, one at a time.",
     );
     found.table(rows.csv("rows").field("rows"));
-    if parameters.rays_per_edge > 0 {
+    if aimed(parameters) {
         found.heading("Aimed at the seams");
         found.paragraph(
             "The paper's equations are evaluated once for each triangle, and on a shared edge the two evaluations need not \
@@ -189,12 +196,22 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
     lead.push(NamedPicture::new("exact", outcome.exact_picture.clone(), "exact arithmetic"));
     found.legend(PixelVerdict::legend());
     found.pictures(lead);
-    found.paragraph(format!(
-        "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {} and {}, in several number \
-         formats, judged against first hits that are decided in exact arithmetic on the same inputs.",
-        counted(parameters.view.rays().len() as u64, "eye ray", "eye rays"),
-        counted(parameters.mesh.len() as u64, "triangle", "triangles"),
-    ));
+    let asked = counted(parameters.rays().len() as u64, "ray", "rays");
+    let triangles = counted(parameters.mesh.len() as u64, "triangle", "triangles");
+    found.paragraph(match &parameters.model {
+        None => format!(
+            "Figure 4 of the Ray Engine paper (Carr, Hall, Hart 2002), on an emulated card: {asked} from the eye and \
+             {triangles}, in several number formats, judged against first hits that are decided in exact arithmetic on \
+             the same inputs."
+        ),
+        Some(model) => format!(
+            "{asked} and the {triangles} of {model} on an emulated card, by the programs of the Ray Engine paper (Carr, \
+             Hall, Hart 2002), judged against first hits that are decided in exact arithmetic on the same inputs."
+        ),
+    });
+    if parameters.listed.is_some() {
+        found.paragraph("The rays are a list: pictures show them row by row, in the order of the file, a pixel each.");
+    }
     if !groups.is_empty() {
         found.heading("The other rows");
         found.legend(PixelVerdict::legend());

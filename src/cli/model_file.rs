@@ -1,0 +1,108 @@
+//! Model files, for all commands that read them: the options that say how, the reading, and what is told of a model.
+
+use std::collections::BTreeSet;
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use clap::{Arg, ArgAction, ArgMatches, Command};
+
+use super::{Problem, view};
+use crate::geom::Mesh;
+use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
+use crate::report::visible::visible_line;
+use crate::scene::Scene;
+
+/// The arguments that name a model, the first of a command that counts.
+const NAMED_BY: [&str; 3] = ["mesh", "scene", "model"];
+const UP: &str = "model_up";
+const STRICT: &str = "strict";
+
+/// How this run reads models.
+static OPTIONS: OnceLock<ModelOptions> = OnceLock::new();
+
+/// The program with the options of models at every command that takes one.
+pub(super) fn with_options(program: Command) -> Command {
+    let names: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
+    let program = names.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_options));
+    let named_by = NAMED_BY.iter().find(|name| program.get_arguments().any(|arg| arg.get_id() == **name));
+    let Some(&named_by) = named_by else { return program };
+    let up = Arg::new(UP)
+        .long("model-up")
+        .value_name("AXIS")
+        .value_parser(["y", "z"])
+        .requires(named_by)
+        .help("The axis that points up in the model's file; z does in what is read [default: y of glTF, else z]")
+        .help_heading("Model");
+    let strict = Arg::new(STRICT)
+        .long("strict")
+        .action(ArgAction::SetTrue)
+        .requires(named_by)
+        .help(
+            "Take the model's file as it is: refuse materials that reflect more than all light, turn no triangle round",
+        )
+        .help_heading("Model");
+    program.arg(up).arg(strict)
+}
+
+/// Takes the options from a command line.
+pub(super) fn choose(matches: &ArgMatches) {
+    let mut command = matches;
+    while let Some((_, inner)) = command.subcommand() {
+        command = inner;
+    }
+    let up = command.try_get_one::<String>(UP).ok().flatten();
+    let up = up.map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
+    let strict = command.try_get_one::<bool>(STRICT).ok().flatten().copied().unwrap_or(false);
+    // Set once: there is one command line.
+    OPTIONS.set(ModelOptions { up, strict }).ok();
+}
+
+fn options() -> ModelOptions {
+    OPTIONS.get().copied().unwrap_or_default()
+}
+
+/// Refuses the options for what is no file.
+///
+/// # Errors
+/// [`Problem`] if any was given.
+pub(super) fn refuse_options(name: &str) -> Result<(), Problem> {
+    let ModelOptions { up, strict } = options();
+    let asked = if up.is_some() { "`--model-up`" } else { "`--strict`" };
+    if up.is_none() && !strict {
+        return Ok(());
+    }
+    Err(Problem::usage(
+        format!("{asked} says how a file is read, and `{name}` is built by the program"),
+        "leave it out, or name a file",
+    ))
+}
+
+/// A mesh from an OBJ, PLY, STL or glTF file.
+pub(super) fn mesh(path: &Path) -> miette::Result<Mesh> {
+    view::require_mesh(path)?;
+    let (mesh, notes) = load_mesh_with(path, options())?;
+    tell(path, &notes);
+    Ok(mesh)
+}
+
+/// A scene from one of these, or from a scene file that names one.
+pub(super) fn scene(path: &Path) -> miette::Result<Scene> {
+    view::require_mesh(path)?;
+    let (scene, notes) = scene_file::load_with(path, options())?;
+    tell(path, &notes);
+    Ok(scene)
+}
+
+/// Says on standard error what was changed in a model and what is odd about it, once for each.
+fn tell(path: &Path, notes: &[ModelNote]) {
+    static TOLD: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut told = TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    for note in notes {
+        let line = visible_line(&format!("warning: {}: {note}", path.display())).into_owned();
+        if told.insert(line.clone()) {
+            // Nothing is to be done if nobody reads this.
+            writeln!(std::io::stderr().lock(), "{line}").ok();
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Model files of all kinds, for every command that reads them: what is mended is said, and how they are to be read.
+
+use std::fs;
+use std::path::Path;
+
+use crate::program::{Ran, crossbar_in};
+
+const BLENDER: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nusemtl m\nf 1 2 3\nf 1 4 3\n";
+const RAYS: &str = "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0\n0.25,-1,0.75,0,1,0\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("m.obj"), BLENDER).expect("written");
+    let mtl = "newmtl m\nNs 225\nKd 0.8 0.8 0.8\nKs 0.5 0.5 0.5\nd 1\nillum 2\n";
+    fs::write(folder.path().join("m.mtl"), mtl).expect("written");
+    fs::write(folder.path().join("r.csv"), RAYS).expect("written");
+    folder
+}
+
+fn run(folder: &Path, line: &str) -> Ran {
+    crossbar_in(folder, &line.split(' ').collect::<Vec<_>>(), "")
+}
+
+/// What is the matter with a model stands in the text of every command that reads it, in the same words.
+#[test]
+fn what_is_mended_is_said_by_every_command() {
+    let folder = folder();
+    let turned = "warning: m.obj: 1 triangle turned round, to face as the triangles beside\n";
+    let scaled = "warning: m.obj: m.mtl:1: material m: `Kd` and `Ks` scaled by 1 / 1.3, to reflect at most all light\n";
+    for (line, materials) in [
+        ("intersect --mesh m.obj --rays r.csv --out h.csv", false),
+        ("render m.obj --size 4x4 --out p", false),
+        ("render m.obj --renderer eye --size 4x4 --out q", true),
+        ("atlas m.obj --side 16", true),
+        ("leaks --mesh m.obj --size 4x4 --device r300 --out l", true),
+        ("timeline --rays 4x4 --mesh m.obj", false),
+    ] {
+        let ran = run(folder.path(), line);
+        assert_eq!(ran.code, Some(0), "{line}: {}", ran.transcript());
+        assert!(ran.stderr.contains(turned), "{line}: {}", ran.stderr);
+        assert_eq!(ran.stderr.contains(scaled), materials, "{line}: {}", ran.stderr);
+        assert_eq!(ran.stderr.matches(turned).count(), 1, "{line}: said once");
+    }
+    let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
+    assert_eq!(hits, "ray,triangle,t\n0,0,1.0\n1,1,1.0\n".replace(".0", ""), "both faces look the same way");
+}
+
+#[test]
+fn strict_takes_a_model_as_it_is() {
+    let folder = folder();
+    let ran = run(folder.path(), "intersect --mesh m.obj --rays r.csv --strict --out h.csv");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{}", ran.transcript());
+    let hits = fs::read_to_string(folder.path().join("h.csv")).expect("hits");
+    assert_eq!(hits.lines().nth(2), Some("1,-1,inf"), "seen from behind");
+    let refused = run(folder.path(), "atlas m.obj --side 16 --strict");
+    assert_eq!(refused.code, Some(2), "{}", refused.transcript());
+    assert!(refused.stderr.contains("`Kd` + `Ks` of at most 1 a channel"), "{}", refused.stderr);
+}
+
+#[test]
+fn a_model_with_y_up_stands_up() {
+    let folder = folder();
+    let stl = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models/square.stl");
+    fs::copy(stl, folder.path().join("square.stl")).expect("copied");
+    // The square lies in z = 0 of its file; with y up it stands in y = 0.
+    let hits = |options: &str| {
+        let ran =
+            run(folder.path(), &format!("intersect --mesh square.stl --rays r.csv --sides both{options} --out h.csv"));
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        ran.stdout.split(' ').next().map(str::to_owned)
+    };
+    assert_eq!([hits(""), hits(" --model-up z"), hits(" --model-up y")].map(Option::unwrap), ["0", "0", "2"]);
+    for line in ["render office --model-up y --size 4x4", "atlas stand-in-head --strict"] {
+        let ran = run(folder.path(), line);
+        assert_eq!(ran.code, Some(2), "{line}");
+        assert!(ran.stderr.contains("says how a file is read, and `"), "{}", ran.stderr);
+    }
+    for line in ["alu add --model-up y", "leaky-teapot --strict", "intersect --mesh square.stl --model-up x"] {
+        assert_eq!(run(folder.path(), line).code, Some(2), "{line}");
+    }
+}
+
+/// A model and rays of one's own, with classes, map and page as for the teapot.
+#[test]
+fn leaks_of_any_model() {
+    let folder = folder();
+    let project = |path: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join(path).display().to_string();
+    let (mesh, rays) = (project("docs/examples/teapot.obj"), project("docs/examples/rays.csv"));
+    let line = format!("leaks --mesh {mesh} --size 24x24 --device r200 --rays-per-edge 1 --out a --json");
+    let ran = run(folder.path(), &line);
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert!(report["rows"][0]["hits"].as_u64().is_some_and(|hits| hits > 50), "{report}");
+    assert!(report["edges"][0]["edge_rays"].as_u64().is_some_and(|rays| rays > 50), "{report}");
+    let page = fs::read_to_string(folder.path().join("a/index.html")).expect("the page");
+    assert!(page.contains("Leaks of ") && page.contains("a leak: no hit where the surface is"));
+
+    let line = format!("leaks --mesh {mesh} --rays {rays} --device r200 --device r300 --out b --json");
+    let ran = run(folder.path(), &line);
+    assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let rows = report["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 2);
+    // `intersect` gives the same number of hits.
+    for (row, device) in rows.iter().zip(["r200", "r300"]) {
+        let line = format!("intersect --mesh {mesh} --rays {rays} --device {device} --out h.csv --json");
+        let asked: serde_json::Value = serde_json::from_str(&run(folder.path(), &line).stdout).expect("JSON");
+        assert_eq!(row["hits"], asked["hits"], "{device}");
+    }
+    for name in ["r200-map.png", "r300-map.png", "exact.exr", "rows.csv"] {
+        assert!(folder.path().join("b").join(name).is_file(), "{name}");
+    }
+}
+
+/// Rays of any origin at small triangles leave nothing of t on a card of 16 bits, and the program says so.
+#[test]
+fn a_format_without_bits_is_said() {
+    let folder = folder();
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/teapot.obj").display().to_string();
+    let mut rays = "ox,oy,oz,dx,dy,dz\n".to_owned();
+    for step in 0..40 {
+        for place in 0..20 {
+            let (x, z) = (f64::from(step) * 0.15 - 3.0, f64::from(place) * 0.15);
+            rays += &format!("{x},{},{z},0,1,0\n", -12.0 - 0.5 * f64::from(step % 3));
+        }
+    }
+    fs::write(folder.path().join("many.csv"), rays).expect("written");
+    let said = |device: &str| {
+        let line = format!("intersect --mesh {mesh} --rays many.csv --device {device} --out h.csv");
+        let ran = run(folder.path(), &line);
+        assert_eq!(ran.code, Some(0), "{}", ran.transcript());
+        ran.stderr
+    };
+    let warning = said("r200");
+    assert!(warning.starts_with("warning: no bits left: ") && warning.contains(" hits has "), "{warning}");
+    assert_eq!(said("r300"), "");
+    let ran = run(folder.path(), &format!("leaks --mesh {mesh} --rays many.csv --device r200 --device r300 --out l"));
+    let text = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(text.contains("r200: no bits left: ") && !text.contains("r300: no bits"), "{text}");
+}

@@ -1,0 +1,127 @@
+//! docs/studies/leaky_teapot.md says what the program prints: its blocks between marks are made here.
+//! `INSTA_UPDATE=always` writes them.
+
+use std::path::{Path, PathBuf};
+
+use crossbar::report::Cell;
+use crossbar::report::digits::count;
+use crossbar::report::words::{counted, percent};
+use crossbar::study::configuration::Configuration;
+use crossbar::study::leaky_teapot::{TeapotOutcome, TeapotRow};
+
+use super::teapot_study::{formats, parameters, study};
+
+const END: &str = "<!-- /leaky-teapot -->";
+
+fn page() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/studies/leaky_teapot.md")
+}
+
+/// What stands between the marks of a block.
+fn block<'a>(text: &'a str, name: &str) -> &'a str {
+    let (_, rest) = text.split_once(&format!("<!-- leaky-teapot: {name} -->")).expect("a mark");
+    rest.split_once(END).expect("its end").0
+}
+
+/// The rows of the program without options.
+fn defaults() -> Vec<Configuration> {
+    let mut all = Configuration::device_under_each_switch("r200").expect("a card");
+    all.extend(formats(&["fp16", "fp24", "fp32"]));
+    all
+}
+
+fn switch(configuration: &Configuration) -> String {
+    configuration.switch.as_ref().map(|(name, value)| format!("`{name}={value}`")).unwrap_or_default()
+}
+
+/// Whether rows have the same hits and the same counts of aimed rays.
+fn alike(a: &TeapotRow, b: &TeapotRow) -> bool {
+    let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+    (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
+}
+
+fn row(row: &TeapotRow) -> String {
+    let (t, edges, vertices) = (&row.tally, &row.edges, &row.vertices);
+    format!(
+        "| {} | {} | {} | {} | {} ({}) | {} | {} | {} % | {} % |\n",
+        row.configuration.label,
+        count(t.hits),
+        count(t.leaks),
+        count(t.false_hits),
+        count(t.wrong_triangle),
+        count(t.wrong_triangle - t.wrong_adjacent),
+        Cell::error(t.largest_t_error).text(),
+        count(row.pixels_differing),
+        Cell::percent(100.0 * edges.leak_share()).text(),
+        Cell::percent(100.0 * vertices.leak_share()).text(),
+    )
+}
+
+/// The page with every block made anew. `same` are the switches that change nothing.
+fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
+    let named = |label: &str| outcome.rows.iter().find(|row| row.configuration.label == label).expect("a row");
+    let (r200, fp24, fp32) = (named("r200"), named("fp24"), named("fp32"));
+    let said = |name: &str| match name {
+        "scene" => format!(
+            "{} eye rays; {} rays aimed at shared edges and {} at vertices that truly hit",
+            count(r200.tally.rays),
+            count(r200.edges.surface),
+            count(r200.vertices.surface)
+        ),
+        "rows" => format!(
+            "\n| row | hits | leaks | false hits | wrong triangle (not adjacent) | largest t error | pixels differing | \
+             leaks of edge-aimed rays | of vertex-aimed rays |\n|---|---|---|---|---|---|---|---|---|\n{}",
+            outcome.rows.iter().map(row).collect::<String>()
+        ),
+        "same" => format!("\n{}\n", same.join(",\n")),
+        "surface" => percent(r200.tally.leak_share()),
+        "fp24" => format!(
+            "{} and {}",
+            counted(fp24.tally.leaks, "leak", "leaks"),
+            counted(fp24.tally.wrong_triangle, "wrong triangle", "wrong triangles")
+        ),
+        "fp32" => count(fp32.tally.wrong()),
+        "seams" => percent(fp32.edges.leak_share()),
+        _ => panic!("unknown block `{name}`"),
+    };
+    let mut parts = text.split("<!-- leaky-teapot: ");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once(" -->").expect("the mark's end");
+        let (_, rest) = rest.split_once(END).expect("an end mark for each mark");
+        out.push_str(&format!("<!-- leaky-teapot: {name} -->{}{END}{rest}", said(name)));
+    }
+    out
+}
+
+/// The figures at full size. Rows that the page says are the first to the bit are left out, and asked on a smaller
+/// picture; the full form, and whoever writes the page, asks them at full size too.
+#[test]
+fn the_page_says_what_the_program_prints() {
+    let writes = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");
+    let text = std::fs::read_to_string(page()).expect("the page").replace('\r', "");
+    let mut configurations = defaults();
+    let full = writes || std::env::var_os("CROSSBAR_FULL").is_some();
+    let said: Vec<String> = block(&text, "same").trim().split(",\n").map(str::to_owned).collect();
+    if !full {
+        assert!(said.iter().all(|name| configurations.iter().any(|row| switch(row) == *name)), "{said:?}");
+        let small = study(&parameters(48, 2, configurations.clone()));
+        for row in small.rows.iter().filter(|row| said.contains(&switch(&row.configuration))) {
+            assert!(alike(row, &small.rows[0]), "{}", row.configuration.label);
+        }
+        configurations.retain(|row| !said.contains(&switch(row)));
+    }
+    let mut parameters = parameters(512, 8, configurations);
+    parameters.rays_per_edge = 4;
+    let mut outcome = study(&parameters);
+    let (first, others) = outcome.rows.split_first().expect("a row");
+    let same: Vec<String> =
+        others.iter().filter(|row| alike(row, first)).map(|row| switch(&row.configuration)).collect();
+    outcome.rows.retain(|row| !same.contains(&switch(&row.configuration)));
+    let made = filled(&text, &outcome, if full { &same } else { &said });
+    if writes {
+        std::fs::write(page(), &made).expect("written");
+    }
+    assert!(full || same.is_empty(), "the same bits as r200 too: {same:?}");
+    assert!(made == text || writes, "run with INSTA_UPDATE=always to write the page; expected\n{made}");
+}
