@@ -91,12 +91,25 @@ mod tests {
         );
     }
 
+    /// A default that the subject has no use for is not written.
+    #[test]
+    fn what_is_foreign_to_the_subject_is_left_out() {
+        let line = "crossbar prt factor --table q.csv --terms 3";
+        assert_eq!(resolved(&line.split(' ').collect::<Vec<_>>()), line);
+        let merl = resolved(&["crossbar", "prt", "factor", "--merl", "m.binary"]);
+        assert!(merl.contains("--clamp 3") && !merl.contains("--isotropy"), "{merl}");
+    }
+
     /// What is written can be given again.
     #[test]
     fn what_is_resolved_resolves_to_itself() {
         for line in [
             "crossbar leaky-teapot --all-pairs --device r200 --device nv20",
             "crossbar radiosity cornell-room --per-side 3 --frames 1,2 --solver card --solver direct --switch rounding=rtz",
+            "crossbar prt factor --table q.csv",
+            "crossbar prt factor --merl m.binary --channel red",
+            "crossbar prt factor --brdf phong --exponent 9",
+            "crossbar render cornell-box",
             "crossbar radiosity room.obj --emit light=1,0,0 --eye -1,0,2",
         ] {
             let once = resolved(&line.split(' ').collect::<Vec<_>>());

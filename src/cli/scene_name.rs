@@ -51,13 +51,13 @@ pub(super) struct EyeArgs {
     #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
     pub(super) target: Option<[f32; 3]>,
 
-    /// The direction that points up in the picture
-    #[arg(long, value_name = "X,Y,Z", default_value = "0,0,1", value_parser = number::point, allow_hyphen_values = true)]
-    pub(super) up: [f32; 3],
+    /// The direction that points up in the picture [default: 0,0,1]
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, allow_hyphen_values = true)]
+    pub(super) up: Option<[f32; 3]>,
 
-    /// Tangent of half the vertical field of view, where no view of the scene says it
-    #[arg(long, value_name = "TAN", default_value_t = 0.375, value_parser = number::single)]
-    pub(super) tan_half_height: f32,
+    /// Tangent of half the vertical field of view, where no view of the scene says it [default: 0.375]
+    #[arg(long, value_name = "TAN", value_parser = number::single)]
+    pub(super) tan_half_height: Option<f32>,
 }
 
 impl EyeArgs {
@@ -69,7 +69,20 @@ impl EyeArgs {
 
     /// A camera there; without an eye, one that sees all of the mesh.
     pub(super) fn framing(&self, mesh: &Mesh, size: Size) -> miette::Result<Camera> {
-        view::framing(mesh, size, self.tan_half_height, (self.eye, self.target, self.up))
+        let up = self.up.unwrap_or([0.0, 0.0, 1.0]);
+        view::framing(mesh, size, self.tan_half_height.unwrap_or(0.375), (self.eye, self.target, up))
+    }
+
+    /// Refuses what a view of the scene says.
+    fn require_no_lens(&self, view: &str) -> Result<(), Problem> {
+        let given = [("--up", self.up.is_some()), ("--tan-half-height", self.tan_half_height.is_some())];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) => {
+                let what = format!("`{option}` is for an eye of your own, found view `{view}` of the scene");
+                Err(Problem::usage(what, "add `--eye` or `--target`, or leave it out"))
+            }
+            None => Ok(()),
+        }
     }
 }
 
@@ -95,7 +108,10 @@ impl Viewpoint<'_> {
             None => scene.views.first(),
         };
         match view {
-            Some(view) => view.camera(self.size.width, self.size.height).into_diagnostic(),
+            Some(view) => {
+                self.eye.require_no_lens(&view.name)?;
+                view.camera(self.size.width, self.size.height).into_diagnostic()
+            }
             None => self.eye.framing(scene.mesh(), self.size),
         }
     }

@@ -121,3 +121,24 @@ fn bad_input_is_refused() {
         insta::assert_snapshot!(format!("factor_bad_{name}"), ran.stderr);
     }
 }
+
+/// Options that the subject has no use for are refused before its file is looked for.
+#[test]
+fn options_of_another_subject_are_refused() {
+    let of_model = "--roughness=0.3 --fresnel=0.5 --isotropy=0.3 --exponent=9 --albedo=0.1 --denominators=product \
+                    --fresnel-form=constant --shadowing=none --tangent=half-vector";
+    let of_sampling = "--side=8 --supersamples=2x2 --outside=rim --clamp=2 --clamp-when=before";
+    for (subject, foreign) in [
+        ("--brdf=phong", "--channel=red".to_owned()),
+        ("--merl=nowhere.binary", of_model.to_owned()),
+        ("--table=nowhere.csv", format!("{of_model} {of_sampling} --channel=red")),
+    ] {
+        for option in foreign.split_whitespace() {
+            let ran = crossbar(&["prt", "factor", subject, option], "");
+            let name = option.split('=').next().expect("a name");
+            assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{subject} {option}");
+            let said = ran.stderr.contains("cannot be used with") && ran.stderr.contains(name);
+            assert!(said, "{subject} {option}: {}", ran.stderr);
+        }
+    }
+}

@@ -52,10 +52,12 @@ fn what_it_says() {
 
 #[test]
 fn bad_input() {
-    let cases: [(&str, &[&str]); 14] = [
+    let cases: [(&str, &[&str]); 16] = [
         ("unknown_scene", &["teapot-rooms"]),
         ("unknown_view", &["cornell-box", "--view", "behind"]),
         ("view_and_eye", &["cornell-box", "--view", "front", "--eye", "0,0,0"]),
+        ("up_of_the_first_view", &["cornell-box", "--up", "0,0,0"]),
+        ("field_of_the_first_view", &["cornell-box", "--tan-half-height", "-1"]),
         ("no_samples", &["cornell-box", "--samples", "0"]),
         ("bad_lens", &["cornell-box", "--lens", "0.1"]),
         ("bad_exposure", &["cornell-box", "--exposure", "-1"]),

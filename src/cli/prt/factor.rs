@@ -34,22 +34,28 @@ Examples:
 Written to --out: index.html (self-contained), pictures, singular_values.csv, view_factors and light_factors as .csv and .npy, tables. \
 docs/papers/all_frequency.md says what the options are.";
 
+/// Options of a model, which a measurement or a table has no use for.
+const OF_MODEL: [&str; 9] =
+    ["roughness", "fresnel", "isotropy", "exponent", "albedo", "denominators", "fresnel_form", "shadowing", "tangent"];
+/// Options of how reflectance is sampled, which a table is already.
+const OF_SAMPLING: [&str; 5] = ["side", "supersamples", "outside", "clamp", "clamp_when"];
+
 /// Factor reflectance into functions of view and of light: singular values, errors, tables
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true,
           group = ArgGroup::new("subject").args(["brdf", "merl", "table"]).required(true))]
 pub(in crate::cli) struct Args {
     /// A model of reflectance
-    #[arg(long, value_enum, value_name = "MODEL")]
+    #[arg(long, value_enum, value_name = "MODEL", conflicts_with = "channel")]
     brdf: Option<ModelArg>,
 
     /// A measurement of the MERL database: a .binary file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = OF_MODEL)]
     merl: Option<PathBuf>,
 
     /// A table of reflectance times the light's cosine, CSV or NumPy's: a row per texel of the view's map, a column per
     /// texel of the light's, both square
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "channel", conflicts_with_all = OF_MODEL.iter().chain(&OF_SAMPLING))]
     table: Option<PathBuf>,
 
     /// Roughness of cook-torrance and schlick [default: the paper's, 0.4 and 0.2]
