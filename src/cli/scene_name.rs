@@ -64,7 +64,7 @@ impl EyeArgs {
     /// Whether nothing was asked for.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, up, tan_half_height } = *self;
-        eye.is_none() && target.is_none() && up == [0.0, 0.0, 1.0] && tan_half_height == 0.375
+        eye.is_none() && target.is_none() && up.is_none() && tan_half_height.is_none()
     }
 
     /// A camera there; without an eye, one that sees all of the mesh.
