@@ -148,11 +148,22 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     }
 }
 
-/// Writes what is wrong with the arguments, or the help that was asked for. `parse` parses other arguments: a message
+/// What is wrong with the arguments, for machines: clap's sentence, and what it says to do.
+fn usage_problem(error: &clap::Error) -> Problem {
+    let text = visible(&error.render().to_string()).into_owned();
+    let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
+    let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
+}
+
+/// Writes what is wrong with the arguments, or the help that was asked for; as JSON if `--json` is among them. `parse` parses other arguments: a message
 /// that quotes what is not safe to show is made again.
 pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString], parse: fn(Vec<String>) -> Option<clap::Error>) {
     let safe: Vec<String> =
         arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
+    if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
+        return print(usage_problem(error).into(), true, false);
+    }
     // A closed pipe is no reason to complain.
     if safe.iter().zip(arguments).all(|(safe, argument)| argument.to_str() == Some(safe)) {
         error.print().ok();

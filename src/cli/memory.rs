@@ -6,6 +6,7 @@
 
 use std::fmt;
 use std::sync::OnceLock;
+use std::thread::available_parallelism;
 
 use bytesize::ByteSize;
 use miette::Diagnostic;
@@ -16,9 +17,13 @@ static ASKED: OnceLock<u64> = OnceLock::new();
 
 /// Memory of the program itself: code, tables, buffers of files.
 const PROGRAM: u64 = 24 << 20;
-/// Address space of a thread's stack, which `ulimit -v` counts.
-#[cfg(unix)]
-const STACK: u64 = 2 << 20;
+/// Address space of a thread, which `ulimit -v` counts whether it is used or not: its stack, and the arena that glibc
+/// reserves for each thread that allocates.
+const THREAD: u64 = if cfg!(target_env = "gnu") { 66 << 20 } else { 2 << 20 };
+/// The thread that waits for signals.
+const HELPERS: u64 = 1;
+/// The address space that was taken when the program began, and how many threads work.
+static START: OnceLock<(u64, u64)> = OnceLock::new();
 /// Needs below this are not worth asking the system.
 const SMALL: u64 = 16 << 20;
 
@@ -106,19 +111,25 @@ pub(super) fn require(what: impl fmt::Display, bytes: u64, help: &str) -> Result
     Err(MemoryError { what: what.to_string(), need: ByteSize(bytes), limit: ByteSize(limit), from, help })
 }
 
-/// Refuses to start where not even the program and its threads fit.
+/// How many threads are to work, where `asked` is what `--threads` says: one per core, but no more than leave half of
+/// the address space to the work. 0 stands for as many as rayon takes by itself.
 ///
 /// # Errors
-/// [`MemoryError`].
-pub(super) fn require_to_start() -> Result<(), MemoryError> {
-    match process_limit() {
-        Some(limit) if limit < PROGRAM => {
-            let (need, limit) = (ByteSize(PROGRAM), ByteSize(limit));
-            let help = "raise `ulimit -v`, or lower `--threads`".to_owned();
-            Err(MemoryError { what: "the program itself".to_owned(), need, limit, from: LimitSource::Process, help })
-        }
-        _ => Ok(()),
+/// [`MemoryError`] where not even the program and its threads fit.
+pub(super) fn threads_to_start(asked: Option<u16>) -> Result<usize, MemoryError> {
+    let usual = available_parallelism().map_or(1, |cores| cores.get() as u64);
+    let (limit, taken) = (address_space().unwrap_or(u64::MAX), address_space_taken());
+    let room = limit.saturating_sub(taken + PROGRAM + HELPERS * THREAD);
+    let threads = asked.map_or_else(|| usual.min(room / 2 / THREAD).max(1), u64::from);
+    START.set((taken, threads)).ok();
+    let need = taken + PROGRAM + (threads + HELPERS) * THREAD;
+    if need <= limit {
+        return Ok(if asked.is_none() && threads == usual { 0 } else { threads as usize });
     }
+    let (need, limit) = (ByteSize(need), ByteSize(limit));
+    let help = if asked > Some(1) { "raise `ulimit -v`, or lower `--threads`" } else { "raise `ulimit -v`" };
+    let what = format!("the program itself with {threads} {}", if threads == 1 { "thread" } else { "threads" });
+    Err(MemoryError { what, need, limit, from: LimitSource::Process, help: help.to_owned() })
 }
 
 fn limit() -> (u64, LimitSource) {
@@ -143,19 +154,40 @@ fn limit() -> (u64, LimitSource) {
     limits.into_iter().min_by_key(|limit| limit.0).unwrap_or((u64::MAX, LimitSource::System))
 }
 
-/// What the limit of the process's addresses leaves once all threads have their stacks; `None` without a limit.
-#[cfg(unix)]
+/// What the limit of the process's addresses leaves once all threads have theirs; `None` without a limit.
 fn process_limit() -> Option<u64> {
-    let limit = rustix::process::getrlimit(rustix::process::Resource::As).current?;
-    let taken = std::fs::read_to_string("/proc/self/statm").ok();
-    let pages: u64 = taken.and_then(|text| text.split_whitespace().next()?.parse().ok()).unwrap_or(0);
-    let threads = rayon::current_num_threads() as u64;
-    Some(limit.saturating_sub(pages * rustix::param::page_size() as u64 + threads * STACK))
+    let (start, threads) = START.get().copied().unwrap_or_default();
+    let taken = address_space_taken().max(start + (threads + HELPERS) * THREAD);
+    Some(address_space()?.saturating_sub(taken))
+}
+
+/// The addresses that the process may take, as `ulimit -v` says; `None` without a limit.
+#[cfg(unix)]
+fn address_space() -> Option<u64> {
+    rustix::process::getrlimit(rustix::process::Resource::As).current
 }
 
 #[cfg(not(unix))]
-const fn process_limit() -> Option<u64> {
+const fn address_space() -> Option<u64> {
     None
+}
+
+/// The addresses that the process has taken; 0 where the system does not say.
+#[cfg(unix)]
+fn address_space_taken() -> u64 {
+    let taken = std::fs::read_to_string("/proc/self/statm").ok();
+    let pages: u64 = taken.and_then(|text| text.split_whitespace().next()?.parse().ok()).unwrap_or(0);
+    pages * rustix::param::page_size() as u64
+}
+
+#[cfg(not(unix))]
+const fn address_space_taken() -> u64 {
+    0
+}
+
+/// The value of `--memory-limit`.
+pub(super) fn byte_size(text: &str) -> Result<ByteSize, String> {
+    text.parse().map_err(|_| format!("expected a number of bytes as in 4GiB, 500MB or 1000000, found `{text}`"))
 }
 
 /// `per_pixel` bytes for each pixel of a picture, and `fixed` bytes.

@@ -25,6 +25,7 @@ mod model_file;
 mod model_name;
 mod number;
 mod out;
+mod outputs;
 mod pixel;
 mod progress;
 mod prt;
@@ -87,7 +88,7 @@ struct Cli {
 
     /// Refuse work that needs more memory than this, `4GiB` for example [default: what the system, container or
     /// `ulimit -v` leaves]
-    #[arg(long, global = true, value_name = "BYTES", display_order = 903)]
+    #[arg(long, global = true, value_name = "BYTES", display_order = 903, value_parser = memory::byte_size)]
     memory_limit: Option<ByteSize>,
 }
 
@@ -128,7 +129,7 @@ enum Command {
 
 /// The program with all its options.
 fn program() -> clap::Command {
-    model_file::with_options(Cli::command())
+    outputs::with_negative_numbers(model_file::with_options(Cli::command()))
 }
 
 /// Runs the program on the arguments of the process.
@@ -138,9 +139,10 @@ pub fn main() -> ExitCode {
     let parsed = program.try_get_matches_from_mut(&arguments).and_then(|matches| {
         let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
         model_file::choose(&matches);
-        Ok((cli, resolved::command_line(&program, &matches)))
+        let two_of_one = outputs::require_different(&program, &matches);
+        Ok((cli, resolved::command_line(&program, &matches), two_of_one))
     });
-    let (cli, command_line) = match parsed {
+    let (cli, command_line, two_of_one) = match parsed {
         Ok(parsed) => parsed,
         Err(error) => {
             error::print_usage(&error, &arguments, |safe| self::program().try_get_matches_from(safe).err());
@@ -148,15 +150,19 @@ pub fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
     };
-    if let Some(threads) = cli.threads {
-        // Fails only if a pool is there already, and none is this early.
-        rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().ok();
-    }
     memory::limit_to(cli.memory_limit);
     if cli.json {
         progress::silence();
     }
-    if let Err(problem) = memory::require_to_start() {
+    match memory::threads_to_start(cli.threads) {
+        // Fails only if a pool is there already, and none is this early.
+        Ok(threads) => drop(rayon::ThreadPoolBuilder::new().num_threads(threads).build_global()),
+        Err(problem) => {
+            error::print(problem.into(), cli.json, false);
+            return ExitCode::from(BAD_INPUT);
+        }
+    }
+    if let Err(problem) = two_of_one {
         error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }

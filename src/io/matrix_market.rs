@@ -15,6 +15,9 @@ use super::{quoted, read_limited};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
+/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so that what a matrix
+/// takes is bounded by what its file takes.
+pub const ANY_SIZE: usize = 1 << 24;
 /// The shortest line of an entry, `1 1`, and its end.
 const SHORTEST: usize = 4;
 
@@ -50,6 +53,16 @@ pub enum MatrixMarketError {
     #[error("{}:{line}: expected the numbers of rows, columns and entries, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::size))]
     Size { path: PathBuf, line: usize, found: String },
+    /// More rows or columns than such a short file may have.
+    #[error(
+        "{}:{line}: expected at most {most} rows and columns in a file of {bytes} bytes, found {rows} x {columns}",
+        path.display()
+    )]
+    #[diagnostic(
+        code(crossbar::matrix_market::claim),
+        help("leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
+    )]
+    Claim { path: PathBuf, line: usize, most: usize, bytes: usize, rows: usize, columns: usize },
     /// A line that is no entry.
     #[error("{}:{line}: expected {expected}, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::entry), help("a line `row column value` per entry, counted from 1"))]
@@ -97,6 +110,11 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
         line: size_line,
         found: quoted(size.trim_ascii()),
     })?;
+    let most = bytes.len().max(ANY_SIZE);
+    if rows.max(columns) > most {
+        let (path, bytes) = (name.into(), bytes.len());
+        return Err(MatrixMarketError::Claim { path, line: size_line, most, bytes, rows, columns });
+    }
     let reader = EntryReader { name, banner, size: [rows, columns] };
     // Nothing is allocated that the file's bytes do not fill.
     let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST) * banner.copies());
@@ -268,6 +286,8 @@ mod tests {
         assert_eq!(real("2 2 1\n1 0 1"), "t.mtx:3: expected a column from 1 to 2, found `0`");
         assert_eq!(real("2 2 1\n1 1"), "t.mtx:3: expected a row, a column and a value, found `1 1`");
         assert_eq!(real("2 2 1\n1 1 NaN"), "t.mtx:3: expected a finite number, found `NaN`");
+        let claim = "t.mtx:2: expected at most 16777216 rows and columns in a file of 65 bytes, found 4294967295 x 1";
+        assert_eq!(real("4294967295 1 1\n1 1 1"), claim);
         assert_eq!(real("2 2 2\n1 1 1"), "t.mtx: expected 2 entries as line 2 says, found 1");
         assert_eq!(real("2 2 2\n1 2 1\n1 2 3"), "t.mtx: expected one entry for row 1, column 2, found two");
         assert_eq!(real("2 2 99999999999999\n1 1 1"), "t.mtx: expected 99999999999999 entries as line 2 says, found 1");

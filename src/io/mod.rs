@@ -49,10 +49,52 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+/// What is read of a device at most, in bytes (1 MiB): it may have no end. Files and pipes have limits of their kinds.
+const MAX_DEVICE_BYTES: u64 = 1 << 20;
+
+/// The bytes of a file, as many as a byte more than `limit`, by which the reader knows that it is longer. A device that
+/// has more than [`MAX_DEVICE_BYTES`] is an error.
+pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
+    let file = File::open(path)?;
+    let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
+    let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
+    Ok(Bounded { file, left }.take(limit.saturating_add(1)))
+}
+
+/// A file of which so many bytes may be read.
+#[derive(Debug)]
+pub(crate) struct Bounded {
+    file: File,
+    left: u64,
+}
+
+impl Read for Bounded {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(into)?;
+        self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
+            let what =
+                format!("expected a file, or at most {MAX_DEVICE_BYTES} bytes of a device, found more: is it endless?");
+            io::Error::new(io::ErrorKind::FileTooLarge, what)
+        })?;
+        Ok(read)
+    }
+}
+
+#[cfg(unix)]
+fn is_device(kind: &std::fs::FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    kind.is_char_device() || kind.is_block_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_: &std::fs::FileType) -> bool {
+    false
+}
+
 /// The whole of a file of at most `limit` bytes, or `None` when it is longer.
 pub(crate) fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(limit + 1).read_to_end(&mut bytes)?;
+    open_limited(path, limit)?.read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))
 }
 

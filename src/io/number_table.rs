@@ -33,7 +33,7 @@ pub enum NumberTableError {
     #[diagnostic(transparent)]
     Read(#[from] ReadError),
     /// A line has more or fewer fields than the first.
-    #[error("{}:{line}: expected {expected} numbers as in the first row, found {found} fields", path.display())]
+    #[error("{}:{line}: expected {expected} numbers as in the first row, found {found} {}", path.display(), if *found == 1 { "field" } else { "fields" })]
     #[diagnostic(code(crossbar::table::ragged), help("give every row the same number of fields"))]
     Ragged { path: PathBuf, line: u64, expected: usize, found: usize },
     /// A field is not a number of single precision.
@@ -110,7 +110,7 @@ mod tests {
         let error = |text: &str| parse(text).expect_err("no table");
         assert_eq!(error(""), "s.csv: expected at least one row of numbers, found none");
         assert_eq!(error("x,y\n"), "s.csv: expected at least one row of numbers, found none");
-        assert_eq!(error("x,y\n1,2\n3\n"), "s.csv:3: expected 2 numbers as in the first row, found 1 fields");
+        assert_eq!(error("x,y\n1,2\n3\n"), "s.csv:3: expected 2 numbers as in the first row, found 1 field");
         assert_eq!(error("1,2\n3,4,5\n"), "s.csv:2: expected 2 numbers as in the first row, found 3 fields");
         assert_eq!(error("1,x\n"), "s.csv:1: expected a number in field 2, found `x`");
         assert_eq!(error("1,2\n1,nan\n"), "s.csv:2: expected a finite number in field 2, found `nan`");

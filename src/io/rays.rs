@@ -7,7 +7,6 @@
 //! order of the mesh file; without a hit it is -1 and `t` is `inf`. `t` is the shortest decimal that reads back to the
 //! same f32.
 
-use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -15,12 +14,15 @@ use thiserror::Error;
 
 use super::error::ReadError;
 use super::lines::single;
-use super::{NumberError, quoted};
+use super::{NumberError, open_limited, quoted};
 use crate::geom::classify::Candidate;
 use crate::geom::{Ray, RayError};
 
 /// Longest file that is read, in bytes (1 GiB).
 pub const MAX_BYTES: u64 = 1 << 30;
+
+/// The first line ends within so many bytes.
+const MAX_HEADER_BYTES: u64 = 4096;
 
 /// The columns of a ray table.
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
@@ -38,7 +40,7 @@ pub enum RaysError {
     #[error("{}:1: expected the header `ox,oy,oz,dx,dy,dz`, found {found}", path.display())]
     Header { path: PathBuf, found: String },
     /// A line does not have six fields.
-    #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} fields", path.display())]
+    #[error("{}:{line}: expected 6 numbers (ox,oy,oz,dx,dy,dz), found {found} {}", path.display(), if *found == 1 { "field" } else { "fields" })]
     Fields { path: PathBuf, line: u64, found: usize },
     /// A field is not a number of single precision.
     #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
@@ -59,8 +61,7 @@ pub enum RaysError {
 /// # Errors
 /// [`RaysError`], with the path, and the line where there is one.
 pub fn load_rays(path: &Path) -> Result<Vec<Ray>, RaysError> {
-    let file = File::open(path).map_err(|source| unreadable(path, source))?;
-    let mut limited = file.take(MAX_BYTES + 1);
+    let mut limited = open_limited(path, MAX_BYTES).map_err(|source| unreadable(path, source))?;
     let rays = read_rays(&mut limited, path);
     // A table that was cut may be broken where it was cut.
     if limited.limit() == 0 {
@@ -82,7 +83,14 @@ pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
     read_rays(bytes, name)
 }
 
-fn read_rays(input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
+fn read_rays(mut input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
+    let mut head = Vec::new();
+    input.by_ref().take(MAX_HEADER_BYTES).read_to_end(&mut head).map_err(|source| unreadable(name, source))?;
+    // What is no table may be one line of any length.
+    if head.len() as u64 == MAX_HEADER_BYTES && !head.contains(&b'\n') {
+        return Err(RaysError::Header { path: name.into(), found: quoted(&head) });
+    }
+    let input = io::Cursor::new(head).chain(input);
     let mut reader =
         csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(input);
     let broken = |reason: csv::Error| match reason.into_kind() {

@@ -3,16 +3,18 @@
 use std::io::Cursor;
 
 use image::codecs::hdr::HdrDecoder;
-use image::{DynamicImage, ImageFormat, ImageReader};
+use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
 
 use super::channels::{ChannelUnit, Picture, Samples};
 use super::error::{PictureError, PictureFormat};
 use super::exr;
-use super::limits::limits;
+use super::limits::{limits, require_size};
 
 /// How Radiance HDR files begin, and how others write them.
 const RADIANCE: &[u8] = b"#?RADIANCE";
 const RGBE: &[u8] = b"#?RGBE";
+/// Bytes of a sample of a [`Picture`].
+const SAMPLE_BYTES: u64 = 4;
 
 /// The format of a file that begins with these bytes.
 fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
@@ -66,9 +68,14 @@ fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
 }
 
 fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<DynamicImage, PictureError> {
+    let refused = |error: image::ImageError| PictureError::Decode { format, reason: error.to_string() };
+    // The header first: a decoder may work long before it finds out, and does not say by what the size is too large.
+    let header = ImageReader::with_format(Cursor::new(bytes), decoder).into_decoder().map_err(refused)?;
+    let ((width, height), color) = (header.dimensions(), header.color_type());
+    require_size(width.into(), height.into(), color.channel_count().into(), SAMPLE_BYTES)?;
     let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
     reader.limits(limits());
-    reader.decode().map_err(|error| PictureError::Decode { format, reason: error.to_string() })
+    reader.decode().map_err(refused)
 }
 
 /// Codes k of n bits as k / (2^n - 1).

@@ -296,6 +296,12 @@ fn what_is_wrong_is_said() {
         ("run nowhere.toml --trace -1,2", "expected a pixel as `3,4`, column and row from 0; found `-1,2`"),
         ("compare nowhere.toml --pixel -1,2", "found `-1,2`"),
         ("compare nowhere.toml --adapter x", "add `--left wgpu` or `--right wgpu`, or leave it out"),
+        ("prt bicluster nowhere.mtx --drop -1", "expected a number not below 0, found `-1`"),
+        ("prt factor --brdf phong --exponent 1e9", "expected a number from 0 to below 1e9 for the exponent"),
+        ("prt precompute white-box --kind glossy --brdf phong:0.5,0.6,9 --out x.prt", "sum of albedo and specular"),
+        ("prt factor --brdf schlick --isotropy 1e300", "isotropy, found 1e300"),
+        ("alu add --format fp16 --memory-limit ", "expected a number of bytes as in 4GiB"),
+        ("prt bicluster x.mtx --out same --dump ./same", "`--dump` and `--out` that both write"),
         ("alu add --format fp16 --threads -1", "-1 is not in 1..=1024"),
         ("alu add --format fp16 --verify", "expected at least one line to verify, found none"),
         ("alu add --format fp16 --verify --json", "expected at least one line to verify, found none"),
@@ -377,16 +383,82 @@ fn hostile_files() {
         runs.push((with("m.obj/x"), good.to_vec()));
         #[cfg(target_os = "linux")]
         for device in ["/dev/null", "/proc/self/mem", "/dev/zero"] {
-            // A thousand million zeros are a table of rays, but a long one.
-            if !(device == "/dev/zero" && command[0] != "check" && command[0] != "run") {
-                runs.push((with(device), good.to_vec()));
-            }
+            runs.push((with(device), good.to_vec()));
         }
     }
     runs.par_iter().for_each(|(arguments, files)| {
         let stderr = assert_refused(arguments, files);
         assert!(stderr.len() < 4000, "{arguments:?}: a message of {} bytes", stderr.len());
     });
+}
+
+/// What a file claims and does not hold is refused at once, whatever it would take.
+#[test]
+fn claims_of_size() {
+    let mtx = |sizes: &str| format!("%%MatrixMarket matrix coordinate real general\n{sizes}\n1 1 1\n").into_bytes();
+    let prt = biclusters_of_nothing([u32::MAX; 2]);
+    let files: [(&str, &[u8]); 4] = [
+        ("rows.mtx", &mtx("4294967295 1 1")),
+        ("both.mtx", &mtx("4000000000 4000000000 1")),
+        ("columns.mtx", &mtx("1 4294967295 1")),
+        ("claims.prt", &prt),
+    ];
+    for (name, _) in &files {
+        for verb in ["bicluster", "multiply", "compare"] {
+            let start = std::time::Instant::now();
+            let arguments = ["prt", verb, name, "--memory-limit", "64MiB"].map(OsString::from);
+            let stderr = assert_refused(&arguments, &files);
+            assert!(stderr.contains("4294967295") || stderr.contains("4000000000") || verb != "multiply", "{stderr}");
+            assert!(start.elapsed() < std::time::Duration::from_secs(10), "{verb} {name}: {:?}", start.elapsed());
+        }
+    }
+}
+
+/// A `.prt` file of no biclusters, with right checksums, that says it is a matrix of this size.
+fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
+    use crossbar::prt::bi_scale::bicluster::Biclustering;
+    use crossbar::prt::file::{BiScaleFile, write_bi_scale};
+    let biclusters = Biclustering::empty(rows as usize, columns as usize, 0);
+    let file = BiScaleFile { meaning: None, matrix: None, biclusters: Some(biclusters) };
+    let mut bytes = Vec::new();
+    write_bi_scale(&file, &mut bytes).expect("a file");
+    bytes
+}
+
+/// A picture of too many pixels is refused by its header: what follows may be anything.
+#[test]
+fn large_pictures_are_refused_by_their_headers() {
+    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+    // 16 bits per sample of red, green, blue and alpha, of 9000 x 9000 pixels.
+    let header = [&b"IHDR"[..], &9000_u32.to_be_bytes(), &9000_u32.to_be_bytes(), &[16, 6, 0, 0, 0]].concat();
+    let chunk = |body: &[u8]| {
+        let length = (body.len() as u32 - 4).to_be_bytes();
+        [&length[..], body, &crc32fast::hash(body).to_be_bytes()].concat()
+    };
+    bytes.extend(chunk(&header));
+    bytes.extend(chunk(b"IDATnothing"));
+    bytes.extend(chunk(b"IEND"));
+    let stderr = assert_refused(&["diff", "p.png", "p.png"].map(OsString::from), &[("p.png", &bytes)]);
+    let flat = stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("found 9000x9000 with 4 channels") && flat.contains("16384 pixels a side"), "{stderr}");
+}
+
+/// That nothing shines is said before the work, which would take minutes here.
+#[test]
+fn a_dark_scene_is_refused_before_the_work() {
+    let side = 40;
+    let (mut model, vertex) = (String::new(), |x: u32, y: u32| y * (side + 1) + x + 1);
+    for (x, y) in (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y))) {
+        model.push_str(&format!("v {x} {y} {}\n", (x * 7 + y * 13) % 5));
+    }
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
+        model.push_str(&format!("f {a} {b} {c}\nf {a} {c} {d}\n"));
+    }
+    let start = std::time::Instant::now();
+    let stderr = assert_refused(&["radiosity", "m.obj"].map(OsString::from), &[("m.obj", model.as_bytes())]);
+    assert!(stderr.contains("radiosity::dark"), "{stderr}");
+    assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
 /// Every place for a result with everything that takes none.

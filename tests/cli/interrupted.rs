@@ -151,3 +151,62 @@ fn the_next_run_clears_up_after_a_kill() {
     assert_eq!((ran.code, staging(folder.path())), (Some(0), 0), "{}", ran.stderr);
     assert_eq!(fs::read_dir(folder.path().join("new")).expect("a folder").count(), 3);
 }
+
+/// A staging folder without a lock is one that was left: whoever makes one has the folder's lock meanwhile.
+#[test]
+fn the_next_run_clears_up_what_has_no_lock() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    fs::create_dir(folder.path().join(".crossbar-killed")).expect("a folder");
+    fs::create_dir_all(folder.path().join(".crossbar-failed/new/x")).expect("folders");
+    let ran = crate::crossbar_in(folder.path(), &["scene", "white-box", "--out", "new"], "");
+    assert_eq!((ran.code, staging(folder.path())), (Some(0), 0), "{}", ran.stderr);
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nor is a lock left");
+}
+
+/// A program that may open next to no files cleans up all the same.
+#[test]
+fn without_files_to_open_nothing_is_left() {
+    for most in 3..12 {
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let mut command = Command::new("sh");
+        command.args(["-c", "ulimit -n \"$0\"; exec \"$@\"", &most.to_string(), env!("CARGO_BIN_EXE_crossbar")]);
+        command.args(["scene", "white-box", "--out", "x"]).current_dir(folder.path());
+        let output = command.stdin(Stdio::null()).output().expect("a shell");
+        let left: Vec<_> = fs::read_dir(folder.path()).expect("a folder").flatten().map(|e| e.file_name()).collect();
+        let expected = usize::from(output.status.success());
+        assert_eq!(left.len(), expected, "{most} files: {left:?}, {}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+/// Files of two runs into one folder never mix: all are of the one that came last.
+#[test]
+fn two_runs_do_not_mix() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let sizes = ["4x4", "8x8", "12x12"];
+    let draw = |size: &str| begin(folder.path(), &["render", "white-box", "--size", size, "--out", "out"]);
+    let alone: Vec<Vec<(std::ffi::OsString, Vec<u8>)>> = sizes
+        .iter()
+        .map(|size| {
+            assert!(draw(size).wait().expect("a child").success());
+            contents(&folder.path().join("out"))
+        })
+        .collect();
+    for _ in 0..4 {
+        let children: Vec<Child> = sizes.iter().map(|size| draw(size)).collect();
+        for mut child in children {
+            assert!(child.wait().expect("a child").success());
+        }
+        let found = contents(&folder.path().join("out"));
+        assert!(alone.contains(&found), "the files of one run");
+    }
+    assert_eq!(staging(folder.path()) + staging(&folder.path().join("out")), 0);
+}
+
+/// Names and bytes of a folder's pictures, which hold no times.
+fn contents(folder: &Path) -> Vec<(std::ffi::OsString, Vec<u8>)> {
+    let entries = fs::read_dir(folder).expect("a folder").flatten();
+    let pictures = entries.filter(|entry| entry.path().extension().is_some_and(|ending| ending == "png"));
+    let mut found: Vec<_> = pictures.map(|e| (e.file_name(), fs::read(e.path()).expect("a file"))).collect();
+    found.sort();
+    found
+}

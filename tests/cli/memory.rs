@@ -115,6 +115,28 @@ fn a_limited_process_refuses_and_does_not_abort() {
     }
 }
 
+/// Address space that threads and their allocators reserve counts too: a sentence, or the work done, never an abort.
+#[test]
+#[cfg(target_os = "linux")]
+fn little_address_space_is_no_abort() {
+    for kibibytes in ["150000", "200000", "250000", "300000", "350000", "400000"] {
+        for arguments in [
+            &["render", "office", "--size", "16x16", "--out", "o"][..],
+            &["radiosity", "white-box", "--size", "8x8", "--patches", "60", "--out", "o"],
+        ] {
+            for _ in 0..2 {
+                let folder = tempfile::tempdir().expect("a folder for the test");
+                let mut command = std::process::Command::new("sh");
+                command.args(["-c", "ulimit -v \"$0\"; exec \"$@\"", kibibytes, env!("CARGO_BIN_EXE_crossbar")]);
+                let output = command.args(arguments).current_dir(folder.path()).output().expect("a shell");
+                let stderr = String::from_utf8_lossy(&output.stderr);
+                let refused = output.status.code() == Some(2) && stderr.contains("crossbar::memory");
+                assert!(refused || output.status.success(), "{arguments:?} in {kibibytes} KiB: {stderr}");
+            }
+        }
+    }
+}
+
 /// How much a command says that it needs, in bytes, by what it says when too little is allowed.
 fn said(folder: &Path, arguments: &[&str]) -> f64 {
     let ran = crossbar_in(folder, &[arguments, &["--memory-limit", "1MiB", "--json"]].concat(), "");

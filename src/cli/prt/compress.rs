@@ -120,6 +120,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.signal, 8, HELP)?;
     let start = start(args)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
+    let most = u64::try_from(signal.dimension()).unwrap_or(u64::MAX);
+    if args.vectors.is_some_and(|vectors| u64::from(vectors) > most) {
+        let what = format!("expected at most {most} `--vectors`, as many as a point has numbers, found {vectors}");
+        return Err(Problem::usage(what, "more vectors than that approximate nothing better").into());
+    }
     let need = memory_need(&signal, u64::from(clusters), u64::from(vectors));
     let size = format_args!("compressing {} points", counted(signal.points())).to_string();
     memory::require(size, need, HELP)?;

@@ -1,5 +1,6 @@
 //! Files that appear whole or not at all: written beside their place, then renamed into it.
 
+mod lock;
 mod manifest;
 mod staging;
 
@@ -9,6 +10,7 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use self::lock::FolderLock;
 use self::manifest::Manifest;
 use self::staging::Staging;
 pub use self::staging::abandon;
@@ -94,6 +96,7 @@ fn fill_file(
 ///
 /// A folder that was missing appears by one rename, with all its files. In a folder that exists the files are renamed
 /// one after another, because the folder itself stays: programs may be at work in it, and it may hold other files. A
+/// lock on the folder (`.crossbar_lock`, while files are put there) keeps the sets of two processes apart. A
 /// process that is killed in the midst of these renames leaves old files beside new ones, and `.crossbar-XXXXXX` with
 /// the rest; the next set for the folder first finishes them. Files of other names are never touched, but for those of
 /// an earlier set of the same writer ([`FileSet::by`]).
@@ -186,8 +189,9 @@ impl FileSet {
         Ok(places)
     }
 
-    /// Stages the list of who wrote what; returns what is to be removed.
-    fn stage_manifest(&mut self) -> Result<Manifest, WriteError> {
+    /// Stages the list of who wrote what, if there is to be one, and adds its name to `names`; returns what is to be
+    /// removed.
+    fn stage_manifest(&self, names: &mut Vec<PathBuf>) -> Result<Manifest, WriteError> {
         let Some(writer) = &self.writer else { return Ok(Manifest::default()) };
         let fail = |name: &Path, source| WriteError::File { path: self.folder.join(name), source };
         let mut written = Manifest::default();
@@ -197,7 +201,7 @@ impl FileSet {
         let name = Path::new(manifest::FILE_NAME);
         let (list, stale) = Manifest::read(&self.folder.join(name)).replaced(writer, written);
         fs::write(self.staged(name), list.to_string()).map_err(|source| fail(name, source))?;
-        self.names.push(name.into());
+        names.push(name.into());
         Ok(stale)
     }
 
@@ -210,8 +214,8 @@ impl FileSet {
                 return Err(fail(io::Error::from(io::ErrorKind::IsADirectory)));
             }
         }
-        let stale = self.stage_manifest()?;
         if let Some(first) = self.rest.iter().next() {
+            self.stage_manifest(&mut Vec::new())?;
             let place = self.base.join(first);
             match self.staging.rename_folder(first.as_ref(), &place) {
                 Ok(()) => return Ok(()),
@@ -220,15 +224,36 @@ impl FileSet {
                 Err(source) => return Err(WriteError::Folder { path: self.folder.clone(), source }),
             }
         }
-        let names: Vec<PathBuf> = self.names.iter().map(|name| self.rest.join(name)).collect();
-        let places = names.iter().map(|name| self.base.join(name));
+        let made = missing_folders(&self.folder);
+        let committed = self.commit_into_existing(most);
+        if committed.is_err() {
+            // It fails, as it should, where something has come in.
+            made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
+        }
+        committed
+    }
+
+    /// Puts the files into the folder one by one, under its lock.
+    fn commit_into_existing(&mut self, most: usize) -> Result<(), WriteError> {
+        let fail = |source| WriteError::Folder { path: self.folder.clone(), source };
+        if self.rest != Path::new("") {
+            fs::create_dir_all(&self.folder).map_err(fail)?;
+            let moved = self.staging.moved(&self.rest, &self.folder).map_err(fail)?;
+            (self.staging, self.base, self.rest) = (moved, self.folder.clone(), PathBuf::new());
+        }
+        let fail = |source| WriteError::Folder { path: self.folder.clone(), source };
+        let held = FolderLock::of(&self.base).map_err(fail)?;
+        // A set that was left half-way since is older than this one.
+        staging::sweep(&self.base, &held);
+        let mut names = self.names.clone();
+        let stale = self.stage_manifest(&mut names)?;
         let mut made = Vec::new();
         let rename = || {
-            for folder in places.filter_map(|place| place.parent().map(Path::to_path_buf)) {
+            for folder in names.iter().filter_map(|name| Some(self.base.join(name).parent()?.to_path_buf())) {
                 made.extend(missing_folders(&folder).into_iter().rev());
                 fs::create_dir_all(&folder).map_err(|source| WriteError::Folder { path: folder, source })?;
             }
-            let renamed = self.staging.rename_files(&self.base, &names, &stale, most);
+            let renamed = self.staging.rename_files(&self.base, &names, &stale, most, &held);
             renamed.map_err(|(path, source)| WriteError::File { path, source })
         };
         let renamed = { rename }();

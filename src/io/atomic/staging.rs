@@ -5,13 +5,11 @@
 //! the folder; the next one that writes to the same place clears it away, or finishes its renames and removals. A lock
 //! on `.crossbar-XXXXXX/lock`, which ends with its process, tells a folder that was left from one that is in use.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::TempDir;
-
+use super::lock::{FolderLock, in_use};
 use super::manifest::Manifest;
 
 const PREFIX: &str = ".crossbar-";
@@ -19,15 +17,6 @@ const LOCK: &str = "lock";
 const NEW: &str = "new";
 const WHOLE: &str = "whole";
 const STALE: &str = "stale";
-
-/// The staging folders of this process. Held while one is made, and while files are renamed out of one: whoever ends
-/// the process waits for that.
-static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is right after any panic.
-    IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process
 /// that is about to end because a signal says so. Returns whether there was one, so that files are lost.
@@ -37,7 +26,7 @@ pub fn abandon() -> bool {
     for folder in folders.iter() {
         // A thread may still be writing into it.
         for _ in 0..100 {
-            if fs::remove_dir_all(folder).is_ok() || !folder.exists() {
+            if remove_tree(folder).is_ok() || !folder.exists() {
                 break;
             }
         }
@@ -50,31 +39,37 @@ pub fn abandon() -> bool {
 #[derive(Debug)]
 pub(super) struct Staging {
     /// Held as long as this lives; closed before the folder goes, as some systems want it.
-    _lock: File,
-    folder: TempDir,
+    lock: Option<File>,
+    folder: PathBuf,
 }
 
 impl Staging {
     /// A staging folder within `base`, which exists; those that killed processes left there are dealt with first.
     pub(super) fn within(base: &Path) -> io::Result<Self> {
-        sweep(base);
-        let mut folders = in_use();
+        let mut held = FolderLock::of(base)?;
+        sweep(base, &held);
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(base)?;
-        // Under its name only when locked, so that nobody takes the folder for one that was left.
-        let early = folder.path().join("lock-early");
-        let lock = File::create(&early)?;
+        let lock = File::create(folder.path().join(LOCK))?;
         // Where there are no locks nothing is ever cleared away, which is safe.
-        if lock.try_lock().is_ok() {
-            fs::rename(&early, folder.path().join(LOCK))?;
-        }
+        let _ = lock.try_lock();
         fs::create_dir(folder.path().join(NEW))?;
-        folders.push(folder.path().to_path_buf());
-        Ok(Self { folder, _lock: lock })
+        // From here on removed by this.
+        let folder = folder.keep();
+        held.folders.push(folder.clone());
+        Ok(Self { lock: Some(lock), folder })
+    }
+
+    /// The same files in a staging folder within `base`, to which `rest` leads.
+    pub(super) fn moved(&self, rest: &Path, base: &Path) -> io::Result<Self> {
+        let moved = Self::within(base)?;
+        fs::remove_dir(moved.new_files())?;
+        fs::rename(self.new_files().join(rest), moved.new_files())?;
+        Ok(moved)
     }
 
     /// Where files are written, by the paths that they are to have below the base.
     pub(super) fn new_files(&self) -> PathBuf {
-        self.folder.path().join(NEW)
+        self.folder.join(NEW)
     }
 
     /// Renames a folder that is written, named as below the base, to its place there, where nothing is yet.
@@ -92,11 +87,11 @@ impl Staging {
         names: &[PathBuf],
         stale: &Manifest,
         most: usize,
+        _held: &FolderLock,
     ) -> Result<(), (PathBuf, io::Error)> {
-        let _quiet = in_use();
-        let list = self.folder.path().join(STALE);
+        let list = self.folder.join(STALE);
         fs::write(&list, stale.to_string()).map_err(|error| (base.to_path_buf(), error))?;
-        let whole = self.folder.path().join(WHOLE);
+        let whole = self.folder.join(WHOLE);
         fs::rename(self.new_files(), &whole).map_err(|error| (base.to_path_buf(), error))?;
         for name in names.iter().take(most) {
             let place = base.join(name);
@@ -111,39 +106,59 @@ impl Staging {
     /// Leaves the folder as a killed process would.
     #[cfg(test)]
     pub(super) fn leave(mut self) {
-        self.folder.disable_cleanup(true);
+        self.lock = None;
+        in_use().retain(|folder| *folder != self.folder);
+        self.folder = PathBuf::new();
     }
 }
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        in_use().retain(|folder| folder != self.folder.path());
+        self.lock = None;
+        if self.folder != Path::new("") {
+            let _ = remove_tree(&self.folder);
+        }
+        in_use().retain(|folder| *folder != self.folder);
     }
 }
 
 /// Deals with the staging folders that killed processes left in `base`. What cannot be dealt with stays.
-fn sweep(base: &Path) {
+pub(super) fn sweep(base: &Path, held: &FolderLock) {
+    if !held.is_exclusive() {
+        return;
+    }
     for entry in fs::read_dir(base).into_iter().flatten().flatten() {
-        if !entry.file_name().to_string_lossy().starts_with(PREFIX) {
+        let folder = entry.path();
+        let is_one = entry.file_name().to_string_lossy().starts_with(PREFIX);
+        if !is_one || held.folders.contains(&folder) || !entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             continue;
         }
-        let folder = entry.path();
-        let Ok(lock) = File::options().read(true).write(true).open(folder.join(LOCK)) else { continue };
-        match lock.try_lock() {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock | TryLockError::Error(_)) => continue,
+        match File::options().read(true).write(true).open(folder.join(LOCK)) {
+            Ok(lock) if lock.try_lock().is_ok() => {}
+            // Nobody is making it, since this has the lock of `base`: who made it was killed, or could not remove it.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            _ => continue,
         }
-        let _quiet = in_use();
         let whole = folder.join(WHOLE);
         let decided = whole.exists();
         if finish(&whole, base).is_ok() {
             if decided {
                 Manifest::read(&folder.join(STALE)).remove_files(base);
             }
-            drop(lock);
-            let _ = fs::remove_dir_all(&folder);
+            let _ = remove_tree(&folder);
         }
     }
+}
+
+/// Removes a folder with all that is in it. One folder is open at a time, so that a process that has no more files to
+/// open can still clean up; the lock goes last but for the folder.
+fn remove_tree(folder: &Path) -> io::Result<()> {
+    let mut entries = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
+    entries.sort_by_key(|entry| entry.file_name() == LOCK);
+    for entry in entries {
+        if entry.file_type()?.is_dir() { remove_tree(&entry.path())? } else { fs::remove_file(entry.path())? }
+    }
+    fs::remove_dir(folder)
 }
 
 /// Renames all files below `from` to the same places below `to`; fine if there is no `from`.

@@ -240,3 +240,38 @@ fn a_kill_amid_the_renames_leaves_the_removal_to_the_next() {
     drop(FileSet::new(root.path()).expect("a set"));
     assert_eq!(listing(root.path()), [".crossbar_files", "a", "stale"]);
 }
+
+/// While another has the folder's lock nothing is put there; the lock of one that ended is nobody's.
+#[test]
+fn a_set_waits_for_the_lock_of_its_folder() {
+    let root = tempfile::tempdir().expect("a folder");
+    let mut set = set_over_old_files(root.path());
+    set.write(Path::new("a"), |out| out.write_all(b"mine")).expect("written");
+    let path = root.path().join(".crossbar_lock");
+    let other = File::create(&path).expect("made");
+    other.lock().expect("locked");
+    let waiting = std::thread::spawn(move || set.commit());
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert_eq!(fs::read(root.path().join("a")).expect("read"), b"old", "it waits");
+    drop(other);
+    waiting.join().expect("no panic").expect("places");
+    assert_eq!(fs::read(root.path().join("a")).expect("read"), b"mine");
+    assert_eq!(listing(root.path()), ["a", "b", "mine", "sub"], "no lock is left");
+}
+
+/// A set that was left half-way while another was made is finished before the other's files come, not after.
+#[test]
+fn what_was_left_is_older_than_what_comes() {
+    let root = tempfile::tempdir().expect("a folder");
+    let mut left = set_over_old_files(root.path());
+    let mut next = FileSet::new(root.path()).expect("a set");
+    for name in ["a", "b"] {
+        next.write(Path::new(name), |out| out.write_all(b"newest")).expect("written");
+    }
+    left.commit_at_most(1).expect("renamed");
+    left.staging.leave();
+    next.commit().expect("places");
+    drop(FileSet::new(root.path()).expect("a set"));
+    let contents = ["a", "b", "sub/c"].map(|name| fs::read(root.path().join(name)).expect("read"));
+    assert_eq!(contents, ["newest", "newest", "new"].map(|text| text.as_bytes().to_vec()));
+}

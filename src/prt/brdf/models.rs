@@ -73,13 +73,16 @@ pub enum Brdf {
     },
 }
 
+/// How far single precision takes a sum of reflectances beyond 1: those of materials are of it.
+const SINGLE: f64 = 1e-6;
+
 /// Why figures make no BRDF.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum BrdfError {
     /// A figure out of its range.
-    #[error("expected {expected} for the {what}, found {found}")]
+    #[error("expected {expected} for the {what}, found {}", shown(*found))]
     OutOfRange { what: &'static str, expected: &'static str, found: f64 },
     /// A surface that sends light one way only.
     #[error("expected a diffuse or glossy material, found {found}: its reflectance is no function of two directions")]
@@ -115,16 +118,20 @@ impl Brdf {
     pub fn check(&self) -> Result<(), BrdfError> {
         let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
         let width =
-            |what, found: f64| check(what, "a finite number of at least 0.001", found, (0.001..1e9).contains(&found));
+            |what, found: f64| check(what, "a number from 0.001 to below 1e9", found, (0.001..1e9).contains(&found));
         let schlick_width =
             |what, found: f64| check(what, "a number from 0.001 to 1", found, (0.001..=1.0).contains(&found));
         let exponent =
-            |found: f64| check("exponent", "a finite number of at least 0", found, (0.0..1e9).contains(&found));
+            |found: f64| check("exponent", "a number from 0 to below 1e9", found, (0.0..1e9).contains(&found));
         match *self {
             Self::Lambert { albedo } => share("albedo", albedo),
             Self::Phong { albedo, specular, exponent: e } => share("albedo", albedo)
                 .and_then(|()| share("specular reflectance", specular))
-                .and_then(|()| exponent(e)),
+                .and_then(|()| exponent(e))
+                .and_then(|()| {
+                    let (what, sum) = ("sum of albedo and specular reflectance", albedo + specular);
+                    check(what, "a number from 0 to 1", sum, sum <= 1.0 + SINGLE)
+                }),
             Self::CookTorrance { albedo, specular, roughness, normal_incidence: f0 } => {
                 share("albedo", albedo)?;
                 share("specular factor", specular)?;
@@ -208,6 +215,11 @@ impl Brdf {
     }
 }
 
+/// A number without hundreds of zeros.
+fn shown(number: f64) -> String {
+    if number.abs() < 1e16 { number.to_string() } else { format!("{number:e}") }
+}
+
 fn check(what: &'static str, expected: &'static str, found: f64, fits: bool) -> Result<(), BrdfError> {
     if fits { Ok(()) } else { Err(BrdfError::OutOfRange { what, expected, found }) }
 }
@@ -228,7 +240,7 @@ mod tests {
         let found = message(Brdf::Lambert { albedo: 1.5 });
         assert_eq!(found, "expected a number from 0 to 1 for the albedo, found 1.5");
         let nan = Brdf::Phong { albedo: 0.5, specular: 0.5, exponent: f64::NAN };
-        assert_eq!(message(nan), "expected a finite number of at least 0 for the exponent, found NaN");
+        assert_eq!(message(nan), "expected a number from 0 to below 1e9 for the exponent, found NaN");
         let ward = Brdf::Ward { albedo: 0.0, specular: 0.5, roughness: [0.1, 0.0] };
         assert!(message(ward).contains("roughness"));
         for (surface, found) in [

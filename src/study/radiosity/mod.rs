@@ -58,8 +58,11 @@ impl Study for Parameters {
 
 /// Solves by every method, draws the pictures, sweeps.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, RadiosityError> {
+    // Before the patches and their form factors, which take long.
+    if parameters.scene.emitters().is_empty() {
+        return Err(RadiosityError::Dark);
+    }
     let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
-    // Before the form factors, which take long.
     let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(how.packing) } else { None };
     for packing in parameters.ways.iter().filter_map(on_card) {
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
@@ -67,9 +70,6 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose()?;
     let room = room::find(&patches, parameters, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
-    if system.emittance().iter().flatten().all(|&e| e == 0.0) {
-        return Err(RadiosityError::Dark);
-    }
     let changed = change::apply(&parameters.changes, &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
     for (at, way) in parameters.ways.iter().enumerate() {

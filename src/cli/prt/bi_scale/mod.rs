@@ -22,9 +22,10 @@ use super::light::LightArgs;
 use super::model::load as load_model;
 use super::values::KindArg;
 use crate::cli::model_name::Model;
-use crate::cli::{Problem, number, view};
+use crate::cli::{MemoryError, Problem, memory, number, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::prt::all_frequency::light::{CubeLight, Decimation};
+use crate::prt::bi_scale::bicluster::Biclustering;
 use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::prt::file::{BiScaleFile, is_bi_scale, load_bi_scale};
 use crate::prt::transfer::Tangents;
@@ -81,15 +82,28 @@ fn load(path: &Path) -> miette::Result<BiScaleFile> {
     // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.
     view::require_file(path, if is_text { 4 } else { 6 }, "name a smaller matrix")?;
     if !is_text {
-        return Ok(load_bi_scale(path)?);
+        let file = load_bi_scale(path)?;
+        let size = file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size);
+        require_size(path, size)?;
+        return Ok(file);
     }
-    let matrix = SparseMatrix::from_coordinates(&load_matrix_market(path)?).map_err(|reason| {
+    let coordinates = load_matrix_market(path)?;
+    require_size(path, [coordinates.rows, coordinates.columns])?;
+    let matrix = SparseMatrix::from_coordinates(&coordinates).map_err(|reason| {
         Problem::usage(
             format!("{}: {reason}", path.display()),
             "give values that are whole numbers of some power of two, such as quarters",
         )
     })?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
+}
+
+/// Refuses a matrix of more rows and columns than there is memory for, however few of them have entries.
+fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), MemoryError> {
+    // Where a row begins, its sum, and those of its residuals.
+    const PER_LINE: u64 = 32;
+    let what = format_args!("a matrix of {rows} x {columns} (`{}`)", path.display()).to_string();
+    memory::require(what, PER_LINE.saturating_mul(rows as u64 + columns as u64), "name a smaller matrix")
 }
 
 /// The light of a verb, turned around z by some degrees.

@@ -1,0 +1,61 @@
+//! What holds for the options of all commands at once.
+
+use std::path::{Path, PathBuf};
+
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Command};
+
+use super::Problem;
+
+/// The options whose value is the path of a file or folder that is written.
+const OUTPUTS: [&str; 8] = ["out", "dump", "csv", "matrix", "values", "sheet", "arrays", "trace"];
+
+/// Refuses two outputs with one path: one would overwrite the other.
+///
+/// # Errors
+/// [`Problem::Usage`].
+pub(super) fn require_different(program: &Command, matches: &ArgMatches) -> Result<(), Problem> {
+    let (mut command, mut matches) = (program, matches);
+    while let Some((name, inner)) = matches.subcommand() {
+        let Some(found) = command.find_subcommand(name) else { return Ok(()) };
+        (command, matches) = (found, inner);
+    }
+    let mut seen: Vec<(&str, PathBuf)> = Vec::new();
+    for id in command.get_arguments().map(|arg| arg.get_id().as_str()).filter(|id| OUTPUTS.contains(id)) {
+        if matches.value_source(id) != Some(ValueSource::CommandLine) {
+            continue;
+        }
+        let Ok(Some(path)) = matches.try_get_one::<PathBuf>(id) else { continue };
+        let Some(place) = place(path) else { continue };
+        if let Some((other, _)) = seen.iter().find(|(_, known)| *known == place) {
+            let what = format!(
+                "expected different files, found `--{other}` and `--{id}` that both write `{}`",
+                path.display()
+            );
+            return Err(Problem::usage(what, "give each its own path"));
+        }
+        seen.push((id, place));
+    }
+    Ok(())
+}
+
+/// Where a file will stand, links followed; `None` for a device or pipe, which takes any number of outputs.
+fn place(path: &Path) -> Option<PathBuf> {
+    if let Ok(whole) = path.canonicalize() {
+        return (whole.is_file() || whole.is_dir()).then_some(whole);
+    }
+    let absolute = std::path::absolute(path).ok()?;
+    let (parent, name) = (absolute.parent()?, absolute.file_name()?);
+    Some(parent.canonicalize().map_or_else(|_| absolute.clone(), |parent| parent.join(name)))
+}
+
+/// Every option takes `-1` as its value, which then says itself what is wrong with it.
+pub(super) fn with_negative_numbers(program: Command) -> Command {
+    let commands: Vec<String> = program.get_subcommands().map(|command| command.get_name().to_owned()).collect();
+    let program = program.mut_args(|arg| match arg.get_action().takes_values() && !arg.is_positional() {
+        // One that takes all that begins with a hyphen takes numbers too.
+        true if !arg.is_allow_hyphen_values_set() => arg.allow_negative_numbers(true),
+        _ => arg,
+    });
+    commands.into_iter().fold(program, |program, name| program.mut_subcommand(name, with_negative_numbers))
+}
