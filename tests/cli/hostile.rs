@@ -416,13 +416,18 @@ fn claims_of_size() {
 
 /// A `.prt` file of no biclusters, with right checksums, that says it is a matrix of this size.
 fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
-    use crossbar::prt::bi_scale::bicluster::Biclustering;
-    use crossbar::prt::file::{BiScaleFile, write_bi_scale};
-    let biclusters = Biclustering::empty(rows as usize, columns as usize, 0);
-    let file = BiScaleFile { meaning: None, matrix: None, biclusters: Some(biclusters) };
-    let mut bytes = Vec::new();
-    write_bi_scale(&file, &mut bytes).expect("a file");
-    bytes
+    let ended = |mut bytes: Vec<u8>| {
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        bytes
+    };
+    let [version, conventions, sections] = [1_u32, 3, 1];
+    let fields = [version, conventions, 0, 0, rows, columns, 0, sections, 0, 0, 0, 0, 0];
+    let header =
+        [b"\x89PRT\r\n\x1a\n".to_vec(), fields.iter().flat_map(|field| field.to_le_bytes()).collect(), vec![0; 24]];
+    // No biclusters, whose columns take two bytes and whose values one.
+    let body = [0, 0, 0, 0, 2, 1, 0, 0];
+    let section = [&b"BICL"[..], &(body.len() as u64).to_le_bytes(), &body].concat();
+    [ended(header.concat()), ended(section)].concat()
 }
 
 /// A picture of too many pixels is refused by its header: what follows may be anything.

@@ -183,7 +183,24 @@ fn without_files_to_open_nothing_is_left() {
 fn two_runs_do_not_mix() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let sizes = ["4x4", "8x8", "12x12"];
-    let draw = |size: &str| begin(folder.path(), &["render", "white-box", "--size", size, "--out", "out"]);
+    let draw = |size: &str| {
+        begin(
+            folder.path(),
+            &[
+                "leaky-teapot",
+                "--format",
+                "fp32",
+                "--tessellation",
+                "1",
+                "--rays-per-edge",
+                "0",
+                "--size",
+                size,
+                "--out",
+                "out",
+            ],
+        )
+    };
     let alone: Vec<Vec<(std::ffi::OsString, Vec<u8>)>> = sizes
         .iter()
         .map(|size| {

@@ -48,15 +48,27 @@ impl Staging {
     pub(super) fn within(base: &Path) -> io::Result<Self> {
         let mut held = FolderLock::of(base)?;
         sweep(base, &held);
-        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(base)?;
-        let lock = File::create(folder.path().join(LOCK))?;
-        // Where there are no locks nothing is ever cleared away, which is safe.
-        let _ = lock.try_lock();
-        fs::create_dir(folder.path().join(NEW))?;
-        // From here on removed by this.
-        let folder = folder.keep();
-        held.folders.push(folder.clone());
-        Ok(Self { lock: Some(lock), folder })
+        let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(base)?.keep();
+        let make = || {
+            let lock = File::create(folder.join(LOCK))?;
+            // Where there are no locks nothing is ever cleared away, which is safe.
+            let _ = lock.try_lock();
+            fs::create_dir(folder.join(NEW))?;
+            Ok(lock)
+        };
+        let made: io::Result<File> = make();
+        match made {
+            Ok(lock) => {
+                held.folders.push(folder.clone());
+                Ok(Self { lock: Some(lock), folder })
+            }
+            Err(error) => {
+                // Without opening the folder: there may be no more files to open.
+                let _ = fs::remove_file(folder.join(LOCK));
+                let _ = fs::remove_dir(&folder);
+                Err(error)
+            }
+        }
     }
 
     /// The same files in a staging folder within `base`, to which `rest` leads.

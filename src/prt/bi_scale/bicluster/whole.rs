@@ -41,7 +41,7 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// No bicluster of a matrix of this size: one of zeros.
-    pub fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
+    pub(in crate::prt) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
         Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
