@@ -156,8 +156,8 @@ fn usage_problem(error: &clap::Error) -> Problem {
     Problem::usage(joined(what.trim_start_matches("error: ")), joined(help))
 }
 
-/// Writes what is wrong with the arguments, or the help that was asked for; as JSON if `--json` is among them. `parse` parses other arguments: a message
-/// that quotes what is not safe to show is made again.
+/// Writes what is wrong with the arguments, or the help that was asked for; as JSON if `--json` is among them. `parse`
+/// parses other arguments: a message that quotes what is not safe to show is made again.
 pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString], parse: fn(Vec<String>) -> Option<clap::Error>) {
     let safe: Vec<String> =
         arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();

@@ -78,8 +78,7 @@ mod tests {
     fn defaults_are_filled_in_and_what_changes_nothing_is_left_out() {
         assert_eq!(
             resolved(&["crossbar", "leaky-teapot", "--format", "fp16", "--out", "x", "--executor", "scalar", "--json"]),
-            "crossbar leaky-teapot --size 512x512 --up 0,0,1 --tan-half-height 0.375 --tessellation 8 --format fp16 \
-             --rays-per-edge 4 --seed 1 --sides front"
+            "crossbar leaky-teapot --size 512x512 --tessellation 8 --format fp16 --rays-per-edge 4 --seed 1 --sides front"
         );
         assert_eq!(
             resolved(&["crossbar", "reproduce", "figure-7", "equation-11"]),

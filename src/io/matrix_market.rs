@@ -15,8 +15,8 @@ use super::{quoted, read_limited};
 
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so that what a matrix
-/// takes is bounded by what its file takes.
+/// Rows and columns that any file may have (2^24). A longer file may have as many as it has bytes, so that what a
+/// matrix takes is bounded by what its file takes.
 pub const ANY_SIZE: usize = 1 << 24;
 /// The shortest line of an entry, `1 1`, and its end.
 const SHORTEST: usize = 4;
@@ -286,7 +286,7 @@ mod tests {
         assert_eq!(real("2 2 1\n1 0 1"), "t.mtx:3: expected a column from 1 to 2, found `0`");
         assert_eq!(real("2 2 1\n1 1"), "t.mtx:3: expected a row, a column and a value, found `1 1`");
         assert_eq!(real("2 2 1\n1 1 NaN"), "t.mtx:3: expected a finite number, found `NaN`");
-        let claim = "t.mtx:2: expected at most 16777216 rows and columns in a file of 65 bytes, found 4294967295 x 1";
+        let claim = "t.mtx:2: expected at most 16777216 rows and columns in a file of 66 bytes, found 4294967295 x 1";
         assert_eq!(real("4294967295 1 1\n1 1 1"), claim);
         assert_eq!(real("2 2 2\n1 1 1"), "t.mtx: expected 2 entries as line 2 says, found 1");
         assert_eq!(real("2 2 2\n1 2 1\n1 2 3"), "t.mtx: expected one entry for row 1, column 2, found two");

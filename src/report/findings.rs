@@ -96,8 +96,8 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) on the page and in print; CSV
-    /// and document keep all.
+    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) on the page and in print;
+    /// CSV and document keep all.
     #[must_use]
     pub fn folded(
         self,

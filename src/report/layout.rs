@@ -1,9 +1,9 @@
 //! Tables as text within a width: words and numbers stay whole.
 //!
-//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the columns
-//! that tell rows apart, or the first alone where these leave no room; where it is too narrow even for one column beside
-//! the first, every row becomes a list of its entries. Only
-//! there a word that is longer than a line goes over two; numbers never do, in [`MIN_WIDTH`] columns or more.
+//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the
+//! columns that tell rows apart, or the first alone where these leave no room; where it is too narrow even for one
+//! column beside the first, every row becomes a list of its entries. Only there a word that is longer than a line goes
+//! over two; numbers never do, in [`MIN_WIDTH`] columns or more.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use textwrap::core::{Word, display_width};

@@ -243,13 +243,13 @@ fn errors_are_told_apart() {
     let of_coarse = causes("--texture-size 8 --texture-views 4");
     let causes = causes("--texture-size 32 --texture-views 12");
     assert_eq!((causes.len(), of_coarse.len()), (7, 7));
-    let step = |cause: &Value| number(&cause["step (%)"]);
+    let step = |cause: &Value| number(&cause["step_percent"]);
     // Light from everywhere is the same in any texels.
     assert!(step(&causes[0]) < 1e-6 && step(&causes[6]) < 1e-3, "{causes:?}");
     for at in [3, 4] {
         assert!(step(&causes[at]) < 0.6 * step(&of_coarse[at]), "{causes:?}, {of_coarse:?}");
     }
-    let last = number(&causes[6]["up to here (%)"]);
+    let last = number(&causes[6]["up_to_here_percent"]);
     let (exact, drawn) = (picture(&out, "reference"), picture(&out, "picture"));
     let squares = |values: &mut dyn Iterator<Item = f32>| values.map(|value| f64::from(value * value)).sum::<f64>();
     let apart = squares(&mut exact.as_flattened().iter().zip(drawn.as_flattened()).map(|(a, b)| a - b));

@@ -26,7 +26,7 @@ const LONG: &[&str] = &[
 /// take values: the test is of what it says, and of what it leaves.
 const COMMANDS: &[(&str, &str)] = &[
     ("alu add --format fp99", "--format --to --tininess"),
-    ("atlas nowhere.obj", "--side --size --eye --target --up --tan-half-height --out"),
+    ("atlas nowhere.obj", "--side --size --eye --target --up --tan-half-height --out --model-up"),
     ("check nowhere.psa", "--device --switch"),
     (
         "compare nowhere.toml",
@@ -38,10 +38,11 @@ const COMMANDS: &[(&str, &str)] = &[
         "diff nowhere.png nowhere.exr",
         "--channel --exposure --ppd --scale --max-rmse --max-error --max-flip --min-ssim --out",
     ),
-    ("intersect --mesh nowhere.obj", "--mesh --rays --sides --device --executor --adapter --caster --out"),
+    ("intersect --mesh nowhere.obj", "--mesh --rays --sides --device --executor --adapter --caster --out --model-up"),
     (
         "leaky-teapot --device nowhere",
-        "--size --tessellation --device --format --out --rays-per-edge --seed --sides --executor --adapter",
+        "--mesh --rays --size --eye --target --up --tan-half-height --tessellation --device --format --out \
+         --rays-per-edge --seed --sides --executor --adapter --model-up",
     ),
     ("man nowhere", "--out"),
     ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
@@ -51,19 +52,20 @@ const COMMANDS: &[(&str, &str)] = &[
         "--model --kind --light --window --weights --map --map-format --way --filter --radiance --pass-per-channel \
          --partial --keep --original --target-format --vertex --alone --sweep --device --switch --executor --adapter \
          --texture --repeat --texture-size --texture-views --crease \
-         --texture-format --blocks --light-format --local-format --size --eye --target --up --tan-half-height --exposure --out",
+         --texture-format --blocks --light-format --local-format --size --eye --target --up --tan-half-height --exposure \
+         --out --model-up",
     ),
     (
         "prt compare nowhere.mtx",
         "--model --light --window --rotate --clusters --vectors --linear --sample --rounds --seed --coefficients \
-         --priority --storage --order",
+         --priority --storage --order --model-up",
     ),
     (
         "prt compress nowhere.prt --out y.prt",
         "--kind --clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
-         --weight-bits --scale --resume",
+         --weight-bits --scale --resume --model-up",
     ),
-    ("prt error nowhere.prt nowhere.prt", "--kind --model --csv"),
+    ("prt error nowhere.prt nowhere.prt", "--kind --model --csv --model-up"),
     (
         "prt factor --table nowhere.csv",
         "--brdf --merl --table --roughness --fresnel --isotropy --exponent --albedo --denominators --fresnel-form \
@@ -77,13 +79,13 @@ const COMMANDS: &[(&str, &str)] = &[
     (
         "prt precompute nowhere.obj --out x.prt",
         "--kind --factors --ground --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
-         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --crease --matrix",
+         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --crease --matrix --model-up",
     ),
     (
         "prt render nowhere.prt --model nowhere.obj",
-        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --crease --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out",
+        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --crease --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out --model-up",
     ),
-    ("prt show nowhere.prt", "--kind --vertex --at --model --arrays"),
+    ("prt show nowhere.prt", "--kind --vertex --at --model --arrays --model-up"),
     (
         "prt texture nowhere.png --out b.npy",
         "--detail --relief --color --brdf --size --directions --views --samples --out --sheet --sheet-view",
@@ -92,12 +94,12 @@ const COMMANDS: &[(&str, &str)] = &[
         "radiosity nowhere.obj",
         "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
          --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --atlas --sweep \
-         --size --view --eye --target --up --tan-half-height --exposure --out",
+         --size --view --eye --target --up --tan-half-height --exposure --out --model-up",
     ),
     (
         "render nowhere.obj",
         "--size --eye --target --up --tan-half-height --sides --device --executor --adapter --out --renderer --samples \
-         --depth --seed --view --exposure --ambient --lens --photons --gather --caster",
+         --depth --seed --view --exposure --ambient --lens --photons --gather --caster --model-up",
     ),
     ("reproduce nowhere", "--out"),
     ("run nowhere.toml", "--out --executor --adapter --step-budget --trace"),
@@ -106,9 +108,9 @@ const COMMANDS: &[(&str, &str)] = &[
         "subsurface nowhere.obj --mm-per-unit 1 --material marble",
         "--material --sigma-s --sigma-a --eta --mm-per-unit --atlas --links --choice --channels --link-format --map --tolerance --light --irradiance --pass-1 --direct \
          --fresnel --combine --diffuse --probe --all-pairs --device --switch --executor --adapter --frames --size --eye \
-         --target --up --tan-half-height --exposure --out",
+         --target --up --tan-half-height --exposure --out --model-up",
     ),
-    ("timeline nowhere.toml", "--device --model --readback --trace --rays --mesh"),
+    ("timeline nowhere.toml", "--device --model --readback --trace --rays --mesh --model-up"),
 ];
 
 /// Names and contents.

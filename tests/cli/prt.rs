@@ -102,7 +102,7 @@ fn what_does_not_go_together_is_refused() {
         (&["compress", &transfer, "--clusters", "1000", "--out", "y.prt"], "expected 1 to"),
         (
             &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.prt"],
-            "expected at most 9 vectors",
+            "expected at most 9 `--vectors`",
         ),
         (&["compress", &transfer, "--start", &signal, "--out", "y.prt"], "expected the number of a point in line 1"),
         (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),

@@ -211,7 +211,10 @@ fn a_solution_goes_into_an_atlas() {
     assert_eq!(rows.len(), 3);
     for row in rows {
         let number = |field: &str| row[field].as_f64().expect("a number");
-        assert!(number("difference_%").abs() <= number("at_most_%") && number("at_most_%") < 100.0, "{row}");
+        assert!(
+            number("difference_percent").abs() <= number("at_most_percent") && number("at_most_percent") < 100.0,
+            "{row}"
+        );
         assert!(number("power_in_texels") > 0.0, "{row}");
     }
     let size = |name: &str| {

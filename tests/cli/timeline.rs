@@ -117,7 +117,7 @@ fn the_texture_cache_on_request() {
     let rows = simulated["texture_cache"].as_array().expect("rows");
     assert!(!rows.is_empty());
     for row in rows {
-        let figures = ["texels", "lines", "misses, half", "misses", "misses, double", "distinct lines"];
+        let figures = ["texels", "lines", "misses_half", "misses", "misses_double", "distinct_lines"];
         let [texels, lines, half, same, double, distinct] = figures.map(|figure| number(&row[figure]));
         assert!(texels > 0 && lines >= texels && lines >= half, "{row}");
         assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");

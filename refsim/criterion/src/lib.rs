@@ -51,8 +51,8 @@ pub enum RunError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelledTime;
 
-/// Host time of an iteration. Criterion chooses how many iterations to ask for by the host's clock: iterations that take
-/// no time at all are doubled until their count and their picoseconds overflow.
+/// Host time of an iteration. Criterion chooses how many iterations to ask for by the host's clock: iterations that
+/// take no time at all are doubled until their count and their picoseconds overflow.
 const HOST_TIME: Duration = Duration::from_micros(100);
 
 /// [`ModelledTime::criterion`] before the command line.
@@ -95,8 +95,8 @@ impl ModelledTime {
         group.finish();
     }
 
-    /// Adds a run that does `elements` things to a group. Criterion's estimate is `run` without variance, for runs of up
-    /// to 90 s.
+    /// Adds a run that does `elements` things to a group. Criterion's estimate is `run` without variance, for runs of
+    /// up to 90 s.
     pub fn measure(group: &mut BenchmarkGroup<'_, Self>, id: BenchmarkId, elements: u64, run: Picoseconds) {
         group.throughput(Throughput::Elements(elements));
         group.bench_function(id, |bencher| {

@@ -18,10 +18,10 @@ impl Tally {
 }
 
 /// What answers are counted in: one and more of them.
-pub(super) type Unit = [&'static str; 2];
+pub(super) type Plural = [&'static str; 2];
 
 /// Puts verdict, worst row, seams and tally into the findings.
-pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Unit) {
+pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Plural) {
     let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
     sentences.into_iter().flatten().chain(limits(rows)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
@@ -49,7 +49,7 @@ fn limits(rows: &[TeapotRow]) -> Vec<String> {
 }
 
 /// Which rows are right everywhere.
-fn verdict(rows: &[TeapotRow], [one, more]: &Unit) -> Option<String> {
+fn verdict(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
     let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
@@ -67,7 +67,7 @@ fn verdict(rows: &[TeapotRow], [one, more]: &Unit) -> Option<String> {
 }
 
 /// Which row leaks most; nothing if none does.
-fn most_leaks(rows: &[TeapotRow], [one, more]: &Unit) -> Option<String> {
+fn most_leaks(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
     // The first of those that leak alike.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
