@@ -147,11 +147,12 @@ fn the_card_draws_its_own_form_factors() {
 }
 
 /// An open sheet, a sheet with a triangle without area, a mirror, and nothing.
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     ("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n"),
-    ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nf 1 2 4\nf 1 2 3\n"),
+    ("flat.obj", "mtllib lamp.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 1\nusemtl lamp\nf 1 2 4\nf 1 2 3\n"),
     ("mirror.obj", "mtllib mirror.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl glass\nf 1 2 3\n"),
-    ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\n"),
+    ("mirror.mtl", "newmtl glass\nillum 3\nKs 1 1 1\nKd 0 0 0\nKe 1 1 1\n"),
+    ("lamp.mtl", "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n"),
     ("white.obj", "mtllib white.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nusemtl snow\nf 1 2 3\n"),
     ("white.mtl", "newmtl snow\nKd 1 1 1\nKe 1 1 1\n"),
     ("empty.obj", "v 0 0 0\n"),
