@@ -10,7 +10,7 @@
 //! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
 //!
 //! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above
-//! 0) needs glass, and gloss an `Ns` above 0. Modellers write files that keep to none of these: [`read_mtl`] with notes
+//! 0) needs glass, and gloss an `Ns` above 0. Modellers write files that keep to none of these: a scene with notes
 //! scales `Kd` and `Ks` together, takes what is not glass as opaque, and says so.
 
 use std::collections::BTreeSet;
