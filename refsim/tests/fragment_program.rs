@@ -3,10 +3,12 @@
 mod fragment_program {
     mod agree;
     mod arb;
+    mod fog;
     mod numbers;
     mod position;
     mod radiosity;
     mod text;
+    mod verdicts;
 }
 
 #[path = "common/running.rs"]

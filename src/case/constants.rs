@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, ops::Range};
 
 use refsim::{
     exec::{CheckedProgram, Constants},
-    isa::{FIRST_ENVIRONMENT, Version},
+    isa::{FIRST_ENVIRONMENT, ParameterSource, Version},
 };
 use toml::Spanned;
 
@@ -63,7 +63,8 @@ impl Binder<'_> {
     }
 
     fn home(&self, name: &str, program: &CheckedProgram, span: Range<usize>) -> Result<Home, CaseError> {
-        if program.parameters.iter().any(|p| p.name == *name) {
+        let declared = || program.parameters.iter().filter(|p| matches!(p.source, ParameterSource::Named(_)));
+        if declared().any(|p| p.name == *name) {
             return Ok(Home::Named);
         }
         let opengl = program.version.is_fragment_program();
@@ -85,10 +86,10 @@ impl Binder<'_> {
             Version::Fp1_0 => "`p[0]` to `p[255]`",
             _ => "`program.local[0]` to `program.local[255]`, `program.env[0]` to `program.env[255]`",
         };
-        let declared: Vec<String> = program.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
+        let names: Vec<String> = declared().map(|p| format!("`{}`", p.name)).collect();
         let message = format!("expected {examples} or a name that the program declares, found `{name}`");
-        let meant = did_you_mean(name, program.parameters.iter().map(|p| p.name.as_str()));
-        let help = match &*declared {
+        let meant = did_you_mean(name, declared().map(|p| p.name.as_str()));
+        let help = match &*names {
             [] => "the program declares no names".to_owned(),
             names => format!("{meant}the program declares {}", names.join(", ")),
         };

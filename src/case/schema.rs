@@ -12,6 +12,7 @@ use refsim::{
     texture::{Filter, MipFilter, TextureKind},
 };
 
+use super::fixed_function::StateTable;
 use super::value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
 
 /// A case as written, with places for error messages; nothing in it is checked beyond words and types.
@@ -41,6 +42,8 @@ pub struct Case {
     /// The vertex program's constants.
     #[serde(default)]
     pub vertex_constants: BTreeMap<String, Spanned<Constant>>,
+    /// OpenGL's state, which `!!ARBfp1.0` reads as `state.*`.
+    pub state: Option<Spanned<StateTable>>,
     /// Textures, each bound to a sampler.
     #[serde(default)]
     pub texture: Vec<Spanned<Texture>>,

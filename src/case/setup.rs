@@ -169,7 +169,10 @@ impl Binder<'_> {
         let probes = state::probes(self, &case.probe, size, targets.len(), depth.is_some())?;
         Ok(Setup {
             title: case.title,
-            pixel_constants: self.constants(&case.constants, &pixel)?,
+            pixel_constants: Constants {
+                state: self.fixed_function(case.state.as_ref(), &pixel)?,
+                ..self.constants(&case.constants, &pixel)?
+            },
             vertex_constants: match (&vertex, case.vertex_constants.first_key_value()) {
                 (Some(program), _) => self.constants(&case.vertex_constants, program)?,
                 (None, None) => Constants::default(),

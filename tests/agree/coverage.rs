@@ -6,10 +6,11 @@ use crate::rules;
 use crate::scene::{Case, build};
 use crate::shapes::PRIMITIVES;
 use crate::suite::{self, Kind};
+use refsim::asm;
 use refsim::device::Profile;
 use refsim::isa::{
-    Comparison, ConditionTest, Instruction, Modifier, Opcode, Precision, Program, RegisterFile, Relative, Source,
-    Stage, TextureTarget, Usage, Version,
+    Comparison, ConditionTest, FogMode, Instruction, MatrixForm, Modifier, Opcode, ParameterSource, Precision, Program,
+    RegisterFile, Relative, Source, Stage, StateBinding, TextureTarget, Usage, Version,
 };
 use refsim::output::{BlendFactor, BlendOp, CompareFunction, DepthFormat};
 use refsim::raster::{ClipSpace, Cull, PixelCenter};
@@ -51,7 +52,9 @@ fn programs(version: Version, count: u64) -> Vec<Program> {
         let layout = layout(seed % 4 == 0, 1 + seed as usize % 4);
         let lines = generate::program(version, &layout, seed as usize % 4, &mut r);
         if let Ok(program) = build(&lines, &profile) {
-            out.push(program.into_inner());
+            // What the checker gives has instructions in place of its fog.
+            let fog = asm::assemble(&lines.join("\n")).ok().and_then(|program| program.fog);
+            out.push(Program { fog, ..program.into_inner() });
         }
     }
     out
@@ -190,12 +193,57 @@ fn programs_reach_every_opcode_modifier_and_swizzle() {
             for declaration in &program.declarations {
                 seen.add("usage", declaration.usage);
             }
+            note_state(&mut seen, program);
         }
         seen.require(wanted(version));
+        if version == Version::ArbFp1_0 {
+            seen.require(wanted_state());
+        }
         if version.is_ps_2() {
             seen.require(each("usage", [Usage::Sampler2d, Usage::SamplerCube, Usage::SamplerVolume]));
         }
     }
+}
+
+/// What OpenGL's state a program reads, by the kind of it, and its fog.
+fn note_state(seen: &mut Seen, program: &Program) {
+    seen.add("fog", program.fog.map(|fog| fog.mode));
+    for parameter in &program.parameters {
+        let ParameterSource::State(binding) = parameter.source else { continue };
+        let kind = |text: String| text.split('(').next().unwrap_or_default().to_owned();
+        seen.add("state", kind(format!("{binding:?}")));
+        if let StateBinding::MatrixRow(matrix, form, row) = binding {
+            seen.add("matrix", (kind(format!("{matrix:?}")), form, row));
+        }
+    }
+}
+
+fn wanted_state() -> Vec<String> {
+    let kinds = [
+        "Material",
+        "Emission",
+        "Shininess",
+        "Light",
+        "LightPosition",
+        "LightAttenuation",
+        "SpotDirection",
+        "LightHalf",
+        "LightModelAmbient",
+        "SceneColor",
+        "LightProduct",
+        "TextureEnvironment",
+        "FogColor",
+        "FogParams",
+        "FogFactors",
+        "DepthRange",
+    ];
+    let mut out = each("state", kinds);
+    out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
+    let forms = [MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans];
+    let matrices = ["ModelView", "Projection", "Mvp", "Texture", "Program"];
+    let all = matrices.into_iter().flat_map(|m| forms.into_iter().flat_map(move |f| (0..4_u8).map(move |r| (m, f, r))));
+    out.extend(each("matrix", all));
+    out
 }
 
 fn note_scene(seen: &mut Seen, case: &Case) {

@@ -5,7 +5,7 @@ use crate::random::Random;
 use crate::scene::Scene;
 use crate::shapes::{self, Shape};
 use refsim::device::Profile;
-use refsim::exec::{BumpStage, Constants, Projection};
+use refsim::exec::{BumpStage, Constants, FixedFunctionState, Projection};
 use refsim::isa::{Stage, Version};
 use refsim::output::{
     AlphaTest, BlendEquation, BlendFactor, BlendOp, BlendState, CompareFunction, DepthFormat, DepthState, WriteMask,
@@ -118,6 +118,28 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     }
 }
 
+/// OpenGL's state. It takes nothing from the dice of the caller, which throw as they would without it.
+fn state(mut r: Random) -> FixedFunctionState {
+    let mut state = FixedFunctionState::default();
+    let matrix = |r: &mut Random| std::array::from_fn(|_| r.vector());
+    for material in &mut state.materials {
+        material.colors = std::array::from_fn(|_| r.vector());
+        (material.emission, material.shininess) = (r.vector(), r.number());
+    }
+    for light in &mut state.lights {
+        light.colors = std::array::from_fn(|_| r.vector());
+        (light.position, light.spot_exponent) = (r.vector(), r.number());
+        light.spot_cutoff = (r.below(91) as f32).to_bits();
+        [light.attenuation, light.spot_direction] = std::array::from_fn(|_| std::array::from_fn(|_| r.number()));
+    }
+    state.texture_environment = std::array::from_fn(|_| r.vector());
+    (state.ambient, state.fog.color, state.fog.density) = (r.vector(), r.vector(), r.number());
+    (state.fog.start, state.fog.end, state.depth_range) = (r.number(), r.number(), [r.number(), r.number()]);
+    (state.modelview, state.projection) = (matrix(&mut r), matrix(&mut r));
+    (state.texture, state.program) = (std::array::from_fn(|_| matrix(&mut r)), std::array::from_fn(|_| matrix(&mut r)));
+    state
+}
+
 pub(crate) fn constants(r: &mut Random) -> Constants {
     let mut float: Vec<[u32; 4]> = (0..12).map(|_| r.vector()).collect();
     // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so do the rows c8 to c11 of a mild matrix.
@@ -132,6 +154,7 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
         float,
         int: (0..3).map(|_| [r.choose(&[0, 1, 2, 3]), r.choose(&[0, 1, 2]), r.choose(&[-1, 0, 1]), 0]).collect(),
         boolean: (0..3).map(|_| r.one_in(2)).collect(),
+        state: Some(Box::new(state(r.clone()))),
         ..Constants::default()
     }
 }

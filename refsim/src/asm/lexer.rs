@@ -168,22 +168,42 @@ impl Lexer<'_> {
         self.push(TokenKind::Word, len);
     }
 
-    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens. In
-    /// OpenGL `0..3` is three tokens.
+    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens.
     fn number(&mut self) {
+        if self.dialect == Dialect::OpenGl {
+            return self.opengl_number();
+        }
         let rest = self.rest();
-        let direct3d = self.dialect == Dialect::Direct3d;
-        let hexadecimal = direct3d && rest[0] == b'0' && rest.get(1).is_some_and(|b| b.eq_ignore_ascii_case(&b'x'));
+        let hexadecimal = rest[0] == b'0' && rest.get(1).is_some_and(|b| b.eq_ignore_ascii_case(&b'x'));
         let mut len = 1;
         while let Some(&byte) = rest.get(len) {
             let exponent_sign = matches!(byte, b'+' | b'-')
                 && !hexadecimal
                 && rest[len - 1].eq_ignore_ascii_case(&b'e')
                 && rest.get(len + 1).is_some_and(u8::is_ascii_digit);
-            let range = !direct3d && byte == b'.' && rest.get(len + 1) == Some(&b'.');
-            if range || !(self.is_word(byte) || byte == b'.' || exponent_sign) {
+            if !(self.is_word(byte) || byte == b'.' || exponent_sign) {
                 break;
             }
+            len += 1;
+        }
+        self.push(TokenKind::Number, len);
+    }
+
+    /// The longest number of OpenGL's grammar: digits, a point, digits, an exponent. `0..3` is three tokens, `3.14.x`
+    /// a number and its component; `1.x` is `1.` and a letter, which malforms it as in `1.5x` and `1.5.5`.
+    fn opengl_number(&mut self) {
+        let rest = self.rest();
+        let at = |i: usize| rest.get(i).copied().unwrap_or(0);
+        let digits = |from: usize| rest[from.min(rest.len())..].iter().take_while(|b| b.is_ascii_digit()).count();
+        let mut len = digits(0);
+        if at(len) == b'.' && at(len + 1) != b'.' {
+            len += 1 + digits(len + 1);
+        }
+        let signed = usize::from(matches!(at(len + 1), b'+' | b'-'));
+        if matches!(at(len), b'e' | b'E') && at(len + 1 + signed).is_ascii_digit() {
+            len += 1 + signed + digits(len + 1 + signed);
+        }
+        while self.is_word(at(len)) || (at(len) == b'.' && at(len + 1).is_ascii_digit()) {
             len += 1;
         }
         self.push(TokenKind::Number, len);

@@ -55,6 +55,15 @@ pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     }
 }
 
+/// A number of OpenGL's programs, without its sign: as [`float`], but for the `f` at the end, which they have not.
+pub(super) fn opengl_float(text: &str, span: Span) -> Result<u32, SyntaxError> {
+    let hexadecimal = text.contains(['x', 'X']);
+    if hexadecimal || text.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
+        return float(text, span);
+    }
+    Err(malformed("a decimal number", text, span))
+}
+
 /// The shortest text that [`float`] reads back to `bits`.
 pub(super) fn float_text(bits: u32) -> String {
     if Format::FP32.is_finite(bits) { to_decimal(&Format::FP32, bits) } else { format!("0x{bits:08x}") }

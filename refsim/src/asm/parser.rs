@@ -75,6 +75,7 @@ impl<'a> Parser<'a> {
                 declarations: self.declarations,
                 instructions: self.instructions,
                 parameters: Vec::new(),
+                fog: None,
             }),
             _ => Err(errors),
         }

@@ -98,8 +98,12 @@ fn written_name(register: Register, number: u16) -> String {
 /// V42: operands of scalar instructions name one component.
 fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.opcode.is_scalar()) else { return };
-    // A number that stands in the text for all components is as good as one component.
+    // A number that stands in the text for all components is as good as one component in !!FP1.0; in !!ARBfp1.0 it has
+    // its suffix, `0.5.x`.
     let plain = |register: &Register| {
+        if context.version == Version::ArbFp1_0 {
+            return false;
+        }
         let defined = context.program.constants.iter().find(|d| d.register == *register);
         defined.is_some_and(|d| matches!(d.value, ConstantValue::Float([x, y, z, w]) if x == y && y == z && z == w))
     };
@@ -181,7 +185,8 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V63: the colour goes out in one precision, depth through z, and something goes out.
+/// V63: the colour goes out in one precision, depth through z. What a program does not write is not written: the target
+/// keeps what it holds (the extensions leave it undefined).
 fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     let find = |file| all.iter().filter_map(|i| i.destination).find(move |d| d.register.file == file);
     let (full, half) = (find(RegisterFile::ColorOut), find(RegisterFile::HalfColorOut));
@@ -194,11 +199,6 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
         let message = "depth is the z component, which the mask leaves out";
         context.breach(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z");
-    }
-    if full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none() {
-        let span = context.program.version_span;
-        let message = "program writes neither colour nor depth";
-        context.breach(RuleId::FragmentOutputs, span, message).help("write a result, for example o[COLR]");
     }
 }
 

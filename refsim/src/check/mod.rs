@@ -15,6 +15,7 @@ mod dataflow;
 mod declared;
 mod facts;
 mod flow;
+mod fog;
 mod fragment;
 mod operands;
 mod pairs;
@@ -40,7 +41,8 @@ use context::Context;
 
 /// Judges a program for a device.
 ///
-/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s.
+/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s. A fog option of OpenGL's
+/// becomes instructions before the program is judged, so that their limits are too; executors know nothing of it.
 ///
 /// # Errors
 /// All violations, in the order of the text.
@@ -55,6 +57,7 @@ use context::Context;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, CheckReport> {
+    let program = fog::expand(program);
     let (mut violations, mut warnings) = (Vec::new(), Vec::new());
     let facts = {
         let mut context = Context::new(&program, profile);

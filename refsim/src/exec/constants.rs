@@ -3,7 +3,8 @@
 use crate::device::{ConstantStorage, Rules};
 use std::collections::BTreeMap;
 
-use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Program, RegisterFile};
+use super::FixedFunctionState;
+use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Program, RegisterFile};
 use crate::num::{self, Format};
 
 /// Integer and boolean constant registers, of each.
@@ -28,6 +29,19 @@ pub struct Constants {
     /// The constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), single precision patterns. A
     /// name that the program does not declare is passed over.
     pub named: BTreeMap<String, [u32; 4]>,
+    /// The state that `!!ARBfp1.0` reads as `state.*`; OpenGL's default state if there is none.
+    pub state: Option<Box<FixedFunctionState>>,
+}
+
+impl Constants {
+    /// The value of a constant that has no number.
+    pub(crate) fn parameter(&self, parameter: &Parameter) -> [u32; 4] {
+        match (parameter.source, &self.state) {
+            (ParameterSource::Named(default), _) => self.named.get(&parameter.name).copied().unwrap_or(default),
+            (ParameterSource::State(binding), Some(state)) => state.value(binding),
+            (ParameterSource::State(binding), None) => FixedFunctionState::default().value(binding),
+        }
+    }
 }
 
 /// Constants as instructions read them.
@@ -101,7 +115,7 @@ impl ResolvedConstants {
             }
         }
         for parameter in &program.parameters {
-            let value = host.named.get(&parameter.name).unwrap_or(&parameter.default);
+            let value = host.parameter(parameter);
             let number = usize::from(parameter.register.index);
             if number >= out.float.len() && number < most {
                 out.float.resize(number + 1, [0; 4]);

@@ -11,6 +11,7 @@ mod program;
 mod reads;
 mod register;
 mod span;
+mod state;
 mod version;
 
 pub use fragment::{
@@ -19,7 +20,11 @@ pub use fragment::{
 };
 pub use opcode::{Comparison, DestinationRule, OpInfo, Opcode, OpcodeClass, SlotCost};
 pub use operand::{Destination, Mask, Modifier, Predicate, Source, Swizzle};
-pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, Program, Usage};
+pub use program::{ConstantDef, ConstantValue, Declaration, Instruction, Parameter, ParameterSource, Program, Usage};
 pub use register::{Register, RegisterFile, Relative};
 pub use span::Span;
+pub use state::{
+    FogMode, FogOption, LightingColor, MAX_LIGHTS, MAX_PROGRAM_MATRICES, MAX_TEXTURE_UNITS, MaterialFace, MatrixForm,
+    StateBinding, StateMatrix,
+};
 pub use version::{Stage, Version};

@@ -1,7 +1,8 @@
 //! Programs and their parts.
 
 use super::{
-    Comparison, Destination, FragmentPart, Opcode, Precision, Predicate, Register, RegisterFile, Source, Span, Version,
+    Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, Register, RegisterFile, Source,
+    Span, StateBinding, Version,
 };
 
 /// The value of a `def`, `defi` or `defb`.
@@ -121,21 +122,32 @@ pub struct Program {
     pub declarations: Vec<Declaration>,
     /// Its instructions, `phase` and flow control included.
     pub instructions: Vec<Instruction>,
-    /// The constants that the host can set by name, in the order of the text (OpenGL's `DECLARE`).
+    /// The constants that the host sets and that have no number, in the order in which the text names them.
     pub parameters: Vec<Parameter>,
+    /// The fog that OpenGL applies when the program ends, if there is one.
+    pub fog: Option<FogOption>,
 }
 
-/// A constant that the host can set by name ([`crate::exec::Constants::named`]).
+/// A constant of OpenGL's programs that the host sets: by name, or with the state that it is part of.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
     /// The constant register that the program reads it in.
     pub register: Register,
-    /// Its value if the host sets none, single precision patterns.
-    pub default: [u32; 4],
+    /// Where its value comes from.
+    pub source: ParameterSource,
     /// Where it stands in the program text.
     pub span: Span,
+}
+
+/// Where the value of a [`Parameter`] comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ParameterSource {
+    /// `DECLARE`: what [`crate::exec::Constants::named`] has by this name; or else this, single precision patterns.
+    Named([u32; 4]),
+    /// `state.*`: what [`crate::exec::Constants::state`] has there.
+    State(StateBinding),
 }
 
 impl Program {

@@ -3,7 +3,7 @@
 use super::{BoundTexture, DepthId, DrawCall, StepRate, TextureId, VertexSource};
 use crate::event::SAMPLERS;
 use crate::exec::{BUMP_STAGES, BumpStage, Constants, Projection, program};
-use crate::isa::Program;
+use crate::isa::{ParameterSource, Program};
 use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, WriteMask};
 use crate::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
 use crate::texture::Region;
@@ -52,7 +52,8 @@ impl DrawState {
                 *state = Some(Self::of(call));
                 let (_, vertex_constants, _) = vertex_stage(call);
                 let all = [Some(call.pixel_constants), vertex_constants].into_iter().flatten();
-                (PIECES, all.map(|new| differing(&Constants::default(), new)).sum())
+                let counts = all.map(|new| differing(&Constants::default(), new)).sum::<u32>();
+                (PIECES, counts + differing_state(&Constants::default(), call))
             }
         }
     }
@@ -62,7 +63,9 @@ impl DrawState {
         let none = Constants::default();
         let (_, vertex_constants, _) = vertex_stage(call);
         let kept = self.vertex_constants.as_ref().unwrap_or(&none);
-        differing(&self.pixel_constants, call.pixel_constants) + vertex_constants.map_or(0, |new| differing(kept, new))
+        differing(&self.pixel_constants, call.pixel_constants)
+            + differing_state(&self.pixel_constants, call)
+            + vertex_constants.map_or(0, |new| differing(kept, new))
     }
 
     fn of(call: &DrawCall<'_>) -> Self {
@@ -134,6 +137,13 @@ fn differing(kept: &Constants, new: &Constants) -> u32 {
     let numbered = new.float.iter().zip(before).filter(|&(new, before)| *new != before).count();
     let named = new.named.iter().filter(|&(name, value)| kept.named.get(name) != Some(value)).count();
     (numbered + named) as u32
+}
+
+/// Constants that the pixel program reads out of OpenGL's state, and that this changes.
+fn differing_state(kept: &Constants, call: &DrawCall<'_>) -> u32 {
+    let parameters = &program(call.pixel_program).parameters;
+    let state = parameters.iter().filter(|p| matches!(p.source, ParameterSource::State(_)));
+    state.filter(|p| kept.parameter(p) != call.pixel_constants.parameter(p)).count() as u32
 }
 
 /// Replaces a piece where it differs; gives whether it did, as a count. A piece that stays is not copied.

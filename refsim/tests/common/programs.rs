@@ -156,7 +156,15 @@ pub(crate) fn program_of(version: Version) -> impl Strategy<Value = Program> {
             for (dcl, position) in declarations.iter_mut().zip(places.1) {
                 dcl.position = position;
             }
-            Program { version, version_span: nowhere(), constants, declarations, instructions, parameters: Vec::new() }
+            Program {
+                version,
+                version_span: nowhere(),
+                constants,
+                declarations,
+                instructions,
+                parameters: Vec::new(),
+                fog: None,
+            }
         })
 }
 

@@ -88,8 +88,14 @@ fn what_is_not_there_is_said() {
     };
     insta::assert_snapshot!(
         [
-            error("PARAM m = state.matrix.mvp.row[0];"),
-            error("OPTION ARB_fog_exp;"),
+            error("PARAM m = state.matrix.mvp;"),
+            error("PARAM m = state.light[0].shininess;"),
+            error("PARAM m = state.sky;"),
+            error("OPTION ARB_fog_exp; OPTION ARB_fog_exp2;"),
+            error("TEMP a; OPTION ARB_fog_exp;"),
+            error("TEMP a; SWZ a, a, x, y, b, a;"),
+            error("TEMP texture;"),
+            error("END MOV"),
             error("OPTION ARB_fragment_program_shadow;"),
             error("OPTION ARB_precision_hint_fastest; OPTION ARB_precision_hint_nicest;"),
             error("MOV R0, fragment.color;"),

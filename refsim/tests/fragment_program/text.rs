@@ -31,6 +31,16 @@ fn swizzle(c: &mut Choices<'_>, scalar: bool) -> String {
     }
 }
 
+const STATE: &[&str] = &[
+    "material.back.shininess",
+    "light[3].spot.direction",
+    "lightmodel.scenecolor",
+    "lightprod[0].diffuse",
+    "fog.params",
+    "matrix.mvp.inverse.row[2]",
+    "matrix.texture[1].row[0]",
+];
+
 fn source(c: &mut Choices<'_>, nv: bool, scalar: bool) -> String {
     let n = c.below(8);
     let register = match (c.below(8), nv) {
@@ -41,6 +51,7 @@ fn source(c: &mut Choices<'_>, nv: bool, scalar: bool) -> String {
         (0, false) => format!("fragment.texcoord[{n}]"),
         (1, false) => c.pick(&["fragment.color", "fragment.color.secondary", "fragment.fogcoord"]).to_owned(),
         (2, false) => format!("program.{}[{n}]", c.pick(&["env", "local"])),
+        (5, false) => format!("state.{}", c.pick(STATE)),
         (4, _) => c.pick(&["{1, 2.5, -3e-3, 4}", "{0.5}", "{-1, 0}", "half", "gain"]).to_owned(),
         _ => format!("R{n}"),
     };
@@ -95,8 +106,11 @@ fn program(version: Version, choices: &[u32]) -> String {
     let mut text = format!("{version}\n");
     text += match version {
         Version::Fp1_0 => "DEFINE half = 0.5; # a comment\nDECLARE gain = {1, 2};\nDECLARE none;\n",
-        _ => "TEMP R0, R1, R2, R3, R4, R5, R6, R7;\nPARAM half = 0.5; # a comment\nPARAM gain = {1, 2};\n",
+        _ => c.pick(&["", "OPTION ARB_fog_exp;\n", "OPTION ARB_fog_linear;\n"]),
     };
+    if version == Version::ArbFp1_0 {
+        text += "TEMP R0, R1, R2, R3, R4, R5, R6, R7;\nPARAM half = 0.5; # a comment\nPARAM gain = {1, 2};\n";
+    }
     for _ in 0..c.below(12) {
         text += &statement(&mut c, version);
         text += c.pick(&["\n", " ", "\r\n", "\t# more\n"]);

@@ -2,8 +2,51 @@
 
 use super::{Layout, component, mask, values};
 use crate::random::Random;
-use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, Version};
+use refsim::isa::{
+    ConditionTest, FogMode, LightingColor, MAX_LIGHTS, MAX_PROGRAM_MATRICES, MAX_TEXTURE_UNITS, MaterialFace,
+    MatrixForm, Opcode, OpcodeClass, Spelling, StateBinding, StateMatrix, Version,
+};
 use refsim::texture::TextureKind;
+
+/// Any state that a program can name.
+fn state(r: &mut Random) -> StateBinding {
+    use StateBinding as B;
+    let face = r.choose(&[MaterialFace::Front, MaterialFace::Back]);
+    let color = r.choose(&[LightingColor::Ambient, LightingColor::Diffuse, LightingColor::Specular]);
+    let light = r.below(MAX_LIGHTS.into()) as u8;
+    let unit = r.below(MAX_TEXTURE_UNITS.into()) as u8;
+    let own = r.below(MAX_PROGRAM_MATRICES.into()) as u8;
+    let matrices = [
+        StateMatrix::ModelView,
+        StateMatrix::Projection,
+        StateMatrix::Mvp,
+        StateMatrix::Texture(unit),
+        StateMatrix::Program(own),
+    ];
+    let matrix = r.choose(&matrices);
+    let form = r.choose(&[MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans]);
+    let row = B::MatrixRow(matrix, form, r.below(4) as u8);
+    r.choose(&[
+        B::Material(face, color),
+        B::Emission(face),
+        B::Shininess(face),
+        B::Light(light, color),
+        B::LightPosition(light),
+        B::LightAttenuation(light),
+        B::SpotDirection(light),
+        B::LightHalf(light),
+        B::LightModelAmbient,
+        B::SceneColor(face),
+        B::LightProduct(light, face, color),
+        B::TextureEnvironment(unit),
+        B::FogColor,
+        B::FogParams,
+        B::DepthRange,
+        row,
+        row,
+        row,
+    ])
+}
 
 /// A program under way.
 struct Writer<'a> {
@@ -38,6 +81,9 @@ impl Writer<'_> {
         if !self.nv {
             if self.r.one_in(8) {
                 self.lines.push("OPTION ARB_precision_hint_nicest;".to_owned());
+            }
+            if self.r.one_in(4) {
+                self.lines.push(format!("OPTION {};", self.r.choose(&FogMode::ALL).name()));
             }
             for n in 0..self.temps {
                 self.lines.push(format!("TEMP R{n};"));
@@ -80,7 +126,8 @@ impl Writer<'_> {
         self.constant = match self.r.below(6) {
             0 => "half".to_owned(),
             1 => format!("{{{}}}", values(self.r, 2.0)),
-            2 => format!("{}", self.r.below(17) as f32 / 8.0),
+            2 => format!("{:.3}", self.r.below(17) as f32 / 8.0),
+            3 if !nv => state(self.r).to_string(),
             _ if nv => format!("p[{p}]"),
             _ => format!("program.local[{p}]"),
         };

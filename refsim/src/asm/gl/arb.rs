@@ -1,4 +1,4 @@
-//! `!!ARBfp1.0`: GL_ARB_fragment_program. State of the fixed pipeline (`state.*`) is not known here.
+//! `!!ARBfp1.0`: GL_ARB_fragment_program.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -9,8 +9,8 @@ use super::operand::{self, Mnemonic};
 use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Dialect, Token, TokenKind};
 use crate::isa::{
-    Destination, FIRST_ENVIRONMENT, FragmentPart, Instruction, Modifier, Opcode, OpcodeClass, Program, Register,
-    RegisterFile, Source, Span, Swizzle, Version,
+    Destination, FIRST_ENVIRONMENT, FogMode, FogOption, FragmentPart, Instruction, Modifier, Opcode, OpcodeClass,
+    Program, Register, RegisterFile, Source, Span, StateBinding, Swizzle, Version,
 };
 
 /// Names of temporaries that a program can declare; how many it may use is the checker's business.
@@ -24,7 +24,14 @@ const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nice
 /// Reads a program whose first word is `!!ARBfp1.0` at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
     let cursor = Cursor::new(text, header.end as usize, Dialect::OpenGl);
-    let mut parser = Parser { cursor, build: Build::default(), names: BTreeMap::new(), temporaries: 0, hint: None };
+    let mut parser = Parser {
+        cursor,
+        build: Build::default(),
+        names: BTreeMap::new(),
+        temporaries: 0,
+        hint: None,
+        options_over: false,
+    };
     match operand::statements(&mut parser, |parser| &mut parser.cursor, Parser::statement) {
         Some(errors) => Err(errors),
         None => Ok(parser.build.finish(Version::ArbFp1_0, header)),
@@ -48,6 +55,7 @@ pub(super) fn declarations(program: &Program, out: &mut String) {
 pub(super) enum Name {
     Register(Register),
     Constant([u32; 4]),
+    State(StateBinding),
     /// `PARAM name[n]`.
     Array(Vec<Name>),
 }
@@ -59,11 +67,18 @@ pub(super) struct Parser<'a> {
     temporaries: u16,
     /// The precision hint, if there was one.
     hint: Option<&'a str>,
+    /// Whether a statement that is no option has come.
+    options_over: bool,
 }
 
 impl<'a> Parser<'a> {
     fn statement(&mut self) -> Parsed<()> {
         let token = self.cursor.next();
+        if token.text == "OPTION" && self.options_over {
+            let help = "options stand before all other statements";
+            return Err(token.error(ErrorKind::UnexpectedToken, "a statement that is no option", help));
+        }
+        self.options_over |= token.text != "OPTION";
         match token.text {
             "OPTION" => self.option()?,
             "TEMP" => self.temporaries()?,
@@ -89,24 +104,19 @@ impl<'a> Parser<'a> {
                 }
                 "a program asks for one of the two"
             }
-            text if text.starts_with("ARB_fog_") => {
-                "there is no fog after the program: blend with `fragment.fogcoord` in it, the colour in program.local[0]"
-            }
-            _ => "other options change what a program means",
+            text => match FogMode::from_name(text) {
+                Some(mode) => {
+                    let fog = FogOption { mode, span: token.span };
+                    if self.build.fog.replace(fog).is_none_or(|before| before.mode == mode) {
+                        return Ok(());
+                    }
+                    "a program asks for one kind of fog"
+                }
+                None => "other options change what a program means",
+            },
         };
-        let expected = format!("one of {}", HINTS.join(", "));
+        let expected = format!("one of {}, {}", HINTS.join(", "), FogMode::ALL.map(FogMode::name).join(", "));
         Err(token.error(ErrorKind::UnknownOption, expected, help))
-    }
-
-    /// A name that means nothing yet.
-    pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
-        let token = self.cursor.next();
-        let reserved = matches!(token.text, "fragment" | "result" | "program" | "state" | "texture" | "vertex" | "END");
-        if token.kind == TokenKind::Word && !reserved && !self.names.contains_key(token.text) {
-            return Ok(token.text);
-        }
-        let help = "names start with a letter and stand for one thing";
-        Err(token.error(ErrorKind::Name, "a name of its own", help))
     }
 
     fn temporaries(&mut self) -> Parsed<()> {
@@ -160,7 +170,7 @@ impl<'a> Parser<'a> {
             if i > 0 {
                 self.comma()?;
             }
-            sources.push(self.source()?);
+            sources.push(if opcode == Opcode::Swz { self.extended(&mut fragment)? } else { self.source()? });
         }
         if texture {
             self.comma()?;
@@ -168,9 +178,6 @@ impl<'a> Parser<'a> {
             sources.insert(1, unit);
             self.comma()?;
             fragment.target = Some(operand::target(&mut self.cursor)?);
-        }
-        if let (Opcode::Swz, [source]) = (opcode, &mut *sources) {
-            self.extended(source, &mut fragment)?;
         }
         Ok(Instruction {
             opcode,
@@ -188,32 +195,28 @@ impl<'a> Parser<'a> {
         self.cursor.expect(",", "operands stand apart by commas")
     }
 
-    /// `, x, -y, 0, 1` after the operand of `SWZ`.
-    fn extended(&mut self, source: &mut Source, fragment: &mut FragmentPart) -> Parsed<()> {
-        for (i, slot) in source.swizzle.0.iter_mut().enumerate() {
-            self.cursor.expect(",", "SWZ chooses four components")?;
-            if self.cursor.accept_mark("-") {
-                fragment.negate |= 1 << i;
-            } else {
-                self.cursor.accept_mark("+");
-            }
+    /// `R0, x, -y, 0, 1`: the operand of `SWZ`, a register alone, and how each component is chosen.
+    fn extended(&mut self, fragment: &mut FragmentPart) -> Parsed<Source> {
+        let start = self.cursor.peek().span.start;
+        let register = self.register()?;
+        let (mut swizzle, mut letters) = (Swizzle::IDENTITY, None);
+        for (i, slot) in swizzle.0.iter_mut().enumerate() {
+            self.cursor.expect(",", "SWZ chooses four components, and its operand has no swizzle of its own")?;
+            fragment.negate |= u8::from(operand::sign(&mut self.cursor)) << i;
             let token = self.cursor.next();
-            *slot = match token.text {
-                "x" | "r" => 0,
-                "y" | "g" => 1,
-                "z" | "b" => 2,
-                "w" | "a" => 3,
-                "0" => 4,
-                "1" => 5,
-                _ => {
-                    let help = "each component of SWZ is chosen on its own";
-                    let expected = "x, y, z, w, 0 or 1";
-                    return Err(token.error(ErrorKind::Swizzle, expected, help));
-                }
+            let known =
+                ["xyzw01", "rgba01"].iter().enumerate().find_map(|(set, all)| Some((set, all.find(token.text)?)));
+            let Some((set, component)) = known.filter(|_| token.text.len() == 1) else {
+                let help = "each component of SWZ is chosen on its own";
+                return Err(token.error(ErrorKind::Swizzle, "x, y, z, w, 0 or 1", help));
             };
+            if component < 4 && *letters.get_or_insert(set) != set {
+                let help = "the two sets of letters, xyzw and rgba, don't mix";
+                return Err(token.error(ErrorKind::Swizzle, "a letter of the set that the others are of", help));
+            }
+            *slot = component as u8;
         }
-        source.span.end = self.cursor.last_end();
-        Ok(())
+        Ok(Source { register, swizzle, modifier: Modifier::None, span: Span::new(start, self.cursor.last_end()) })
     }
 
     fn destination(&mut self, saturate: bool) -> Parsed<Destination> {
@@ -261,10 +264,7 @@ impl<'a> Parser<'a> {
 
     fn source(&mut self) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
-        let negative = self.cursor.accept_mark("-");
-        if !negative {
-            self.cursor.accept_mark("+");
-        }
+        let negative = operand::sign(&mut self.cursor);
         let register = self.register()?;
         let swizzle = operand::swizzle(&mut self.cursor)?;
         let modifier = if negative { Modifier::Negate } else { Modifier::None };
@@ -279,13 +279,11 @@ impl<'a> Parser<'a> {
         }
         match token.text {
             "fragment" => return self.attribute(),
-            "program" => {
-                return match self.element()? {
-                    Name::Register(register) => Ok(register),
-                    _ => Err(unknown(token, "a parameter", "write program.local[0]")),
-                };
+            "program" | "state" => {
+                let element = self.element()?;
+                return self.read(Some(element), token);
             }
-            _ => self.no_state()?,
+            _ => {}
         }
         self.cursor.next();
         let mut name = self.names.get(token.text).cloned();
@@ -299,14 +297,22 @@ impl<'a> Parser<'a> {
             };
             name = Some(element.clone());
         }
+        self.read(name, token)
+    }
+
+    /// The register that holds what a name stands for.
+    fn read(&mut self, name: Option<Name>, token: Token<'a>) -> Parsed<Register> {
         match name {
+            Some(Name::State(binding)) => {
+                self.build.state(binding, Span::new(token.span.start, self.cursor.last_end()))
+            }
             Some(Name::Register(register)) if !is_written(register.file) || register.file == RegisterFile::Temp => {
                 Ok(register)
             }
             Some(Name::Constant(value)) => self.build.literal(value, token.span),
             _ => Err(unknown(
                 token,
-                "a temporary, fragment.*, program.*, a constant or a name of one",
+                "a temporary, fragment.*, program.*, state.*, a constant or a name of one",
                 "names are made by TEMP, ATTRIB and PARAM before they are used",
             )),
         }

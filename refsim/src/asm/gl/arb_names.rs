@@ -3,9 +3,10 @@
 use super::super::error::{ErrorKind, Parsed, SyntaxError};
 use super::arb::{MAX_PARAMETER, Name, Parser, unknown};
 use super::operand;
-use crate::isa::{FIRST_ENVIRONMENT, Register, RegisterFile};
+use crate::asm::lexer::{Token, TokenKind};
+use crate::isa::{FIRST_ENVIRONMENT, Register, RegisterFile, Version};
 
-impl Parser<'_> {
+impl<'a> Parser<'a> {
     /// `PARAM a = {1, 2};`, `PARAM b[2] = { program.local[0..1] };`
     pub(super) fn parameter(&mut self) -> Parsed<()> {
         let name = self.new_name()?;
@@ -43,31 +44,28 @@ impl Parser<'_> {
 
     /// One constant or bound parameter.
     pub(super) fn element(&mut self) -> Parsed<Name> {
-        if self.cursor.peek().text != "program" {
-            self.no_state()?;
-            return operand::constant(&mut self.cursor).map(Name::Constant);
+        match self.cursor.peek().text {
+            "program" => Ok(Name::Register(self.program_range(false)?.0)),
+            "state" => self.state_item().map(Name::State),
+            _ => operand::constant(&mut self.cursor).map(Name::Constant),
         }
-        let (first, last) = self.program_range()?;
-        if first.index == last {
-            return Ok(Name::Register(first));
-        }
-        Err(self.cursor.unexpected("one parameter", "a range of parameters belongs into an array"))
     }
 
     /// One element of an array, or a range of them.
     fn elements(&mut self, all: &mut Vec<Name>) -> Parsed<()> {
-        if self.cursor.peek().text != "program" {
-            let one = self.element()?;
-            all.push(one);
-            return Ok(());
+        match self.cursor.peek().text {
+            "program" => {
+                let (first, last) = self.program_range(true)?;
+                all.extend((first.index..=last).map(|n| Name::Register(Register::new(first.file, n))));
+            }
+            "state" => all.extend(self.state_items(true)?.into_iter().map(Name::State)),
+            _ => all.push(self.element()?),
         }
-        let (first, last) = self.program_range()?;
-        all.extend((first.index..=last).map(|n| Name::Register(Register::new(first.file, n))));
         Ok(())
     }
 
-    /// `program.local[3]` or `program.env[0..4]`: the first register and the number of the last.
-    fn program_range(&mut self) -> Parsed<(Register, u16)> {
+    /// `program.local[3]` or, if there may be many, `program.env[0..4]`: the first register and the number of the last.
+    fn program_range(&mut self, many: bool) -> Parsed<(Register, u16)> {
         self.cursor.next();
         self.cursor.expect(".", "parameters are program.local[0] or program.env[0]")?;
         let token = self.cursor.next();
@@ -77,26 +75,34 @@ impl Parser<'_> {
             _ => return Err(unknown(token, "local or env", "parameters are program.local[0] or program.env[0]")),
         };
         self.cursor.expect("[", "parameters are numbered")?;
-        let first = operand::index(&mut self.cursor, MAX_PARAMETER)?;
+        let (first, last) = self.range(many, MAX_PARAMETER)?;
+        Ok((Register::new(RegisterFile::Constant, base + first), base + last))
+    }
+
+    /// `3]` or, if there may be many, `3..5]`: first and last.
+    pub(super) fn range(&mut self, many: bool, most: u16) -> Parsed<(u16, u16)> {
+        let first = operand::index(&mut self.cursor, most)?;
         let mut last = first;
-        if self.cursor.accept_mark("..") {
+        if many && self.cursor.accept_mark("..") {
             let place = self.cursor.peek();
-            last = operand::index(&mut self.cursor, MAX_PARAMETER)?;
+            last = operand::index(&mut self.cursor, most)?;
             if last < first {
                 return Err(unknown(place, "a number not below the first", "a range goes up"));
             }
         }
-        self.cursor.expect("]", "close the brackets")?;
-        Ok((Register::new(RegisterFile::Constant, base + first), base + last))
+        let help = if many { "close the brackets" } else { "close the brackets; a range belongs into an array" };
+        self.cursor.expect("]", help)?;
+        Ok((first, last))
     }
 
-    pub(super) fn no_state(&mut self) -> Parsed<()> {
-        let token = self.cursor.peek();
-        if token.text != "state" {
-            return Ok(());
+    /// A name that means nothing yet.
+    pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
+        let token = self.cursor.next();
+        if token.kind == TokenKind::Word && !reserved(token) && !self.names.contains_key(token.text) {
+            return Ok(token.text);
         }
-        let help = "this card has no fixed pipeline: set program.local or program.env from outside";
-        Err(unknown(token, "a constant or program.*", help))
+        let help = "names start with a letter, stand for one thing, and are no words of the language";
+        Err(token.error(ErrorKind::Name, "a name of its own", help))
     }
 
     /// `fragment.color.secondary`, `fragment.texcoord[1]`
@@ -126,4 +132,12 @@ impl Parser<'_> {
             _ => return Err(unknown(token, "color, texcoord, fogcoord or position", help)),
         })
     }
+}
+
+/// Whether a word is one of the language's: the specification's list of reserved keywords.
+fn reserved(token: Token<'_>) -> bool {
+    let statement = matches!(token.text, "ALIAS" | "ATTRIB" | "END" | "OPTION" | "OUTPUT" | "PARAM" | "TEMP");
+    let group = matches!(token.text, "fragment" | "program" | "result" | "state" | "texture");
+    let instruction = |m: operand::Mnemonic| m.spelling.opcode.info().available(Version::ArbFp1_0);
+    statement || group || operand::mnemonic(token, false).is_ok_and(instruction)
 }

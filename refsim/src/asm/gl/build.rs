@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use super::super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use crate::asm::lexer::Token;
 use crate::isa::{
-    ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, Instruction, Parameter, Program, Register, RegisterFile,
-    Span, Version,
+    ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, FogOption, Instruction, Parameter, ParameterSource,
+    Program, Register, RegisterFile, Span, StateBinding, Version,
 };
 
-/// Constants of each kind that a text can have.
+/// Constants of each kind that a text can have. The last two names are left for a fog option.
 const MAX_LITERALS: usize = 4096;
-const MAX_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize;
+const MAX_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
 
 /// The parts of a program.
 #[derive(Default)]
@@ -20,6 +20,7 @@ pub(super) struct Build {
     constants: Vec<ConstantDef>,
     literals: BTreeMap<[u32; 4], u16>,
     parameters: Vec<Parameter>,
+    pub(super) fog: Option<FogOption>,
 }
 
 impl Build {
@@ -47,18 +48,31 @@ impl Build {
 
     /// A constant that the host sets by name.
     pub(super) fn parameter(&mut self, name: Token<'_>, default: [u32; 4]) -> Parsed<Register> {
+        self.set_by_host(name.text.to_owned(), ParameterSource::Named(default), name.span)
+    }
+
+    /// A constant out of OpenGL's state: one for equal ones.
+    pub(super) fn state(&mut self, binding: StateBinding, span: Span) -> Parsed<Register> {
+        let source = ParameterSource::State(binding);
+        match self.parameters.iter().find(|p| p.source == source) {
+            Some(known) => Ok(known.register),
+            None => self.set_by_host(binding.to_string(), source, span),
+        }
+    }
+
+    fn set_by_host(&mut self, name: String, source: ParameterSource, span: Span) -> Parsed<Register> {
         let count = self.parameters.len();
         if count >= MAX_NAMED {
             return Err(SyntaxError::new(
                 ErrorKind::ValueCount,
-                name.span,
+                span,
                 format!("at most {MAX_NAMED} names that the host can set"),
-                quote(name.text),
+                quote(&name),
                 "use numbered parameters",
             ));
         }
         let register = Register::new(RegisterFile::Constant, FIRST_NAMED + count as u16);
-        self.parameters.push(Parameter { name: name.text.to_owned(), register, default, span: name.span });
+        self.parameters.push(Parameter { name, register, source, span });
         Ok(register)
     }
 
@@ -71,6 +85,7 @@ impl Build {
             declarations: Vec::new(),
             instructions: self.instructions,
             parameters: self.parameters,
+            fog: self.fog,
         }
     }
 }

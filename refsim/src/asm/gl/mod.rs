@@ -1,10 +1,11 @@
 //! OpenGL's fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
 //!
 //! - `operand`: what both languages share of operands and numbers; `build`: the program as it
-//!   grows; `nv`, `arb` with `arb_names`: the two languages; `print`: back to text.
+//!   grows; `nv`, `arb` with `arb_names` and `arb_state`: the two languages; `print`: back to text.
 
 mod arb;
 mod arb_names;
+mod arb_state;
 mod build;
 mod nv;
 mod operand;

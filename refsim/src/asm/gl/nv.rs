@@ -188,10 +188,7 @@ impl<'a> Parser<'a> {
     /// `-|R0.x|`, `f[TEX0].xyxy`, `{1, 2}.x`
     fn source(&mut self) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
-        let negative = self.cursor.accept_mark("-");
-        if !negative {
-            self.cursor.accept_mark("+");
-        }
+        let negative = operand::sign(&mut self.cursor);
         let absolute = self.cursor.accept_mark("|");
         let register = self.register()?;
         let swizzle = operand::swizzle(&mut self.cursor)?;

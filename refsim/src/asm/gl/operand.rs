@@ -5,7 +5,9 @@ use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote}
 use super::super::{letters, number};
 use crate::asm::cursor::Cursor;
 use crate::asm::lexer::{Token, TokenKind};
-use crate::isa::{Destination, Mask, Precision, Register, RegisterFile, Span, Spelling, Swizzle, TextureTarget};
+use crate::isa::{
+    Destination, Mask, Opcode, Precision, Register, RegisterFile, Span, Spelling, Swizzle, TextureTarget,
+};
 
 /// Reads a program's statements and its `END`. Errors are recorded, and reading goes on with the next statement.
 pub(super) fn statements<'a, P>(
@@ -21,6 +23,12 @@ pub(super) fn statements<'a, P>(
             break;
         }
         if token.text == "END" {
+            cursor(parser).next();
+            let after = cursor(parser).peek();
+            if after.kind != TokenKind::End {
+                let help = "only comments may follow `END`: all else would never be read";
+                cursor(parser).record(after.error(ErrorKind::UnexpectedToken, "the end of the text", help));
+            }
             break;
         }
         if let Err(error) = statement(parser) {
@@ -100,18 +108,24 @@ pub(super) fn numbered(token: Token<'_>, prefix: &str, most: u16) -> Option<Pars
     Some(digits.parse().ok().filter(|&n| n <= most).ok_or_else(|| register_number(token, most)))
 }
 
-/// A number with its signs, as the bits of a single float.
-pub(super) fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
-    let mut negative = false;
-    while let Some(sign) = ["-", "+"].into_iter().find(|s| cursor.accept_mark(s)) {
-        negative ^= sign == "-";
+/// Takes a sign, if there is one; whether it is a minus.
+pub(super) fn sign(cursor: &mut Cursor<'_>) -> bool {
+    let negative = cursor.accept_mark("-");
+    if !negative {
+        cursor.accept_mark("+");
     }
+    negative
+}
+
+/// A number, with a sign if need be, as the bits of a single float.
+fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
+    let negative = sign(cursor);
     let token = cursor.peek();
     if token.kind != TokenKind::Number {
         return Err(token.error(ErrorKind::MalformedValue, "a number", "write `1`, `-0.5` or `2.5e-3`"));
     }
     cursor.next();
-    let bits = number::float(token.text, token.span)?;
+    let bits = number::opengl_float(token.text, token.span)?;
     Ok(if negative { bits ^ 0x8000_0000 } else { bits })
 }
 
@@ -165,8 +179,9 @@ pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
         let updates = suffixes && rest == "C";
         (updates || rest.is_empty()).then_some(Mnemonic { spelling, precision, updates, saturate })
     };
-    // `EX2R` is `EX2`; of names that begin another the longest counts.
+    // `EX2R` is `EX2`; of names that begin another the longest counts. `KIL` has no result to saturate.
     let best = Spelling::ALL.iter().filter_map(split).max_by_key(|m| m.spelling.name.len());
+    let best = best.filter(|m| !(m.saturate && m.spelling.opcode == Opcode::Kil));
     best.ok_or_else(|| {
         let close = Spelling::ALL
             .iter()

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::super::number::float_text;
 use crate::isa::{
     Condition, ConstantValue, Destination, FIRST_ENVIRONMENT, Instruction, Mask, Modifier, Opcode, OpcodeClass,
-    Program, Register, RegisterFile, Source, Spelling, Swizzle, Version,
+    ParameterSource, Program, Register, RegisterFile, Source, Spelling, Swizzle, Version,
 };
 
 const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
@@ -26,11 +26,16 @@ macro_rules! put {
 pub(in super::super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let arb = program.version == Version::ArbFp1_0;
+    if let Some(fog) = program.fog {
+        put!(out, "OPTION {};\n", fog.mode.name());
+    }
     if arb {
         super::arb::declarations(program, &mut out);
     }
     for parameter in &program.parameters {
-        put!(out, "DECLARE {} = {};\n", parameter.name, vector(parameter.default));
+        if let ParameterSource::Named(default) = parameter.source {
+            put!(out, "DECLARE {} = {};\n", parameter.name, vector(default));
+        }
     }
     for i in &program.instructions {
         Printer { program, arb, out: &mut out }.instruction(i);

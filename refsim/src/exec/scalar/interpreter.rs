@@ -128,6 +128,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             };
             if let Some(budget) = self.prepared.budget
                 && instruction.opcode != Opcode::Phase
+                && !(self.fragment.is_some() && instruction.coissue)
             {
                 self.charge(at, budget);
             }
