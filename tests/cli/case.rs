@@ -7,8 +7,18 @@ use serde_json::Value;
 use crate::{crossbar, crossbar_in};
 
 /// The example cases by name.
-pub(crate) const CASES: &[&str] =
-    &["bump", "flat", "mipmaps", "modulate", "opengl_arb", "opengl_nv", "projected", "transform", "two_triangles"];
+pub(crate) const CASES: &[&str] = &[
+    "bump",
+    "flat",
+    "mipmaps",
+    "modulate",
+    "opengl_arb",
+    "opengl_nv",
+    "opengl_state",
+    "projected",
+    "transform",
+    "two_triangles",
+];
 
 pub(crate) fn example(name: &str) -> String {
     format!("{}/fixtures/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -51,6 +61,23 @@ fn constants_of_opengl_programs_have_the_programs_names() {
         },
     );
     insta::assert_snapshot!(said.join("----\n"));
+}
+
+#[test]
+fn bad_state() {
+    let good = fs::read_to_string(example("opengl_state")).expect("a case");
+    let changed = [
+        ("[state.light.1]", "[state.light.8]"),
+        ("[state.light.1]", "[state.light.01]"),
+        ("[state.light.1]", "[state.light.1]\nspot_cutoff = 91"),
+        ("start = 1", "starts = 1"),
+    ]
+    .map(|(from, to)| {
+        assert!(good.contains(from), "{from} is there");
+        refused(&good.replace(from, to))
+    });
+    let unread = refused(&SMALL.replace("[[texture]]", "[state]\nambient = [1, 1, 1, 1]\n[[texture]]"));
+    insta::assert_snapshot!([changed.join("----\n"), unread].join("----\n"));
 }
 
 /// Registers are called as the program calls them, and the executors say the same.

@@ -185,8 +185,8 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V63: the colour goes out in one precision, depth through z. What a program does not write is not written: the target
-/// keeps what it holds (the extensions leave it undefined).
+/// V63: the colour goes out in one precision, depth through z, and something goes out of `!!FP1.0`. `!!ARBfp1.0` leaves
+/// undefined what a program does not write; here the target keeps what it holds.
 fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     let find = |file| all.iter().filter_map(|i| i.destination).find(move |d| d.register.file == file);
     let (full, half) = (find(RegisterFile::ColorOut), find(RegisterFile::HalfColorOut));
@@ -199,6 +199,12 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     for depth in depths.filter(|d| d.mask.0 != 0b0100) {
         let message = "depth is the z component, which the mask leaves out";
         context.breach(RuleId::FragmentOutputs, depth.span, message).help("write o[DEPR].z or result.depth.z");
+    }
+    let nothing = full.is_none() && half.is_none() && find(RegisterFile::DepthOut).is_none();
+    if nothing && context.version == Version::Fp1_0 {
+        let span = context.program.version_span;
+        let message = "program writes neither colour nor depth";
+        context.breach(RuleId::FragmentOutputs, span, message).help("write a result, for example o[COLR]");
     }
 }
 

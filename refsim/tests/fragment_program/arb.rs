@@ -57,7 +57,7 @@ fn what_only_arb_has() {
     assert_eq!(with("DPH a, b, c;"), [5.0 + 12.0 + 21.0 + 8.0; 4]);
     assert_eq!(with("ABS a, -b;"), values[0]);
     assert_eq!(with("SUB c, b, {2, 2, 2, 2}; CMP a, c, b, -b;"), [1.0, -2.0, -3.0, -4.0]);
-    assert_eq!(with("SCS a.xy, 0;")[..2], [1.0, 0.0]);
+    assert_eq!(with("SCS a.xy, 0.0.x;")[..2], [1.0, 0.0]);
     assert_eq!(with("MUL_SAT a, b, 0.3;"), [0.3, 0.6, 0.90000004, 1.0]);
 }
 
