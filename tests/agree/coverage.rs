@@ -213,7 +213,9 @@ fn note_state(seen: &mut Seen, program: &Program) {
         let kind = |text: String| text.split('(').next().unwrap_or_default().to_owned();
         seen.add("state", kind(format!("{binding:?}")));
         if let StateBinding::MatrixRow(matrix, form, row) = binding {
-            seen.add("matrix", (kind(format!("{matrix:?}")), form, row));
+            seen.add("matrix", kind(format!("{matrix:?}")));
+            seen.add("form", form);
+            seen.add("row", row);
         }
     }
 }
@@ -239,10 +241,11 @@ fn wanted_state() -> Vec<String> {
     ];
     let mut out = each("state", kinds);
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
+    // Executors see a row as any constant: which matrix goes with which form and row is nothing to them.
+    out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));
     let forms = [MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans];
-    let matrices = ["ModelView", "Projection", "Mvp", "Texture", "Program"];
-    let all = matrices.into_iter().flat_map(|m| forms.into_iter().flat_map(move |f| (0..4_u8).map(move |r| (m, f, r))));
-    out.extend(each("matrix", all));
+    out.extend(each("form", forms));
+    out.extend(each("row", 0..4_u8));
     out
 }
 

@@ -9,9 +9,9 @@
 //! LRP result.color.xyz, t.w, t, state.fog.color;
 //! ```
 //!
-//! follow, or what the other modes ask for. The specification counts as much: three instructions for `ARB_fog_exp`, four
-//! for `ARB_fog_exp2`, two for `ARB_fog_linear`, and one temporary, one attribute and two parameters each. What breaks
-//! a limit with them is reported, at the option. A program that writes no color is not fogged.
+//! follow, or what the other modes ask for. The specification counts as much: three instructions for `ARB_fog_exp`,
+//! four for `ARB_fog_exp2`, two for `ARB_fog_linear`, and one temporary, one attribute and two parameters each. What
+//! breaks a limit with them is reported, at the option. A program that writes no color is not fogged.
 
 use crate::isa::{
     Destination, FIRST_NAMED, FogMode, FogOption, FragmentPart, Instruction, Mask, Modifier, Opcode, Parameter,

@@ -41,8 +41,9 @@ use context::Context;
 
 /// Judges a program for a device.
 ///
-/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s. A fog option of OpenGL's
-/// becomes instructions before the program is judged, so that their limits are too; executors know nothing of it.
+/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s. A fog option of
+/// OpenGL's becomes instructions before the program is judged, so that limits hold with them; executors know nothing
+/// of it.
 ///
 /// # Errors
 /// All violations, in the order of the text.
