@@ -262,7 +262,7 @@ fn inverse(m: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
         let minor = m[a][x] * (m[b][y] * m[c][z] - m[b][z] * m[c][y])
             - m[a][y] * (m[b][x] * m[c][z] - m[b][z] * m[c][x])
             + m[a][z] * (m[b][x] * m[c][y] - m[b][y] * m[c][x]);
-        if (row + column) % 2 == 0 { minor } else { -minor }
+        if (row + column).is_multiple_of(2) { minor } else { -minor }
     };
     let cofactors: [[f64; 4]; 4] = std::array::from_fn(|r| std::array::from_fn(|c| cofactor(r, c)));
     let determinant = (0..4).map(|c| m[0][c] * cofactors[0][c]).fold(0.0, |sum, term| sum + term);
