@@ -48,7 +48,11 @@
 //! host.
 
 #[cfg(feature = "systems")]
+pub mod all_frequency;
+#[cfg(feature = "systems")]
 pub mod atlas;
+#[cfg(feature = "systems")]
+pub mod bi_scale;
 #[cfg(feature = "systems")]
 pub mod card;
 #[cfg(feature = "cli")]
@@ -56,6 +60,8 @@ pub mod case;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod compare;
+#[cfg(feature = "systems")]
+pub mod cpca;
 pub mod elementary;
 #[cfg(feature = "systems")]
 pub mod fresnel;
@@ -69,8 +75,6 @@ pub mod names;
 pub mod oracle;
 #[cfg(feature = "systems")]
 pub mod picture;
-#[cfg(feature = "systems")]
-pub mod prt;
 #[cfg(feature = "systems")]
 pub mod quadrature;
 #[cfg(feature = "systems")]
@@ -93,3 +97,5 @@ pub mod study;
 pub mod subsurface;
 #[cfg(feature = "systems")]
 pub mod tracer;
+#[cfg(feature = "systems")]
+pub mod transfer;

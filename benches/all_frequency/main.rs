@@ -18,9 +18,9 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use crossbar::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, SparseRows};
+use crossbar::all_frequency::shade::{Multiplies, Representatives, Shader, plain};
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, SparseRows};
-use crossbar::prt::all_frequency::shade::{Multiplies, Representatives, Shader, plain};
 
 const VERTICES: usize = 51_300;
 const TERMS: usize = 10;

@@ -12,17 +12,17 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
+use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::matrix::SparseMatrix;
+use crossbar::bi_scale::product::Gather;
+use crossbar::bi_scale::rivals::WideRows;
+use crossbar::bi_scale::transfer::transfer_matrix;
 use crossbar::geom::Sides;
-use crossbar::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crossbar::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::matrix::SparseMatrix;
-use crossbar::prt::bi_scale::product::Gather;
-use crossbar::prt::bi_scale::rivals::WideRows;
-use crossbar::prt::bi_scale::transfer::transfer_matrix;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::built::transfer_models::TransferModel;
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crossbar::transfer::{Tangents, Vertices};
 
 /// T of a model with edges so many times as long.
 fn matrix(coarser: u32) -> SparseMatrix {

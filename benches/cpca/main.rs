@@ -9,9 +9,9 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use crossbar::prt::Signal;
-use crossbar::prt::cpca::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, reference};
-use crossbar::prt::synthetic::torus_signal;
+use crossbar::transfer::Signal;
+use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, reference};
+use crossbar::transfer::synthetic::torus_signal;
 
 /// Points of both signals.
 const POINTS: usize = 3000;

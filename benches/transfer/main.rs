@@ -11,11 +11,12 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
+use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::scene::built::transfer_models::TransferModel;
 use crossbar::sphere::DirectionRule;
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::{Tangents, Vertices};
 
 /// 11 rings of 21 directions.
 const DEGREE: usize = 20;

@@ -1,18 +1,18 @@
 //! All-frequency transfer: pictures by colors of vertices and by products per pixel, on every executor.
 
-use crossbar::prt::all_frequency::Reflectance;
-use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer};
-use crossbar::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
-use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
-use crossbar::prt::all_frequency::kernels::{MapFilter, ViewNumbers};
-use crossbar::prt::all_frequency::on_card::{
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
+use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::all_frequency::kernels::{MapFilter, ViewNumbers};
+use crossbar::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, RadianceFormat, SumCard, TransferredMesh, VertexColors, ViewMaker,
 };
-use crossbar::prt::all_frequency::shade::TransferredRadiance;
-use crossbar::prt::on_card::PrtView;
-use crossbar::prt::synthetic::{hills, signal_at, torus_signal};
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::all_frequency::shade::TransferredRadiance;
+use crossbar::cpca::on_card::PrtView;
 use crossbar::scene::Camera;
+use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
+use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;

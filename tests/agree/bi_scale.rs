@@ -1,19 +1,17 @@
 //! Bi-scale transfer: light times biclusters, and pictures of bidirectional textures, on every executor.
 
+use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::kernels::BlockEdges;
+use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::bi_scale::on_card::{BiScaleCard, DisplayOptions, GatherCard, LightFormat, LocalFormat, TexturedMesh};
+use crossbar::bi_scale::product::Gather;
+use crossbar::bi_scale::texture::BidirectionalTexture;
+use crossbar::cpca::on_card::PrtView;
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::bi_scale::bicluster::{BiclusterOptions, bicluster};
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::kernels::BlockEdges;
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::prt::bi_scale::on_card::{
-    BiScaleCard, DisplayOptions, GatherCard, LightFormat, LocalFormat, TexturedMesh,
-};
-use crossbar::prt::bi_scale::product::Gather;
-use crossbar::prt::bi_scale::texture::BidirectionalTexture;
-use crossbar::prt::on_card::PrtView;
-use crossbar::prt::synthetic::hills;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::Camera;
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 

@@ -38,9 +38,9 @@ pub(crate) static KERNELS: LazyLock<Programs> = LazyLock::new(|| {
     let rooms = walk(&root().join("src"), &["psa", "vsa", "fp"]);
     let mut all = Programs::read(rooms.into_iter().filter(|p| p.parent().is_some_and(|f| f.ends_with("kernels"))));
     let written = crossbar::subsurface::kernels::programs().into_iter();
-    let written = written.chain(crossbar::prt::kernels::programs());
-    let written = written.chain(crossbar::prt::all_frequency::kernels::programs());
-    let written = written.chain(crossbar::prt::bi_scale::kernels::programs());
+    let written = written.chain(crossbar::cpca::kernels::programs());
+    let written = written.chain(crossbar::all_frequency::kernels::programs());
+    let written = written.chain(crossbar::bi_scale::kernels::programs());
     all.0.extend(written.filter_map(|(name, text)| Program::new(name, &text)));
     all
 });

@@ -1,13 +1,13 @@
 //! Compressed transfer: pictures of every kind of card on every executor. That the vertex programs give the host's sums
 //! is proved beside them.
 
-use crossbar::prt::brdf::ExitBasis;
-use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
-use crossbar::prt::synthetic::{hills, signal_at};
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
+use crossbar::transfer::brdf::ExitBasis;
+use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::synthetic::{hills, signal_at};
+use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;

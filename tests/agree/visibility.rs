@@ -1,9 +1,9 @@
 //! Visibility maps of all-frequency transfer: cubes drawn from vertices, the same bits on every executor.
 
-use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
-use crossbar::prt::all_frequency::visibility::{Horizon, VisibilitySampling};
-use crossbar::prt::synthetic::hills;
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::visibility::drawn::CubeCard;
+use crossbar::transfer::visibility::{Horizon, VisibilitySampling};
+use crossbar::transfer::{Tangents, Vertices};
 use refsim::device::Profile;
 
 use crate::system::executors;

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crossbar::all_frequency::factor::{FactorSampling, Lobe};
 use crossbar::geom::teapot;
 use crossbar::io::{scene_files, write_matrix_market, write_obj};
-use crossbar::prt::all_frequency::factor::{FactorSampling, Lobe};
 use crossbar::ray_engine::kernels;
 use crossbar::scene::built;
 

@@ -1,23 +1,23 @@
 //! All-frequency transfer on a card: what pixels show, how far each choice is off f64, and the time of a frame.
 
 use approx::assert_relative_eq;
-use crossbar::prt::all_frequency::Reflectance;
-use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer};
-use crossbar::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
-use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
-use crossbar::prt::all_frequency::kernels::ViewNumbers;
-use crossbar::prt::all_frequency::on_card::reference::pixel_of_products;
-use crossbar::prt::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
-use crossbar::prt::all_frequency::on_card::{
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
+use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::all_frequency::kernels::ViewNumbers;
+use crossbar::all_frequency::on_card::reference::pixel_of_products;
+use crossbar::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
+use crossbar::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, SumCard, TransferredMesh, VertexColors, seen_pixels,
 };
-use crossbar::prt::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
-use crossbar::prt::on_card::PrtView;
-use crossbar::prt::on_card::time::frame_time;
-use crossbar::prt::synthetic::{hills, signal_at, torus_signal};
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
+use crossbar::cpca::on_card::PrtView;
+use crossbar::cpca::on_card::time::frame_time;
 use crossbar::scene::Camera;
 use crossbar::study::prt::{factored_precision, factored_precision_table};
+use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 use refsim::device::Profile;
 use refsim::event::Event;

@@ -2,16 +2,16 @@
 
 use approx::assert_relative_eq;
 use crossbar::card::Texels;
-use crossbar::prt::brdf::ExitBasis;
-use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::prt::on_card::estimate::FrameCounts;
-use crossbar::prt::on_card::model::TransferSize;
-use crossbar::prt::on_card::time::{frame_time, host_of_section_7};
-use crossbar::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView, WeightFormat};
-use crossbar::prt::synthetic::{hills, signal_at};
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::cpca::on_card::estimate::FrameCounts;
+use crossbar::cpca::on_card::model::TransferSize;
+use crossbar::cpca::on_card::time::{frame_time, host_of_section_7};
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView, WeightFormat};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
+use crossbar::transfer::brdf::ExitBasis;
+use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::synthetic::{hills, signal_at};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 use refsim::device::Profile;
 use refsim::event::Event;

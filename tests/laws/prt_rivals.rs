@@ -1,14 +1,14 @@
 //! What compressed transfer is compared with: methods that must agree do.
 
+use crossbar::cpca::rivals::{ExitCoefficients, RivalError, UncompressedTransfer, ViewMap};
+use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::linalg::dot;
-use crossbar::prt::Signal;
-use crossbar::prt::brdf::{BRDF_DEGREE, Brdf, ExitBasis, brdf_matrix};
-use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::prt::rivals::{ExitCoefficients, RivalError, UncompressedTransfer, ViewMap};
-use crossbar::prt::synthetic::hills;
-use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, HarmonicLight, ParabolicMap};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis, brdf_matrix};
+use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::{Signal, Tangents, Vertices};
 use glam::DVec3;
 
 const EYE: DVec3 = DVec3::new(1.0, -2.5, 3.0);
@@ -187,7 +187,7 @@ fn parts_that_do_not_go_together_are_refused() {
     let map = ParabolicMap::new(4);
     let radiance = ViewMap::of_basis(&basis, map).radiance(&hills.vertices, &exit, EYE);
     assert_eq!(radiance, Err(RivalError::Coefficients { expected: 25, found: 1 }));
-    let other = Vertices::new(&crossbar::prt::synthetic::hills(2), Tangents::Any).expect("vertices");
+    let other = Vertices::new(&crossbar::transfer::synthetic::hills(2), Tangents::Any).expect("vertices");
     let radiance = ViewMap::of_basis(&ExitBasis::Radiance, map).radiance(&other, &exit, EYE);
     assert_eq!(radiance, Err(RivalError::Vertices { expected: 9, found: 49 }));
     let brdf = brdf_matrix(&WARD, &basis, 5, &DirectionRule::hemisphere(8)).expect("B");

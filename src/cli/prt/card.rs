@@ -10,15 +10,15 @@ use super::card_values::{FilterArg, RadianceArg, VertexArg, WayArg, WeightsArg};
 use super::light::LightArgs;
 use super::model::{FileOfModel, clusters_of, light_order};
 use super::values::KindArg;
+use crate::all_frequency::kernels::MapFilter;
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
 use crate::cli::card::CardArgs;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
-use crate::prt::all_frequency::kernels::MapFilter;
-use crate::prt::all_frequency::on_card::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
-use crate::prt::on_card::{PrtCardOptions, WeightFormat};
+use crate::cpca::on_card::{PrtCardOptions, WeightFormat};
 use crate::study::prt::OnCard;
 use refsim::device::Profile;
 

@@ -10,14 +10,14 @@ use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::io::{ReadError, read_limited};
-use crate::prt::cpca::{
+use crate::report::{Cell, Table};
+use crate::study::prt::CompressionError;
+use crate::transfer::clustering::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints,
     compress,
 };
-use crate::prt::file::{PrtFile, save_prt};
-use crate::prt::{Signal, load_signal_and_meaning};
-use crate::report::{Cell, Table};
-use crate::study::prt::CompressionError;
+use crate::transfer::file::{PrtFile, save_prt};
+use crate::transfer::{Signal, load_signal_and_meaning};
 
 const EXAMPLES: &str = "\
 Examples:

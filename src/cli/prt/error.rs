@@ -10,9 +10,9 @@ use super::values::KindArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
-use crate::prt::cpca::Clustering;
-use crate::prt::{Signal, load_signal_and_meaning};
 use crate::study::prt::CompressionError;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::{Signal, load_signal_and_meaning};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -8,15 +8,14 @@ use super::factor_values::{
     ChannelArg, ClampWhenArg, DenominatorsArg, FresnelArg, LimitArg, ModelArg, OutsideArg, ShadowingArg,
     SupersamplesArg, TangentArg,
 };
-use crate::cli::Problem;
-use crate::cli::memory::MemoryNeed;
-use crate::cli::number;
-use crate::cli::study::StudyArgs;
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     FacetDistribution, FactorSampling, Lobe, MAX_MAP_SIDE, ProductClamp, load_merl, load_product_table,
 };
-use crate::prt::brdf::Brdf;
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::{Problem, number};
 use crate::study::prt::{BrdfFactors, FactorSubject};
+use crate::transfer::brdf::Brdf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -183,7 +182,7 @@ impl Args {
     }
 }
 
-fn refused(error: &crate::prt::brdf::BrdfError) -> Problem {
+fn refused(error: &crate::transfer::brdf::BrdfError) -> Problem {
     Problem::usage(error.to_string(), "see `crossbar prt factor --help`")
 }
 

@@ -4,10 +4,10 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 
-use crate::cli::number;
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     Denominators, FresnelForm, MerlChannel, OutsideDisc, Shadowing, Supersamples, TangentCosine,
 };
+use crate::cli::number;
 
 /// Reflectance models.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

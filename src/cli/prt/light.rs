@@ -8,9 +8,9 @@ use glam::DVec3;
 
 use crate::cli::{Problem, number};
 use crate::io::{load_cube_table, load_light_sources, load_picture};
-use crate::prt::all_frequency::grid::LIGHT_SIDE;
-use crate::prt::all_frequency::light::{CubeLight, DiskSource, DistantLight};
 use crate::sphere::{BandWindow, ClearSky, EnvironmentPicture, HarmonicLight};
+use crate::transfer::grid::LIGHT_SIDE;
+use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
 
 const LIGHT: &str = "constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z \
      (towards the sun), red-and-blue, or a lat-long, angular-probe or cube-cross picture (EXR, HDR, PNG)";

@@ -9,12 +9,10 @@ use super::light::LightArgs;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number};
 use crate::io::{write_cube_table, write_file};
-use crate::prt::all_frequency::grid::{LIGHT_SIDE, Segmentation};
-use crate::prt::all_frequency::light::{
-    CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority,
-};
 use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
+use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
+use crate::transfer::light::{CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use crate::cli::model_name::{self, Model};
 use crate::cli::{Problem, model_file, view};
-use crate::prt::cpca::Clustering;
-use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
-use crate::prt::transfer::{Tangents, TransferError, Vertices};
 use crate::scene::Material;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+use crate::transfer::{Tangents, TransferError, Vertices};
 
 /// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
 /// none.

@@ -13,11 +13,12 @@ use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, number};
-use crate::prt::brdf::Brdf;
-use crate::prt::file::save_prt;
-use crate::prt::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts, Vertices};
+use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
+use crate::transfer::Vertices;
+use crate::transfer::brdf::Brdf;
+use crate::transfer::file::save_prt;
 
 const EXAMPLES: &str = "\
 Examples:

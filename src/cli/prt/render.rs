@@ -13,8 +13,8 @@ use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, model_name, number};
-use crate::prt::file::{PrtFile, load_prt};
 use crate::study::prt::{Rendering, Turning};
+use crate::transfer::file::{PrtFile, load_prt};
 
 const EXAMPLES: &str = "\
 Examples:

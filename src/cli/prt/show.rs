@@ -8,11 +8,12 @@ use serde_json::{Value, json};
 use super::all_frequency;
 use super::model::FileOfModel;
 use super::values::KindArg;
+use crate::all_frequency::file::load_all_frequency;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
-use crate::prt::cpca::Clustering;
-use crate::prt::file::{PrtFile, PrtMeaning, load_all_frequency, load_prt};
 use crate::report::{Cell, Table};
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -6,8 +6,8 @@ use clap::ValueEnum;
 use glam::DVec3;
 
 use crate::cli::number;
-use crate::prt::brdf::{Brdf, ExitBasis};
-use crate::prt::transfer::Tangents;
+use crate::transfer::Tangents;
+use crate::transfer::brdf::{Brdf, ExitBasis};
 
 const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torrance:ALBEDO,SPECULAR,ROUGHNESS,F0, \
                     schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";

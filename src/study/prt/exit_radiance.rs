@@ -4,11 +4,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::vector::wide;
-use crate::prt::Signal;
-use crate::prt::cpca::Clustering;
-use crate::prt::file::PrtMeaning;
-use crate::prt::transfer::Vertices;
 use crate::sphere::{HarmonicLight, MAX_ORDER, harmonics};
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::PrtMeaning;
+use crate::transfer::{Signal, Vertices};
 
 /// What the numbers of a vertex mean, under a light of as many functions.
 pub(in crate::study) struct Lit<'a> {

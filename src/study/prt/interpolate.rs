@@ -7,9 +7,9 @@ use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
 use crate::picture::Picture;
-use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
+use crate::transfer::Vertices;
 
 /// What each pixel shows: the corners of a triangle with weights that sum to 1, or nothing.
 pub(in crate::study) struct Seen {

@@ -3,18 +3,16 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::prt::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
-use crate::prt::file::{MeshDigest, PrtFile, PrtMeaning};
-use crate::prt::transfer::{
-    Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts, TransferError, Vertices,
-};
-use crate::prt::{Signal, SignalError};
 use crate::sphere::DirectionRule;
 use crate::study::ProgressFn;
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
+use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
+use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
+use crate::transfer::{Signal, SignalError, TransferError, Vertices};
 
 /// How exit radiance is expressed.
 #[derive(Clone, Debug)]

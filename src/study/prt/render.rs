@@ -12,14 +12,13 @@ use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
 use crate::picture::{PictureError, rgb8};
-use crate::prt::Signal;
-use crate::prt::file::PrtFile;
-use crate::prt::transfer::Vertices;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError, turn_around_z};
 use crate::study::{ProgressFn, Study};
+use crate::transfer::file::PrtFile;
+use crate::transfer::{Signal, Vertices};
 
 /// Linear light seen as halfway between black and white.
 const MIDDLE_GREY: f64 = 0.18;

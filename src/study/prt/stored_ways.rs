@@ -2,17 +2,17 @@
 
 use std::time::Instant;
 
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::bi_scale::bicluster::Biclustering;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::product::by_rows;
-use crate::prt::bi_scale::rivals::{
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::product::by_rows;
+use crate::bi_scale::rivals::{
     CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
     ReshuffledVisibility, RivalError, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
 };
 use crate::report::words::counted;
 use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
+use crate::transfer::grid::LIGHT_TEXELS;
 
 /// Texels along an edge of the coarse cubes of the rejected form: as many over the hemisphere as there are local
 /// directions of 8 x 8, about, and the light's own.

@@ -1,18 +1,16 @@
 //! Lights and transfer that cannot be: errors that say what and where.
 
+use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::geom::random::CounterRng;
 use crossbar::io::{parse_cube_table, parse_light_sources, write_cube_table};
 use crossbar::picture::Picture;
-use crossbar::prt::all_frequency::grid::Segmentation;
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{
-    CubeLight, CubeLightError, Decimation, DiskSource, HaarLight, TruncationPriority,
-};
-use crossbar::prt::all_frequency::transfer::FactoredTransfer;
-use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
-use crossbar::prt::all_frequency::visibility::{VisibilityMaps, VisibilitySampling};
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::grid::Segmentation;
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, CubeLightError, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::visibility::drawn::CubeCard;
+use crossbar::transfer::visibility::{VisibilityMaps, VisibilitySampling};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use refsim::device::Profile;

@@ -1,16 +1,16 @@
 //! Transfer through compression, coding and rendering: what each step keeps.
 
-use crossbar::prt::all_frequency::Reflectance;
-use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer};
-use crossbar::prt::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
-use crossbar::prt::all_frequency::grid::Segmentation;
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
-use crossbar::prt::all_frequency::shade::{Representatives, Shader, plain};
-use crossbar::prt::all_frequency::transfer::{TransferSegment, transfer_of};
-use crossbar::prt::all_frequency::visibility::VisibilityMaps;
-use crossbar::prt::cpca::{CpcaMethod, CpcaStep};
-use crossbar::prt::transfer::Vertices;
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::code::{CodeOptions, CodedTransfer};
+use crossbar::all_frequency::compressed::{CompressedSegment, CompressedTransfer, SegmentOptions};
+use crossbar::all_frequency::shade::{Representatives, Shader, plain};
+use crossbar::all_frequency::transfer::{TransferSegment, transfer_of};
+use crossbar::transfer::Vertices;
+use crossbar::transfer::clustering::{CpcaMethod, CpcaStep};
+use crossbar::transfer::grid::Segmentation;
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::visibility::VisibilityMaps;
 
 use super::{all, close, clutter, factors, in_threads, trace, vertices};
 

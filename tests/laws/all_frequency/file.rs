@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use crossbar::prt::all_frequency::Reflectance;
-use crossbar::prt::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
-use crossbar::prt::all_frequency::hats::HatWidth;
-use crossbar::prt::file::{
-    AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency, parse_all_frequency, parse_prt,
-    save_all_frequency, write_all_frequency,
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crossbar::all_frequency::file::{
+    AllFrequencyFile, is_all_frequency, load_all_frequency, parse_all_frequency, save_all_frequency,
+    write_all_frequency,
 };
+use crossbar::transfer::file::{MeshDigest, parse_prt};
+use crossbar::transfer::hats::HatWidth;
 use proptest::prelude::*;
 
 use super::coding::compressed;

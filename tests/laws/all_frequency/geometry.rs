@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::visibility::segments_below_horizon;
 use crossbar::sphere::CubeMap;
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::visibility::segments_below_horizon;
 use glam::DVec3;
 
 use super::close;

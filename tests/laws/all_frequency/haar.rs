@@ -1,9 +1,9 @@
 //! The Haar transform is an orthonormal change of basis.
 
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::all_frequency::grid::{LIGHT_TEXELS, Segmentation};
-use crossbar::prt::all_frequency::haar::Haar;
-use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
+use crossbar::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crossbar::transfer::haar::Haar;
+use crossbar::transfer::light::{CubeLight, HaarLight};
 
 use super::close;
 

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use crossbar::prt::all_frequency::grid::{
+use crossbar::sphere::{CUBE_FACES, CubeMap};
+use crossbar::transfer::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, Segmentation, light_texel,
 };
-use crossbar::prt::all_frequency::hats::{HatWeights, HatWidth, Hats};
-use crossbar::sphere::{CUBE_FACES, CubeMap};
+use crossbar::transfer::hats::{HatWeights, HatWidth, Hats};
 use glam::{DMat3, DVec3};
 
 use super::{close, texel_of};

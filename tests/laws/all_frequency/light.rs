@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use crossbar::elementary::sin_cos;
 use crossbar::geom::random::CounterRng;
 use crossbar::picture::Picture;
-use crossbar::prt::all_frequency::grid::Segmentation;
-use crossbar::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 use crossbar::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
+use crossbar::transfer::grid::Segmentation;
+use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 use glam::{DMat3, DVec3};
 
 use super::close;

@@ -14,13 +14,13 @@ mod symmetry;
 mod transfer;
 mod visibility;
 
+use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFactors, Supersamples};
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductFactors, Supersamples};
-use crossbar::prt::all_frequency::visibility::VisibilityMaps;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::visibility::VisibilityMaps;
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 /// Triangles that keep their own corners and have the normals of their planes.

@@ -1,12 +1,12 @@
 //! Which way the cube is turned: one bright texel, and who sees it. The table of docs/papers/all_frequency.md.
 
+use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::io::{parse_cube_table, write_cube_table};
 use crossbar::picture::Picture;
-use crossbar::prt::all_frequency::grid::{LIGHT_MAP, LIGHT_SIDE, Segmentation};
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{CubeLight, Decimation, HaarLight};
-use crossbar::prt::all_frequency::transfer::FactoredTransfer;
 use crossbar::sphere::EnvironmentPicture;
+use crossbar::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, Segmentation};
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, Decimation, HaarLight};
 use glam::{DMat3, DVec3};
 use std::path::Path;
 

@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
+use crossbar::all_frequency::factor::{Lobe, ProductFunction};
+use crossbar::all_frequency::reference::AllFrequencyReference;
+use crossbar::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
 use crossbar::geom::Mesh;
-use crossbar::prt::all_frequency::factor::{Lobe, ProductFunction};
-use crossbar::prt::all_frequency::grid::Segmentation;
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
-use crossbar::prt::all_frequency::reference::AllFrequencyReference;
-use crossbar::prt::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
-use crossbar::prt::all_frequency::visibility::VisibilityMaps;
-use crossbar::prt::brdf::Brdf;
-use crossbar::prt::transfer::Vertices;
+use crossbar::transfer::Vertices;
+use crossbar::transfer::brdf::Brdf;
+use crossbar::transfer::grid::Segmentation;
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
 
 use super::{all, close, clutter, flat, observer, trace, vertices};

@@ -1,10 +1,10 @@
 //! A model on its ground: who shadows whom.
 
 use crossbar::geom::teapot::teapot;
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::visibility::SegmentCensus;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::built::ground::{GROUND_SIDE, on_ground};
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::visibility::SegmentCensus;
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::trace;

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::geom::Mesh;
-use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, FINE_SIDE, LIGHT_SIDE, Segmentation};
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
-use crossbar::prt::all_frequency::transfer::FactoredTransfer;
-use crossbar::prt::all_frequency::visibility::VisibilityMaps;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::sphere::CubeMap;
+use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_SIDE, LIGHT_SIDE, Segmentation};
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::visibility::VisibilityMaps;
+use crossbar::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
 
 use super::{clutter, texel_of, trace};

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
+use crossbar::all_frequency::reference::AllFrequencyReference;
+use crossbar::all_frequency::transfer::{FactoredTransfer, TransferSegment};
 use crossbar::elementary::{atan2, on_circle};
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::all_frequency::grid::{FINE_SIDE, FineDirections, Segmentation};
-use crossbar::prt::all_frequency::hats::{HatWidth, Hats};
-use crossbar::prt::all_frequency::light::{CubeLight, HaarLight};
-use crossbar::prt::all_frequency::reference::AllFrequencyReference;
-use crossbar::prt::all_frequency::transfer::{FactoredTransfer, TransferSegment};
-use crossbar::prt::all_frequency::visibility::SegmentCensus;
-use crossbar::prt::transfer::Vertices;
+use crossbar::transfer::Vertices;
+use crossbar::transfer::grid::{FINE_SIDE, FineDirections, Segmentation};
+use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::visibility::SegmentCensus;
 use glam::DVec3;
 
 use super::{all, close, clutter, flat, in_threads, observer, trace, vertices};

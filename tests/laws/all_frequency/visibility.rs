@@ -1,15 +1,15 @@
 //! Visibility maps: by rays, by the reference's triangles, by an emulated card.
 
+use crossbar::all_frequency::reference::AllFrequencyReference;
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
-use crossbar::prt::all_frequency::hats::HatWidth;
-use crossbar::prt::all_frequency::reference::AllFrequencyReference;
-use crossbar::prt::all_frequency::visibility::drawn::CubeCard;
-use crossbar::prt::all_frequency::visibility::{Horizon, VISIBILITY_BYTES, VisibilityMaps, VisibilitySampling};
-use crossbar::prt::transfer::Vertices;
 use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::Vertices;
+use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
+use crossbar::transfer::hats::HatWidth;
+use crossbar::transfer::visibility::drawn::CubeCard;
+use crossbar::transfer::visibility::{Horizon, VISIBILITY_BYTES, VisibilityMaps, VisibilitySampling};
 use glam::DVec3;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;

@@ -1,8 +1,8 @@
 //! Biclusters: the fast search against Algorithm 1 word by word, and what must hold of any matrix.
 
-use crossbar::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
-use crossbar::prt::bi_scale::matrix::MatrixEntry;
-use crossbar::prt::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
+use crossbar::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
+use crossbar::bi_scale::matrix::MatrixEntry;
+use crossbar::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
 use proptest::prelude::*;
 
 use super::{matrix, quietly};

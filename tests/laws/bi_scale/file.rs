@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use crossbar::io::{load_matrix_market, parse_matrix_market};
-use crossbar::prt::all_frequency::visibility::Horizon;
-use crossbar::prt::bi_scale::bicluster::BiclusterOptions;
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::transfer::transfer_matrix;
-use crossbar::prt::file::{
-    BiScaleFile, BiScaleMeaning, MeshDigest, is_bi_scale, load_bi_scale, parse_bi_scale, parse_prt, save_bi_scale,
-    write_bi_scale,
+use crossbar::bi_scale::bicluster::BiclusterOptions;
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::file::{
+    BiScaleFile, BiScaleMeaning, is_bi_scale, load_bi_scale, parse_bi_scale, save_bi_scale, write_bi_scale,
 };
+use crossbar::bi_scale::transfer::transfer_matrix;
+use crossbar::io::{load_matrix_market, parse_matrix_market};
+use crossbar::transfer::file::{MeshDigest, parse_prt};
+use crossbar::transfer::visibility::Horizon;
 use proptest::prelude::*;
 
 use super::{matrix, quietly, sight};

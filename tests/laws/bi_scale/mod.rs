@@ -7,13 +7,13 @@ mod shade;
 mod texture;
 mod transfer;
 
+use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar::geom::Sides;
-use crossbar::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crossbar::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::prt::synthetic::hills;
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crossbar::transfer::{Tangents, Vertices};
 
 /// A matrix of the values of its rows.
 fn matrix(rows: &[Vec<i32>], fraction_bits: u32) -> SparseMatrix {

@@ -1,19 +1,19 @@
 //! Pixels shaded by equation 3.
 
 use approx::assert_relative_eq;
-use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::all_frequency::grid::{FINE_DIRECTIONS, LIGHT_TEXELS};
-use crossbar::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crossbar::prt::bi_scale::directions::{LocalDirections, hemisphere};
-use crossbar::prt::bi_scale::product::by_rows;
-use crossbar::prt::bi_scale::shade::{
+use crossbar::bi_scale::directions::{LocalDirections, hemisphere};
+use crossbar::bi_scale::product::by_rows;
+use crossbar::bi_scale::shade::{
     ShadedPixel, TextureLookup, TracedLight, TracedPoint, TracedRung, TracedScene, pixel_frame, reference,
 };
-use crossbar::prt::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind, TextureSampling};
-use crossbar::prt::bi_scale::transfer::{light_vector, transfer_matrix};
-use crossbar::prt::synthetic::hills;
-use crossbar::prt::transfer::{Tangents, Vertices};
+use crossbar::bi_scale::texture::{BidirectionalTexture, MesoMaterial, MesoPatch, PatchKind, TextureSampling};
+use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
+use crossbar::geom::{Mesh, Sides};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::grid::{FINE_DIRECTIONS, LIGHT_TEXELS};
+use crossbar::transfer::synthetic::hills;
+use crossbar::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 use proptest::prelude::*;
 

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::elementary::on_circle;
-use crossbar::prt::bi_scale::directions::{LocalDirections, hemisphere};
-use crossbar::prt::bi_scale::texture::{
+use crossbar::bi_scale::directions::{LocalDirections, hemisphere};
+use crossbar::bi_scale::texture::{
     BidirectionalTexture, HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind, TextureSampling,
     load_bidirectional_texture, reference, write_bidirectional_texture,
 };
-use crossbar::prt::brdf::Brdf;
+use crossbar::elementary::on_circle;
+use crossbar::transfer::brdf::Brdf;
 use glam::DVec3;
 use proptest::prelude::*;
 

@@ -1,13 +1,13 @@
 //! The matrix T: which texels a vertex sees, and where their light goes.
 
 use approx::assert_relative_eq;
-use crossbar::prt::all_frequency::visibility::Horizon;
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::matrix::MatrixEntry;
-use crossbar::prt::bi_scale::product::by_rows;
-use crossbar::prt::bi_scale::transfer::{light_vector, transfer_matrix};
-use crossbar::prt::file::MeshDigest;
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::matrix::MatrixEntry;
+use crossbar::bi_scale::product::by_rows;
+use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
 use crossbar::sphere::CUBE_FACES;
+use crossbar::transfer::file::MeshDigest;
+use crossbar::transfer::visibility::Horizon;
 use glam::DVec3;
 
 use super::sight;

@@ -1,10 +1,10 @@
 //! Fewer triangles drawn: within the budget, never more, and never at the cost of error where none is allowed.
 
+use crossbar::cpca::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::Signal;
-use crossbar::prt::coherence::{CoherenceError, ConstantRegisters, Superclusters, overdraw, reclassify};
-use crossbar::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
+use crossbar::transfer::Signal;
+use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress, refit};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -156,8 +156,8 @@ proptest! {
 /// The digest is of all that a transfer depends on.
 #[test]
 fn digests_tell_meshes_apart() {
-    use crossbar::prt::file::MeshDigest;
-    use crossbar::prt::transfer::{Tangents, Vertices};
+    use crossbar::transfer::file::MeshDigest;
+    use crossbar::transfer::{Tangents, Vertices};
     let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
     let mesh = Mesh::new(corners.clone(), vec![[0, 1, 2], [2, 1, 3]]).expect("a mesh");
     let mut moved = corners.clone();

@@ -1,11 +1,11 @@
 //! Compression against plain loops, closed forms, and what must hold of every step.
 
 use crossbar::linalg::{Matrix, SymmetricEigen};
-use crossbar::prt::Signal;
-use crossbar::prt::cpca::{
+use crossbar::transfer::Signal;
+use crossbar::transfer::clustering::{
     Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStepKind, StartPoints, compress, reference,
 };
-use crossbar::prt::synthetic::torus_signal;
+use crossbar::transfer::synthetic::torus_signal;
 use proptest::prelude::*;
 
 /// By the error that they leave.
@@ -244,7 +244,7 @@ proptest! {
         prop_assert!(clustering.all_weights().len() <= vectors * signal.points());
         // The vectors are orthonormal, and their largest components positive: `new` checks the former.
         let parts = (clustering.subspaces().to_vec(), clustering.of_point().to_vec(), clustering.all_weights().to_vec());
-        let again = crossbar::prt::cpca::Clustering::new(parts.0, parts.1, parts.2);
+        let again = crossbar::transfer::clustering::Clustering::new(parts.0, parts.1, parts.2);
         prop_assert_eq!(again.as_ref(), Ok(clustering));
         for vector in clustering.subspaces().iter().flat_map(|subspace| subspace.vectors()) {
             let largest = vector.iter().copied().fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });

@@ -4,13 +4,12 @@ use std::path::Path;
 
 use crossbar::geom::Mesh;
 use crossbar::io::{NumberTable, parse_npy, parse_number_table, write_npy};
-use crossbar::prt::cpca::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crossbar::prt::file::{
+use crossbar::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::file::{
     MAGIC, MeshDigest, PrtFile, PrtFileError, PrtMeaning, load_prt, parse_prt, save_prt, write_prt,
 };
-use crossbar::prt::synthetic::torus_signal;
-use crossbar::prt::transfer::{Tangents, Vertices};
-use crossbar::prt::{Signal, load_signal};
+use crossbar::transfer::synthetic::torus_signal;
+use crossbar::transfer::{Signal, Tangents, Vertices, load_signal};
 use glam::DVec3;
 use proptest::prelude::*;
 

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
-use crossbar::geom::random::CounterRng;
-use crossbar::io::NumberTable;
-use crossbar::linalg::{LeadingSvd, Matrix, dot};
-use crossbar::prt::all_frequency::factor::{
+use crossbar::all_frequency::factor::{
     Denominators, DiffuseFactor, DiscSamples, FactorSampling, Factorization, FactorizationError, FresnelForm, Lobe,
     OutsideDisc, ProductClamp, ProductFunction, ProductSymmetry, ProductTable, Shadowing, Supersamples,
 };
-use crossbar::prt::brdf::Brdf;
+use crossbar::geom::random::CounterRng;
+use crossbar::io::NumberTable;
+use crossbar::linalg::{LeadingSvd, Matrix, dot};
 use crossbar::sphere::{DirectionRule, ParabolicMap};
+use crossbar::transfer::brdf::Brdf;
 use glam::DVec3;
 
 const COOK_TORRANCE: Lobe = Lobe::cook_torrance(0.4, 0.5);

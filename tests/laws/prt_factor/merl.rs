@@ -3,10 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
-use crossbar::elementary::sin_cos;
-use crossbar::prt::all_frequency::factor::{
+use crossbar::all_frequency::factor::{
     FactorSampling, Factorization, MERL_CELLS, MerlBrdf, MerlChannel, MerlError, Supersamples, parse_merl,
 };
+use crossbar::elementary::sin_cos;
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 

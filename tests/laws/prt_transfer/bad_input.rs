@@ -1,9 +1,10 @@
 //! What is wrong with a mesh is counted or refused.
 
+use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
 use crossbar::geom::{Hit, Mesh, Ray};
-use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, TransferError, Vertices};
 use crossbar::sphere::DirectionRule;
 use crossbar::tracer::{CastError, Caster};
+use crossbar::transfer::{Tangents, TransferError, Vertices};
 use glam::DVec3;
 
 use super::{Soup, caster, step, trace};

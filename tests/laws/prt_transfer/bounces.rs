@@ -1,10 +1,11 @@
 //! Interreflection: against the reference, and white furnaces.
 
+use crossbar::cpca::reference::Reference;
+use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};
 use crossbar::geom::Mesh;
-use crossbar::prt::brdf::{Brdf, ExitBasis};
-use crossbar::prt::reference::Reference;
-use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, Transfer, Vertices};
 use crossbar::sphere::DirectionRule;
+use crossbar::transfer::brdf::{Brdf, ExitBasis};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{Soup, close, mixed, step, trace, uniform};

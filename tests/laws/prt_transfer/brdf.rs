@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crossbar::elementary::on_circle;
-use crossbar::prt::brdf::{Brdf, ExitBasis, brdf_matrix};
 use crossbar::sphere::{DirectionRule, HarmonicRotation, function_band, harmonics};
+use crossbar::transfer::brdf::{Brdf, ExitBasis, brdf_matrix};
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 

@@ -1,10 +1,11 @@
 //! A second opinion: random directions instead of a rule, and no transfer at all.
 
+use crossbar::cpca::transfer::{Bounces, Response, Transfer};
 use crossbar::elementary::on_circle;
 use crossbar::geom::Ray;
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::transfer::{Bounces, Response, Tangents, Transfer, Vertices};
 use crossbar::sphere::evaluate;
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{caster, mixed, step, trace};

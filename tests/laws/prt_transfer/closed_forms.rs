@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
 use crossbar::elementary::on_circle;
 use crossbar::geom::Mesh;
-use crossbar::prt::transfer::{Bounces, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, function_index, harmonics};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{Soup, caster, close, uniform};

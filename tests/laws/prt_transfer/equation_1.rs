@@ -1,11 +1,12 @@
 //! What follows exactly from equation 1, and what section 3.1's double integral has to do with it.
 
+use crossbar::cpca::reference::Reference;
+use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::geom::Mesh;
 use crossbar::linalg::Matrix;
-use crossbar::prt::brdf::{Brdf, ExitBasis, brdf_matrix};
-use crossbar::prt::reference::Reference;
-use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, HarmonicRotation, Hemisphere};
+use crossbar::transfer::brdf::{Brdf, ExitBasis, brdf_matrix};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{close, mixed, step, trace};

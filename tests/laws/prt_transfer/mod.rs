@@ -13,10 +13,11 @@ mod scattering;
 
 use std::f64::consts::PI;
 
+use crossbar::cpca::transfer::TracedRays;
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::transfer::{TracedRays, Vertices};
 use crossbar::sphere::DirectionRule;
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::Vertices;
 use glam::DVec3;
 
 /// Triangles of which each keeps its own vertices.

@@ -1,7 +1,7 @@
 //! The models built by code: counts of Table 1 of both papers, closed, with tangents everywhere.
 
-use crossbar::prt::transfer::{Tangents, Vertices};
 use crossbar::scene::built::meshes as models;
+use crossbar::transfer::{Tangents, Vertices};
 
 #[test]
 fn they_have_as_many_vertices_as_table_1_prints() {

@@ -4,13 +4,14 @@
 //! Per vertex the difference is held against the standard error of the paths. Interpolation between vertices is off by
 //! less, since the surfaces are divided finely enough; with `CROSSBAR_FULL` both are finer.
 
+use crossbar::cpca::transfer::{Bounces, Incident, Response, Transfer};
 use crossbar::elementary::on_circle;
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Hit, Mesh, Ray};
-use crossbar::prt::brdf::{Brdf, ExitBasis};
-use crossbar::prt::transfer::{Bounces, Incident, LocalFrame, Response, Tangents, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, evaluate, harmonics};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::brdf::{Brdf, ExitBasis};
+use crossbar::transfer::{LocalFrame, Tangents, Vertices};
 use glam::DVec3;
 
 use super::{Soup, caster, mixed, trace};

@@ -1,10 +1,11 @@
 //! Rotating everything, and sharing the work differently, changes nothing.
 
+use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
 use crossbar::geom::{Mesh, Sides};
-use crossbar::prt::brdf::{Brdf, ExitBasis};
-use crossbar::prt::transfer::{Bounces, Incident, Response, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::{DirectionRule, HarmonicRotation};
 use crossbar::tracer::HostTracer;
+use crossbar::transfer::brdf::{Brdf, ExitBasis};
+use crossbar::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
 
 use super::{close, mixed, step};

@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
+use crossbar::cpca::transfer::{Bounces, Response, ScatteringOptions, TracedRays, Transfer};
 use crossbar::geom::Mesh;
-use crossbar::prt::brdf::ExitBasis;
-use crossbar::prt::transfer::{Bounces, Response, ScatteringOptions, Tangents, TracedRays, Transfer, Vertices};
 use crossbar::sphere::DirectionRule;
 use crossbar::subsurface::{Coefficients, Dipole, fresnel_transmittance, point_to_polygon, uniform_sphere};
+use crossbar::transfer::brdf::ExitBasis;
+use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
 
 use super::{caster, close, mixed, step, uniform};
@@ -97,8 +98,8 @@ fn it_goes_into_the_constant_function_alone() {
     let (vertices, entering) = entering(&mesh, 3, |_| 1.0);
     let part = scattered(&vertices, &entering, 1.0, 0.05);
     let rays = super::trace(&mesh, &vertices, 14);
-    let brdf = crossbar::prt::brdf::Brdf::Lambert { albedo: 0.5 };
-    let incident = crossbar::prt::transfer::Incident::Harmonics { order: 4, inverse: true };
+    let brdf = crossbar::transfer::brdf::Brdf::Lambert { albedo: 0.5 };
+    let incident = crossbar::cpca::transfer::Incident::Harmonics { order: 4, inverse: true };
     let views = DirectionRule::hemisphere(20);
     let gloss =
         Response::glossy(&brdf, &ExitBasis::of_order(3), true, incident, rays.rule(), &views).expect("a response");

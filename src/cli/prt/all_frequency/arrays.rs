@@ -3,13 +3,13 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::CodedSegment;
+use crate::all_frequency::file::AllFrequencyFile;
 use crate::cli::Problem;
 use crate::io::atomic::FileSet;
 use crate::io::{NumberTable, write_npy};
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::CodedSegment;
-use crate::prt::all_frequency::grid::FINE_DIRECTIONS;
-use crate::prt::file::AllFrequencyFile;
+use crate::transfer::grid::FINE_DIRECTIONS;
 
 /// Writes them into a folder, whole or not at all: factors, and each segment's representatives, weights, and vertices
 /// with their clusters; of a vertex what it sees and its decoded transfer.

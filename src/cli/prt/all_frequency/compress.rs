@@ -6,18 +6,19 @@ use std::path::Path;
 use serde_json::json;
 
 use super::FileOfModel;
+use crate::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crate::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
 use crate::cli::prt::compress::{Args, MethodArg};
 use crate::cli::prt::segments::{ScaleArg, SegmentArgs};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::io::ReadError;
-use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
-use crate::prt::all_frequency::compressed::SegmentOptions;
-use crate::prt::all_frequency::hats::Hats;
-use crate::prt::all_frequency::visibility::SegmentCensus;
-use crate::prt::file::{AllFrequencyFile, MeshDigest, save_all_frequency};
 use crate::report::{Cell, Table};
 use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
+use crate::transfer::file::MeshDigest;
+use crate::transfer::hats::Hats;
+use crate::transfer::visibility::SegmentCensus;
 
 pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.signal, 3, "name a smaller file")?;

@@ -5,12 +5,12 @@ use std::io::Write as _;
 use serde_json::json;
 
 use super::FileOfModel;
+use crate::all_frequency::file::load_all_frequency;
 use crate::cli::prt::error::Args;
 use crate::cli::prt::model::refused;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::write_file;
-use crate::prt::file::load_all_frequency;
 use crate::study::prt::coded_errors;
 
 pub(in crate::cli::prt) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {

@@ -14,16 +14,17 @@ use std::path::Path;
 
 use super::model::{load, vertices};
 use super::values::KindArg;
+use crate::all_frequency::file::{AllFrequencyFile, is_all_frequency, load_all_frequency};
 use crate::cli::model_name::Model;
 use crate::cli::prt::light::LightArgs;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::{Problem, view};
-use crate::prt::all_frequency::light::Decimation;
-use crate::prt::file::{AllFrequencyFile, MeshDigest, is_all_frequency, load_all_frequency};
-use crate::prt::transfer::Vertices;
 use crate::scene::{Material, Surface};
 use crate::study::prt::LitModel;
+use crate::transfer::Vertices;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::light::Decimation;
 
 /// Whether a file is one of all-frequency transfer, by how it begins. What is no file is none.
 pub(super) fn is_such(path: &Path) -> bool {

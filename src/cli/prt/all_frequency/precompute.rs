@@ -4,21 +4,21 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::factor::ProductFactors;
+use crate::all_frequency::file::save_all_frequency;
 use crate::cli::prt::model::{load, refused, vertices};
 use crate::cli::prt::values::{HatsArg, TangentsArg};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
 use crate::geom::Mesh;
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::factor::ProductFactors;
-use crate::prt::all_frequency::hats::HatWidth;
-use crate::prt::all_frequency::visibility::VISIBILITY_BYTES;
-use crate::prt::file::save_all_frequency;
-use crate::prt::transfer::{Tangents, Vertices};
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
 use crate::study::prt::{FoundSight, SightOfModel};
+use crate::transfer::hats::HatWidth;
+use crate::transfer::visibility::VISIBILITY_BYTES;
+use crate::transfer::{Tangents, Vertices};
 
 /// Longest array of factors, in bytes.
 const MAX_FACTORS: u64 = 256 << 20;

@@ -5,13 +5,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::arrays;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::CodedSegment;
+use crate::all_frequency::file::AllFrequencyFile;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::CodedSegment;
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::file::AllFrequencyFile;
 use crate::report::{Cell, Table};
+use crate::transfer::visibility::VisibilityMaps;
 
 /// The whole file, or a vertex of it; arrays into a folder.
 pub(in crate::cli::prt) fn run(

@@ -7,12 +7,12 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use super::load;
+use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, number};
 use crate::io::write_file;
-use crate::prt::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::file::{BiScaleFile, save_bi_scale};
 use crate::report::{Cell, Table};
 
 const EXAMPLES: &str = "\

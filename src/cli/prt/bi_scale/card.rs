@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use super::textures::TransferOfModel;
+use crate::bi_scale::on_card::corner_coordinates;
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::prt::card;
 use crate::cli::study::StudyArgs;
-use crate::prt::bi_scale::on_card::corner_coordinates;
 use crate::study::prt::BiScaleOnCard;
 
 /// The options of `card`, for such a file.

@@ -5,9 +5,9 @@ use refsim::texture::TexelFormat;
 
 use super::texture_args::TextureArgs;
 use super::textures::refuse;
+use crate::bi_scale::kernels::BlockEdges;
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 use crate::cli::Problem;
-use crate::prt::bi_scale::kernels::BlockEdges;
-use crate::prt::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 
 /// Options of bi-scale transfer.
 #[derive(Debug, clap::Args)]

@@ -6,20 +6,21 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::{load, turned};
+use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
+use crate::bi_scale::rivals::{
+    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
+};
+use crate::bi_scale::transfer::light_vectors;
 use crate::cli::prt::light::LightArgs;
 use crate::cli::prt::model;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::rivals::{
-    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
-};
-use crate::prt::bi_scale::transfer::light_vectors;
-use crate::prt::cpca::CpcaForm;
-use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest};
-use crate::prt::transfer::Vertices;
 use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
+use crate::transfer::Vertices;
+use crate::transfer::clustering::CpcaForm;
+use crate::transfer::file::MeshDigest;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -21,16 +21,16 @@ use std::path::Path;
 use super::light::LightArgs;
 use super::model::load as load_model;
 use super::values::KindArg;
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::file::{BiScaleFile, is_bi_scale, load_bi_scale};
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::model_name::Model;
 use crate::cli::{MemoryError, Problem, memory, number, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
-use crate::prt::all_frequency::light::{CubeLight, Decimation};
-use crate::prt::bi_scale::bicluster::Biclustering;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::file::{BiScaleFile, is_bi_scale, load_bi_scale};
-use crate::prt::transfer::Tangents;
 use crate::sphere::turn_around_z;
 use crate::study::prt::creased;
+use crate::transfer::Tangents;
+use crate::transfer::light::{CubeLight, Decimation};
 
 /// An angle from 0 to 180 degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {

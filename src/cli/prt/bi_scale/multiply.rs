@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::{load, turned};
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::prt::light::LightArgs;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::all_frequency::light::CubeLight;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::file::BiScaleFile;
 use crate::report::{Cell, Table};
 use crate::study::prt::LocalLight;
+use crate::transfer::grid::LIGHT_TEXELS;
+use crate::transfer::light::CubeLight;
 
 const EXAMPLES: &str = "\
 Examples:

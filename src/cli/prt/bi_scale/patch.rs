@@ -4,11 +4,11 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
+use crate::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::prt::values::BrdfArg;
 use crate::cli::{Problem, number, view};
 use crate::io::{load_numbers, load_picture};
 use crate::names::did_you_mean;
-use crate::prt::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 
 /// The name of a patch without relief.
 const PLAIN: &str = "plain";

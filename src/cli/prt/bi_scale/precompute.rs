@@ -6,17 +6,18 @@ use clap::ValueEnum;
 use serde_json::json;
 
 use super::{angle, load_creased, write_matrix};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
+use crate::bi_scale::transfer::transfer_matrix;
 use crate::cli::prt::model::{refused, vertices};
 use crate::cli::prt::values::TangentsArg;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
 use crate::geom::Sides;
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::transfer::transfer_matrix;
-use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest, save_bi_scale};
 use crate::tracer::HostTracer;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::grid::LIGHT_TEXELS;
+use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 
 /// What ends the view of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

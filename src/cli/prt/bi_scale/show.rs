@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::load;
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::prt::model::{self, vertices};
 use crate::cli::prt::show::{self, nearest};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
-use crate::prt::all_frequency::grid::{LIGHT_SIDE, face_row_column};
-use crate::prt::bi_scale::bicluster::Biclustering;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::file::BiScaleFile;
 use crate::report::{Cell, Table};
+use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
 
 /// Values that a table has room for.
 const VALUES: usize = 17;

@@ -6,12 +6,12 @@ use std::time::Instant;
 use serde_json::json;
 
 use super::patch::PatchArgs;
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
 use crate::io::write_file;
 use crate::picture::{RgbImage, display, png, rgb8};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::textures::{PatchArgs, TransferOfModel, no_texture, patch_kind};
-use crate::cli::Problem;
+use crate::bi_scale::directions::LocalDirections;
 use crate::cli::memory::MemoryNeed;
-use crate::cli::model_name;
 use crate::cli::prt::light::LightArgs;
 use crate::cli::prt::model::materials_of;
+use crate::cli::{Problem, model_name};
 use crate::names::did_you_mean;
-use crate::prt::bi_scale::directions::LocalDirections;
 use crate::scene::Material;
 use crate::study::prt::SurfaceTexture;
 

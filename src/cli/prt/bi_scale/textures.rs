@@ -4,15 +4,16 @@
 use std::path::Path;
 
 use super::{angle, load_creased};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
+use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
 use crate::cli::model_name::Model;
 use crate::cli::prt::model::vertices;
 use crate::cli::{Problem, number, view};
 use crate::names::did_you_mean;
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
-use crate::prt::file::{BiScaleFile, MeshDigest, PrtFileError, load_bi_scale};
-use crate::prt::transfer::Vertices;
 use crate::study::prt::SurfaceTexture;
+use crate::transfer::Vertices;
+use crate::transfer::file::{MeshDigest, PrtFileError};
 
 /// How patches are sampled, and where they lie.
 #[derive(Debug, clap::Args)]

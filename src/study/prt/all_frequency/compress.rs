@@ -5,16 +5,16 @@ use std::time::Instant;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer};
-use crate::prt::all_frequency::compressed::{CompressedSegment, SegmentOptions};
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::transfer::{TransferSegment, transfer_of};
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::cpca::CpcaError;
-use crate::prt::transfer::{TransferError, Vertices};
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer};
+use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::study::ProgressFn;
+use crate::transfer::clustering::CpcaError;
+use crate::transfer::grid::Segmentation;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::visibility::VisibilityMaps;
+use crate::transfer::{TransferError, Vertices};
 
 use super::kept::{KeptSegments, KeptSegmentsError};
 use super::tally::{CompressionTally, SegmentTally};

@@ -1,12 +1,12 @@
 //! How far coded transfer is from the raw matrices.
 
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::CodedTransfer;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::transfer::transfer_of;
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::transfer::{TransferError, Vertices};
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::CodedTransfer;
+use crate::all_frequency::transfer::transfer_of;
 use crate::study::ProgressFn;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::visibility::VisibilityMaps;
+use crate::transfer::{TransferError, Vertices};
 
 /// Per vertex of a model.
 #[derive(Clone, Debug, Default, PartialEq)]

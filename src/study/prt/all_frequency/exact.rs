@@ -4,16 +4,16 @@
 use glam::DMat3;
 use rayon::prelude::*;
 
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::transfer::transfer_of;
 use crate::linalg::dot;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::light::{
+use crate::transfer::grid::Segmentation;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::light::{
     CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
 };
-use crate::prt::all_frequency::transfer::transfer_of;
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::transfer::{TransferError, Vertices};
+use crate::transfer::visibility::VisibilityMaps;
+use crate::transfer::{TransferError, Vertices};
 
 /// The coefficients of a light that is turned, of them `keep` of largest area times magnitude; `None`: all.
 pub(in crate::study) fn coefficients(

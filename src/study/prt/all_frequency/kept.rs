@@ -4,20 +4,20 @@
 //! that segment alone, and `segment-07.json` what became of it. A segment is finished where the latter is.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::tally::SegmentTally;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::{CodedSegment, CodedTransfer};
+use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency, save_all_frequency};
 use crate::io::{WriteError, write_file};
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::{CodedSegment, CodedTransfer};
-use crate::prt::all_frequency::hats::HatWidth;
-use crate::prt::file::{AllFrequencyFile, MeshDigest, PrtFileError, load_all_frequency, save_all_frequency};
+use crate::transfer::file::{MeshDigest, PrtFileError};
+use crate::transfer::hats::HatWidth;
 
 /// A folder of finished segments.
 #[derive(Debug)]

@@ -1,10 +1,10 @@
 //! What all studies of all-frequency transfer draw.
 
+use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
-use crate::prt::all_frequency::light::{Decimation, DistantLight};
-use crate::prt::file::AllFrequencyFile;
-use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
+use crate::transfer::Vertices;
+use crate::transfer::light::{Decimation, DistantLight};
 
 /// A model with its transfer, a light and a camera.
 #[derive(Debug)]

@@ -3,14 +3,14 @@
 use std::time::Instant;
 
 use super::exact;
-use crate::geom::vector::wide;
-use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::shade::{
+use crate::all_frequency::file::AllFrequencyFile;
+use crate::all_frequency::shade::{
     LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance,
 };
-use crate::prt::file::AllFrequencyFile;
-use crate::prt::transfer::{TransferError, Vertices};
+use crate::geom::vector::wide;
 use crate::scene::Camera;
+use crate::transfer::light::HaarLight;
+use crate::transfer::{TransferError, Vertices};
 
 /// Transferred radiance, by one way or the other.
 pub(super) enum Transferred {

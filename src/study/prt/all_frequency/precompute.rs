@@ -1,14 +1,15 @@
 //! What each vertex of a model sees.
 
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::visibility::{SegmentCensus, VisibilityMaps};
-use crate::prt::file::{AllFrequencyFile, MeshDigest};
-use crate::prt::transfer::{TransferError, Vertices};
 use crate::study::ProgressFn;
 use crate::tracer::HostTracer;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
+use crate::transfer::{TransferError, Vertices};
 
 /// A model whose visibility is wanted.
 #[derive(Debug)]

@@ -10,12 +10,10 @@ use thiserror::Error;
 use super::exact;
 use super::lit_model::LitModel;
 use super::part::{FrameTimes, Part, PartError, Transferred};
+use crate::all_frequency::file::AllFrequencyFile;
+use crate::all_frequency::shade::LightSizeError;
 use crate::geom::Mesh;
 use crate::picture::{PictureError, rgb8};
-use crate::prt::all_frequency::light::{CubeLightError, HaarLight, LightTruncation};
-use crate::prt::all_frequency::shade::LightSizeError;
-use crate::prt::file::AllFrequencyFile;
-use crate::prt::transfer::{TransferError, Vertices};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
@@ -23,6 +21,8 @@ use crate::sphere::turn_around_z;
 use crate::study::prt::render::{carried, cluster_color};
 use crate::study::prt::{Seen, Turning, auto_exposure, linear_picture};
 use crate::study::{ProgressFn, Study};
+use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
+use crate::transfer::{TransferError, Vertices};
 
 /// Segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;

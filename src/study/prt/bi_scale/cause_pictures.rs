@@ -1,7 +1,7 @@
 //! Pictures between one by rays and that of transfer, each with one thing more done as transfer does it, and how far
 //! they lie apart.
 
-use crate::prt::bi_scale::shade::TracedRung;
+use crate::bi_scale::shade::TracedRung;
 use crate::report::{Cell, Table};
 
 /// The pictures.

@@ -9,17 +9,17 @@ use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::BiScaleRendering;
 use super::surface::SurfacePixel;
+use crate::bi_scale::file::BiScaleMeaning;
+use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene, reference};
 use crate::geom::exact::Sides;
-use crate::prt::all_frequency::light::CubeLight;
-use crate::prt::all_frequency::visibility::VisibilitySampling;
-use crate::prt::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene, reference};
-use crate::prt::file::BiScaleMeaning;
-use crate::prt::transfer::ray_length;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, false_color};
 use crate::study::ProgressFn;
 use crate::study::prt::linear_picture;
 use crate::tracer::HostTracer;
+use crate::transfer::light::CubeLight;
+use crate::transfer::ray_length;
+use crate::transfer::visibility::VisibilitySampling;
 
 /// Pixels between two signs of progress.
 const BLOCK: usize = 256;

@@ -9,11 +9,11 @@ use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
-use crate::prt::all_frequency::light::{CubeLight, Decimation};
-use crate::prt::bi_scale::shade::TextureLookup;
-use crate::prt::file::BiScaleMeaning;
+use crate::bi_scale::file::BiScaleMeaning;
+use crate::bi_scale::shade::TextureLookup;
 use crate::scene::Camera;
 use crate::study::ProgressFn;
+use crate::transfer::light::{CubeLight, Decimation};
 
 /// A rendering whose pixels are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {

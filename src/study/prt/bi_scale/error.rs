@@ -4,7 +4,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::picture::PictureError;
-use crate::prt::all_frequency::light::CubeLightError;
+use crate::transfer::light::CubeLightError;
 
 /// Why there are no pictures.
 #[non_exhaustive]

@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-use crate::prt::all_frequency::light::CubeLight;
-use crate::prt::bi_scale::product::{Gather, by_rows, reference};
-use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
-use crate::prt::file::BiScaleFile;
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::product::{Gather, by_rows, reference};
+use crate::bi_scale::transfer::{light_vectors, side_by_side};
+use crate::transfer::light::CubeLight;
 
 /// L~ of all vertices.
 #[derive(Clone, Debug)]

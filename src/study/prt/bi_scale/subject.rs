@@ -1,11 +1,11 @@
 //! What is drawn.
 
 use super::surface::TexturedSurface;
-use crate::prt::all_frequency::light::DistantLight;
-use crate::prt::bi_scale::texture::{BidirectionalTexture, MesoPatch};
-use crate::prt::file::BiScaleFile;
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
 use crate::scene::Camera;
 use crate::study::prt::Turning;
+use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
 #[derive(Debug)]

@@ -4,15 +4,15 @@ use glam::DVec3;
 use rayon::prelude::*;
 use thiserror::Error;
 
+use crate::bi_scale::shade::{ShadedPixel, pixel_frame};
 use crate::elementary::on_circle;
 use crate::geom::exact::Sides;
 use crate::geom::vector::{unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
-use crate::prt::bi_scale::shade::{ShadedPixel, pixel_frame};
-use crate::prt::transfer::{LocalFrame, Vertices};
 use crate::scene::Camera;
 use crate::study::prt::interpolate::weights;
 use crate::tracer::HostTracer;
+use crate::transfer::{LocalFrame, Vertices};
 
 /// A mesh with texture coordinates.
 #[derive(Debug)]

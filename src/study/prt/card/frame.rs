@@ -1,6 +1,6 @@
 //! The time of a frame as a table and in words.
 
-use crate::prt::on_card::time::FrameTime;
+use crate::cpca::on_card::time::FrameTime;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
 

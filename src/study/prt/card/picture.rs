@@ -7,13 +7,13 @@ use refsim::texture::TexelFormat;
 use serde_json::{Value, json};
 
 use super::subject::{CardError, OnCard};
+use crate::cpca::on_card::model::TransferSize;
+use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
 use crate::geom::vector::wide;
-use crate::prt::brdf::ExitBasis;
-use crate::prt::on_card::model::TransferSize;
-use crate::prt::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::study::prt::interpolate::Seen;
+use crate::transfer::brdf::ExitBasis;
 
 /// Steps of a picture of 8 bits.
 const STEPS: f64 = 255.0;

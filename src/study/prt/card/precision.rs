@@ -6,7 +6,7 @@ use strum::IntoEnumIterator;
 
 use super::picture::{Difference, Way};
 use super::subject::{CardError, OnCard};
-use crate::prt::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
+use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, Table};
 

@@ -5,14 +5,14 @@ use serde_json::json;
 use super::picture::{Difference, Way, on_host};
 use super::subject::{CardError, OnCard};
 use super::{frame, precision, tables};
-use crate::prt::brdf::ExitBasis;
-use crate::prt::on_card::time::{FrameTimeError, frame_time, host_of_section_7};
+use crate::cpca::on_card::time::{FrameTimeError, frame_time, host_of_section_7};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, Provenance, false_color};
 use crate::study::prt::exit_radiance::Lit;
 use crate::study::prt::interpolate::linear_picture;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
+use crate::transfer::brdf::ExitBasis;
 
 impl Study for OnCard {
     type Error = CardError;

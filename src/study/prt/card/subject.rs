@@ -6,17 +6,17 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
+use crate::cpca::on_card::time::FrameTimeError;
+use crate::cpca::on_card::{CompressedTransfer, PrtCardError, PrtCardOptions};
 use crate::geom::Mesh;
 use crate::picture::PictureError;
-use crate::prt::brdf::ExitBasis;
-use crate::prt::cpca::Clustering;
-use crate::prt::file::PrtMeaning;
-use crate::prt::on_card::time::FrameTimeError;
-use crate::prt::on_card::{CompressedTransfer, PrtCardError, PrtCardOptions};
-use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
 use crate::sphere::{HarmonicLight, HemisphereError};
 use crate::study::timeline_trace::TimelineError;
+use crate::transfer::Vertices;
+use crate::transfer::brdf::ExitBasis;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::PrtMeaning;
 
 /// A model with compressed transfer, a light and a camera, and the card that draws it.
 #[derive(Debug)]

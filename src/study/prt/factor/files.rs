@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use glam::DVec3;
 
 use super::subject::BrdfFactorsError;
+use crate::all_frequency::factor::{Factorization, ProductFactors};
 use crate::io::{NumberTable, write_npy};
-use crate::prt::all_frequency::factor::{Factorization, ProductFactors};
 use crate::report::{Findings, ReportError};
 use crate::sphere::ParabolicMap;
 

@@ -1,6 +1,6 @@
 //! The same reflectance by spherical harmonics.
 
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     DiscSamples, FactorizationError, HarmonicFit, HarmonicSides, ProductErrors, harmonic_errors,
 };
 use crate::report::{Cell, Table};

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
 use super::{files, harmonics, sphere, sweep, terms};
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     DiscSamples, Factorization, HarmonicFit, HarmonicSides, ProductErrors, ProductFactors, ProductTable,
 };
 use crate::report::digits::{Quantity, shown};

@@ -3,19 +3,19 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::picture::PictureError;
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     FactorSampling, Factorization, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
 };
-use crate::prt::brdf::Brdf;
+use crate::picture::PictureError;
 use crate::report::ReportError;
+use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
 #[derive(Clone, Debug)]
 pub enum FactorSubject {
     /// Microfacets in a form of their own.
     Lobe(Lobe),
-    /// A model of `prt::brdf`.
+    /// A model of `transfer::brdf`.
     Brdf(Brdf),
     /// A channel of a measurement.
     Merl(MerlBrdf, MerlChannel),

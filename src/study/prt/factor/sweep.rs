@@ -2,10 +2,10 @@
 
 use super::sphere;
 use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
-use crate::picture::metrics::{ScreenPicture, flip};
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     DiscSamples, FacetDistribution, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
 };
+use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
 use crate::study::ProgressFn;

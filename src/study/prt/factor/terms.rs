@@ -1,6 +1,6 @@
 //! Errors by the number of terms.
 
-use crate::prt::all_frequency::factor::{DiscSamples, Factorization, ProductErrors};
+use crate::all_frequency::factor::{DiscSamples, Factorization, ProductErrors};
 use crate::report::{Cell, Chart, NamedChart, Scale, Series, Table};
 
 /// Terms up to which every number of them has a row.

@@ -3,11 +3,11 @@
 use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
 use crate::elementary::log10;
 use crate::linalg::dot;
-use crate::prt::all_frequency::grid::{LIGHT_TEXELS, Segmentation};
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::visibility::segments_below_horizon;
 use crate::report::{Cell, Table};
 use crate::sphere::CubeMap;
+use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::visibility::segments_below_horizon;
 
 /// Rows of a glossy transfer matrix, representatives per cluster, and vertices per cluster as asked for.
 const M: usize = 10;

@@ -1,7 +1,7 @@
 //! Readings of the paper's two reflectances, and their errors.
 
 use super::{HOST, ReproduceError, failed};
-use crate::prt::all_frequency::factor::{
+use crate::all_frequency::factor::{
     Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HarmonicFit,
     HarmonicSides, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
 };

@@ -2,22 +2,21 @@
 
 use super::forms::{Form, TERMS, cook_torrance, schlick};
 use super::{HOST, ReproduceError, failed};
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, ScaleOf};
+use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
+use crate::all_frequency::factor::Factorization;
+use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::prt::Signal;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, ScaleOf};
-use crate::prt::all_frequency::compressed::{CompressedSegment, SegmentOptions};
-use crate::prt::all_frequency::factor::Factorization;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::transfer::transfer_of;
-use crate::prt::all_frequency::visibility::{SegmentCensus, VisibilityMaps};
-use crate::prt::cpca::{CpcaStep, CpcaStepKind};
-use crate::prt::transfer::{Tangents, Vertices};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
+use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
+use crate::transfer::grid::Segmentation;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
+use crate::transfer::{Signal, Tangents, Vertices};
 
 /// A quarter of each face: what is compressed of reduced models.
 const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];

@@ -2,7 +2,7 @@
 
 use super::forms::{TERMS, bare};
 use super::{Bound, HOST, Method, PaperFigure, PaperRow, ReproduceError, Standing, failed};
-use crate::prt::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
+use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
 use crate::report::{NamedPicture, Table};
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
 

@@ -5,8 +5,8 @@ use super::{
     Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep,
     number,
 };
-use crate::prt::all_frequency::code::CodeOptions;
-use crate::prt::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::code::CodeOptions;
+use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::{Cell, Table};
 
 use TableMaterial::{Cook, Diffuse, Schlick};

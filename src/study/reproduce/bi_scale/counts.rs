@@ -2,8 +2,8 @@
 
 use super::printed::{PrintedScene, SCENES};
 use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
 use crate::report::{Cell, Table};
+use crate::transfer::grid::LIGHT_TEXELS;
 
 const HOW: &str = "Nothing is run. Operations are two per value other than zero; a dense matrix takes {} byte per value, biclusters {} bytes per operation: \
     {} per row, and {} for place and value of a column, which cost one operation and two.";

@@ -6,15 +6,15 @@ use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use super::{HOST, ReproduceError, failed};
+use crate::all_frequency::on_card::time::host_of_table_1;
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
+use crate::bi_scale::texture::BidirectionalTexture;
+use crate::cpca::on_card::PrtView;
+use crate::cpca::on_card::time::{FrameTime, frame_time};
 use crate::geom::Mesh;
-use crate::prt::all_frequency::on_card::time::host_of_table_1;
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
-use crate::prt::bi_scale::texture::BidirectionalTexture;
-use crate::prt::on_card::PrtView;
-use crate::prt::on_card::time::{FrameTime, frame_time};
-use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
+use crate::transfer::Vertices;
 
 /// The paper's card.
 pub(super) const CARD: &str = "gt200";

@@ -7,9 +7,9 @@ use super::{
     Standing, number,
 };
 use crate::elementary::ln;
-use crate::prt::all_frequency::visibility::Horizon;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::transfer::visibility::Horizon;
 
 const HOW: &str = "The stand-in for the bunny with {} vertices, and sizes as if it had the {} of the paper's: bytes of biclusters grow as vertices do (table II). \
     The display is that of the emulated card in {} x {} pixels.";

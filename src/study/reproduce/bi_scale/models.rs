@@ -3,15 +3,15 @@
 use std::cell::OnceCell;
 
 use super::{HOST, ReproduceError, failed, get_or_try};
+use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::transfer::transfer_matrix;
 use crate::geom::{Mesh, Sides};
-use crate::prt::all_frequency::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::transfer::transfer_matrix;
-use crate::prt::transfer::{Tangents, Vertices};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::tracer::HostTracer;
+use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+use crate::transfer::{Tangents, Vertices};
 
 /// Visibility samples along an edge of a light texel, as a power of two.
 pub(super) const LOG2_SAMPLES: u32 = 1;

@@ -7,10 +7,10 @@ use super::{
     Standing, number,
 };
 use crate::geom::Mesh;
-use crate::prt::all_frequency::visibility::Horizon;
 use crate::report::{Cell, Table};
 use crate::scene::built::flat_models::FlatModel;
 use crate::scene::built::transfer_models::TransferModel;
+use crate::transfer::visibility::Horizon;
 
 const HOW: &str = "The paper's models are not at hand. Ours are made by code: a bumpy body, and a chair and a temple of flat parts, with edges {} times as long as in \
     models of the printed sizes. Nonzero values are judged by vertex; more vertices of a coarse model of parts stand inside of other parts and see nothing. \

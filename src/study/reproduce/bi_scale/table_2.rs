@@ -6,9 +6,9 @@ use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
     number,
 };
-use crate::prt::all_frequency::visibility::Horizon;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::transfer::visibility::Horizon;
 
 const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed bodies with as many vertices, and {} x {} local directions of {} x {} visibility \
     samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal there are fewer values by {} %. \

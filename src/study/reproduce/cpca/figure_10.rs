@@ -12,10 +12,10 @@ use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
     order,
 };
-use crate::prt::cpca::{Clustering, CpcaMethod};
-use crate::prt::on_card::model::TransferSize;
+use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
+use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 const PLACE: &str = "figure 10";
 /// Name, printed clusters, vectors and squared error, in the order of the figure.

@@ -9,10 +9,10 @@ use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::ModelView;
 use super::{EntryFindings, PaperFigure, PaperRow, Prose, ReproduceError, Shared, number, order};
-use crate::prt::cpca::{Clustering, CpcaMethod};
-use crate::prt::on_card::model::TransferSize;
+use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, NamedPicture, Table};
 use crate::sphere::HarmonicLight;
+use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 const PLACE: &str = "figure 11";
 const VECTORS: [usize; 4] = [2, 4, 8, 12];

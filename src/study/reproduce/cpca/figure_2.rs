@@ -5,8 +5,8 @@ use super::{
     Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, number,
 };
+use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
-use crate::prt::on_card::model::TransferSize;
 use crate::report::{Cell, Chart, Scale, Series, Table};
 
 /// The curves.

@@ -7,9 +7,9 @@ use super::{
     Standing, number,
 };
 use crate::elementary::ln;
-use crate::prt::cpca::CpcaMethod;
 use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
 use crate::sphere::HarmonicLight;
+use crate::transfer::clustering::CpcaMethod;
 
 /// Clusters of both figures.
 const CLUSTERS: usize = 256;

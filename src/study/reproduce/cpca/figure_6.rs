@@ -6,9 +6,9 @@ use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
 };
-use crate::prt::cpca::CpcaMethod;
 use crate::report::{Cell, Table};
 use crate::sphere::{HarmonicLight, function_count};
+use crate::transfer::clustering::CpcaMethod;
 
 /// "m_c = 64"; Table 1's row for the figure has 32.
 const CLUSTERS: [usize; 2] = [64, 32];

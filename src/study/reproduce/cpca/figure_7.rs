@@ -10,14 +10,14 @@ use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
 };
+use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::prt::brdf::ExitBasis;
-use crate::prt::transfer::{Incident, TracedRays};
 use crate::report::{Cell, Table};
 use crate::sphere::{DirectionRule, HarmonicLight};
 use crate::study::prt::ExitRadiance;
 use crate::tracer::HostTracer;
+use crate::transfer::brdf::ExitBasis;
 
 const PLACE: &str = "figure 7";
 /// The degree of the rule by which exit radiance is integrated without a projection.

@@ -11,7 +11,7 @@ use super::{
     Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared, Standing,
     Sweep, number,
 };
-use crate::prt::on_card::model::TransferSize;
+use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
 

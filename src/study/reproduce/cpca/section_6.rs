@@ -2,7 +2,7 @@
 
 use super::signals::SIGNALS;
 use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, REGISTERS, Standing, number};
-use crate::prt::on_card::model::TransferSize;
+use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
 const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 4.1 and section 6.2. A register holds {} numbers, and each vector takes whole \

@@ -6,9 +6,9 @@ use super::drawn::DrawnClusters;
 use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
 use super::{ModelSize, ReproduceError};
-use crate::prt::cpca::{Clustering, CpcaMethod};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::once::get_or_try;
+use crate::transfer::clustering::{Clustering, CpcaMethod};
 
 /// Signals of [`SIGNALS`] by their places there, with what Table 1 makes of them.
 #[derive(Default)]

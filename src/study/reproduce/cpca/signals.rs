@@ -1,16 +1,16 @@
 //! The signals of Table 1 and of Figures 2 to 4, on models of ours.
 
 use super::{ModelSize, ReproduceError, failed};
+use crate::cpca::on_card::model::TransferSize;
+use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions};
 use crate::geom::Mesh;
-use crate::prt::Signal;
-use crate::prt::brdf::{Brdf, ExitBasis};
-use crate::prt::cpca::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
-use crate::prt::file::PrtMeaning;
-use crate::prt::on_card::model::TransferSize;
-use crate::prt::transfer::{Bounces, Incident, ScatteringOptions, Tangents, Vertices};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{ExitRadiance, Precomputation, Scatterer};
 use crate::subsurface::{Dipole, materials};
+use crate::transfer::brdf::{Brdf, ExitBasis};
+use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::transfer::file::PrtMeaning;
+use crate::transfer::{Signal, Tangents, Vertices};
 
 /// What our side of the rows is computed on.
 pub(super) const HOST: &str = "host";

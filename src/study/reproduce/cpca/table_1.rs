@@ -8,8 +8,8 @@ use super::signals::SIGNALS;
 use super::{
     Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number, order,
 };
-use crate::prt::cpca::CpcaMethod;
 use crate::report::{Cell, Table};
+use crate::transfer::clustering::CpcaMethod;
 
 /// Squared errors, static and iterative, of the rows: with the digits behind the point.
 #[expect(clippy::approx_constant, reason = "3.14 is a squared error, as printed")]

@@ -6,11 +6,11 @@ use super::signals::ComputedSignal;
 use super::{HOST, ReproduceError, failed};
 use crate::geom::vector::wide;
 use crate::picture::rgb8;
-use crate::prt::cpca::Clustering;
 use crate::report::{NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::prt::{Lit, Seen, auto_exposure, cluster_color, linear_picture};
+use crate::transfer::clustering::Clustering;
 
 /// Pixels along an edge.
 const SIDE: u32 = 160;

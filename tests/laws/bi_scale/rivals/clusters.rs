@@ -2,12 +2,12 @@
 //! stored.
 
 use approx::assert_relative_eq;
+use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::bi_scale::rivals::reference::dense_row;
+use crossbar::bi_scale::rivals::{RivalError, RowClusterOptions, RowClusters, StoredTransfer};
 use crossbar::linalg::dot;
-use crossbar::prt::Signal;
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::prt::bi_scale::rivals::reference::dense_row;
-use crossbar::prt::bi_scale::rivals::{RivalError, RowClusterOptions, RowClusters, StoredTransfer};
-use crossbar::prt::cpca::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::Signal;
+use crossbar::transfer::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 
 use super::{light, transfer};
 

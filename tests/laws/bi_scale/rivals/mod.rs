@@ -5,12 +5,12 @@ mod rotated;
 mod rows;
 mod wavelets;
 
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::bi_scale::transfer::{light_vector, transfer_matrix};
 use crossbar::geom::random::CounterRng;
-use crossbar::prt::all_frequency::visibility::Horizon;
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::prt::bi_scale::transfer::{light_vector, transfer_matrix};
-use crossbar::prt::transfer::Vertices;
+use crossbar::transfer::Vertices;
+use crossbar::transfer::visibility::Horizon;
 
 use super::sight;
 

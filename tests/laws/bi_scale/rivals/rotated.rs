@@ -3,15 +3,15 @@
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
-use crossbar::prt::all_frequency::grid::LIGHT_MAP;
-use crossbar::prt::bi_scale::directions::LocalDirections;
-use crossbar::prt::bi_scale::matrix::SparseMatrix;
-use crossbar::prt::bi_scale::product::by_rows;
-use crossbar::prt::bi_scale::rivals::{
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::matrix::SparseMatrix;
+use crossbar::bi_scale::product::by_rows;
+use crossbar::bi_scale::rivals::{
     HarmonicRows, LocalLightError, LocalTransfer, ReshuffledVisibility, RivalError, StoredTransfer, cell_integrals,
 };
-use crossbar::prt::bi_scale::transfer::light_vector;
+use crossbar::bi_scale::transfer::light_vector;
 use crossbar::sphere::{CubeMap, DirectionRule, harmonics};
+use crossbar::transfer::grid::LIGHT_MAP;
 
 use super::{light, transfer};
 use crate::bi_scale::transfer::center as texel_center;
@@ -141,7 +141,7 @@ fn a_constant_light_stays_constant() {
     let mut rows = vec![Vec::new(); 16];
     for texel in 0..6144 {
         let nearest = directions.nearest(frame[0].to_local(texel_center(texel)));
-        rows[nearest].push(crossbar::prt::bi_scale::matrix::MatrixEntry { index: texel as u32, value: 1 });
+        rows[nearest].push(crossbar::bi_scale::matrix::MatrixEntry { index: texel as u32, value: 1 });
     }
     rows.iter().for_each(|row| open.push_row(row).unwrap());
     let transfer = LocalTransfer::new(&open, frame, &directions).expect("transfer");

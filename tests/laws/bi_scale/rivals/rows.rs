@@ -1,8 +1,8 @@
 //! Compressed rows lose nothing.
 
-use crossbar::prt::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::prt::bi_scale::product::by_rows;
-use crossbar::prt::bi_scale::rivals::{LocalLightError, NarrowRows, RivalError, StoredTransfer, WideRows};
+use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crossbar::bi_scale::product::by_rows;
+use crossbar::bi_scale::rivals::{LocalLightError, NarrowRows, RivalError, StoredTransfer, WideRows};
 use proptest::prelude::*;
 
 use super::{any_rows, light};

@@ -1,13 +1,13 @@
 //! Rows in wavelets, against plain loops.
 
 use approx::assert_relative_eq;
-use crossbar::prt::all_frequency::haar::Haar;
-use crossbar::prt::bi_scale::matrix::SparseMatrix;
-use crossbar::prt::bi_scale::product::by_rows;
-use crossbar::prt::bi_scale::rivals::reference::{by_largest_coefficients, dense_row};
-use crossbar::prt::bi_scale::rivals::{
+use crossbar::bi_scale::matrix::SparseMatrix;
+use crossbar::bi_scale::product::by_rows;
+use crossbar::bi_scale::rivals::reference::{by_largest_coefficients, dense_row};
+use crossbar::bi_scale::rivals::{
     CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows, RivalError, StoredTransfer,
 };
+use crossbar::transfer::haar::Haar;
 
 use super::{any_rows, light, transfer};
 

@@ -5,13 +5,11 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
-use crate::prt::all_frequency::on_card::SeenPixel;
-use crate::prt::bi_scale::kernels::BlockEdges;
-use crate::prt::bi_scale::on_card::reference::pixel;
-use crate::prt::bi_scale::on_card::{
-    BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat,
-};
-use crate::prt::on_card::PrtView;
+use crate::all_frequency::on_card::SeenPixel;
+use crate::bi_scale::kernels::BlockEdges;
+use crate::bi_scale::on_card::reference::pixel;
+use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
+use crate::cpca::on_card::PrtView;
 
 /// L~ by the card, and what it asked of it.
 pub(super) struct CardLight {

@@ -4,9 +4,9 @@ use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
-use crate::prt::all_frequency::on_card::SeenPixel;
-use crate::prt::bi_scale::kernels::BlockEdges;
-use crate::prt::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
+use crate::all_frequency::on_card::SeenPixel;
+use crate::bi_scale::kernels::BlockEdges;
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 use crate::report::Table;
 use crate::study::prt::card::factored::PixelErrors;
 

@@ -7,19 +7,19 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
+use crate::all_frequency::on_card::FactoredCardError;
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
+use crate::bi_scale::product::reference;
+use crate::bi_scale::texture::BidirectionalTexture;
+use crate::bi_scale::transfer::{light_vectors, side_by_side};
+use crate::cpca::on_card::time::FrameTimeError;
 use crate::picture::PictureError;
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
-use crate::prt::all_frequency::light::{CubeLightError, Decimation, DistantLight};
-use crate::prt::all_frequency::on_card::FactoredCardError;
-use crate::prt::bi_scale::bicluster::Biclustering;
-use crate::prt::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
-use crate::prt::bi_scale::product::reference;
-use crate::prt::bi_scale::texture::BidirectionalTexture;
-use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
-use crate::prt::on_card::time::FrameTimeError;
-use crate::prt::transfer::Vertices;
 use crate::scene::Camera;
 use crate::study::timeline_trace::TimelineError;
+use crate::transfer::Vertices;
+use crate::transfer::grid::LIGHT_TEXELS;
+use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
 
 /// A model with biclusters of its transfer, bidirectional textures, a light and a camera, and the card.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 
 use super::pixels::{PixelErrors, exact_pixels};
 use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, in_double};
-use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer};
-use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::on_card::{ProductOptions, ProductPlace, SeenPixel};
+use crate::all_frequency::code::{CodeOptions, CodedTransfer};
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace, SeenPixel};
+use crate::transfer::light::HaarLight;
 
 /// Bits that are tried, as far as the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];

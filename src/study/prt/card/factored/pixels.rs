@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use crate::prt::all_frequency::kernels::ViewNumbers;
-use crate::prt::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
-use crate::prt::all_frequency::on_card::{ProductPlace, SeenPixel, TransferredMesh};
+use crate::all_frequency::kernels::ViewNumbers;
+use crate::all_frequency::on_card::reference::{pixel_of_colors, pixel_of_products, vertex_radiance};
+use crate::all_frequency::on_card::{ProductPlace, SeenPixel, TransferredMesh};
 use crate::report::Cell;
 
 /// Steps of a picture of 8 bits.

@@ -5,12 +5,12 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
 use super::pixels::{PixelErrors, exact_pixels};
-use crate::prt::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
-use crate::prt::all_frequency::on_card::{
+use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
+use crate::all_frequency::on_card::{
     FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw, seen_pixels,
 };
-use crate::prt::all_frequency::shade::Multiplies;
-use crate::prt::on_card::PrtView;
+use crate::all_frequency::shade::Multiplies;
+use crate::cpca::on_card::PrtView;
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
 

@@ -7,12 +7,12 @@ use super::pixels::{PixelErrors, exact_pixels};
 use super::precision::{factored_precision, factored_precision_table, push_errors, ways_of_precision};
 use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, CardSums, HostSteps, in_double};
 use super::tables::{Blame, TIME, report_blame};
-use crate::prt::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
-use crate::prt::all_frequency::on_card::{
+use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
+use crate::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, SeenPixel, TransferredMesh, VertexColors, draw, seen_pixels,
 };
-use crate::prt::on_card::PrtView;
-use crate::prt::on_card::time::{FrameTimeError, frame_time};
+use crate::cpca::on_card::PrtView;
+use crate::cpca::on_card::time::{FrameTimeError, frame_time};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};

@@ -7,19 +7,17 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
+use crate::all_frequency::code::{CodeOptionsError, CodedTransfer};
+use crate::all_frequency::file::AllFrequencyFile;
+use crate::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
+use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
+use crate::cpca::on_card::time::FrameTimeError;
 use crate::picture::PictureError;
-use crate::prt::all_frequency::code::{CodeOptionsError, CodedTransfer};
-use crate::prt::all_frequency::light::{CubeLightError, HaarLight, LightTruncation};
-use crate::prt::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
-use crate::prt::all_frequency::shade::{
-    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain,
-};
-use crate::prt::file::AllFrequencyFile;
-use crate::prt::on_card::time::FrameTimeError;
-use crate::prt::transfer::TransferError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
 use crate::study::timeline_trace::TimelineError;
+use crate::transfer::TransferError;
+use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
 #[derive(Debug)]

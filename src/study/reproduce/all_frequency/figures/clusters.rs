@@ -9,13 +9,13 @@ use super::{
     Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
     models, number,
 };
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::CodedTransfer;
 use crate::picture::rgb8;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::CodedTransfer;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::light::HaarLight;
 use crate::report::{Cell, NamedPicture, Table};
 use crate::study::prt::cluster_color;
+use crate::transfer::grid::Segmentation;
+use crate::transfer::light::HaarLight;
 
 /// Representatives that are tried; the paper's are the last.
 const VECTORS: [usize; 4] = [1, 4, 8, 16];
@@ -78,7 +78,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
 fn of_segments(scene: &FigureScene, coded: &CodedTransfer) -> Vec<NamedPicture> {
     let mut largest: Vec<_> = coded.segments.iter().collect();
     largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
-    let picture = |part: &&crate::prt::all_frequency::code::CodedSegment| {
+    let picture = |part: &&crate::all_frequency::code::CodedSegment| {
         let color = |vertex: Option<u32>| {
             let at = vertex.and_then(|vertex| part.vertices.binary_search(&vertex).ok());
             at.map_or([0; 3], |at| cluster_color(u32::from(part.cluster_of[at])))

@@ -2,13 +2,13 @@
 
 use super::scene::FigureScene;
 use super::{HOST, ReproduceError, failed};
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::code::{CodeOptions, CodedTransfer};
-use crate::prt::all_frequency::compressed::SegmentOptions;
-use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::shade::{Representatives, Shader, exit_radiance};
-use crate::prt::all_frequency::visibility::VisibilityMaps;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::code::{CodeOptions, CodedTransfer};
+use crate::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::shade::{Representatives, Shader, exit_radiance};
 use crate::study::prt::{CompressionTally, SegmentedCompression, raw_radiance};
+use crate::transfer::light::HaarLight;
+use crate::transfer::visibility::VisibilityMaps;
 
 /// A surface's share of a scene: the vertices of some maps with a reflectance and a color.
 #[derive(Clone, Copy)]

@@ -1,10 +1,10 @@
 //! The models of the figures, as large as printed or smaller.
 
 use super::{ModelSize, ReproduceError, failed};
+use crate::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::geom::Mesh;
 use crate::geom::teapot::teapot;
-use crate::prt::all_frequency::compressed::SegmentOptions;
-use crate::prt::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::scene::built::ground::GROUND_SIDE;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;

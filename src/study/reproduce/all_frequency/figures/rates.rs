@@ -11,18 +11,18 @@ use super::{
     Bound, FigureParts, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Standing, failed, models,
     number,
 };
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::factor::Lobe;
+use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
+use crate::all_frequency::on_card::{ProductPlace, VertexColors};
+use crate::all_frequency::shade::Multiplies;
+use crate::cpca::on_card::time::frame_time;
 use crate::geom::Mesh;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::factor::Lobe;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
-use crate::prt::all_frequency::on_card::{ProductPlace, VertexColors};
-use crate::prt::all_frequency::shade::Multiplies;
-use crate::prt::all_frequency::visibility::SegmentCensus;
-use crate::prt::on_card::time::frame_time;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;
+use crate::transfer::grid::Segmentation;
+use crate::transfer::light::HaarLight;
+use crate::transfer::visibility::SegmentCensus;
 
 const PLACE: &str = "figure 7";
 const CARD: &str = "r350";

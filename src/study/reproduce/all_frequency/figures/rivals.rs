@@ -8,15 +8,15 @@ use super::{
     Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
     failed, models, number,
 };
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::compressed::SegmentOptions;
-use crate::prt::all_frequency::factor::ProductFunction;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::light::{CubeLight, HaarLight, TruncationPriority};
-use crate::prt::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::brdf::Brdf;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::factor::ProductFunction;
+use crate::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
 use crate::report::{Cell, Table};
+use crate::transfer::brdf::Brdf;
+use crate::transfer::grid::Segmentation;
+use crate::transfer::light::{CubeLight, HaarLight, TruncationPriority};
+use crate::transfer::visibility::VisibilityMaps;
 
 const PLACE: &str = "figure 1";
 /// The order of harmonics.

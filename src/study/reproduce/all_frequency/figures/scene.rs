@@ -6,11 +6,6 @@ use super::{HOST, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::picture::metrics::{ScreenPicture, flip};
-use crate::prt::all_frequency::grid::LIGHT_MAP;
-use crate::prt::all_frequency::hats::{HatWidth, Hats};
-use crate::prt::all_frequency::light::{CubeLight, Decimation, DistantLight};
-use crate::prt::all_frequency::visibility::VisibilityMaps;
-use crate::prt::transfer::{Tangents, Vertices};
 use crate::report::NamedPicture;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
@@ -18,6 +13,11 @@ use crate::sphere::{function_count, harmonics};
 use crate::study::prt::{Seen, auto_exposure, linear_picture};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
+use crate::transfer::grid::LIGHT_MAP;
+use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::light::{CubeLight, Decimation, DistantLight};
+use crate::transfer::visibility::VisibilityMaps;
+use crate::transfer::{Tangents, Vertices};
 
 /// Pixels along an edge.
 const SIDE: u32 = 160;

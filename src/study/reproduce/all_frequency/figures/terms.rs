@@ -8,11 +8,11 @@ use super::{
     Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
     models, number,
 };
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::grid::Segmentation;
-use crate::prt::all_frequency::light::HaarLight;
-use crate::prt::all_frequency::rivals::{FixedView, RivalSubject};
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::rivals::{FixedView, RivalSubject};
 use crate::report::{Cell, Table};
+use crate::transfer::grid::Segmentation;
+use crate::transfer::light::HaarLight;
 
 /// Terms that are tried.
 const TERMS: [usize; 7] = [1, 2, 4, 6, 8, 10, 16];

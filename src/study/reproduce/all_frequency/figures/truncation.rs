@@ -8,16 +8,16 @@ use super::{
     Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
     failed, models, number,
 };
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
 use crate::geom::random::CounterRng;
-use crate::prt::all_frequency::Reflectance;
-use crate::prt::all_frequency::grid::{LIGHT_TEXELS, Segmentation};
-use crate::prt::all_frequency::hats::Hats;
-use crate::prt::all_frequency::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
-use crate::prt::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
 use crate::study::reproduce::{Setting, Sweep};
+use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
+use crate::transfer::hats::Hats;
+use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 
 const PLACE: &str = "figure 6";
 const SOURCES: u64 = 40;

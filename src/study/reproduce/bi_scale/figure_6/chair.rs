@@ -2,10 +2,10 @@
 
 use super::super::models::SeenModel;
 use super::{HOST, ReproduceError, SCENES, failed};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::geom::Mesh;
-use crate::prt::all_frequency::visibility::Horizon;
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::matrix::SparseMatrix;
+use crate::transfer::visibility::Horizon;
 
 /// What stands for the chair, with its transfer to local directions.
 pub(super) struct ChairModel {

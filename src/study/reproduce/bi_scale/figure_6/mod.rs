@@ -11,15 +11,15 @@ use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, failed, number,
 };
-use crate::prt::all_frequency::light::{CubeLight, Decimation, DistantLight};
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
-use crate::prt::bi_scale::transfer::light_vectors;
+use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
+use crate::bi_scale::transfer::light_vectors;
 use crate::scene::built::flat_models::FlatModel;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::prt::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
 use crate::study::reproduce::sky::HARD_SUN;
+use crate::transfer::light::{CubeLight, Decimation, DistantLight};
 use chair::ChairModel;
 use pictures::VertexPictures;
 use sizes::{PLACE, chair_sizes};

@@ -4,14 +4,14 @@ use glam::DVec3;
 
 use super::chair::ChairModel;
 use super::{HOST, ReproduceError, failed};
+use crate::bi_scale::product::by_rows;
 use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
-use crate::prt::all_frequency::grid::texel_center;
-use crate::prt::bi_scale::product::by_rows;
-use crate::prt::brdf::Brdf;
 use crate::report::{Cell, NamedPicture, Table};
 use crate::scene::Camera;
 use crate::study::prt::{LightChannels, Seen, auto_exposure, linear_picture};
+use crate::transfer::brdf::Brdf;
+use crate::transfer::grid::texel_center;
 
 /// Pixels along an edge.
 const SIDE: u32 = 160;

@@ -2,8 +2,8 @@
 
 use super::super::printed::SCENES;
 use super::{Bound, HOST, Method, PaperFigure, PaperRow, Standing};
-use crate::prt::all_frequency::grid::LIGHT_TEXELS;
 use crate::report::{Cell, Table};
+use crate::transfer::grid::LIGHT_TEXELS;
 
 pub(super) const PLACE: &str = "figure 6";
 /// Printed: clusters of rows, vectors of each, wavelets of a row.

@@ -4,10 +4,10 @@ use glam::DMat3;
 
 use super::scene::{FigureSize, TexturedModel};
 use super::{HOST, ReproduceError, failed};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::matrix::SparseMatrix;
-use crate::prt::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
-use crate::prt::bi_scale::transfer::{light_vectors, side_by_side};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
+use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::report::NamedPicture;
 use crate::study::prt::{BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, linear_picture};
 

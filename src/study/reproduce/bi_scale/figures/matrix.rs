@@ -1,14 +1,13 @@
 //! Figure 3: the light directions of a local direction, and the matrix of its vertex.
 
 use super::super::models::SeenModel;
-use super::{Bound, HOST, Method, Standing};
-use super::{PaperFigure, PaperRow, Prose, ReproduceError, number};
+use super::{Bound, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number};
+use crate::bi_scale::matrix::SparseMatrix;
 use crate::picture::rgb8;
-use crate::prt::all_frequency::grid::{LIGHT_SIDE, LIGHT_TEXELS};
-use crate::prt::all_frequency::visibility::Horizon;
-use crate::prt::bi_scale::matrix::SparseMatrix;
 use crate::report::NamedPicture;
 use crate::scene::built::transfer_models::TransferModel;
+use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
+use crate::transfer::visibility::Horizon;
 
 const HOW: &str = "Figure 3 is drawn of the vertex that sees least of the light on a bunny with {} vertices, and of the one of its {} local directions to which \
     most light texels belong: {} of {}.";

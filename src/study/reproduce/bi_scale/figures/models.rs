@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::scene::{FigureSize, TexturedModel};
-use crate::prt::bi_scale::texture::PatchKind;
+use crate::bi_scale::texture::PatchKind;
 use crate::scene::Material;
 use crate::scene::built::flat_models::{FlatModel, MaterialMesh};
 use crate::scene::built::transfer_models::TransferModel;

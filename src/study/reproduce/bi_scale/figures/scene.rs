@@ -4,17 +4,18 @@ use glam::DVec3;
 
 use super::super::models::SeenModel;
 use super::{HOST, ModelSize, ReproduceError, failed};
+use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
+use crate::bi_scale::texture::{PatchKind, TextureSampling};
 use crate::geom::vector::wide;
-use crate::prt::all_frequency::light::DistantLight;
-use crate::prt::all_frequency::visibility::Horizon;
-use crate::prt::bi_scale::bicluster::{BiclusterOptions, bicluster};
-use crate::prt::bi_scale::directions::LocalDirections;
-use crate::prt::bi_scale::texture::{PatchKind, TextureSampling};
-use crate::prt::file::{BiScaleFile, BiScaleMeaning, MeshDigest};
 use crate::scene::Camera;
 use crate::scene::built::flat_models::MaterialMesh;
 use crate::study::prt::{BiScaleRendering, SurfaceTexture, TexturedSurface, Turning};
 use crate::study::reproduce::sky::HARD_SUN;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::light::DistantLight;
+use crate::transfer::visibility::Horizon;
 
 /// How large things are drawn.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,316 @@
+//! Coded transfer of a mesh.
+
+use rayon::prelude::*;
+
+use super::quantise::{quantise, step};
+use super::{CodeOptions, CodeOptionsError, ScaleOf, SparseRows};
+use crate::all_frequency::compressed::{CompressedSegment, CompressedTransfer};
+use crate::transfer::clustering::Clustering;
+
+/// The transfer of one lighting segment, coded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CodedSegment {
+    /// The segment, counted from 0.
+    pub segment: usize,
+    /// The vertices at which it is not 0, increasing.
+    pub vertices: Vec<u32>,
+    /// Per vertex its cluster.
+    pub cluster_of: Vec<u16>,
+    /// Representatives of each cluster; those of one cluster follow those of the one before.
+    pub counts: Vec<u8>,
+    /// The representatives, a row each.
+    pub representatives: SparseRows,
+    /// Per representative what 1 of its integers is worth.
+    pub representative_steps: Vec<f32>,
+    /// Vertex by vertex the weights on its cluster's representatives.
+    pub weights: Vec<i16>,
+    /// Per representative what 1 of the integers of its weights is worth.
+    pub weight_steps: Vec<f32>,
+}
+
+/// Coded transfer of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CodedTransfer {
+    /// The rows m of a transfer matrix.
+    pub rows: usize,
+    /// Light coefficients per segment n.
+    pub coefficients: usize,
+    /// Vertices of the mesh.
+    pub vertices: usize,
+    /// How it is coded.
+    pub options: CodeOptions,
+    /// The segments that are not 0 at all vertices, by increasing number.
+    pub segments: Vec<CodedSegment>,
+}
+
+/// What coded transfer takes, in bytes. Integers of fewer than 16 bits are counted as packed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CodeSize {
+    /// The numbers of representatives that are not 0: a byte for the row, and the value.
+    pub representatives: u64,
+    /// The counts of a block's columns.
+    pub columns: u64,
+    /// Weights.
+    pub weights: u64,
+    /// Steps.
+    pub steps: u64,
+    /// Which vertices a segment has, a bit each, and their clusters, 2 bytes each.
+    pub clusters: u64,
+}
+
+impl CodeSize {
+    /// All bytes.
+    pub fn total(&self) -> u64 {
+        self.as_the_paper_counts() + self.columns + self.steps + self.clusters
+    }
+
+    /// Representatives and weights alone, by which the paper's columns can be matched (docs/papers/all_frequency.md).
+    pub fn as_the_paper_counts(&self) -> u64 {
+        self.representatives + self.weights
+    }
+}
+
+impl CodedTransfer {
+    /// Codes compressed transfer.
+    ///
+    /// # Errors
+    /// [`CodeOptionsError`].
+    ///
+    /// # Panics
+    /// If a segment has more than 65,536 clusters, or a cluster more than 255 vectors.
+    pub fn new(transfer: &CompressedTransfer, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+        options.check()?;
+        let segments = transfer.segments.par_iter().map(|part| CodedSegment::new(part, options)).collect();
+        let (rows, coefficients) = (transfer.rows, transfer.coefficients());
+        Ok(Self { rows, coefficients, vertices: transfer.vertices, options, segments })
+    }
+
+    /// Whether all parts go together: else the first that does not.
+    pub fn fault(&self) -> Option<&'static str> {
+        if self.options.check().is_err() {
+            return Some("bits");
+        }
+        if !self.segments.is_sorted_by(|a, b| a.segment < b.segment) {
+            return Some("order of segments");
+        }
+        self.segments.iter().find_map(|part| part.fault(self))
+    }
+
+    /// Its size.
+    pub fn size(&self) -> CodeSize {
+        let mut size = CodeSize::default();
+        let bytes = |count: usize, bits: u64| (count as u64 * bits).div_ceil(8);
+        for part in &self.segments {
+            let rows = &part.representatives;
+            size.representatives += bytes(rows.nonzeros(), 8 + u64::from(self.options.representative_bits));
+            size.columns += 2 * (rows.block_count() * rows.columns()) as u64;
+            size.weights += bytes(part.weights.len(), u64::from(self.options.weight_bits));
+            size.steps += match self.options.scale {
+                ScaleOf::Representative => 8 * part.representative_steps.len() as u64,
+                ScaleOf::Segment => 8,
+            };
+            size.clusters += bytes(self.vertices, 1) + 2 * part.vertices.len() as u64;
+        }
+        size
+    }
+
+    /// Clusters of all segments.
+    pub fn clusters(&self) -> usize {
+        self.segments.iter().map(|part| part.counts.len()).sum()
+    }
+
+    /// Numbers of representatives that are not 0, and all.
+    pub fn nonzeros(&self) -> (usize, usize) {
+        let count = |part: &CodedSegment| {
+            let rows = &part.representatives;
+            (rows.nonzeros(), rows.rows() * rows.columns())
+        };
+        self.segments.iter().map(count).fold((0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
+    }
+}
+
+impl CodedSegment {
+    /// Codes a compressed segment.
+    ///
+    /// # Errors
+    /// [`CodeOptionsError`].
+    ///
+    /// # Panics
+    /// As [`CodedTransfer::new`].
+    pub fn code(part: &CompressedSegment, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+        options.check()?;
+        Ok(Self::new(part, options))
+    }
+
+    fn new(part: &CompressedSegment, options: CodeOptions) -> Self {
+        let clustering = &part.clustering;
+        assert!(clustering.subspaces().len() <= 1 << 16, "clusters that 16 bits can number");
+        let counts = clustering.subspaces().iter().map(|cluster| u8::try_from(cluster.len()));
+        let counts: Vec<u8> = counts.collect::<Result<_, _>>().expect("at most 255 vectors");
+        let firsts = firsts(&counts);
+        let rows: Vec<&[f64]> = clustering.subspaces().iter().flat_map(|cluster| cluster.vectors()).collect();
+        let largest: Vec<f64> = rows.iter().map(|row| largest(row.iter())).collect();
+        let representative_steps = steps(&largest, options.representative_bits, options.scale);
+        let codes = rows.iter().zip(&representative_steps);
+        let codes: Vec<i16> = codes.flat_map(|(row, &step)| row.iter().map(move |&v| quantise(v, step))).collect();
+
+        let largest = largest_weights(clustering, &firsts, rows.len());
+        let weight_steps = steps(&largest, options.weight_bits, options.scale);
+        let mut weights = Vec::with_capacity(clustering.all_weights().len());
+        for (point, &cluster) in clustering.of_point().iter().enumerate() {
+            let steps = &weight_steps[firsts[cluster as usize]..];
+            weights.extend(clustering.weights(point).iter().zip(steps).map(|(&weight, &step)| quantise(weight, step)));
+        }
+        Self {
+            segment: part.segment,
+            vertices: part.vertices.clone(),
+            cluster_of: clustering.of_point().iter().map(|&cluster| cluster as u16).collect(),
+            counts,
+            representatives: SparseRows::encode(&codes, clustering.dimension()),
+            representative_steps,
+            weights,
+            weight_steps,
+        }
+    }
+
+    fn fault(&self, all: &CodedTransfer) -> Option<&'static str> {
+        let increasing = self.vertices.is_sorted_by(|a, b| a < b);
+        if !increasing || self.vertices.last().is_none_or(|&last| last as usize >= all.vertices) {
+            return Some("vertices of a segment");
+        }
+        let known = |&cluster: &u16| usize::from(cluster) < self.counts.len();
+        if self.cluster_of.len() != self.vertices.len() || !self.cluster_of.iter().all(known) {
+            return Some("clusters of vertices");
+        }
+        let sum = |counts: &mut dyn Iterator<Item = u8>| counts.map(usize::from).sum::<usize>();
+        let rows = sum(&mut self.counts.iter().copied());
+        let shape = (self.representatives.rows(), Some(self.representatives.columns()));
+        if shape != (rows, all.rows.checked_mul(all.coefficients)) {
+            return Some("representatives");
+        }
+        let steps = [&self.representative_steps, &self.weight_steps];
+        let fits = |steps: &Vec<f32>| steps.len() == rows && steps.iter().all(|step| step.is_finite() && *step >= 0.0);
+        if !steps.into_iter().all(fits) {
+            return Some("steps");
+        }
+        let weights = sum(&mut self.cluster_of.iter().map(|&cluster| self.counts[usize::from(cluster)]));
+        (self.weights.len() != weights).then_some("weights")
+    }
+
+    /// The number of each cluster's first representative.
+    pub(in crate::all_frequency) fn firsts(&self) -> Vec<usize> {
+        firsts(&self.counts)
+    }
+}
+
+fn firsts(counts: &[u8]) -> Vec<usize> {
+    let mut next = 0;
+    let before = counts.iter().map(|&count| {
+        next += usize::from(count);
+        next - usize::from(count)
+    });
+    before.collect()
+}
+
+fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    values.fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+/// Per representative the largest weight on it.
+fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Vec<f64> {
+    let mut most = vec![0.0_f64; rows];
+    for (point, &cluster) in clustering.of_point().iter().enumerate() {
+        let most = &mut most[firsts[cluster as usize]..];
+        most.iter_mut().zip(clustering.weights(point)).for_each(|(most, weight)| *most = most.max(weight.abs()));
+    }
+    most
+}
+
+/// Per representative the step for numbers up to a magnitude.
+pub(super) fn steps(most: &[f64], bits: u8, scale: ScaleOf) -> Vec<f32> {
+    match scale {
+        ScaleOf::Representative => most.iter().map(|&most| step(most, bits)).collect(),
+        ScaleOf::Segment => vec![step(largest(most.iter()), bits); most.len()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::all_frequency::compressed::tests::sample;
+
+    #[test]
+    fn decoded_transfer_is_as_near_as_the_steps() {
+        let transfer = sample(3, 16);
+        for scale in [ScaleOf::Representative, ScaleOf::Segment] {
+            for bits in [8, 12, 16] {
+                let options = CodeOptions { representative_bits: bits, weight_bits: bits, scale };
+                let coded = CodedTransfer::new(&transfer, options).expect("coded");
+                for (part, code) in transfer.segments.iter().zip(&coded.segments) {
+                    code.decode(|point, decoded| {
+                        let mut expected = vec![0.0; 48];
+                        part.clustering.approximation(point, &mut expected);
+                        let bound = bound(part, code, point);
+                        for (a, b) in decoded.iter().zip(&expected) {
+                            assert!((a - b).abs() <= bound, "{bits} bits, {scale:?}: {a} for {b}, {bound}");
+                        }
+                    });
+                }
+            }
+        }
+    }
+
+    /// Half a step of each factor, and of rounding what the sums of some 4 terms leave.
+    fn bound(part: &CompressedSegment, code: &CodedSegment, point: usize) -> f64 {
+        let first = code.firsts()[part.clustering.of_point()[point] as usize];
+        let terms = part.clustering.weights(point).iter().enumerate().map(|(k, weight)| {
+            let steps = [&code.representative_steps, &code.weight_steps].map(|steps| 0.5 * f64::from(steps[first + k]));
+            // No number of a representative is above 1, the length of the vector.
+            weight.abs() * steps[0] + steps[1] * (1.0 + steps[0])
+        });
+        terms.sum::<f64>() * (1.0 + 1e-9) + 1e-12
+    }
+
+    #[test]
+    fn sizes_are_counted_by_part() {
+        let transfer = sample(2, 8);
+        let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
+        let (nonzeros, all) = coded.nonzeros();
+        let representatives: usize = coded.segments.iter().map(|part| part.representatives.rows()).sum();
+        let weights: usize = transfer.segments.iter().map(|part| part.clustering.all_weights().len()).sum();
+        assert!(all == 16 * representatives && nonzeros <= all);
+        let size = coded.size();
+        let expected = CodeSize {
+            representatives: 3 * nonzeros as u64,
+            columns: 2 * 2 * 16,
+            weights: 2 * weights as u64,
+            steps: 8 * representatives as u64,
+            clusters: 2 * 5 + 2 * 42,
+        };
+        assert_eq!((size, coded.clusters()), (expected, 4));
+        assert_eq!(size.total() - size.as_the_paper_counts(), 64 + size.steps + 94);
+        let options = CodeOptions { representative_bits: 8, weight_bits: 12, scale: ScaleOf::Segment };
+        let coded = CodedTransfer::new(&transfer, options).expect("coded");
+        let nonzeros = coded.nonzeros().0 as u64;
+        let size = coded.size();
+        let bytes = |part: &CompressedSegment| (12 * part.clustering.all_weights().len() as u64).div_ceil(8);
+        let weights = transfer.segments.iter().map(bytes).sum::<u64>();
+        assert_eq!((size.representatives, size.weights, size.steps), (2 * nonzeros, weights, 16));
+    }
+
+    #[test]
+    fn other_bits_are_refused() {
+        for (representative_bits, weight_bits, what) in
+            [(1, 16, "representatives"), (17, 16, "representatives"), (16, 0, "weights")]
+        {
+            let options = CodeOptions { representative_bits, weight_bits, scale: ScaleOf::Segment };
+            let error = CodedTransfer::new(&sample(1, 4), options).expect_err("refused");
+            let found = if what == "weights" { weight_bits } else { representative_bits };
+            assert_eq!(error, CodeOptionsError::Bits { what, found });
+            assert_eq!(
+                error.to_string(),
+                format!("expected 2 to 16 bits for {what}, the sign among them, found {found}")
+            );
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Rows of integers, most of them 0, column by column.
+
+/// Rows of a block: as many as a byte can number.
+pub const BLOCK_ROWS: usize = 256;
+
+/// Rows of integers in blocks of [`BLOCK_ROWS`], the last one shorter. Of each column of a block, the numbers that are
+/// not 0 are kept, each with its row in the block, in increasing order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SparseRows {
+    rows: usize,
+    columns: usize,
+    /// Numbers that are not 0, of each column of each block.
+    counts: Vec<u16>,
+    row_in_block: Vec<u8>,
+    values: Vec<i16>,
+}
+
+/// A column of a block.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::all_frequency) struct SparseColumn<'a> {
+    pub(in crate::all_frequency) rows: &'a [u8],
+    pub(in crate::all_frequency) values: &'a [i16],
+}
+
+impl SparseRows {
+    /// Rows of so many numbers each, one after another.
+    ///
+    /// # Panics
+    /// If there is no column, or the last row is incomplete.
+    pub fn encode(values: &[i16], columns: usize) -> Self {
+        assert!(columns > 0 && values.len().is_multiple_of(columns), "whole rows");
+        let mut sparse = Self { rows: values.len() / columns, columns, ..Self::default() };
+        for block in values.chunks(BLOCK_ROWS * columns) {
+            for column in 0..columns {
+                let numbers = block.iter().skip(column).step_by(columns);
+                let before = sparse.values.len();
+                for (row, &value) in numbers.enumerate().filter(|(_, value)| **value != 0) {
+                    sparse.row_in_block.push(row as u8);
+                    sparse.values.push(value);
+                }
+                sparse.counts.push((sparse.values.len() - before) as u16);
+            }
+        }
+        sparse
+    }
+
+    /// Of its parts: per column of each block how many numbers there are; all row numbers; all values. `None` if they
+    /// do not go together: a row beyond its block or out of order, a 0 among the values, too many numbers or too few.
+    pub fn from_parts(
+        rows: usize,
+        columns: usize,
+        counts: Vec<u16>,
+        row_in_block: Vec<u8>,
+        values: Vec<i16>,
+    ) -> Option<Self> {
+        let blocks = rows.div_ceil(BLOCK_ROWS);
+        let all = counts.iter().map(|&count| usize::from(count)).sum::<usize>();
+        if columns == 0 || Some(counts.len()) != blocks.checked_mul(columns) {
+            return None;
+        }
+        if row_in_block.len() != all || values.len() != all || values.contains(&0) {
+            return None;
+        }
+        let sparse = Self { rows, columns, counts, row_in_block, values };
+        let fits = sparse.blocks().enumerate().all(|(block, mut columns)| {
+            let height = BLOCK_ROWS.min(rows - block * BLOCK_ROWS);
+            columns.all(|column| {
+                column.rows.is_sorted_by(|a, b| a < b)
+                    && column.rows.last().is_none_or(|&last| usize::from(last) < height)
+            })
+        });
+        fits.then_some(sparse)
+    }
+
+    /// The parts: counts, row numbers, values.
+    pub fn parts(&self) -> (&[u16], &[u8], &[i16]) {
+        (&self.counts, &self.row_in_block, &self.values)
+    }
+
+    /// All numbers, row by row.
+    pub fn decode(&self) -> Vec<i16> {
+        let mut values = vec![0; self.rows * self.columns];
+        for (block, rows) in self.blocks().zip(values.chunks_mut(BLOCK_ROWS * self.columns)) {
+            for (column, numbers) in block.enumerate() {
+                for (&row, &value) in numbers.rows.iter().zip(numbers.values) {
+                    rows[usize::from(row) * self.columns + column] = value;
+                }
+            }
+        }
+        values
+    }
+
+    /// The columns of each block.
+    pub(in crate::all_frequency) fn blocks(&self) -> impl Iterator<Item = impl Iterator<Item = SparseColumn<'_>>> {
+        let mut end = 0;
+        self.counts.chunks(self.columns.max(1)).map(move |counts| {
+            let mut at = end;
+            end += counts.iter().map(|&count| usize::from(count)).sum::<usize>();
+            counts.iter().map(move |&count| {
+                let range = at..at + usize::from(count);
+                at = range.end;
+                SparseColumn { rows: &self.row_in_block[range.clone()], values: &self.values[range] }
+            })
+        })
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Numbers per row.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Number of blocks.
+    pub fn block_count(&self) -> usize {
+        self.rows.div_ceil(BLOCK_ROWS)
+    }
+
+    /// Numbers that are not 0.
+    pub fn nonzeros(&self) -> usize {
+        self.values.len()
+    }
+
+    /// Bytes of it: 3 for each number that is not 0, 2 for the count of each column of a block.
+    pub fn bytes(&self) -> usize {
+        3 * self.nonzeros() + 2 * self.counts.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::random::CounterRng;
+
+    #[test]
+    fn rows_come_back() {
+        let random = CounterRng::new(4);
+        for (rows, columns) in [(0, 3), (1, 1), (5, 7), (256, 3), (257, 2), (700, 5)] {
+            let draw = |at: usize| match random.bits(at as u64, 0, 0) % 5 {
+                0 => ((random.bits(at as u64, 1, 0) & 0xffff) as u16).cast_signed(),
+                _ => 0,
+            };
+            let values: Vec<i16> = (0..rows * columns).map(draw).collect();
+            let sparse = SparseRows::encode(&values, columns);
+            assert_eq!(sparse.decode(), values, "{rows} x {columns}");
+            let (counts, of_rows, of_values) = sparse.parts();
+            let parts = (counts.to_vec(), of_rows.to_vec(), of_values.to_vec());
+            assert_eq!(SparseRows::from_parts(rows, columns, parts.0, parts.1, parts.2).as_ref(), Some(&sparse));
+            let nonzeros = values.iter().filter(|value| **value != 0).count();
+            assert_eq!((sparse.nonzeros(), sparse.block_count()), (nonzeros, rows.div_ceil(256)));
+            assert_eq!(sparse.bytes(), 3 * nonzeros + 2 * columns * rows.div_ceil(256));
+        }
+    }
+
+    #[test]
+    fn parts_that_do_not_go_together_are_refused() {
+        let of = |rows, columns, counts: &[u16], of_rows: &[u8], values: &[i16]| {
+            SparseRows::from_parts(rows, columns, counts.to_vec(), of_rows.to_vec(), values.to_vec())
+        };
+        assert!(of(3, 2, &[2, 0], &[0, 2], &[5, 6]).is_some());
+        for (counts, of_rows, values) in [
+            (&[2][..], &[0, 2][..], &[5, 6][..]),
+            (&[2, 1], &[0, 2], &[5, 6]),
+            (&[2, 0], &[0, 3], &[5, 6]),
+            (&[2, 0], &[2, 0], &[5, 6]),
+            (&[2, 0], &[0, 2], &[5, 0]),
+            (&[2, 0], &[0, 2], &[5]),
+        ] {
+            assert_eq!(of(3, 2, counts, of_rows, values), None, "{counts:?} {of_rows:?} {values:?}");
+        }
+    }
+
+    #[test]
+    fn a_column_holds_the_rows_of_its_block() {
+        let mut values = vec![0; 2 * 300];
+        (values[3], values[2 * 255 + 1], values[2 * 256 + 1], values[2 * 299]) = (-7, 5, i16::MIN, 9);
+        let sparse = SparseRows::encode(&values, 2);
+        let columns: Vec<Vec<(u8, i16)>> = sparse
+            .blocks()
+            .flat_map(|block| {
+                block.map(|column| column.rows.iter().copied().zip(column.values.iter().copied()).collect())
+            })
+            .collect();
+        assert_eq!(columns, [vec![], vec![(1, -7), (255, 5)], vec![(43, 9)], vec![(0, i16::MIN)]]);
+    }
+}

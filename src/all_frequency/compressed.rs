@@ -1,0 +1,176 @@
+//! Each lighting segment's transfer as clusters of linear combinations (section 5 of the paper, equation 11).
+
+use thiserror::Error;
+
+use crate::transfer::Signal;
+use crate::transfer::clustering::{
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
+};
+
+/// How segments are compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SegmentOptions {
+    /// Vertices per cluster on average; the paper has 200. Each segment gets as many clusters as that goes into its
+    /// vertices, rounded down, and one at least: of the numbers that Table 1 prints, rounding up or to the nearest
+    /// meets none better (docs/papers/all_frequency.md).
+    pub points_per_cluster: usize,
+    /// Representatives per cluster n; the paper has 16. Segments of fewer numbers have as many.
+    pub vectors: usize,
+    /// Iterations at most for each number of representatives.
+    pub iterations: usize,
+    /// By which measure vertices are shared out; the paper's is [`CpcaMethod::Iterative`].
+    pub method: CpcaMethod,
+    /// Draws the start points, of each segment others.
+    pub seed: u64,
+}
+
+impl Default for SegmentOptions {
+    fn default() -> Self {
+        Self { points_per_cluster: 200, vectors: 16, iterations: 10, method: CpcaMethod::Iterative, seed: 1 }
+    }
+}
+
+/// The transfer of one lighting segment at the vertices where it is not 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompressedSegment {
+    /// The segment, counted from 0.
+    pub segment: usize,
+    /// The vertices, increasing; as many as the clustering has points.
+    pub vertices: Vec<u32>,
+    /// Their m x n numbers each, n light coefficients after one another for each of m rows. Its means are 0.
+    pub clustering: Clustering,
+}
+
+impl CompressedSegment {
+    /// Compresses the transfer of a segment at those vertices where it is not 0. `observe` sees each step.
+    ///
+    /// # Errors
+    /// [`CpcaError`].
+    ///
+    /// # Panics
+    /// Without vertices per cluster, or if the signal does not have a point for each vertex.
+    pub fn new(
+        segment: usize,
+        vertices: Vec<u32>,
+        signal: &Signal,
+        options: &SegmentOptions,
+        observe: impl FnMut(&CpcaStep),
+    ) -> Result<Self, CpcaError> {
+        assert_eq!(vertices.len(), signal.points(), "a point for each vertex");
+        let options = CpcaOptions {
+            clusters: (signal.points() / options.points_per_cluster).max(1),
+            vectors: options.vectors.min(signal.dimension()),
+            iterations: options.iterations,
+            method: options.method,
+            form: CpcaForm::Linear,
+            start: StartPoints::Seed(options.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(segment as u64)),
+        };
+        let Compression { clustering, .. } = compress(signal, &options, observe)?;
+        Ok(Self { segment, vertices, clustering })
+    }
+}
+
+/// Compressed transfer of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompressedTransfer {
+    /// The rows m of a transfer matrix.
+    pub rows: usize,
+    /// Vertices of the mesh.
+    pub vertices: usize,
+    /// The segments that are not 0 at all vertices, by increasing number.
+    pub segments: Vec<CompressedSegment>,
+}
+
+/// Why segments make no transfer. Segments and vertices count from 0.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum CompressedError {
+    /// Numbers per point that are no whole number of light coefficients.
+    #[error("segment {segment}: expected a multiple of {rows} numbers per vertex, one per row, found {found}")]
+    Shape { segment: usize, rows: usize, found: usize },
+    /// Segments of unlike sizes, or out of order.
+    #[error("expected segments of {expected} numbers in increasing order, found segment {segment} of {found}")]
+    Order { segment: usize, expected: usize, found: usize },
+    /// Vertices out of order, too many or too few.
+    #[error("segment {segment}: expected {points} vertices below {vertices} in increasing order, found others")]
+    Vertices { segment: usize, points: usize, vertices: usize },
+    /// Clusters with means.
+    #[error("segment {segment}: expected clusters of the linear form, whose means are 0, found other means")]
+    Means { segment: usize },
+}
+
+impl CompressedTransfer {
+    /// The parts, checked.
+    ///
+    /// # Errors
+    /// [`CompressedError`].
+    pub fn new(rows: usize, vertices: usize, segments: Vec<CompressedSegment>) -> Result<Self, CompressedError> {
+        let mut before: Option<(usize, usize)> = None;
+        for part in &segments {
+            let (segment, found, points) = (part.segment, part.clustering.dimension(), part.clustering.points());
+            if rows == 0 || !found.is_multiple_of(rows) {
+                return Err(CompressedError::Shape { segment, rows, found });
+            }
+            if let Some((_, expected)) = before.filter(|&(last, size)| last >= segment || size != found) {
+                return Err(CompressedError::Order { segment, expected, found });
+            }
+            before = Some((segment, found));
+            let increasing = part.vertices.is_sorted_by(|a, b| a < b);
+            let within = part.vertices.last().is_none_or(|&last| (last as usize) < vertices);
+            if part.vertices.len() != points || !increasing || !within {
+                return Err(CompressedError::Vertices { segment, points, vertices });
+            }
+            let zero = |value: &f64| *value == 0.0;
+            if !part.clustering.subspaces().iter().all(|cluster| cluster.mean.iter().all(zero)) {
+                return Err(CompressedError::Means { segment });
+            }
+        }
+        Ok(Self { rows, vertices, segments })
+    }
+
+    /// Light coefficients per segment n; 0 without a segment.
+    pub fn coefficients(&self) -> usize {
+        self.segments.first().map_or(0, |first| first.clustering.dimension() / self.rows)
+    }
+
+    /// The share of vertices at which a segment is not 0, on average over `segments` segments: the paper's omega.
+    pub fn omega(&self, segments: usize) -> f64 {
+        let filled: usize = self.segments.iter().map(|part| part.vertices.len()).sum();
+        filled as f64 / (segments * self.vertices) as f64
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::transfer::synthetic::torus_signal;
+
+    /// Some vertices of 40 in segments 1 and 4: m rows of n numbers, 3 clusters and 1 of up to 4 vectors.
+    pub(in crate::all_frequency) fn sample(rows: usize, coefficients: usize) -> CompressedTransfer {
+        let options = SegmentOptions { points_per_cluster: 10, vectors: 4, iterations: 4, ..SegmentOptions::default() };
+        let segment = |segment: usize, vertices: Vec<u32>| {
+            let signal = torus_signal(vertices.len(), rows * coefficients, segment as u64);
+            CompressedSegment::new(segment, vertices, &signal, &options, |_| ()).expect("compressed")
+        };
+        let segments = vec![segment(1, (0..30).collect()), segment(4, (5..40).step_by(3).collect())];
+        CompressedTransfer::new(rows, 40, segments).expect("transfer")
+    }
+
+    #[test]
+    fn parts_must_go_together() {
+        let good = sample(2, 8);
+        assert_eq!((good.coefficients(), good.omega(24)), (8, 42.0 / (24.0 * 40.0)));
+        let refused = |change: &dyn Fn(&mut CompressedTransfer)| {
+            let mut transfer = good.clone();
+            change(&mut transfer);
+            CompressedTransfer::new(transfer.rows, transfer.vertices, transfer.segments).expect_err("refused")
+        };
+        assert_eq!(refused(&|t| t.rows = 3), CompressedError::Shape { segment: 1, rows: 3, found: 16 });
+        let (expected, found) = (16, 16);
+        assert_eq!(refused(&|t| t.segments.swap(0, 1)), CompressedError::Order { segment: 1, expected, found });
+        let vertices = |segment, points, vertices| CompressedError::Vertices { segment, points, vertices };
+        assert_eq!(refused(&|t| t.vertices = 38), vertices(4, 12, 38));
+        assert_eq!(refused(&|t| t.segments[0].vertices[0] = 1), vertices(1, 30, 40));
+    }
+}

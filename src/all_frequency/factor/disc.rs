@@ -1,0 +1,219 @@
+//! Errors of approximations, over the texels whose directions lie above the horizon.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::factors::ProductFactors;
+use super::product::ProductFunction;
+use super::table::ProductTable;
+use crate::elementary::on_circle;
+use crate::linalg::{Matrix, dot};
+use crate::sphere::ParabolicMap;
+
+/// How far an approximation of f is off, over pairs of view and light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProductErrors {
+    /// Root mean square difference.
+    pub rms: f64,
+    /// Largest difference.
+    pub max: f64,
+    /// The sum of squared differences by the sum of squares.
+    pub relative_squared_error: f64,
+    /// The least value of the approximation: sums of terms may be negative where f is not.
+    pub least: f64,
+    /// The share of pairs where the approximation is below 0.
+    pub negative: f64,
+}
+
+/// What is gathered of a row of pairs.
+#[derive(Clone, Copy, Default)]
+struct RowErrors {
+    squared: f64,
+    energy: f64,
+    max: f64,
+    least: f64,
+    negative: usize,
+}
+
+impl ProductErrors {
+    /// Of `rows` views by `columns` lights; `row` gives f and the approximation at all lights of a view. Rows are added
+    /// in order.
+    fn over([rows, columns]: [usize; 2], row: impl Fn(usize, &mut [f64], &mut [f64]) + Sync) -> Self {
+        let of_row = |at: usize| {
+            let [mut f, mut found] = [vec![0.0; columns], vec![0.0; columns]];
+            row(at, &mut f, &mut found);
+            let mut errors = RowErrors { least: f64::INFINITY, ..RowErrors::default() };
+            for (f, found) in f.iter().zip(&found) {
+                let difference = found - f;
+                errors.squared += difference * difference;
+                errors.energy += f * f;
+                errors.max = errors.max.max(difference.abs());
+                errors.least = errors.least.min(*found);
+                errors.negative += usize::from(*found < 0.0);
+            }
+            errors
+        };
+        let of_rows: Vec<RowErrors> = (0..rows).into_par_iter().map(of_row).collect();
+        let sum = |of: fn(&RowErrors) -> f64| of_rows.iter().map(of).sum::<f64>();
+        let [squared, energy] = [sum(|row| row.squared), sum(|row| row.energy)];
+        let pairs = (rows * columns) as f64;
+        Self {
+            rms: (squared / pairs).sqrt(),
+            max: of_rows.iter().fold(0.0, |most, row| most.max(row.max)),
+            relative_squared_error: if squared > 0.0 { squared / energy } else { 0.0 },
+            least: of_rows.iter().fold(f64::INFINITY, |least, row| least.min(row.least)),
+            negative: of_rows.iter().map(|row| row.negative).sum::<usize>() as f64 / pairs,
+        }
+    }
+
+    /// Of factors at the directions of [`Self::directions`] for both, against f itself cut off at `limit`: what
+    /// interpolation, the means over texels and the terms that are left out lose together.
+    pub fn between_texels(product: &dyn ProductFunction, limit: f64, factors: &ProductFactors) -> Self {
+        let directions = Self::directions();
+        let read = |of: &dyn Fn(DVec3, &mut [f64])| -> Vec<f64> {
+            let mut values = vec![0.0; directions.len() * factors.terms()];
+            let texels = values.chunks_exact_mut(factors.terms()).zip(&directions);
+            texels.for_each(|(into, &direction)| of(direction, into));
+            values
+        };
+        let [view, light] = [
+            read(&|direction, into| factors.view(direction, into)),
+            read(&|direction, into| factors.light(direction, into)),
+        ];
+        Self::over([directions.len(); 2], |at, f, found| {
+            let g = &view[at * factors.terms()..(at + 1) * factors.terms()];
+            for (place, light) in light.chunks_exact(factors.terms()).enumerate() {
+                f[place] = product.value(directions[at], directions[place]).min(limit);
+                found[place] = dot(g, light);
+            }
+        })
+    }
+
+    /// 1,024 directions of equal solid angles above the horizon, along a spiral: "1024 samples in both light direction
+    /// and view direction sampled over the hemisphere", where the paper does not say which.
+    pub fn directions() -> Vec<DVec3> {
+        const COUNT: usize = 1024;
+        /// The golden section.
+        const TURN: f64 = 0.618_033_988_749_894_9;
+        let direction = |at: usize| {
+            let z = (at as f64 + 0.5) / COUNT as f64;
+            let ([x, y], radius) = (on_circle(at as f64 * TURN), ((1.0 - z) * (1.0 + z)).sqrt());
+            DVec3::new(radius * x, radius * y, z)
+        };
+        (0..COUNT).map(direction).collect()
+    }
+}
+
+/// The part of a table whose texels have their centers above the horizon: 812 of 1,024 for maps of 32 x 32.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscSamples {
+    view: Vec<usize>,
+    light: Vec<usize>,
+    maps: [ParabolicMap; 2],
+    values: Matrix,
+}
+
+impl DiscSamples {
+    /// Of a table.
+    pub fn new(table: &ProductTable) -> Self {
+        let maps = [table.view(), table.light()];
+        let [view, light] = maps.map(inside);
+        let rows = view.iter().flat_map(|&row| light.iter().map(move |&column| table.values().row(row)[column]));
+        let values = Matrix::new([view.len(), light.len()], rows.collect()).expect("no larger than the table");
+        Self { view, light, maps, values }
+    }
+
+    /// Texels of the view's and of the light's map.
+    pub fn counts(&self) -> [usize; 2] {
+        [self.view.len(), self.light.len()]
+    }
+
+    /// f, a row per view, a column per light.
+    pub const fn values(&self) -> &Matrix {
+        &self.values
+    }
+
+    /// Directions of the views and of the lights.
+    pub fn directions(&self) -> [Vec<DVec3>; 2] {
+        self.each_texel(|map, column, row| map.direction(column, row))
+    }
+
+    /// Solid angles of the views' and of the lights' texels, in steradians.
+    pub fn solid_angles(&self) -> [Vec<f64>; 2] {
+        self.each_texel(ParabolicMap::solid_angle)
+    }
+
+    fn each_texel<T>(&self, of: impl Fn(ParabolicMap, usize, usize) -> T) -> [Vec<T>; 2] {
+        let along = |map: ParabolicMap, texels: &[usize]| {
+            texels.iter().map(|texel| of(map, texel % map.side(), texel / map.side())).collect()
+        };
+        [along(self.maps[0], &self.view), along(self.maps[1], &self.light)]
+    }
+
+    /// Errors of factors at the texels.
+    pub fn errors(&self, factors: &ProductFactors) -> ProductErrors {
+        ProductErrors::over(self.counts(), |at, f, found| {
+            f.copy_from_slice(self.values.row(at));
+            let g = factors.view_texel(self.view[at]);
+            for (value, &light) in found.iter_mut().zip(&self.light) {
+                *value = dot(g, factors.light_texel(light));
+            }
+        })
+    }
+
+    /// Errors of other values at the same pairs.
+    pub(super) fn errors_of(&self, values: &Matrix) -> ProductErrors {
+        ProductErrors::over(self.counts(), |at, f, found| {
+            f.copy_from_slice(self.values.row(at));
+            found.copy_from_slice(values.row(at));
+        })
+    }
+}
+
+/// Texels with their centers above the horizon.
+fn inside(map: ParabolicMap) -> Vec<usize> {
+    (0..map.texels()).filter(|texel| map.direction(texel % map.side(), texel / map.side()).z > 0.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::all_frequency::factor::{FactorSampling, Factorization, Supersamples};
+    use crate::transfer::brdf::Brdf;
+
+    #[test]
+    fn a_map_of_32_has_812_texels_in_its_disc() {
+        assert_eq!([1, 2, 32].map(|side| inside(ParabolicMap::new(side)).len()), [1, 4, 812]);
+        let directions = ProductErrors::directions();
+        let mean = directions.iter().sum::<DVec3>() / 1024.0;
+        assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
+    }
+
+    #[test]
+    fn errors_are_those_of_plain_sums() {
+        let sampling = FactorSampling { side: 6, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        let phong = Brdf::Phong { albedo: 0.1, specular: 0.8, exponent: 30.0 };
+        let table = sampling.table(&phong, &mut |_, _| ()).expect("a table");
+        let factors = Factorization::new(&table, 2).expect("terms").factors(2);
+        let errors = DiscSamples::new(&table).errors(&factors);
+        let (mut squared, mut energy, mut max, mut least, mut negative, mut pairs) = (0.0, 0.0, 0.0_f64, 1.0_f64, 0, 0);
+        let (map, is_in) = (table.view(), |texel: usize| table.view().direction(texel % 6, texel / 6).z > 0.0);
+        for (view, light) in (0..36).flat_map(|view| (0..36).map(move |light| (view, light))) {
+            if is_in(view) && is_in(light) {
+                let f = table.values().row(view)[light];
+                let [v, s] = [view, light].map(|texel| map.direction(texel % 6, texel / 6));
+                let found = factors.product(v, s);
+                (squared, energy, pairs) = (squared + (found - f) * (found - f), energy + f * f, pairs + 1);
+                (max, least) = (max.max((found - f).abs()), least.min(found));
+                negative += usize::from(found < 0.0);
+            }
+        }
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-12, "{a} {b}");
+        close(errors.rms, (squared / f64::from(pairs)).sqrt());
+        close(errors.relative_squared_error, squared / energy);
+        close(errors.max, max);
+        close(errors.least, least);
+        assert_eq!(errors.negative, negative as f64 / f64::from(pairs));
+        assert!(errors.least < 0.0, "two terms of a sharp lobe ring");
+    }
+}

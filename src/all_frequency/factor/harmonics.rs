@@ -1,0 +1,131 @@
+//! The same table by spherical harmonics, the output basis of earlier work: the lower part of the table of section 3.
+
+use super::disc::{DiscSamples, ProductErrors};
+use super::error::FactorizationError;
+use crate::linalg::{Matrix, Svd};
+use crate::sphere::{function_count, harmonics};
+
+/// How f above the horizon becomes coefficients.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HarmonicFit {
+    /// Integrals with the functions, f being 0 below the horizon.
+    ZeroHemisphere,
+    /// The combination that is nearest above the horizon.
+    LeastSquares,
+}
+
+/// Which direction of f is expanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HarmonicSides {
+    /// The view: rows of a transfer matrix are its functions.
+    View,
+    /// The light.
+    Light,
+    /// Both, as in matrices of harmonics on both sides.
+    Both,
+}
+
+/// Errors of harmonics of an order at the texels of a table that lie above the horizon. Integrals are sums over these
+/// texels, weighted by their solid angles.
+///
+/// # Errors
+/// [`FactorizationError::Svd`] if the functions depend on each other on so few texels that least squares has no answer.
+///
+/// # Panics
+/// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
+pub fn harmonic_errors(
+    disc: &DiscSamples,
+    order: usize,
+    fit: HarmonicFit,
+    sides: HarmonicSides,
+) -> Result<ProductErrors, FactorizationError> {
+    let [view, light] = [0, 1].map(|side| Expansion::new(disc, side, order, fit));
+    let values = match sides {
+        HarmonicSides::Light => light?.columns(disc.values())?,
+        HarmonicSides::View => view?.rows(disc.values())?,
+        HarmonicSides::Both => view?.rows(&light?.columns(disc.values())?)?,
+    };
+    Ok(disc.errors_of(&values))
+}
+
+/// From values at texels to coefficients, and back.
+struct Expansion {
+    /// A row per function.
+    analysis: Matrix,
+    /// A row per function.
+    synthesis: Matrix,
+}
+
+impl Expansion {
+    fn new(disc: &DiscSamples, side: usize, order: usize, fit: HarmonicFit) -> Result<Self, FactorizationError> {
+        let (directions, angles) = (&disc.directions()[side], &disc.solid_angles()[side]);
+        let count = function_count(order);
+        let mut y = Matrix::zeros([directions.len(), count])?;
+        for (row, &direction) in directions.iter().enumerate() {
+            harmonics(order, direction, y.row_mut(row));
+        }
+        let scaled = |matrix: &Matrix, by: &dyn Fn(f64) -> f64| {
+            let mut matrix = matrix.clone();
+            for (row, &angle) in angles.iter().enumerate() {
+                matrix.row_mut(row).iter_mut().for_each(|value| *value *= by(angle));
+            }
+            matrix
+        };
+        Ok(match fit {
+            HarmonicFit::ZeroHemisphere => {
+                Self { analysis: scaled(&y, &|angle| angle).transposed(), synthesis: y.transposed() }
+            }
+            HarmonicFit::LeastSquares => {
+                // An orthonormal basis of the same functions, under the weights.
+                let basis = Svd::new(&scaled(&y, &f64::sqrt))?.left;
+                let analysis = scaled(&basis, &f64::sqrt).transposed();
+                Self { analysis, synthesis: scaled(&basis, &|angle| 1.0 / angle.sqrt()).transposed() }
+            }
+        })
+    }
+
+    /// Expands each row of a matrix.
+    fn columns(&self, values: &Matrix) -> Result<Matrix, FactorizationError> {
+        Ok(values.product(&self.analysis.transposed())?.product(&self.synthesis)?)
+    }
+
+    /// Expands each column.
+    fn rows(&self, values: &Matrix) -> Result<Matrix, FactorizationError> {
+        Ok(self.synthesis.transposed().product(&self.analysis.product(values)?)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::all_frequency::factor::{FactorSampling, Lobe, ProductTable, Supersamples};
+    use crate::transfer::brdf::Brdf;
+
+    fn disc(side: usize, product: &dyn super::super::ProductFunction) -> DiscSamples {
+        let sampling = FactorSampling { side, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+        let table: ProductTable = sampling.table(product, &mut |_, _| ()).expect("a table");
+        DiscSamples::new(&table)
+    }
+
+    #[test]
+    fn a_function_of_the_basis_is_met_by_least_squares() {
+        let lambert = disc(12, &Brdf::Lambert { albedo: 0.7 });
+        for sides in [HarmonicSides::View, HarmonicSides::Light, HarmonicSides::Both] {
+            let errors = harmonic_errors(&lambert, 2, HarmonicFit::LeastSquares, sides).expect("errors");
+            assert!(errors.max < 1e-14, "{sides:?}: {}", errors.max);
+            let zero = harmonic_errors(&lambert, 2, HarmonicFit::ZeroHemisphere, sides).expect("errors");
+            assert!(zero.max > 0.05, "half of the sphere is 0: {}", zero.max);
+        }
+    }
+
+    #[test]
+    fn errors_fall_with_the_order_and_least_squares_is_nearest() {
+        let lobe = disc(16, &Lobe::cook_torrance(0.4, 0.5));
+        for sides in [HarmonicSides::View, HarmonicSides::Light, HarmonicSides::Both] {
+            let of = |order, fit| harmonic_errors(&lobe, order, fit, sides).expect("errors");
+            let squares: Vec<f64> = (4..=7).map(|order| of(order, HarmonicFit::LeastSquares).rms).collect();
+            assert!(squares.windows(2).all(|two| two[1] < two[0]), "{sides:?}: {squares:?}");
+            assert!(squares[1] < of(5, HarmonicFit::ZeroHemisphere).rms, "{sides:?}");
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! Microfacet lobes in the forms that the paper leaves open.
+//!
+//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three figures each, and prints errors; it does
+//! not say which factors of these models it took. [`Lobe`] has each factor as an option.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::motion::ProductSymmetry;
+use super::product::ProductFunction;
+use crate::transfer::brdf::facets::{
+    beckmann, cosine_along_tangent, groove, schlick_azimuth, schlick_seen, schlick_zenith,
+};
+use crate::transfer::brdf::fresnel::{dielectric, schlick};
+use crate::transfer::brdf::{Brdf, BrdfError};
+
+/// What stands in front of distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Denominators {
+    /// 1 / (4 pi v_z s_z): facets that reflect what they receive; Schlick 1994, and Cook and Torrance's model in
+    /// textbooks.
+    #[default]
+    Normalised,
+    /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times as much.
+    Printed1982,
+    /// 1: neither pi nor cosines.
+    Product,
+    /// 1/4: Schlick's factor without pi and cosines.
+    Quarter,
+}
+
+/// Fresnel reflectance by the reflectance at normal incidence and the angle to the half vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FresnelForm {
+    /// Fresnel's formula for dielectrics, unpolarised: Cook and Torrance.
+    Dielectric,
+    /// Schlick's approximation.
+    Schlick,
+    /// The reflectance at normal incidence at all angles.
+    Constant,
+}
+
+/// Light that facets take from each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shadowing {
+    /// By the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
+    #[default]
+    Model,
+    /// None.
+    None,
+}
+
+/// The w of Schlick's azimuth factor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TangentCosine {
+    /// The cosine of the angle between the tangent and the half vector's projection onto the surface, as he defines it.
+    #[default]
+    Projected,
+    /// The half vector's own component along the tangent, not divided by the length of the projection.
+    HalfVector,
+}
+
+/// How many facets face a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FacetDistribution {
+    /// Beckmann's, of Cook and Torrance.
+    Beckmann {
+        /// Root mean square slope.
+        roughness: f64,
+    },
+    /// Schlick's Z(t) A(w).
+    Schlick {
+        /// From 0 excluded to 1.
+        roughness: f64,
+        /// From 0 excluded to 1, isotropic.
+        isotropy: f64,
+        /// What w is.
+        tangent: TangentCosine,
+    },
+}
+
+/// A diffuse part and a lobe of microfacets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lobe {
+    /// Reflectance of the diffuse part.
+    pub albedo: f64,
+    /// Distribution of the facets.
+    pub distribution: FacetDistribution,
+    /// Fresnel reflectance at normal incidence.
+    pub normal_incidence: f64,
+    /// Fresnel reflectance at other angles.
+    pub fresnel: FresnelForm,
+    /// Light that facets take from each other.
+    pub shadowing: Shadowing,
+    /// What stands in front.
+    pub denominators: Denominators,
+}
+
+impl Lobe {
+    /// Cook and Torrance's model, in the form of [`Brdf::CookTorrance`].
+    pub const fn cook_torrance(roughness: f64, normal_incidence: f64) -> Self {
+        Self {
+            albedo: 0.0,
+            distribution: FacetDistribution::Beckmann { roughness },
+            normal_incidence,
+            fresnel: FresnelForm::Dielectric,
+            shadowing: Shadowing::Model,
+            denominators: Denominators::Normalised,
+        }
+    }
+
+    /// Schlick's model, in the form of [`Brdf::Schlick`].
+    pub const fn schlick(roughness: f64, isotropy: f64, normal_incidence: f64) -> Self {
+        Self {
+            albedo: 0.0,
+            distribution: FacetDistribution::Schlick { roughness, isotropy, tangent: TangentCosine::Projected },
+            normal_incidence,
+            fresnel: FresnelForm::Schlick,
+            shadowing: Shadowing::Model,
+            denominators: Denominators::Normalised,
+        }
+    }
+
+    /// Whether all figures are in range.
+    ///
+    /// # Errors
+    /// [`BrdfError::OutOfRange`] names the first that is not.
+    pub fn check(&self) -> Result<(), BrdfError> {
+        let Self { albedo, normal_incidence, .. } = *self;
+        match self.distribution {
+            FacetDistribution::Beckmann { roughness } if self.fresnel == FresnelForm::Dielectric => {
+                Brdf::CookTorrance { albedo, specular: 1.0, roughness, normal_incidence }.check()
+            }
+            FacetDistribution::Beckmann { roughness } => {
+                Brdf::CookTorrance { albedo, specular: 1.0, roughness, normal_incidence: 0.0 }.check()?;
+                Brdf::Ward { albedo, specular: normal_incidence, roughness: [1.0; 2] }.check()
+            }
+            FacetDistribution::Schlick { roughness, isotropy, .. } => {
+                Brdf::Schlick { albedo, specular: 1.0, roughness, isotropy, normal_incidence }.check()?;
+                match self.fresnel {
+                    // An index of infinity has no formula.
+                    FresnelForm::Dielectric => {
+                        Brdf::CookTorrance { albedo, specular: 1.0, roughness, normal_incidence }.check()
+                    }
+                    FresnelForm::Schlick | FresnelForm::Constant => Ok(()),
+                }
+            }
+        }
+    }
+
+    fn fresnel(&self, cosine: f64) -> f64 {
+        match self.fresnel {
+            FresnelForm::Dielectric => dielectric(self.normal_incidence, cosine),
+            FresnelForm::Schlick => schlick(self.normal_incidence, cosine),
+            FresnelForm::Constant => self.normal_incidence,
+        }
+    }
+
+    fn facets(&self, half: DVec3) -> f64 {
+        match self.distribution {
+            FacetDistribution::Beckmann { roughness } => beckmann(half.z, roughness),
+            FacetDistribution::Schlick { roughness, isotropy, tangent } => {
+                let w = match tangent {
+                    TangentCosine::Projected => cosine_along_tangent(half),
+                    TangentCosine::HalfVector => half.x,
+                };
+                schlick_zenith(half.z, roughness) * schlick_azimuth(w, isotropy)
+            }
+        }
+    }
+
+    fn seen(&self, half_cosine: f64, cosine: f64, view: DVec3, light: DVec3) -> f64 {
+        match (self.shadowing, self.distribution) {
+            (Shadowing::None, _) => 1.0,
+            (Shadowing::Model, FacetDistribution::Beckmann { .. }) => groove(half_cosine, view.z.min(light.z), cosine),
+            (Shadowing::Model, FacetDistribution::Schlick { roughness, .. }) => {
+                schlick_seen(view.z, roughness) * schlick_seen(light.z, roughness)
+            }
+        }
+    }
+}
+
+impl ProductFunction for Lobe {
+    /// Below the horizon the formula with its signs; 0 where no facet can face the half vector.
+    fn value(&self, view: DVec3, light: DVec3) -> f64 {
+        let sum = view + light;
+        let half = sum / sum.length();
+        let diffuse = self.albedo / PI * light.z;
+        // Opposite directions have no half vector.
+        if half.z.is_nan() || half.z <= 0.0 {
+            return diffuse;
+        }
+        let cosine = half.dot(view).min(1.0);
+        let facets = self.facets(half) * self.seen(half.z, cosine, view, light) * self.fresnel(cosine);
+        diffuse
+            + match self.denominators {
+                Denominators::Normalised => facets / (4.0 * PI * view.z * light.z) * light.z,
+                Denominators::Printed1982 => facets / (PI * view.z * light.z) * light.z,
+                Denominators::Product => facets * light.z,
+                Denominators::Quarter => 0.25 * facets * light.z,
+            }
+    }
+
+    fn continues(&self) -> bool {
+        true
+    }
+
+    fn symmetry(&self) -> ProductSymmetry {
+        match self.distribution {
+            FacetDistribution::Schlick { isotropy, .. } if isotropy != 1.0 => ProductSymmetry::Mirrors,
+            _ => ProductSymmetry::TurnsAndMirrors,
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        match self.distribution {
+            FacetDistribution::Beckmann { .. } => "Cook and Torrance's model",
+            FacetDistribution::Schlick { .. } => "Schlick's model",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VIEW: DVec3 = DVec3::new(0.6, 0.0, 0.8);
+    const LIGHT: DVec3 = DVec3::new(-0.48, 0.36, 0.8);
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() <= 1e-14 * expected.abs(), "{found} {expected}");
+    }
+
+    #[test]
+    fn the_default_forms_are_those_of_the_models() {
+        let lobe = Lobe { albedo: 0.2, ..Lobe::cook_torrance(0.4, 0.5) };
+        let brdf = Brdf::CookTorrance { albedo: 0.2, specular: 1.0, roughness: 0.4, normal_incidence: 0.5 };
+        close(lobe.value(VIEW, LIGHT), brdf.value(VIEW, LIGHT) * LIGHT.z);
+        let lobe = Lobe { albedo: 0.1, ..Lobe::schlick(0.2, 0.3, 0.8) };
+        let brdf = Brdf::Schlick { albedo: 0.1, specular: 1.0, roughness: 0.2, isotropy: 0.3, normal_incidence: 0.8 };
+        close(lobe.value(VIEW, LIGHT), brdf.value(VIEW, LIGHT) * LIGHT.z);
+    }
+
+    #[test]
+    fn each_form_has_its_factor() {
+        let lobe = Lobe::cook_torrance(0.4, 0.5);
+        let with = |denominators| Lobe { denominators, ..lobe }.value(VIEW, LIGHT);
+        let normalised = with(Denominators::Normalised);
+        close(with(Denominators::Printed1982), 4.0 * normalised);
+        close(with(Denominators::Product), 4.0 * PI * VIEW.z * LIGHT.z * normalised);
+        close(with(Denominators::Quarter), PI * VIEW.z * LIGHT.z * normalised);
+        // Head on nothing is in shadow, and all forms of Fresnel's term agree.
+        let head_on = |fresnel, shadowing| Lobe { fresnel, shadowing, ..lobe }.value(DVec3::Z, DVec3::Z);
+        for fresnel in [FresnelForm::Dielectric, FresnelForm::Schlick, FresnelForm::Constant] {
+            for shadowing in [Shadowing::Model, Shadowing::None] {
+                close(head_on(fresnel, shadowing), 0.5 / (4.0 * PI * 0.16));
+            }
+        }
+        let Lobe { distribution: FacetDistribution::Schlick { roughness, isotropy, .. }, .. } =
+            Lobe::schlick(0.2, 0.3, 0.8)
+        else {
+            panic!("Schlick's")
+        };
+        let distribution = FacetDistribution::Schlick { roughness, isotropy, tangent: TangentCosine::HalfVector };
+        let half = Lobe { distribution, ..Lobe::schlick(0.2, 0.3, 0.8) };
+        assert!(half.value(VIEW, LIGHT) > Lobe::schlick(0.2, 0.3, 0.8).value(VIEW, LIGHT), "w nearer to 0");
+    }
+
+    #[test]
+    fn formulas_continue_below_the_horizon_without_a_jump() {
+        for lobe in [Lobe::cook_torrance(0.4, 0.5), Lobe { albedo: 0.3, ..Lobe::schlick(0.2, 1.0, 0.8) }] {
+            let at = |z: f64| lobe.value(VIEW, DVec3::new(-(1.0_f64 - z * z).sqrt(), 0.0, z));
+            assert!((at(1e-9) - at(-1e-9)).abs() < 1e-6, "{} {}", at(1e-9), at(-1e-9));
+            assert!(lobe.value(VIEW, -VIEW).is_finite());
+        }
+    }
+
+    #[test]
+    fn bad_figures_are_named() {
+        let message = |lobe: Lobe| lobe.check().expect_err("refused").to_string();
+        assert!(message(Lobe::cook_torrance(0.0, 0.5)).contains("roughness"));
+        assert!(message(Lobe::cook_torrance(0.4, 1.0)).contains("from 0 to below 1"));
+        assert!(message(Lobe { fresnel: FresnelForm::Constant, ..Lobe::cook_torrance(0.4, 1.5) }).contains("1.5"));
+        assert!(message(Lobe::schlick(0.2, 0.0, 0.5)).contains("isotropy"));
+        assert!(Lobe { fresnel: FresnelForm::Constant, ..Lobe::cook_torrance(0.4, 1.0) }.check().is_ok());
+    }
+}

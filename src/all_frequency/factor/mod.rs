@@ -1,0 +1,37 @@
+//! Factors of reflectance (section 3): f(v, s) = b(v, s) s_z as a sum of products G_k(v) F_k(s).
+//!
+//! - [`ProductFunction`]: f of a reflectance; [`Lobe`] has the forms that the paper leaves open, [`Brdf`] are those of
+//!   `transfer::brdf`, [`MerlBrdf`] measured ones;
+//! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`], with what the paper leaves open as named options;
+//! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
+//!   texels;
+//! - [`ProductErrors`], [`harmonic_errors`]: how far approximations are off, by terms and by spherical harmonics.
+//!
+//! Directions are local: z is the normal, x the tangent.
+
+mod disc;
+mod error;
+mod factorization;
+mod factors;
+mod harmonics;
+mod lobe;
+mod merl;
+mod motion;
+mod product;
+mod sampling;
+mod table;
+
+pub use disc::{DiscSamples, ProductErrors};
+pub use error::FactorizationError;
+pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
+pub use factors::{DiffuseFactor, ProductFactors};
+pub use harmonics::{HarmonicFit, HarmonicSides, harmonic_errors};
+pub use lobe::{Denominators, FacetDistribution, FresnelForm, Lobe, Shadowing, TangentCosine};
+pub use merl::{MERL_CELLS, MerlBrdf, MerlChannel, MerlError, MerlProduct, load_merl, parse_merl};
+pub use motion::ProductSymmetry;
+pub use product::ProductFunction;
+pub use sampling::{FactorSampling, MAX_SUPERSAMPLES, OutsideDisc, ProductClamp, Supersamples};
+pub use table::{MAX_MAP_SIDE, ProductTable, ProductTableError, load_product_table};
+
+#[cfg(doc)]
+use crate::transfer::brdf::Brdf;

@@ -1,0 +1,323 @@
+//! f on parabolic maps (section 3, its second and third paragraph).
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::error::FactorizationError;
+use super::motion::{Motion, moved, moved_back};
+use super::product::ProductFunction;
+use super::table::{MAX_MAP_SIDE, ProductTable};
+use crate::linalg::Matrix;
+use crate::sphere::ParabolicMap;
+
+/// Samples along an edge of a texel, at most.
+pub const MAX_SUPERSAMPLES: usize = 16;
+
+/// Views whose rows are computed between two reports of progress.
+const BATCH: usize = 16;
+
+/// Samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor of 16 x
+/// 16" may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Supersamples {
+    /// Along an edge of the view's texel.
+    pub view: usize,
+    /// Along an edge of the light's.
+    pub light: usize,
+}
+
+impl Supersamples {
+    /// One sample per pair of texels, at their centers.
+    pub const NONE: Self = Self { view: 1, light: 1 };
+    /// 4 x 4 views times 4 x 4 lights: 256 samples per pair.
+    pub const FOUR_EACH: Self = Self { view: 4, light: 4 };
+    /// 16 x 16 views.
+    pub const VIEW: Self = Self { view: 16, light: 1 };
+    /// 16 x 16 lights.
+    pub const LIGHT: Self = Self { view: 1, light: 16 };
+    /// 16 x 16 views times 16 x 16 lights: 65,536 samples per pair.
+    pub const SIXTEEN_EACH: Self = Self { view: 16, light: 16 };
+}
+
+/// What samples beyond the disc of a map hold, whose directions lie below the horizon: 212 of 1,024 texels of a map of
+/// 32 x 32 have their centers there, and more have some of their samples.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OutsideDisc {
+    /// 0.
+    #[default]
+    Zero,
+    /// The formula of f continued below the horizon, with its signs; 0 where that is no finite number.
+    Continued,
+    /// f at the same azimuth half a texel inside of the rim.
+    Rim,
+}
+
+/// Where f is cut off, "bigger than 3" in the paper. Values below minus the limit, which only
+/// [`OutsideDisc::Continued`] makes, are cut off there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ProductClamp {
+    /// Nowhere.
+    None,
+    /// Each sample, before the mean over a pair of texels is taken.
+    Samples(f64),
+    /// The mean.
+    Means(f64),
+}
+
+/// How f is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FactorSampling {
+    /// Texels along an edge of both maps, 1 to [`MAX_MAP_SIDE`].
+    pub side: usize,
+    /// Samples per texel, 1 to [`MAX_SUPERSAMPLES`] along an edge.
+    pub supersamples: Supersamples,
+    /// What samples beyond the disc hold.
+    pub outside: OutsideDisc,
+    /// Where f is cut off.
+    pub clamp: ProductClamp,
+}
+
+/// The paper's figures, and of what it leaves open the first reading.
+impl Default for FactorSampling {
+    fn default() -> Self {
+        Self {
+            side: 32,
+            supersamples: Supersamples::FOUR_EACH,
+            outside: OutsideDisc::Zero,
+            clamp: ProductClamp::Means(3.0),
+        }
+    }
+}
+
+impl ProductClamp {
+    /// The limit; infinite without one.
+    pub const fn limit(self) -> f64 {
+        match self {
+            Self::None => f64::INFINITY,
+            Self::Samples(limit) | Self::Means(limit) => limit,
+        }
+    }
+}
+
+impl FactorSampling {
+    /// Whether all figures are in range.
+    ///
+    /// # Errors
+    /// [`FactorizationError::OutOfRange`] names the first that is not.
+    pub fn check(&self) -> Result<(), FactorizationError> {
+        let of = |what, expected, found: f64, fits: bool| {
+            if fits { Ok(()) } else { Err(FactorizationError::OutOfRange { what, expected, found }) }
+        };
+        let within = |most: usize, found: usize| (1..=most).contains(&found);
+        of("side of the maps", "1 to 48 texels", self.side as f64, within(MAX_MAP_SIDE, self.side))?;
+        for found in [self.supersamples.view, self.supersamples.light] {
+            let what = "samples along an edge of a texel";
+            of(what, "1 to 16", found as f64, within(MAX_SUPERSAMPLES, found))?;
+        }
+        let limit = self.clamp.limit();
+        of("limit of f", "a number above 0", limit, limit > 0.0)
+    }
+
+    /// The table of f: each value the mean over the samples of a pair of texels, added view by view, light by light.
+    /// `progress` hears how many views are done, of how many. The bits do not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`FactorizationError`] for figures out of range, and for a continuation that f does not have.
+    pub fn table(
+        &self,
+        product: &dyn ProductFunction,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<ProductTable, FactorizationError> {
+        self.check()?;
+        if self.outside == OutsideDisc::Continued && !product.continues() {
+            return Err(FactorizationError::NotContinued { what: product.name() });
+        }
+        let map = ParabolicMap::new(self.side);
+        let [views, lights] = [self.supersamples.view, self.supersamples.light].map(|edge| self.directions(edge));
+        let motions = product.symmetry().motions();
+        let whole = Whole { motions, side: self.side };
+        let first: Vec<usize> = (0..map.texels()).filter(|&texel| whole.first(texel).0 == texel).collect();
+        let mut values = Matrix::zeros([map.texels(); 2])?;
+        for (batch, texels) in first.chunks(BATCH).enumerate() {
+            progress((batch * BATCH) as u64, first.len() as u64);
+            let rows: Vec<Vec<f64>> = texels.par_iter().map(|&view| self.row(product, &views[view], &lights)).collect();
+            texels.iter().zip(rows).for_each(|(&view, row)| values.row_mut(view).copy_from_slice(&row));
+        }
+        for texel in 0..map.texels() {
+            let (from, motion) = whole.first(texel);
+            if from != texel {
+                let row: Vec<f64> =
+                    (0..map.texels()).map(|light| values.row(from)[moved_back(motion, self.side, light)]).collect();
+                values.row_mut(texel).copy_from_slice(&row);
+            }
+        }
+        Ok(ProductTable::new([map; 2], values))
+    }
+
+    fn row(&self, product: &dyn ProductFunction, views: &[DVec3], lights: &[Vec<DVec3>]) -> Vec<f64> {
+        let Supersamples { view, light } = self.supersamples;
+        let count = (view * view * light * light) as f64;
+        let (sample_limit, mean_limit) = match self.clamp {
+            ProductClamp::None => (f64::INFINITY, f64::INFINITY),
+            ProductClamp::Samples(limit) => (limit, f64::INFINITY),
+            ProductClamp::Means(limit) => (f64::INFINITY, limit),
+        };
+        let mean = |lights: &Vec<DVec3>| {
+            let mut sum = 0.0;
+            for &view in views {
+                for &light in lights {
+                    let value = product.value(view, light);
+                    // The continued formula has poles below the horizon.
+                    sum += if value.is_finite() { value.clamp(-sample_limit, sample_limit) } else { 0.0 };
+                }
+            }
+            (sum / count).clamp(-mean_limit, mean_limit)
+        };
+        lights.iter().map(mean).collect()
+    }
+
+    /// Per texel the directions at which f is asked for; what is missing counts as 0.
+    fn directions(&self, edge: usize) -> Vec<Vec<DVec3>> {
+        let (coarse, fine) = (self.side, ParabolicMap::new(self.side * edge));
+        let of_texel = |texel: usize| {
+            let [column, row] = [texel % coarse * edge, texel / coarse * edge];
+            let samples = (0..edge * edge).map(|at| fine.direction(column + at % edge, row + at / edge));
+            samples.filter_map(|direction| self.asked(direction)).collect()
+        };
+        (0..coarse * coarse).map(of_texel).collect()
+    }
+
+    fn asked(&self, direction: DVec3) -> Option<DVec3> {
+        if direction.z > 0.0 {
+            return Some(direction);
+        }
+        match self.outside {
+            OutsideDisc::Zero => None,
+            OutsideDisc::Continued => Some(direction),
+            OutsideDisc::Rim => {
+                let radius = 1.0 - 1.0 / (self.side.max(2) as f64);
+                let [s, t] = [direction.x, direction.y].map(|along| along / (1.0 + direction.z));
+                let scale = radius / (s * s + t * t).sqrt();
+                let square = radius * radius;
+                Some(DVec3::new(2.0 * scale * s, 2.0 * scale * t, 1.0 - square) / (1.0 + square))
+            }
+        }
+    }
+}
+
+/// A map under a group of motions.
+struct Whole {
+    motions: &'static [Motion],
+    side: usize,
+}
+
+impl Whole {
+    /// The first texel that motions take to this one, and such a motion.
+    fn first(&self, texel: usize) -> (usize, Motion) {
+        let from = |&motion: &Motion| (moved_back(motion, self.side, texel), motion);
+        let mut all = self.motions.iter().map(from);
+        let same = all.next().unwrap_or((texel, [[1, 0], [0, 1]]));
+        let first = all.fold(same, |first, other| if other.0 < first.0 { other } else { first });
+        debug_assert_eq!(moved(first.1, self.side, first.0), texel, "a motion takes the first texel here");
+        first
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::all_frequency::factor::{FresnelForm, Lobe, ProductSymmetry};
+    use crate::transfer::brdf::Brdf;
+
+    /// A product function without its symmetry.
+    struct Plain(Lobe);
+
+    impl ProductFunction for Plain {
+        fn value(&self, view: DVec3, light: DVec3) -> f64 {
+            self.0.value(view, light)
+        }
+
+        fn continues(&self) -> bool {
+            true
+        }
+
+        fn symmetry(&self) -> ProductSymmetry {
+            ProductSymmetry::None
+        }
+
+        fn name(&self) -> &'static str {
+            "plain"
+        }
+    }
+
+    fn table(sampling: FactorSampling, product: &dyn ProductFunction) -> ProductTable {
+        sampling.table(product, &mut |_, _| ()).expect("a table")
+    }
+
+    fn largest_difference(a: &ProductTable, b: &ProductTable) -> f64 {
+        let pairs = a.values().rows().flatten().zip(b.values().rows().flatten());
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn symmetry_saves_work_and_changes_nothing() {
+        for lobe in [Lobe::cook_torrance(0.4, 0.5), Lobe::schlick(0.2, 0.2, 0.8)] {
+            for outside in [OutsideDisc::Zero, OutsideDisc::Continued, OutsideDisc::Rim] {
+                for side in [5, 8] {
+                    let supersamples = Supersamples { view: 2, light: 3 };
+                    let sampling = FactorSampling { side, supersamples, outside, ..FactorSampling::default() };
+                    let difference = largest_difference(&table(sampling, &lobe), &table(sampling, &Plain(lobe)));
+                    // Poles of the continued formulas magnify rounding.
+                    assert!(difference < 1e-11, "{lobe:?} {outside:?} {side}: {difference}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_are_means_over_the_samples_of_a_pair() {
+        let lobe = Lobe { fresnel: FresnelForm::Constant, ..Lobe::cook_torrance(0.5, 0.6) };
+        let clamp = ProductClamp::Samples(0.1);
+        let supersamples = Supersamples { view: 2, light: 2 };
+        let sampling = FactorSampling { side: 4, supersamples, clamp, outside: OutsideDisc::Zero };
+        let found = table(sampling, &lobe);
+        let (fine, mut sum) = (ParabolicMap::new(8), 0.0);
+        // View texel (1, 2), light texel (3, 2), of which a part lies below the horizon.
+        for (a, b, c, d) in (0..16).map(|at| (at & 1, at >> 1 & 1, at >> 2 & 1, at >> 3 & 1)) {
+            let [view, light] = [fine.direction(2 + a, 4 + b), fine.direction(6 + c, 4 + d)];
+            sum += if light.z > 0.0 { lobe.value(view, light).min(0.1) } else { 0.0 };
+        }
+        let value = found.values().row(9)[11];
+        assert!((value - sum / 16.0).abs() < 1e-16 && value > 0.0, "{value} {}", sum / 16.0);
+    }
+
+    #[test]
+    fn what_lies_beyond_the_disc_is_a_choice() {
+        let lambert = Brdf::Lambert { albedo: std::f64::consts::PI };
+        let corner = |outside| {
+            let sampling = FactorSampling { supersamples: Supersamples::NONE, outside, ..FactorSampling::default() };
+            table(sampling, &lambert).values().row(16 * 33)[0]
+        };
+        let z = ParabolicMap::new(32).direction(0, 0).z;
+        assert_eq!([corner(OutsideDisc::Zero), corner(OutsideDisc::Continued)], [0.0, z]);
+        let rim = corner(OutsideDisc::Rim);
+        assert!((rim - (1.0 - 0.96875 * 0.96875) / (1.0 + 0.96875 * 0.96875)).abs() < 1e-15, "{rim}");
+    }
+
+    #[test]
+    fn bad_figures_are_refused() {
+        let ward = Brdf::Ward { albedo: 0.0, specular: 0.5, roughness: [0.2, 0.3] };
+        let message = |sampling: FactorSampling| {
+            sampling.table(&ward, &mut |_, _| ()).map(|_| ()).expect_err("refused").to_string()
+        };
+        let base = FactorSampling::default();
+        assert_eq!(
+            message(FactorSampling { side: 0, ..base }),
+            "expected 1 to 48 texels for the side of the maps, found 0"
+        );
+        assert!(message(FactorSampling { clamp: ProductClamp::Means(f64::NAN), ..base }).contains("limit of f"));
+        let supersamples = Supersamples { view: 17, light: 1 };
+        assert!(message(FactorSampling { supersamples, ..base }).contains("1 to 16"));
+        assert!(message(FactorSampling { outside: OutsideDisc::Continued, ..base }).contains("below the horizon"));
+    }
+}

@@ -1,0 +1,26 @@
+//! System 5: all-frequency transfer for glossy objects (Liu, Sloan, Shum and Snyder 2004).
+//!
+//! - [`factor`]: reflectance as a sum of products of a function of view and a function of light (section 3);
+//! - [`Reflectance`]: these factors, or the exact term of a diffuse surface;
+//! - [`transfer`]: matrices of vertices (section 4), over the light texels of [`grid`](crate::transfer::grid);
+//! - [`compressed`]: each lighting segment's transfer by clusters of linear combinations (section 5);
+//! - [`mod@file`]: compressed transfer in `.prt` files;
+//! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
+//! - [`shade`]: transferred radiance from coded transfer and light (section 6);
+//! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);
+//! - [`rivals`]: the methods that Figure 1 compares with;
+//! - [`mod@reference`]: all of it by plain loops, without compression.
+
+pub mod code;
+pub mod compressed;
+pub mod factor;
+pub mod file;
+pub mod kernels;
+pub mod on_card;
+pub mod reference;
+mod reflectance;
+pub mod rivals;
+pub mod shade;
+pub mod transfer;
+
+pub use reflectance::Reflectance;

@@ -1,0 +1,79 @@
+//! Step 4 of section 6 by plain loops in f64: of vertices, and of pixels from what is interpolated between vertices.
+
+use glam::DVec3;
+
+use super::subject::TransferredMesh;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::kernels::ViewNumbers;
+use crate::geom::vector::wide;
+use crate::sphere::ParabolicMap;
+
+/// G(v) . T_p times the surface's color, per vertex: red, green, blue, of any sign. There is nothing to see from below.
+pub fn vertex_radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
+    let mut all = Vec::with_capacity(mesh.vertices.len());
+    for vertex in 0..mesh.vertices.len() {
+        let view = wide(eye) - wide(mesh.vertices.positions()[vertex]);
+        let mut g = vec![0.0; mesh.terms()];
+        mesh.reflectance.view(mesh.vertices.frames()[vertex].to_local(view.normalize_or_zero()), &mut g);
+        let mut radiance = [0.0; 3];
+        for (row, g) in mesh.transferred.of(vertex).iter().zip(&g) {
+            (0..3).for_each(|channel| radiance[channel] += g * f64::from(row[channel]));
+        }
+        let color = mesh.color(vertex);
+        all.push([0, 1, 2].map(|channel| radiance[channel] * color[channel]));
+    }
+    all
+}
+
+/// Colors of vertices, interpolated.
+pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]) -> [f64; 3] {
+    let mut pixel = [0.0; 3];
+    for (corner, weight) in corners.into_iter().zip(weights) {
+        (0..3).for_each(|channel| pixel[channel] += weight * colors[corner as usize][channel]);
+    }
+    pixel
+}
+
+/// G(v) . T_p of a pixel: transferred radiance times the surface's color is interpolated between three vertices, and
+/// with it what `view` says. Below the horizon G continues as its map does.
+pub fn pixel_of_products(
+    mesh: &TransferredMesh<'_>,
+    (view, eye): (ViewNumbers, [f32; 3]),
+    corners: [u32; 3],
+    weights: [f64; 3],
+) -> [f64; 3] {
+    let towards = |corner: u32| {
+        let view = wide(eye) - wide(mesh.vertices.positions()[corner as usize]);
+        mesh.vertices.frames()[corner as usize].to_local(view)
+    };
+    let direction = match view {
+        ViewNumbers::Vector => {
+            let mut sum = DVec3::ZERO;
+            for (corner, weight) in corners.into_iter().zip(weights) {
+                sum += weight * towards(corner);
+            }
+            sum.normalize_or_zero()
+        }
+        ViewNumbers::Coordinates => {
+            let mut sum = [0.0; 2];
+            for (corner, weight) in corners.into_iter().zip(weights) {
+                let at = ParabolicMap::coordinates_of(towards(corner).normalize_or_zero());
+                sum = [sum[0] + weight * at[0], sum[1] + weight * at[1]];
+            }
+            ParabolicMap::direction_at(sum)
+        }
+    };
+    let mut g = vec![0.0; mesh.terms()];
+    match mesh.reflectance {
+        Reflectance::Factored(factors) => factors.view(direction, &mut g),
+        Reflectance::Diffuse => mesh.reflectance.view(DVec3::Z, &mut g),
+    }
+    let mut pixel = [0.0; 3];
+    for (corner, weight) in corners.into_iter().zip(weights) {
+        let color = mesh.color(corner as usize);
+        for (row, g) in mesh.transferred.of(corner as usize).iter().zip(&g) {
+            (0..3).for_each(|channel| pixel[channel] += weight * g * f64::from(row[channel]) * color[channel]);
+        }
+    }
+    pixel
+}

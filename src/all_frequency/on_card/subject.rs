@@ -1,0 +1,45 @@
+//! What is drawn: a mesh whose vertices have transferred radiance.
+
+use super::error::FactoredCardError;
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::shade::TransferredRadiance;
+use crate::transfer::Vertices;
+
+/// A mesh with transferred radiance at its vertices.
+#[derive(Clone, Copy, Debug)]
+pub struct TransferredMesh<'a> {
+    /// The mesh.
+    pub vertices: &'a Vertices,
+    /// What its transfer was computed for.
+    pub reflectance: &'a Reflectance,
+    /// Per material the surface's color.
+    pub colors: &'a [[f64; 3]],
+    /// T_p of each vertex.
+    pub transferred: &'a TransferredRadiance,
+}
+
+impl TransferredMesh<'_> {
+    /// The number of terms m.
+    pub fn terms(&self) -> usize {
+        self.reflectance.terms()
+    }
+
+    /// The surface's color at a vertex.
+    pub(super) fn color(&self, vertex: usize) -> [f64; 3] {
+        self.colors[self.vertices.materials()[vertex] as usize]
+    }
+
+    /// Checks that the parts go together.
+    pub(super) fn check(&self) -> Result<(), FactoredCardError> {
+        let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
+        let sizes = [
+            ("vertices with transferred radiance", self.vertices.len(), self.transferred.vertices()),
+            ("rows, one per term", self.terms(), self.transferred.rows()),
+            ("colors, one per material", materials, self.colors.len().min(materials)),
+        ];
+        match sizes.into_iter().find(|(_, expected, found)| expected != found) {
+            Some((what, expected, found)) => Err(FactoredCardError::Size { what, expected, found }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! Step 3 of section 6 by an emulated card: T_p of all vertices as weighted sums of their clusters' T (equation 13),
+//! "dense rather than sparse" and therefore "suitable for GPU implementation", as the paper says and did not do.
+//!
+//! A texel is a vertex. Weights and the places of clusters stay on the card; T of the representatives is sent for each
+//! light. A pass adds sixteen representatives of a segment to four numbers of T_p; ten terms of three channels are
+//! eight passes per segment. What is read back goes to the vertices that [`FactoredCard`](super::FactoredCard) draws:
+//! cards of ps_2_0 have no vertices from textures.
+
+use std::sync::Arc;
+
+use refsim::device::Profile;
+use refsim::event::{Event, HostWork};
+use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
+use refsim::machine::{Executor, Machine, TextureId};
+use refsim::output::WriteMask;
+use refsim::texture::TexelFormat;
+use refsim::timing::host::HostOperation;
+
+use super::error::FactoredCardError;
+use crate::all_frequency::code::{CodedSegment, CodedTransfer};
+use crate::all_frequency::kernels::{OF_SUM, SUMMED, SumKernel};
+use crate::all_frequency::shade::{LightSizeError, Representatives, Shader, TransferredRadiance};
+use crate::card::{FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest};
+use crate::cpca::on_card::PrtCardError;
+
+/// Everything is in single precision: weights are the integers of the code, and their steps are in T.
+const FORMAT: TexelFormat = TexelFormat::Rgba32f;
+/// Vertices in a row of texels.
+const ROW: usize = 1024;
+/// Numbers of a texel.
+const NUMBERS: usize = 4;
+
+/// Sixteen representatives of a segment's clusters.
+#[derive(Debug)]
+struct SumPart {
+    /// The number of the segment's first representative among those of all.
+    first: usize,
+    /// Per cluster its first representative in the segment, and how many of the sixteen there are.
+    clusters: Vec<(usize, usize)>,
+    /// Of the first slice of a segment too.
+    places: TextureId,
+    weights: [TextureId; SUMMED / NUMBERS],
+    /// T of the representatives, replaced group by group.
+    representatives: TextureId,
+    /// Extents of that texture.
+    size: [usize; 2],
+}
+
+/// Coded transfer on a card that sums it.
+#[derive(Debug)]
+pub struct SumCard {
+    machine: Machine,
+    shader: Shader,
+    rows: usize,
+    vertices: usize,
+    size: [usize; 2],
+    parts: Vec<SumPart>,
+    programs: [CheckedProgram; 2],
+    targets: PingPong,
+}
+
+/// What the sums of a light ask of host and card.
+#[derive(Clone, Debug, Default)]
+pub struct SumLog {
+    /// For [`crate::cpca::on_card::time::frame_time`]: step 2 on the host, T on its way, passes, T_p on its way back.
+    pub events: Vec<Event>,
+    /// Passes.
+    pub passes: usize,
+    /// Bytes that are sent for a light.
+    pub sent: u64,
+    /// Bytes that come back.
+    pub returned: u64,
+}
+
+impl SumCard {
+    /// Uploads weights and the places of clusters.
+    ///
+    /// # Errors
+    /// [`FactoredCardError`] if the device lacks the language, samplers, texture formats or size.
+    pub fn new(
+        profile: impl Into<Arc<Profile>>,
+        executor: impl Into<Executor>,
+        coded: &CodedTransfer,
+    ) -> Result<Self, FactoredCardError> {
+        let profile = profile.into();
+        PrtCardError::check_version(&profile, Version::ArbFp1_0, "sums over representatives")?;
+        let kernels = [true, false].map(|is_first| SumKernel { is_first });
+        let needed = kernels[1].samplers();
+        let found = profile.limits.samplers.map_or(16, |limit| limit as usize).min(16);
+        if needed > found {
+            let (device, terms) = (profile.name.clone(), coded.rows);
+            return Err(FactoredCardError::Samplers { terms, format: FORMAT, needed, device, found });
+        }
+        let side = profile.limits.max_texture_size.map_or(4096, |limit| limit as usize).min(4096);
+        let [first, next] = kernels.map(|kernel| kernel.checked(&profile));
+        let programs = [first?, next?];
+        let size = [coded.vertices.clamp(1, ROW.min(side)), coded.vertices.div_ceil(ROW.min(side)).max(1)];
+        within("vertices", coded.vertices, (size[1], side), &profile)?;
+        let mut machine = executor.into().machine(profile.clone())?;
+        let mut parts = Vec::new();
+        let mut first = 0;
+        for part in &coded.segments {
+            let most = part.counts.iter().map(|&count| usize::from(count)).max().unwrap_or(0);
+            let columns = (side / SUMMED).min(part.counts.len()).max(1);
+            let extents = [columns * SUMMED, part.counts.len().div_ceil(columns).max(1)];
+            within("clusters of a segment", part.counts.len(), (extents[1], side), &profile)?;
+            let places = places(part, columns, size).upload(&mut machine, FORMAT)?;
+            for slice in 0..most.div_ceil(SUMMED) {
+                let weights = weights(part, slice, size);
+                let uploads = weights.each_ref().map(|texels| texels.upload(&mut machine, FORMAT));
+                let [a, b, c, d] = uploads;
+                let empty = Texels::from_fn(extents, |_, _| [0.0; NUMBERS]);
+                parts.push(SumPart {
+                    first,
+                    clusters: slices(part, slice),
+                    places,
+                    weights: [a?, b?, c?, d?],
+                    representatives: empty.upload(&mut machine, FORMAT)?,
+                    size: extents,
+                });
+            }
+            first += part.representatives.rows();
+        }
+        let targets = PingPong::new(&mut machine, FORMAT, size)?;
+        let shader = Shader::new(coded, Representatives::Sparse);
+        Ok(Self { machine, shader, rows: coded.rows, vertices: coded.vertices, size, parts, programs, targets })
+    }
+
+    /// The emulated card.
+    pub fn machine_mut(&mut self) -> &mut Machine {
+        &mut self.machine
+    }
+
+    /// Bytes of textures that stay on the card.
+    pub fn texture_bytes(&self) -> u64 {
+        let of_vertices = (self.size[0] * self.size[1]) as u64;
+        let part = |part: &SumPart| {
+            let own = (part.size[0] * part.size[1]) as u64;
+            (1 + SUMMED / NUMBERS) as u64 * of_vertices + own
+        };
+        16 * (2 * of_vertices + self.parts.iter().map(part).sum::<u64>())
+    }
+
+    /// T_p of all vertices under light: step 2 on the host, step 3 on the card.
+    ///
+    /// # Errors
+    /// [`FactoredCardError`]: light for fewer segments, draws that the card refuses.
+    pub fn transferred(&mut self, light: &[[f32; 3]]) -> Result<(TransferredRadiance, SumLog), FactoredCardError> {
+        let products = self.shader.per_cluster(light).map_err(|LightSizeError { expected, found, .. }| {
+            FactoredCardError::Size { what: "light coefficients", expected, found }
+        })?;
+        let numbers = 3 * self.rows;
+        let mut log = SumLog::default();
+        let host = HostWork {
+            kind: HostOperation::MultiplyAdd.name().into(),
+            operations: self.shader.multiplies(light).per_cluster,
+        };
+        log.events.push(Event::Host(host));
+        let mut values = vec![[0.0_f32; 3]; self.vertices * self.rows];
+        let into = values.as_flattened_mut();
+        self.machine.record(true);
+        for group in 0..numbers.div_ceil(NUMBERS) {
+            let summed = self.group(group, &products, &mut log);
+            if summed.is_err() {
+                self.machine.record(false);
+            }
+            for (vertex, texel) in summed?.texels.iter().take(self.vertices).enumerate() {
+                let begin = vertex * numbers + NUMBERS * group;
+                let end = (begin + NUMBERS).min((vertex + 1) * numbers);
+                into[begin..end].copy_from_slice(&texel[..end - begin]);
+            }
+        }
+        self.machine.record(false);
+        log.events.extend(self.machine.take_log());
+        Ok((TransferredRadiance::new(self.rows, values), log))
+    }
+
+    /// Four numbers of all vertices.
+    fn group(&mut self, group: usize, products: &[f32], log: &mut SumLog) -> Result<Texels, FactoredCardError> {
+        let none = constants([]);
+        for (pass, part) in self.parts.iter().enumerate() {
+            let texels = part.texels(&self.shader, products, group, 3 * self.rows);
+            texels.update(&mut self.machine, part.representatives, FORMAT)?;
+            log.sent += 16 * texels.texels.len() as u64;
+            let mut textures: Vec<ReadTexture> = nearest([part.places]).to_vec();
+            textures.extend(nearest(part.weights));
+            textures.extend(nearest([part.representatives]));
+            if pass > 0 {
+                debug_assert_eq!(textures.len(), OF_SUM, "the sum's sampler");
+                textures.extend(nearest([self.targets.read_by(pass)]));
+            }
+            let pass_of = FullScreenPass {
+                program: &self.programs[usize::from(pass > 0)],
+                constants: &none,
+                textures: &textures,
+                target: self.targets.written_by(pass),
+                mask: WriteMask::ALL,
+                part: None,
+            };
+            pass_of.draw_counting(&mut self.machine, self.size)?;
+            log.passes += 1;
+        }
+        let Some(last) = self.parts.len().checked_sub(1) else {
+            return Ok(Texels::from_fn(self.size, |_, _| [0.0; NUMBERS]));
+        };
+        let texels = Texels::read_back(&self.machine, self.targets.written_by(last))?;
+        log.returned += 16 * texels.texels.len() as u64;
+        Ok(texels)
+    }
+}
+
+impl SumPart {
+    /// Four numbers of T of each representative.
+    fn texels(&self, shader: &Shader, products: &[f32], group: usize, numbers: usize) -> Texels {
+        let columns = self.size[0] / SUMMED;
+        Texels::from_fn(self.size, |x, y| {
+            let cluster = y * columns + x / SUMMED;
+            let Some(&(first, count)) = self.clusters.get(cluster) else { return [0.0; NUMBERS] };
+            if x % SUMMED >= count {
+                return [0.0; NUMBERS];
+            }
+            let of = shader.product_of(products, self.first + first + x % SUMMED);
+            [0, 1, 2, 3].map(|k| if NUMBERS * group + k < numbers { of[NUMBERS * group + k] } else { 0.0 })
+        })
+    }
+}
+
+/// Refuses more rows of texels than a texture has.
+fn within(
+    what: &'static str,
+    count: usize,
+    (needed, found): (usize, usize),
+    profile: &Profile,
+) -> Result<(), FactoredCardError> {
+    if needed <= found {
+        return Ok(());
+    }
+    Err(FactoredCardError::TextureSize { what, count, needed, device: profile.name.clone(), found })
+}
+
+/// Per vertex the texel of its cluster's first representative: the first texel where the segment is empty.
+fn places(part: &CodedSegment, columns: usize, size: [usize; 2]) -> Texels {
+    let mut texels = Texels::from_fn(size, |_, _| [0.5, 0.5, 0.0, 0.0]);
+    for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
+        let cluster = usize::from(cluster);
+        let [x, y] = [SUMMED * (cluster % columns), cluster / columns].map(|at| at as f32 + 0.5);
+        texels.texels[vertex as usize] = [x, y, 0.0, 0.0];
+    }
+    texels
+}
+
+/// Per vertex the integers of its weights on sixteen representatives: 0 where there are fewer, or none.
+fn weights(part: &CodedSegment, slice: usize, size: [usize; 2]) -> [Texels; SUMMED / NUMBERS] {
+    let mut texels = [0, 1, 2, 3].map(|_| Texels::from_fn(size, |_, _| [0.0; NUMBERS]));
+    let mut begin = 0;
+    for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
+        let count = usize::from(part.counts[usize::from(cluster)]);
+        let own = &part.weights[begin..begin + count];
+        begin += count;
+        for (k, &weight) in own.iter().skip(SUMMED * slice).take(SUMMED).enumerate() {
+            texels[k / NUMBERS].texels[vertex as usize][k % NUMBERS] = f32::from(weight);
+        }
+    }
+    texels
+}
+
+/// Per cluster the representatives of a slice: the number of the first in the segment, and how many.
+fn slices(part: &CodedSegment, slice: usize) -> Vec<(usize, usize)> {
+    let counts = part.counts.iter().zip(part.firsts());
+    let of = |(&count, first): (&u8, usize)| {
+        (first + SUMMED * slice, usize::from(count).saturating_sub(SUMMED * slice).min(SUMMED))
+    };
+    counts.map(of).collect()
+}

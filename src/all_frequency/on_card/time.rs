@@ -1,0 +1,174 @@
+//! How long a frame takes (Table 1): the host's steps by one constant, numbers on their way, vertices and pixels.
+
+use std::sync::Arc;
+
+use refsim::event::{Event, FlowConstants, HostWork, ProgramWork, ResourceId};
+use refsim::isa::Version;
+use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
+
+use super::options::{ProductPlace, VertexColors, ViewMaker};
+use super::subject::TransferredMesh;
+use crate::all_frequency::kernels::TransferredVertexKernel;
+use crate::all_frequency::shade::Multiplies;
+use crate::cpca::kernels::SHADE;
+use crate::cpca::on_card::estimate::unseen_draw;
+
+/// Channels of light.
+const CHANNELS: u64 = 3;
+/// Representatives of a cluster, in all of Table 1.
+const REPRESENTATIVES: u64 = 16;
+/// Lighting segments, and coefficients of each.
+const SEGMENTS: u64 = 24;
+const COEFFICIENTS: u64 = 256;
+
+/// A column of Table 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PrintedModel {
+    /// The name and, in parentheses, d for diffuse and g for glossy.
+    pub name: &'static str,
+    /// Vertices, in hundreds.
+    pub vertex_hundreds: u64,
+    /// Terms m.
+    pub terms: u64,
+    /// Clusters of all segments.
+    pub clusters: u64,
+    /// omega, in thousandths.
+    pub omega_thousandths: u64,
+    /// Frames in ten seconds, drawn and not drawn.
+    pub frames_in_ten_seconds: [u64; 2],
+}
+
+const fn printed(
+    (name, terms): (&'static str, u64),
+    vertex_hundreds: u64,
+    clusters: u64,
+    omega_thousandths: u64,
+    frames_in_ten_seconds: [u64; 2],
+) -> PrintedModel {
+    PrintedModel { name, vertex_hundreds, terms, clusters, omega_thousandths, frames_in_ten_seconds }
+}
+
+/// Table 1.
+pub const TABLE_1: [PrintedModel; 6] = [
+    printed(("bunny", 10), 115, 763, 560, [50, 62]),
+    printed(("teapot", 10), 513, 3801, 618, [12, 13]),
+    printed(("tweety (d)", 1), 328, 2260, 576, [84, 140]),
+    printed(("tweety (g)", 10), 328, 2263, 576, [17, 18]),
+    printed(("buddha (d)", 1), 541, 2739, 424, [66, 94]),
+    printed(("buddha (g)", 10), 541, 2740, 424, [11, 12]),
+];
+
+impl PrintedModel {
+    /// Multiplications of a frame, no representative's zeros skipped: 3 n m 256 per cluster, 24 omega 3 n m per vertex.
+    pub fn multiplies(&self) -> Multiplies {
+        let per_row = CHANNELS * REPRESENTATIVES * self.terms;
+        Multiplies {
+            per_cluster: self.clusters * per_row * COEFFICIENTS,
+            per_vertex: self.vertex_hundreds * SEGMENTS * self.omega_thousandths * per_row / 10,
+        }
+    }
+
+    /// Multiplications a second that the printed rate without drawing is.
+    pub fn multiplies_per_second(&self) -> f64 {
+        let Multiplies { per_cluster, per_vertex } = self.multiplies();
+        (per_cluster + per_vertex) as f64 * self.frames_in_ten_seconds[1] as f64 / 10.0
+    }
+}
+
+/// The host of section 7 (two processors of 3 GHz), calibrated on one figure: a frame of each model of Table 1, one
+/// after the other, without drawing.
+///
+/// # Errors
+/// None for the figures as printed.
+pub fn host_of_table_1() -> Result<HostModel, HostError> {
+    let work = |model: &PrintedModel| {
+        let Multiplies { per_cluster, per_vertex } = model.multiplies();
+        per_cluster + per_vertex
+    };
+    let seconds: f64 = TABLE_1.iter().map(|model| 10.0 / model.frames_in_ten_seconds[1] as f64).sum();
+    let work = TABLE_1.iter().map(work).sum::<u64>();
+    // Whole seconds: as many frames as take a thousand times as long.
+    let counts = HostCounts::default().with(HostOperation::MultiplyAdd, 1000 * work);
+    HostModel::calibrate(&counts, (1000.0 * seconds).round() as u64, 1)
+}
+
+/// Vertex streams are no resource of the emulated card; in logs this number stands for the one of a frame.
+const VERTEX_STREAM: ResourceId = ResourceId::Texture(1 << 20);
+
+/// Bytes that a frame sends per vertex.
+pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
+    match place {
+        ProductPlace::Vertices(VertexColors::Bytes) => 4,
+        ProductPlace::Vertices(VertexColors::Floats) => 12,
+        ProductPlace::Pixels(_) if terms == 1 => 12,
+        ProductPlace::Pixels(options) => {
+            let of_view = if options.view_maker == ViewMaker::Host { options.view.count() } else { 0 };
+            (CHANNELS as usize * terms + of_view) * options.radiance.bytes()
+        }
+    }
+}
+
+/// The host's share of a frame: steps 2 and 3 by what they multiply, 3 m more per vertex (the product with G, or with
+/// what texels of G are divided by), vertices handed over, and their way to the card.
+pub(super) fn host_log(mesh: &TransferredMesh<'_>, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
+    share_of_host(mesh.vertices.len() as u64, mesh.terms(), place, host)
+}
+
+fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
+    let step_4 = CHANNELS * terms as u64 * vertices;
+    let work =
+        |operation: HostOperation, operations| Event::Host(HostWork { kind: operation.name().into(), operations });
+    vec![
+        work(HostOperation::MultiplyAdd, host.per_cluster + host.per_vertex + step_4),
+        work(HostOperation::VertexSent, vertices),
+        Event::Upload { resource: VERTEX_STREAM, bytes: vertices * streamed_bytes(place, terms) as u64 },
+    ]
+}
+
+/// What decides a frame, beside its pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FactoredFrame {
+    /// Vertices of the mesh.
+    pub vertices: u64,
+    /// Its triangles.
+    pub triangles: u64,
+    /// Terms m.
+    pub terms: usize,
+    /// What steps 2 and 3 multiply.
+    pub host: Multiplies,
+    /// Vertices that are run for a triangle, by the order of the mesh and the card's cache of finished vertices.
+    pub run_per_triangle: f64,
+}
+
+/// Constants of a frame: rows of the projection, and the eye.
+const VERTEX_CONSTANTS: u32 = 5;
+/// Instructions, and attributes, of the programs for colors of vertices.
+const COLOR_SLOTS: u64 = 5;
+const COLOR_ATTRIBUTES: u64 = 2;
+
+impl FactoredFrame {
+    /// The log of such a frame: pixels take no time.
+    pub fn log(&self, place: &ProductPlace) -> Vec<Event> {
+        let run = (self.triangles as f64 * self.run_per_triangle).round() as u64;
+        let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
+        let pixel = Arc::new(ProgramWork::new(&program, FlowConstants::default()));
+        let mut log = share_of_host(self.vertices, self.terms, place, self.host);
+        let (passes, vertex) = match place {
+            ProductPlace::Pixels(options) if self.terms > 1 => {
+                let kernel = TransferredVertexKernel {
+                    layout: options.layout(self.terms),
+                    computes_view: options.view_maker == ViewMaker::Program,
+                    version: options.vertex_version.unwrap_or(Version::Vs2_0),
+                };
+                let passes = if options.is_pass_per_channel { 3 } else { 1 };
+                (passes, (kernel.slots() as u64, kernel.attributes() as u64))
+            }
+            _ => (1, (COLOR_SLOTS, COLOR_ATTRIBUTES)),
+        };
+        for _ in 0..passes {
+            log.push(Event::StateChange { changes: 2, constants: VERTEX_CONSTANTS });
+            log.push(unseen_draw([self.triangles, run], vertex, &pixel));
+        }
+        log
+    }
+}

@@ -1,0 +1,382 @@
+//! Coded transfer laid out for rendering.
+//!
+//! All sums run in a fixed order in f32: those of a representative over the light's coefficients, those of a vertex
+//! over its segments and their representatives. So bits depend neither on threads nor on vector instructions, and
+//! sparse representatives give those of plain ones: what is left out would have added 0.
+
+use rayon::prelude::*;
+use refsim::exec::batch::SimdLevel;
+
+use super::{LightSizeError, Multiplies, TransferredRadiance};
+use crate::all_frequency::code::{BLOCK_ROWS, CodedSegment, CodedTransfer, SparseColumn};
+
+/// Numbers that vector instructions take together.
+const LANES: usize = 8;
+/// Vertices per task.
+const VERTICES: usize = 256;
+
+/// How representatives are held while rendering.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Representatives {
+    /// As they are coded: the numbers that are not 0.
+    Sparse,
+    /// All numbers, in f32.
+    Dense,
+}
+
+/// Coded transfer laid out for rendering.
+#[derive(Clone, Debug)]
+pub struct Shader {
+    rows: usize,
+    coefficients: usize,
+    segments: Vec<ShaderSegment>,
+    /// Where each vertex's entries begin, and the last end.
+    begins: Vec<u32>,
+    entries: Vec<Entry>,
+    weights: Vec<i16>,
+    /// Representatives of all segments.
+    representatives: usize,
+}
+
+/// The representatives of a segment.
+#[derive(Clone, Debug)]
+struct ShaderSegment {
+    segment: usize,
+    blocks: Vec<Block>,
+    /// Per representative what the product of its integers with those of its weights is worth.
+    steps: Vec<f32>,
+}
+
+/// Up to 256 representatives.
+#[derive(Clone, Debug)]
+enum Block {
+    /// Per column how many numbers are not 0; their rows and values.
+    Sparse { counts: Vec<u16>, rows: Vec<u8>, values: Vec<i16> },
+    /// All numbers, column by column.
+    Dense { height: usize, values: Vec<f32> },
+}
+
+/// A segment at a vertex.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    /// The number of its cluster's first representative among those of all segments.
+    first: u32,
+    /// Where its weights begin, and their number.
+    weights: u32,
+    count: u32,
+}
+
+impl Shader {
+    /// Lays coded transfer out.
+    pub fn new(transfer: &CodedTransfer, representatives: Representatives) -> Self {
+        let mut entries: Vec<Vec<Entry>> = vec![Vec::new(); transfer.vertices];
+        let (mut weights, mut total) = (Vec::new(), 0);
+        for part in &transfer.segments {
+            let firsts = part.firsts();
+            let mut at = weights.len();
+            weights.extend_from_slice(&part.weights);
+            for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
+                let cluster = usize::from(cluster);
+                let count = usize::from(part.counts[cluster]);
+                let first = (total + firsts[cluster]) as u32;
+                entries[vertex as usize].push(Entry { first, weights: at as u32, count: count as u32 });
+                at += count;
+            }
+            total += part.representatives.rows();
+        }
+        let mut begins = vec![0];
+        begins.extend(entries.iter().scan(0, |end, entries| {
+            *end += entries.len() as u32;
+            Some(*end)
+        }));
+        let segments = transfer.segments.par_iter().map(|part| ShaderSegment::new(part, representatives));
+        Self {
+            rows: transfer.rows,
+            coefficients: transfer.coefficients,
+            segments: segments.collect(),
+            begins,
+            entries: entries.concat(),
+            weights,
+            representatives: total,
+        }
+    }
+
+    /// Numbers per vertex or representative: 3 per row, one more that a write of 4 reaches, and what fills the lanes.
+    fn stride(&self) -> usize {
+        (3 * self.rows + 1).next_multiple_of(LANES)
+    }
+
+    /// T_p of all vertices under light: its coefficients (red, green, blue), segment by segment.
+    ///
+    /// # Errors
+    /// [`LightSizeError`].
+    pub fn transferred(&self, light: &[[f32; 3]]) -> Result<TransferredRadiance, LightSizeError> {
+        Ok(self.weighted(&self.per_cluster(light)?))
+    }
+
+    /// M^i L of all representatives, times the steps of both codes: step 2 of section 6.
+    ///
+    /// # Errors
+    /// [`LightSizeError`].
+    pub fn per_cluster(&self, light: &[[f32; 3]]) -> Result<Vec<f32>, LightSizeError> {
+        let last = self.segments.last().map(|part| part.segment);
+        LightSizeError::check(light.len(), self.coefficients, last)?;
+        let stride = self.stride();
+        let mut products = vec![0.0; self.representatives * stride];
+        let (mut tasks, mut rest) = (Vec::new(), &mut products[..]);
+        for part in &self.segments {
+            let light = &light[part.segment * self.coefficients..][..self.coefficients];
+            for (block, steps) in part.blocks.iter().zip(part.steps.chunks(BLOCK_ROWS)) {
+                let (into, others) = rest.split_at_mut(steps.len() * stride);
+                rest = others;
+                tasks.push((block, steps, light, into));
+            }
+        }
+        let level = SimdLevel::widest();
+        tasks.into_par_iter().for_each(|(block, steps, light, into)| {
+            level.run(
+                #[inline(always)]
+                || block.times(light, stride, steps, into),
+            );
+        });
+        Ok(products)
+    }
+
+    /// Of [`Shader::per_cluster`]'s products those of one representative, counted over all segments: 3 per row.
+    ///
+    /// # Panics
+    /// If there is no such representative, or the products are others.
+    pub fn product_of<'a>(&self, products: &'a [f32], representative: usize) -> &'a [f32] {
+        &products[representative * self.stride()..][..3 * self.rows]
+    }
+
+    /// The weighted sums of [`Shader::per_cluster`]'s products: step 3.
+    pub fn weighted(&self, products: &[f32]) -> TransferredRadiance {
+        let (stride, level) = (self.stride(), SimdLevel::widest());
+        let mut values = vec![0.0; (self.begins.len() - 1) * stride];
+        values.par_chunks_mut(VERTICES * stride).enumerate().for_each(|(task, values)| {
+            level.run(
+                #[inline(always)]
+                || {
+                    for (into, range) in values.chunks_exact_mut(stride).zip(self.begins[task * VERTICES..].windows(2))
+                    {
+                        for entry in &self.entries[range[0] as usize..range[1] as usize] {
+                            let weights = &self.weights[entry.weights as usize..][..entry.count as usize];
+                            let products = products[entry.first as usize * stride..].chunks_exact(stride);
+                            for (&weight, product) in weights.iter().zip(products) {
+                                add_scaled(f32::from(weight), product, into);
+                            }
+                        }
+                    }
+                },
+            );
+        });
+        TransferredRadiance { rows: self.rows, stride, values }
+    }
+
+    /// What rendering under a light multiplies.
+    pub fn multiplies(&self, light: &[[f32; 3]]) -> Multiplies {
+        let lit = |segment: usize, column: usize| {
+            let at = segment * self.coefficients + column % self.coefficients;
+            light.get(at).is_some_and(|rgb| *rgb != [0.0; 3])
+        };
+        let of_block = |segment: usize, block: &Block| -> u64 {
+            let columns = (0..self.rows * self.coefficients).filter(|&column| lit(segment, column));
+            columns.map(|column| block.column_len(column) as u64).sum()
+        };
+        let of_segment = |part: &ShaderSegment| part.blocks.iter().map(|b| of_block(part.segment, b)).sum::<u64>();
+        Multiplies {
+            per_cluster: 3 * self.segments.iter().map(of_segment).sum::<u64>(),
+            per_vertex: 3 * (self.rows * self.weights.len()) as u64,
+        }
+    }
+
+    /// Bytes of representatives and weights as they are held.
+    pub fn bytes(&self) -> usize {
+        let of_block = |block: &Block| match block {
+            Block::Sparse { counts, rows, values } => 2 * counts.len() + rows.len() + 2 * values.len(),
+            Block::Dense { values, .. } => 4 * values.len(),
+        };
+        self.segments.iter().flat_map(|part| &part.blocks).map(of_block).sum::<usize>() + 2 * self.weights.len()
+    }
+}
+
+impl ShaderSegment {
+    fn new(part: &CodedSegment, held: Representatives) -> Self {
+        let mut left = part.representatives.rows();
+        let blocks = part.representatives.blocks().map(|columns| {
+            let height = left.min(BLOCK_ROWS);
+            left -= height;
+            match held {
+                Representatives::Sparse => Block::sparse(columns),
+                Representatives::Dense => Block::dense(columns, height),
+            }
+        });
+        let blocks = blocks.collect();
+        let steps = part.representative_steps.iter().zip(&part.weight_steps).map(|(a, b)| a * b).collect();
+        Self { segment: part.segment, blocks, steps }
+    }
+}
+
+impl Block {
+    fn sparse<'a>(columns: impl Iterator<Item = SparseColumn<'a>>) -> Self {
+        let (mut counts, mut rows, mut values) = (Vec::new(), Vec::new(), Vec::new());
+        for column in columns {
+            counts.push(column.rows.len() as u16);
+            rows.extend_from_slice(column.rows);
+            values.extend_from_slice(column.values);
+        }
+        Self::Sparse { counts, rows, values }
+    }
+
+    fn dense<'a>(columns: impl Iterator<Item = SparseColumn<'a>>, height: usize) -> Self {
+        let mut values = Vec::new();
+        for column in columns {
+            let begin = values.len();
+            values.resize(begin + height, 0.0);
+            for (&row, &value) in column.rows.iter().zip(column.values) {
+                values[begin + usize::from(row)] = f32::from(value);
+            }
+        }
+        Self::Dense { height, values }
+    }
+
+    /// Numbers of a column that are multiplied.
+    fn column_len(&self, column: usize) -> usize {
+        match self {
+            Self::Sparse { counts, .. } => usize::from(counts[column]),
+            Self::Dense { height, .. } => *height,
+        }
+    }
+
+    /// The products of the rows with light, `stride` numbers each. A column's light is skipped if it is black.
+    #[inline(always)]
+    fn times(&self, light: &[[f32; 3]], stride: usize, steps: &[f32], into: &mut [f32]) {
+        let mut add = |row: usize, value: f32, at: usize, light: [f32; 4]| {
+            // The fourth number is 0, and adds nothing to the next row's first.
+            let into: &mut [f32] = &mut into[row * stride + at..][..4];
+            (0..4).for_each(|c| into[c] += value * light[c]);
+        };
+        let lights = |column: usize| {
+            let [r, g, b] = light[column % light.len()];
+            ([r, g, b, 0.0], 3 * (column / light.len()))
+        };
+        match self {
+            Self::Sparse { counts, rows, values } => {
+                let mut begin = 0;
+                for (column, &count) in counts.iter().enumerate() {
+                    let range = begin..begin + usize::from(count);
+                    begin = range.end;
+                    let (light, at) = lights(column);
+                    if light == [0.0; 4] {
+                        continue;
+                    }
+                    for (&row, &value) in rows[range.clone()].iter().zip(&values[range]) {
+                        add(usize::from(row), f32::from(value), at, light);
+                    }
+                }
+            }
+            Self::Dense { height, values } => {
+                for (column, values) in values.chunks_exact(*height).enumerate() {
+                    let (light, at) = lights(column);
+                    if light == [0.0; 4] {
+                        continue;
+                    }
+                    for (row, &value) in values.iter().enumerate() {
+                        add(row, value, at, light);
+                    }
+                }
+            }
+        }
+        for (row, step) in into.chunks_exact_mut(stride).zip(steps) {
+            row.iter_mut().for_each(|value| *value *= step);
+        }
+    }
+}
+
+#[inline(always)]
+fn add_scaled(scale: f32, from: &[f32], into: &mut [f32]) {
+    let (from, into) = (from.as_chunks::<LANES>().0, into.as_chunks_mut::<LANES>().0);
+    for (into, from) in into.iter_mut().zip(from) {
+        (0..LANES).for_each(|lane| into[lane] += scale * from[lane]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::all_frequency::code::CodeOptions;
+    use crate::all_frequency::compressed::tests::sample;
+    use crate::all_frequency::shade::plain;
+
+    /// Light with zeros in it, for 5 segments.
+    fn light(coefficients: usize) -> Vec<[f32; 3]> {
+        let one = |at: usize| [at % 3, at % 5, 0].map(|value| value as f32 - 1.5);
+        (0..5 * coefficients).map(|at| if at % 4 == 1 { [0.0; 3] } else { one(at) }).collect()
+    }
+
+    #[test]
+    fn radiance_is_that_of_plain_loops() {
+        for (rows, coefficients) in [(1, 16), (3, 4), (10, 4)] {
+            let transfer = sample(rows, coefficients);
+            let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
+            let light = light(coefficients);
+            let exact: Vec<[f64; 3]> = light.iter().map(|rgb| rgb.map(f64::from)).collect();
+            let expected = plain::transferred(&transfer, &exact).expect("radiance");
+            let found = Shader::new(&coded, Representatives::Sparse).transferred(&light).expect("radiance");
+            assert_eq!((found.rows(), found.vertices()), (rows, 40));
+            let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
+                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
+                    // 16 bits of representatives and weights: some 2^-15 of the largest number each.
+                    assert!((f64::from(*found) - expected).abs() < 2e-4 * most, "{vertex}: {found} for {expected}");
+                }
+            }
+            // Of the same code, only rounding of f32 is left.
+            let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
+            for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
+                for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
+                    assert!((f64::from(*found) - expected).abs() < 1e-6 * most, "{vertex}: {found} for {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn sparse_representatives_give_the_bits_of_dense_ones() {
+        let coded =
+            CodedTransfer::new(&sample(10, 16), CodeOptions { representative_bits: 6, ..CodeOptions::default() });
+        let coded = coded.expect("coded");
+        let shaders = [Representatives::Sparse, Representatives::Dense].map(|held| Shader::new(&coded, held));
+        let light = light(16);
+        let [sparse, dense] = shaders.each_ref().map(|shader| shader.transferred(&light).expect("radiance"));
+        assert!(sparse.values.iter().zip(&dense.values).all(|(a, b)| a.to_bits() == b.to_bits()));
+        let (nonzeros, all) = coded.nonzeros();
+        assert!(nonzeros < all);
+        let counts = shaders.each_ref().map(|shader| shader.multiplies(&light));
+        // A quarter of the light is black.
+        assert_eq!(counts[1].per_cluster, 3 * 3 * all as u64 / 4);
+        assert!(counts[0].per_cluster < counts[1].per_cluster);
+        let weights: usize = coded.segments.iter().map(|part| part.weights.len()).sum();
+        assert_eq!(counts.map(|count| count.per_vertex), [3 * 10 * weights as u64; 2]);
+    }
+
+    #[test]
+    fn bits_do_not_depend_on_threads() {
+        let coded = CodedTransfer::new(&sample(10, 16), CodeOptions::default()).expect("coded");
+        let shader = Shader::new(&coded, Representatives::Sparse);
+        let radiance = [1, 2, 5].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            pool.install(|| shader.transferred(&light(16)).expect("radiance"))
+        });
+        assert!(radiance.iter().all(|other| *other == radiance[0]));
+    }
+
+    #[test]
+    fn light_for_fewer_segments_is_refused() {
+        let coded = CodedTransfer::new(&sample(1, 4), CodeOptions::default()).expect("coded");
+        let error = Shader::new(&coded, Representatives::Sparse).transferred(&light(4)[1..]).expect_err("refused");
+        assert_eq!(error.to_string(), "expected at least 20 light coefficients, 4 per segment, found 19");
+    }
+}

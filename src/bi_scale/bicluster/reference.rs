@@ -1,0 +1,144 @@
+//! Algorithm 1 as it stands in the paper: a dense matrix, every operation tried, each judged by equation 9.
+
+use std::collections::BTreeSet;
+
+use super::draw::start;
+use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
+use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+
+/// A submatrix T_b: its rows, and its columns with the values t that they have in the bicluster.
+#[derive(Clone, Debug)]
+struct Submatrix {
+    rows: Vec<usize>,
+    columns: Vec<(usize, i64)>,
+}
+
+impl Submatrix {
+    /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M less the bicluster.
+    fn reduction(&self, matrix: &[Vec<i64>]) -> i64 {
+        let mut nonzeros = 0;
+        let mut residual_nonzeros = 0;
+        for &row in &self.rows {
+            for &(column, t) in &self.columns {
+                let value = matrix[row][column];
+                nonzeros += i64::from(value != 0);
+                residual_nonzeros += i64::from(value - t != 0);
+            }
+        }
+        let cost = (self.rows.len() + 2 * self.columns.len()).cast_signed() as i64 - 1;
+        2 * nonzeros - cost - 2 * residual_nonzeros
+    }
+
+    /// The submatrix after an insertion or a deletion of a row; `None` if its last row would go.
+    fn with_row_changed(&self, row: usize) -> Option<Self> {
+        let mut changed = self.clone();
+        match changed.rows.iter().position(|&inside| inside == row) {
+            None => changed.rows.push(row),
+            Some(_) if changed.rows.len() == 1 => return None,
+            Some(at) => _ = changed.rows.remove(at),
+        }
+        Some(changed)
+    }
+
+    /// The same for a column. `None` also if a column is 0 in all rows, and so has no value.
+    fn with_column_changed(&self, column: usize, matrix: &[Vec<i64>]) -> Option<Self> {
+        let mut changed = self.clone();
+        match changed.columns.iter().position(|&(inside, _)| inside == column) {
+            None => changed.columns.push((column, self.most_frequent(column, matrix)?)),
+            Some(_) if changed.columns.len() == 1 => return None,
+            Some(at) => _ = changed.columns.remove(at),
+        }
+        Some(changed)
+    }
+
+    /// The most frequent value other than 0 in the rows of a column, the lowest of equally frequent ones.
+    fn most_frequent(&self, column: usize, matrix: &[Vec<i64>]) -> Option<i64> {
+        let values: Vec<i64> = self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0).collect();
+        let count = |value: i64| values.iter().filter(|&&other| other == value).count();
+        values.iter().copied().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.cmp(&a)))
+    }
+
+    fn bicluster(mut self) -> Bicluster {
+        self.rows.sort_unstable();
+        self.columns.sort_unstable();
+        let entry = |&(column, t): &(usize, i64)| MatrixEntry {
+            index: column as u32,
+            value: i32::try_from(t).expect("a value of the matrix, whose residuals were checked"),
+        };
+        Bicluster {
+            rows: self.rows.iter().map(|&row| row as u32).collect(),
+            columns: self.columns.iter().map(entry).collect(),
+        }
+    }
+}
+
+/// Algorithm 1. A row or column costs a look at all of the matrix, so this is for small ones.
+///
+/// # Errors
+/// [`BiclusterError::Residual`] if a residual leaves 32 bits.
+pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Biclustering, BiclusterError> {
+    let mut left = dense(matrix);
+    let mut dropped = BTreeSet::new();
+    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
+    // Line 2: until no element is left.
+    while let Some((row, column)) = choose(&left, options.seed, found.len()) {
+        // Lines 5 and 6.
+        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
+        // Lines 7 to 20.
+        while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
+            submatrix = better;
+        }
+        // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
+        for &row in &submatrix.rows {
+            for &(column, t) in &submatrix.columns {
+                left[row][column] -= t;
+                let value = left[row][column];
+                if value != 0 && value.unsigned_abs() <= options.drop.into() && dropped.insert((row, column)) {
+                    left[row][column] = 0;
+                } else if i32::try_from(value).is_err() {
+                    return Err(BiclusterError::Residual { row: row as u32, column: column as u32, value });
+                }
+            }
+        }
+        found.push(&submatrix.bicluster());
+    }
+    Ok(found)
+}
+
+fn dense(matrix: &SparseMatrix) -> Vec<Vec<i64>> {
+    let row = |row| {
+        let mut values = vec![0; matrix.columns()];
+        for entry in matrix.row(row) {
+            values[entry.index as usize] = i64::from(entry.value);
+        }
+        values
+    };
+    (0..matrix.rows()).map(row).collect()
+}
+
+/// The element that the next bicluster starts at, row and column.
+fn choose(left: &[Vec<i64>], seed: u64, number: usize) -> Option<(usize, usize)> {
+    let places = left.iter().enumerate().flat_map(|(row, values)| {
+        values.iter().enumerate().filter(|(_, value)| **value != 0).map(move |(column, _)| (row, column))
+    });
+    let places: Vec<(usize, usize)> = places.collect();
+    (!places.is_empty()).then(|| places[start(seed, number as u64, places.len() as u64) as usize])
+}
+
+/// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
+fn best_operation(submatrix: &Submatrix, left: &[Vec<i64>], deletion: bool) -> Option<Submatrix> {
+    let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
+    let is_inside = |column: usize| submatrix.columns.iter().any(|&(inside, _)| inside == column);
+    let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));
+    let after_rows = rows.filter_map(|row| submatrix.with_row_changed(row));
+    let after_columns = columns.filter_map(|column| submatrix.with_column_changed(column, left));
+    let mut best = None;
+    let mut most = submatrix.reduction(left);
+    for after in after_rows.chain(after_columns) {
+        let reduction = after.reduction(left);
+        if reduction > most {
+            (best, most) = (Some(after), reduction);
+        }
+    }
+    best
+}

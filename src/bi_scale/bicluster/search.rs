@@ -1,0 +1,366 @@
+//! Algorithm 1 by influence values (section V, Precomputation Optimization): each row and column knows what its
+//! insertion or deletion would gain, and an operation changes what it touches alone.
+//!
+//! With r rows and l columns inside, inserting a row gains 2 (matches + non-zeros) - 2l - 1, inserting a column
+//! 2 (most frequent + non-zeros) - 2r - 2, and a deletion loses that. So a line's key is the number in brackets, which
+//! changes with the entries that cross it, not with r or l.
+
+use std::collections::BTreeSet;
+
+use super::draw::{Counts, start};
+use super::lines::Lines;
+use super::queue::BucketQueue;
+use super::tally::ColumnTally;
+use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
+use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+
+/// Makes biclusters of a matrix: the same ones, one by one, as
+/// [`reference::bicluster`](super::reference::bicluster). `found` is called after each with the non-zeros that are
+/// left.
+///
+/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters.
+///
+/// # Errors
+/// [`BiclusterError`].
+pub fn bicluster(
+    matrix: &SparseMatrix,
+    options: BiclusterOptions,
+    found: &mut dyn FnMut(u64),
+) -> Result<Biclustering, BiclusterError> {
+    let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
+    let mut search = Search::new(matrix, options)?;
+    while search.left.total() > 0 {
+        search.begin(start(options.seed, biclustering.len() as u64, search.left.total()));
+        while search.step() {}
+        biclustering.push(&search.end()?);
+        found(search.left.total());
+    }
+    Ok(biclustering)
+}
+
+/// What is known of the lines of one direction: rows or columns.
+#[derive(Debug)]
+struct SearchSide {
+    lines: Lines,
+    /// Matches or most frequent values, and non-zeros, within the submatrix.
+    keys: Vec<u32>,
+    /// The line's place in `inside`, or [`OUTSIDE`].
+    places: Vec<u32>,
+    inside: Vec<u32>,
+    /// Lines whose key may be other than 0.
+    touched: Vec<u32>,
+    insertions: BucketQueue,
+    deletions: BucketQueue,
+    /// Which lines across were met, by their place; entries that come into being.
+    met: Vec<bool>,
+    more: Vec<MatrixEntry>,
+}
+
+const OUTSIDE: u32 = u32::MAX;
+
+/// An operation: its gain, and the line that it inserts or deletes.
+#[derive(Clone, Copy, Debug)]
+struct Operation {
+    gain: i64,
+    line: u32,
+}
+
+impl Operation {
+    /// The better of two on lines of one direction: more gain, then the lower line.
+    fn better(first: Option<Self>, second: Option<Self>) -> Option<Self> {
+        match (first, second) {
+            (Some(a), Some(b)) => Some(if (b.gain, a.line) > (a.gain, b.line) { b } else { a }),
+            (a, b) => a.or(b),
+        }
+    }
+}
+
+impl SearchSide {
+    fn new(lines: Lines) -> Self {
+        let count = lines.len();
+        Self {
+            lines,
+            keys: vec![0; count],
+            places: vec![OUTSIDE; count],
+            inside: Vec::new(),
+            touched: Vec::new(),
+            insertions: BucketQueue::default(),
+            deletions: BucketQueue::default(),
+            met: Vec::new(),
+            more: Vec::new(),
+        }
+    }
+
+    /// Sets the key of a line. A line outside with a key of `least` or more may gain by its insertion.
+    #[inline]
+    fn set_key(&mut self, line: u32, key: u32, least: u32) {
+        let old = std::mem::replace(&mut self.keys[line as usize], key);
+        if old == 0 {
+            self.touched.push(line);
+        }
+        if self.places[line as usize] != OUTSIDE {
+            self.deletions.push(key, line);
+        } else if key >= least {
+            self.insertions.push(key, line);
+        }
+    }
+
+    fn insert(&mut self, line: u32) {
+        self.places[line as usize] = self.inside.len() as u32;
+        self.inside.push(line);
+        self.deletions.push(self.keys[line as usize], line);
+    }
+
+    fn delete(&mut self, line: u32) {
+        let place = std::mem::replace(&mut self.places[line as usize], OUTSIDE);
+        self.inside.swap_remove(place as usize);
+        if let Some(&moved) = self.inside.get(place as usize) {
+            self.places[moved as usize] = place;
+        }
+    }
+
+    /// Puts all lines outside whose key is `least` or more in the queue: after a deletion across, which lowers `least`.
+    fn queue_again(&mut self, least: u32) {
+        self.insertions.clear();
+        for &line in &self.touched {
+            if self.places[line as usize] == OUTSIDE && self.keys[line as usize] >= least {
+                self.insertions.push(self.keys[line as usize], line);
+            }
+        }
+    }
+
+    /// The best operation on a line, where a key of `cost / 2` gains nothing.
+    fn best(&mut self, cost: i64, deletion: bool) -> Option<Operation> {
+        let (keys, places) = (&self.keys, &self.places);
+        let is_outside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] == OUTSIDE;
+        let is_inside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] != OUTSIDE;
+        let gain = |key: u32| 2 * i64::from(key) - cost;
+        let insertion = self.insertions.highest(is_outside).map(|(key, line)| Operation { gain: gain(key), line });
+        if !deletion || self.inside.len() == 1 {
+            return insertion;
+        }
+        let deletion = self.deletions.lowest(is_inside).map(|(key, line)| Operation { gain: -gain(key), line });
+        Operation::better(insertion, deletion)
+    }
+
+    /// Takes the bicluster's entries away from a line that is inside: `all` of them, where `places` are those of the
+    /// lines across and `t` their values. Gives how many more entries the line has then, or the place and value of a
+    /// residual that leaves 32 bits. What `goes` is left out.
+    fn subtract(
+        &mut self,
+        line: u32,
+        all: impl ExactSizeIterator<Item = MatrixEntry>,
+        places: &[u32],
+        t: impl Fn(u32) -> i32,
+        mut goes: impl FnMut(u32, i32) -> bool,
+    ) -> Result<i64, (u32, i64)> {
+        let before = self.lines.get(line as usize).len().cast_signed() as i64;
+        self.met.clear();
+        self.met.resize(all.len(), false);
+        let (met, mut too_large) = (&mut self.met, None);
+        let subtract = |entry: MatrixEntry| {
+            let place = places[entry.index as usize];
+            if place == OUTSIDE {
+                return Some(entry);
+            }
+            met[place as usize] = true;
+            let residual = i64::from(entry.value) - i64::from(t(entry.index));
+            let value = i32::try_from(residual).unwrap_or_else(|_| {
+                too_large = Some((entry.index, residual));
+                0
+            });
+            (value != 0 && !goes(entry.index, value)).then_some(MatrixEntry { value, ..entry })
+        };
+        self.lines.change(line as usize, subtract);
+        if let Some(residual) = too_large {
+            return Err(residual);
+        }
+        // Where the line was 0 it is -t now.
+        let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
+        self.more.clear();
+        for entry in all.filter(is_new) {
+            let residual = -i64::from(entry.value);
+            let value = i32::try_from(residual).map_err(|_| (entry.index, residual))?;
+            if !goes(entry.index, value) {
+                self.more.push(MatrixEntry { value, ..entry });
+            }
+        }
+        self.lines.add(line as usize, &self.more);
+        Ok(self.lines.get(line as usize).len().cast_signed() as i64 - before)
+    }
+
+    /// Sets all back but the lines' entries.
+    fn reset(&mut self) {
+        self.touched.iter().for_each(|&line| self.keys[line as usize] = 0);
+        self.inside.iter().for_each(|&line| self.places[line as usize] = OUTSIDE);
+        self.touched.clear();
+        self.inside.clear();
+        self.insertions.clear();
+        self.deletions.clear();
+    }
+}
+
+#[derive(Debug)]
+struct Search {
+    options: BiclusterOptions,
+    rows: SearchSide,
+    columns: SearchSide,
+    /// Per column what its rows hold.
+    tallies: Vec<ColumnTally>,
+    /// Per column inside its value.
+    values: Vec<i32>,
+    /// Non-zeros per row of what is left.
+    left: Counts,
+    /// Rows and columns of residuals that were left out.
+    dropped: BTreeSet<(u32, u32)>,
+}
+
+impl Search {
+    fn new(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Self, BiclusterError> {
+        let width = matrix.columns();
+        let nonzeros = matrix.nonzeros() as u64;
+        if u32::try_from(nonzeros).is_err() {
+            return Err(BiclusterError::TooMany { found: nonzeros });
+        }
+        let (entries, begins) = matrix.to_rows();
+        let rows = Lines::new(entries, begins);
+        let columns = rows.transposed(width);
+        let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
+        Ok(Self {
+            options,
+            rows: SearchSide::new(rows),
+            columns: SearchSide::new(columns),
+            tallies: vec![ColumnTally::default(); width],
+            values: vec![0; width],
+            left,
+            dropped: BTreeSet::new(),
+        })
+    }
+
+    /// The least key of a row, or of a column, whose insertion may gain.
+    fn least_keys(&self) -> [u32; 2] {
+        [self.columns.inside.len() as u32 + 1, self.rows.inside.len() as u32 + 2]
+    }
+
+    /// Lines 5 and 6: a submatrix of one element.
+    fn begin(&mut self, element: u64) {
+        let (row, number) = self.left.find(element);
+        let mut columns: Vec<u32> = self.rows.lines.get(row).iter().map(|entry| entry.index).collect();
+        let (_, &mut column, _) = columns.select_nth_unstable(number as usize);
+        self.insert_row(row as u32);
+        self.insert_column(column);
+    }
+
+    /// Lines 7 to 20: the best operation, if one gains.
+    fn step(&mut self) -> bool {
+        let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
+        let row = self.rows.best(2 * l + 1, self.options.deletion).filter(|operation| operation.gain > 0);
+        let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
+        let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
+        match (row, column) {
+            (Some(Operation { line, .. }), _) if gain(row) > gain(column) => {
+                if self.rows.places[line as usize] == OUTSIDE { self.insert_row(line) } else { self.delete_row(line) }
+            }
+            (_, Some(Operation { line, .. })) => {
+                if self.columns.places[line as usize] == OUTSIDE {
+                    self.insert_column(line);
+                } else {
+                    self.delete_column(line);
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    fn insert_row(&mut self, row: u32) {
+        self.rows.insert(row);
+        self.cross_columns(row, ColumnTally::add);
+    }
+
+    fn delete_row(&mut self, row: u32) {
+        self.rows.delete(row);
+        self.cross_columns(row, ColumnTally::remove);
+        let [_, least] = self.least_keys();
+        self.columns.queue_again(least);
+    }
+
+    /// Changes the tallies and keys of the columns that a row crosses by its values.
+    #[inline(always)]
+    fn cross_columns(&mut self, row: u32, change: impl Fn(&mut ColumnTally, i32)) {
+        let [_, least] = self.least_keys();
+        let Self { rows, columns, tallies, values, .. } = self;
+        for &MatrixEntry { index: column, value } in rows.lines.get(row as usize) {
+            let tally = &mut tallies[column as usize];
+            change(tally, value);
+            let key = column_key(tally, columns.places[column as usize], values[column as usize]);
+            columns.set_key(column, key, least);
+        }
+    }
+
+    fn insert_column(&mut self, column: u32) {
+        self.values[column as usize] = self.tallies[column as usize].most_frequent();
+        self.columns.insert(column);
+        self.cross_rows(column, u32::wrapping_add);
+    }
+
+    fn delete_column(&mut self, column: u32) {
+        self.columns.delete(column);
+        let [least, least_column] = self.least_keys();
+        // It may gain again with another value.
+        self.columns.set_key(column, self.tallies[column as usize].most_and_nonzeros(), least_column);
+        self.cross_rows(column, u32::wrapping_sub);
+        self.rows.queue_again(least);
+    }
+
+    /// Changes the keys of the rows that a column crosses: by 2 where they have its value, by 1 elsewhere.
+    #[inline(always)]
+    fn cross_rows(&mut self, column: u32, change: impl Fn(u32, u32) -> u32) {
+        let ([least, _], t) = (self.least_keys(), self.values[column as usize]);
+        let Self { rows, columns, .. } = self;
+        for &MatrixEntry { index: row, value } in columns.lines.get(column as usize) {
+            rows.set_key(row, change(rows.keys[row as usize], 1 + u32::from(value == t)), least);
+        }
+    }
+
+    /// Lines 15 and 16: the bicluster, taken away from what is left.
+    fn end(&mut self) -> Result<Bicluster, BiclusterError> {
+        let bicluster = self.bicluster();
+        let (drop, dropped) = (self.options.drop, &mut self.dropped);
+        for &MatrixEntry { index: column, value: t } in &bicluster.columns {
+            let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
+            let goes = |row, value: i32| value.unsigned_abs() <= drop && !dropped.contains(&(row, column));
+            self.columns
+                .subtract(column, all, &self.rows.places, |_| t, goes)
+                .map_err(|(row, value)| BiclusterError::Residual { row, column, value })?;
+        }
+        for &row in &bicluster.rows {
+            let (places, values) = (&self.columns.places, &self.values);
+            let all = bicluster.columns.iter().copied();
+            let goes = |column, value: i32| value.unsigned_abs() <= drop && dropped.insert((row, column));
+            let more = self.rows.subtract(row, all, places, |column| values[column as usize], goes);
+            let more = more.map_err(|(column, value)| BiclusterError::Residual { row, column, value })?;
+            self.left.add(row as usize, more);
+        }
+        self.columns.touched.iter().for_each(|&column| self.tallies[column as usize].clear());
+        for side in [&mut self.rows, &mut self.columns] {
+            side.reset();
+        }
+        Ok(bicluster)
+    }
+
+    fn bicluster(&self) -> Bicluster {
+        let entry = |&index: &u32| MatrixEntry { index, value: self.values[index as usize] };
+        let mut rows = self.rows.inside.clone();
+        let mut columns: Vec<MatrixEntry> = self.columns.inside.iter().map(entry).collect();
+        rows.sort_unstable();
+        columns.sort_unstable();
+        Bicluster { rows, columns }
+    }
+}
+
+/// Matches or most frequent values, and non-zeros, of a column: by its value if it is inside.
+#[inline]
+fn column_key(tally: &ColumnTally, place: u32, value: i32) -> u32 {
+    if place == OUTSIDE { tally.most_and_nonzeros() } else { tally.matches_and_nonzeros(value) }
+}

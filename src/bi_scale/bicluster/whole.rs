@@ -1,0 +1,179 @@
+//! Biclusters.
+
+use super::BiclusterError;
+use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+
+/// A constant-column bicluster: in each of its columns all of its rows have the column's value (equation 4).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bicluster {
+    /// Its rows j_1 ... j_r, increasing.
+    pub rows: Vec<u32>,
+    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, in units of the matrix.
+    pub columns: Vec<MatrixEntry>,
+}
+
+impl Bicluster {
+    /// W = r + 2l - 1: multiplications and additions of its product (equation 7).
+    pub fn cost(&self) -> u64 {
+        self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
+    }
+
+    /// Whether it is one of a matrix of this size: rows and columns there, increasing, no value 0.
+    pub(crate) fn fits(&self, matrix_rows: usize, matrix_columns: usize) -> bool {
+        let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
+        let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
+        let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
+    }
+}
+
+/// A matrix as a sum of biclusters (equation 8), in the order in which they were found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Biclustering {
+    matrix_rows: usize,
+    matrix_columns: usize,
+    fraction_bits: u32,
+    row_begins: Vec<usize>,
+    rows: Vec<u32>,
+    column_begins: Vec<usize>,
+    columns: Vec<MatrixEntry>,
+}
+
+impl Biclustering {
+    /// No bicluster of a matrix of this size: one of zeros.
+    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
+        let (row_begins, column_begins) = (vec![0], vec![0]);
+        let (rows, columns) = (Vec::new(), Vec::new());
+        Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
+    }
+
+    pub(crate) fn push(&mut self, bicluster: &Bicluster) {
+        self.rows.extend_from_slice(&bicluster.rows);
+        self.row_begins.push(self.rows.len());
+        self.columns.extend_from_slice(&bicluster.columns);
+        self.column_begins.push(self.columns.len());
+    }
+
+    /// The number of biclusters.
+    pub fn len(&self) -> usize {
+        self.row_begins.len() - 1
+    }
+
+    /// Whether there is none: the matrix is 0.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Rows and columns of the matrix.
+    pub fn matrix_size(&self) -> [usize; 2] {
+        [self.matrix_rows, self.matrix_columns]
+    }
+
+    /// Bits behind the binary point of values.
+    pub fn fraction_bits(&self) -> u32 {
+        self.fraction_bits
+    }
+
+    /// What a value of 1 stands for.
+    pub fn unit(&self) -> f64 {
+        1.0 / f64::from(1_u32 << self.fraction_bits)
+    }
+
+    /// The rows of a bicluster, increasing.
+    ///
+    /// # Panics
+    /// If there is no such bicluster.
+    pub fn rows_of(&self, bicluster: usize) -> &[u32] {
+        &self.rows[self.row_begins[bicluster]..self.row_begins[bicluster + 1]]
+    }
+
+    /// The columns of a bicluster with their values, increasing.
+    ///
+    /// # Panics
+    /// If there is no such bicluster.
+    pub fn columns_of(&self, bicluster: usize) -> &[MatrixEntry] {
+        &self.columns[self.column_begins[bicluster]..self.column_begins[bicluster + 1]]
+    }
+
+    /// A bicluster by itself.
+    ///
+    /// # Panics
+    /// If there is no such bicluster.
+    pub fn get(&self, bicluster: usize) -> Bicluster {
+        Bicluster { rows: self.rows_of(bicluster).to_vec(), columns: self.columns_of(bicluster).to_vec() }
+    }
+
+    /// Entries of rows in all biclusters: the sum of r.
+    pub fn row_entries(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Entries of columns in all biclusters: the sum of l.
+    pub fn column_entries(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The cost of light times all biclusters, in floating-point operations: the sum of r + 2l - 1.
+    pub fn cost(&self) -> u64 {
+        (self.rows.len() + 2 * self.columns.len() - self.len()) as u64
+    }
+
+    /// I_j of all rows one after the other, increasing in each; and where each row's biclusters begin, the last ones
+    /// end.
+    pub fn by_row(&self) -> (Vec<usize>, Vec<u32>) {
+        let mut begins = vec![0; self.matrix_rows + 1];
+        self.rows.iter().for_each(|&row| begins[row as usize + 1] += 1);
+        (0..self.matrix_rows).for_each(|row| begins[row + 1] += begins[row]);
+        let mut ends = begins.clone();
+        let mut of_row = vec![0; self.rows.len()];
+        for bicluster in 0..self.len() {
+            for &row in self.rows_of(bicluster) {
+                of_row[ends[row as usize]] = bicluster as u32;
+                ends[row as usize] += 1;
+            }
+        }
+        (begins, of_row)
+    }
+
+    /// The sum of the biclusters: the matrix that they were made from, exactly.
+    ///
+    /// # Errors
+    /// As [`Self::sum_by_rows`].
+    pub fn sum(&self) -> Result<SparseMatrix, BiclusterError> {
+        let mut matrix = SparseMatrix::new(self.matrix_columns, self.fraction_bits).expect("the size of a matrix");
+        self.sum_by_rows(&mut |_, entries| matrix.push_row(entries).expect("a row of a matrix"))?;
+        Ok(matrix)
+    }
+
+    /// The same row by row: `take` is called with each row and its entries.
+    ///
+    /// # Errors
+    /// [`BiclusterError::Residual`] if a value leaves 32 bits, as it may for biclusters that are of no matrix.
+    pub fn sum_by_rows(&self, take: &mut dyn FnMut(usize, &[MatrixEntry])) -> Result<(), BiclusterError> {
+        let (begins, of_row) = self.by_row();
+        let mut sums = vec![0_i64; self.matrix_columns];
+        let (mut touched, mut entries) = (Vec::new(), Vec::new());
+        for (row, ends) in begins.windows(2).enumerate() {
+            for &bicluster in &of_row[ends[0]..ends[1]] {
+                for entry in self.columns_of(bicluster as usize) {
+                    sums[entry.index as usize] += i64::from(entry.value);
+                    touched.push(entry.index);
+                }
+            }
+            touched.sort_unstable();
+            touched.dedup();
+            entries.clear();
+            for column in touched.drain(..) {
+                let value = std::mem::take(&mut sums[column as usize]);
+                let residual = BiclusterError::Residual { row: row as u32, column, value };
+                match i32::try_from(value) {
+                    Ok(0) => {}
+                    Ok(value) => entries.push(MatrixEntry { index: column, value }),
+                    Err(_) => return Err(residual),
+                }
+            }
+            take(row, &entries);
+        }
+        Ok(())
+    }
+}

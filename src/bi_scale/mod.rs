@@ -1,0 +1,23 @@
+//! System 6: all-frequency bi-scale radiance transfer by biclustering.
+//!
+//! - [`directions`]: the local directions that light is transferred to (section VI-A);
+//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of whole numbers;
+//! - [`mod@file`]: transfer and biclusters in `.prt` files;
+//! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
+//! - [`product`]: light times that sum (section V, Algorithm 2);
+//! - [`rivals`]: other ways to store transfer, beside which biclusters stand (section VI-B);
+//! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering);
+//! - [`texture`]: the bidirectional textures that local light falls on (section III);
+//! - [`shade`]: pixels, their product (section III, equation 3).
+
+pub mod bicluster;
+pub mod directions;
+pub mod file;
+pub mod kernels;
+pub mod matrix;
+pub mod on_card;
+pub mod product;
+pub mod rivals;
+pub mod shade;
+pub mod texture;
+pub mod transfer;

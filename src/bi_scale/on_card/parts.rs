@@ -1,0 +1,56 @@
+//! Textures with the triangles that show them.
+
+use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
+use refsim::machine::Machine;
+
+use super::error::BiScaleCardError;
+use super::options::DisplayOptions;
+use super::subject::{CardVertices, TexturedMesh};
+use super::volume::VolumeTexture;
+use crate::bi_scale::kernels::{DisplayKernel, LocalLayout};
+
+/// The pixel program for so many directions.
+#[derive(Clone, Debug)]
+pub(super) struct PixelProgram {
+    pub(super) directions: usize,
+    pub(super) program: CheckedProgram,
+}
+
+/// A texture, its triangles and its programs: a place in a volume depends on the volume's size.
+#[derive(Debug)]
+pub(super) struct CardPart {
+    pub(super) indices: Vec<u32>,
+    pub(super) volume: VolumeTexture,
+    /// Of a whole pass, and of the last one if that has fewer directions.
+    pub(super) pixels: Vec<PixelProgram>,
+}
+
+/// The parts of a mesh: textures that no triangle names stay away.
+pub(super) fn parts(
+    machine: &mut Machine,
+    (mesh, vertices): (&TexturedMesh<'_>, &CardVertices),
+    options: DisplayOptions,
+    (layout, version): (LocalLayout, Version),
+) -> Result<Vec<CardPart>, BiScaleCardError> {
+    let (whole, left) = (layout.directions().min(mesh.directions()), mesh.directions() % layout.directions());
+    let mut parts = Vec::new();
+    for (number, texture) in mesh.textures.iter().enumerate() {
+        let corners = vertices.indices.chunks_exact(3).zip(mesh.texture_of);
+        let own = corners.filter(|(_, texture)| **texture as usize == number);
+        let indices: Vec<u32> = own.flat_map(|(corners, _)| corners).copied().collect();
+        if indices.is_empty() {
+            continue;
+        }
+        let volume = VolumeTexture::new(machine, texture, (options.edges, options.texture))?;
+        let mut pixels = Vec::new();
+        for directions in [whole, left].into_iter().filter(|&directions| directions > 0) {
+            if pixels.iter().all(|known: &PixelProgram| known.directions != directions) {
+                let kernel = DisplayKernel { layout, grid: volume.grid, directions, version };
+                pixels.push(PixelProgram { directions, program: kernel.checked(machine.profile())? });
+            }
+        }
+        parts.push(CardPart { indices, volume, pixels });
+    }
+    Ok(parts)
+}

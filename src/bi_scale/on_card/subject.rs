@@ -1,0 +1,103 @@
+//! What is shown: a mesh with a bidirectional texture and the light of its vertices' local directions.
+
+use std::collections::BTreeMap;
+
+use super::error::BiScaleCardError;
+use crate::bi_scale::texture::BidirectionalTexture;
+use crate::geom::Mesh;
+use crate::transfer::Vertices;
+
+/// A mesh that bidirectional textures cover.
+#[derive(Clone, Copy, Debug)]
+pub struct TexturedMesh<'a> {
+    /// The mesh, with local frames.
+    pub vertices: &'a Vertices,
+    /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
+    pub coordinates: &'a [[[f32; 2]; 3]],
+    /// The textures, of the same directions of light.
+    pub textures: &'a [BidirectionalTexture],
+    /// The number of each triangle's texture.
+    pub texture_of: &'a [u32],
+}
+
+/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that is repeated so many times.
+///
+/// # Errors
+/// [`BiScaleCardError::NoTextureCoordinates`].
+pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]; 3]>, BiScaleCardError> {
+    let of = mesh.texcoords().ok_or(BiScaleCardError::NoTextureCoordinates)?;
+    let corner = |corner: u32| {
+        let [u, v] = of[corner as usize];
+        [repeat[0] * u, repeat[1] * v]
+    };
+    Ok(mesh.triangles().iter().map(|corners| corners.map(corner)).collect())
+}
+
+/// A mesh's corners as vertices of a card: those of one vertex and the same texture coordinates are one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct CardVertices {
+    /// The mesh's vertex of each.
+    pub(super) vertices: Vec<u32>,
+    /// Their texture coordinates.
+    pub(super) coordinates: Vec<[f32; 2]>,
+    /// Three of them for each triangle.
+    pub(super) indices: Vec<u32>,
+}
+
+impl CardVertices {
+    pub(super) fn new(mesh: &TexturedMesh<'_>) -> Self {
+        let mut known: BTreeMap<(u32, [u32; 2]), u32> = BTreeMap::new();
+        let mut all = Self::default();
+        let corners = mesh.vertices.triangles().as_flattened().iter();
+        for (&vertex, &coordinates) in corners.zip(mesh.coordinates.as_flattened()) {
+            let next = all.vertices.len() as u32;
+            let index = *known.entry((vertex, coordinates.map(f32::to_bits))).or_insert(next);
+            if index == next {
+                all.vertices.push(vertex);
+                all.coordinates.push(coordinates);
+            }
+            all.indices.push(index);
+        }
+        all
+    }
+}
+
+impl TexturedMesh<'_> {
+    /// The directions of light M.
+    pub(super) fn directions(&self) -> usize {
+        self.textures.first().map_or(0, |texture| texture.light().directions().len())
+    }
+
+    /// The texture of a triangle.
+    pub(super) fn texture(&self, triangle: u32) -> &BidirectionalTexture {
+        &self.textures[self.texture_of[triangle as usize] as usize]
+    }
+
+    /// Checks that the parts go together.
+    pub(super) fn check(&self) -> Result<(), BiScaleCardError> {
+        let expected = self.vertices.triangles().len();
+        for (what, found) in [
+            ("triangles with texture coordinates", self.coordinates.len()),
+            ("triangles with a texture", self.texture_of.len()),
+        ] {
+            if expected != found {
+                return Err(BiScaleCardError::Size { what, expected, found });
+            }
+        }
+        if let Some(&number) = self.texture_of.iter().find(|&&number| number as usize >= self.textures.len()) {
+            let (expected, found) = (number as usize + 1, self.textures.len());
+            return Err(BiScaleCardError::Size { what: "textures, which triangles name", expected, found });
+        }
+        let expected = self.directions();
+        let mut lights = self.textures.iter().map(|texture| texture.light().directions().len());
+        if let Some(found) = lights.find(|&found| found != expected) {
+            let what = "directions of light in each texture";
+            return Err(BiScaleCardError::Size { what, expected, found });
+        }
+        let bad = self.coordinates.as_flattened().as_flattened().iter().find(|value| !value.is_finite());
+        match bad {
+            Some(&found) => Err(BiScaleCardError::Figure { what: "finite texture coordinates", found: found.into() }),
+            None => Ok(()),
+        }
+    }
+}

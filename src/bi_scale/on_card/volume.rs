@@ -1,0 +1,94 @@
+//! A bidirectional texture as a volume texture (Figure 4).
+
+use refsim::device::Profile;
+use refsim::machine::{Machine, TextureId};
+use refsim::num::Format;
+use refsim::texture::{Image, TargetRounding, TexelFormat, TextureKind, encode};
+
+use super::error::BiScaleCardError;
+use crate::bi_scale::kernels::{BlockEdges, BlockGrid};
+use crate::bi_scale::texture::BidirectionalTexture;
+
+/// The largest number of half precision.
+const HALF_MOST: f32 = 65_504.0;
+
+/// The image of a volume, and what its texels are to be multiplied by.
+///
+/// # Errors
+/// [`BiScaleCardError`] for another format than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
+/// has no volume of the size, and samples that the format does not hold.
+pub fn volume_image(
+    profile: &Profile,
+    texture: &BidirectionalTexture,
+    (edges, format): (BlockEdges, TexelFormat),
+) -> Result<(Image, BlockGrid, f64), BiScaleCardError> {
+    let (lights, views) = (texture.light().side(), texture.view().side());
+    let grid = BlockGrid { size: texture.size(), lights, views, edges };
+    check(profile, &grid, format)?;
+    let extents = grid.extents();
+    let mut image = Image::new(format, TextureKind::Volume, extents.map(|side| side as u32), 1)?;
+    let largest = texture.samples().as_flattened().iter().fold(0.0_f32, |most, &value| most.max(value));
+    if format == TexelFormat::Rgba16f && largest > HALF_MOST {
+        let found = largest.into();
+        return Err(BiScaleCardError::Figure { what: "samples of at most 65504, which half precision holds", found });
+    }
+    let scale = if format == TexelFormat::Rgba8 && largest > 0.0 { f64::from(largest) } else { 1.0 };
+    let [width, height, layers] = extents;
+    let bytes = format.bytes();
+    let mut into = image.bytes_mut().chunks_exact_mut(bytes);
+    for view in 0..layers {
+        for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
+            let (light, [y, x]) = grid.shown(column, row);
+            let [red, green, blue] = texture.patch(view, light)[y * grid.size + x];
+            let texel = [red, green, blue, 0.0].map(|value| ((f64::from(value) / scale) as f32).to_bits());
+            let raw = encode(format, Format::FP32, texel, TargetRounding::Nearest).to_le_bytes();
+            into.next().expect("a texel").copy_from_slice(&raw[..bytes]);
+        }
+    }
+    Ok((image, grid, scale))
+}
+
+/// Refuses what a device cannot hold or filter.
+fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(), BiScaleCardError> {
+    if ![TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f].contains(&format) {
+        let (what, expected) = ("a bidirectional texture", "rgba8, rgba16f or rgba32f");
+        return Err(BiScaleCardError::Format { what, expected, found: format });
+    }
+    if format.record().is_float() && !profile.limits.float_filtering {
+        return Err(BiScaleCardError::FloatFilter { device: profile.name.clone(), format });
+    }
+    let [width, height, layers] = grid.extents();
+    match profile.limits.max_volume_size.map(|limit| limit as usize) {
+        Some(found) if width.max(height).max(layers) > found => {
+            let (lights, pitch, device) = (grid.lights, grid.pitch(), profile.name.clone());
+            Err(BiScaleCardError::Volume { lights, pitch, width, height, layers, device, found })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A bidirectional texture on a card.
+#[derive(Clone, Copy, Debug)]
+pub struct VolumeTexture {
+    /// The volume.
+    pub id: TextureId,
+    /// The places of its blocks.
+    pub grid: BlockGrid,
+    /// What its texels are to be multiplied by.
+    pub scale: f64,
+}
+
+impl VolumeTexture {
+    /// Uploads a texture.
+    ///
+    /// # Errors
+    /// As [`volume_image`], and if the card refuses the texture.
+    pub fn new(
+        machine: &mut Machine,
+        texture: &BidirectionalTexture,
+        way: (BlockEdges, TexelFormat),
+    ) -> Result<Self, BiScaleCardError> {
+        let (image, grid, scale) = volume_image(machine.profile(), texture, way)?;
+        Ok(Self { id: machine.create_texture(image)?, grid, scale })
+    }
+}

@@ -1,0 +1,200 @@
+//! Each row by a few of its wavelet coefficients (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
+
+use rayon::prelude::*;
+
+use super::error::RivalError;
+use super::stored::{StoredSize, StoredTransfer};
+use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
+use crate::transfer::haar::Haar;
+
+/// Coefficients of a face.
+pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
+/// The largest value of a byte.
+const BYTE: f64 = 127.0;
+
+/// By what coefficients of a row are chosen; of equal ones the first by number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum CoefficientPriority {
+    /// Magnitude times the number of texels under the basis function, as the paper has it.
+    #[default]
+    Area,
+    /// Magnitude: the least squared error of the row itself.
+    Magnitude,
+}
+
+/// What a coefficient is stored as, beside its number of two bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum CoefficientStorage {
+    /// A byte, in steps of 1/127 of the largest coefficient of all rows: three bytes a coefficient, which is what the
+    /// paper's 37.1 MB come to.
+    #[default]
+    Byte,
+    /// An f32.
+    Single,
+}
+
+/// How rows are cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HaarRowOptions {
+    /// Coefficients of a row at most; the paper has 12.
+    pub keep: usize,
+    /// Which.
+    pub priority: CoefficientPriority,
+    /// How they are stored.
+    pub storage: CoefficientStorage,
+}
+
+impl Default for HaarRowOptions {
+    fn default() -> Self {
+        Self { keep: 12, priority: CoefficientPriority::default(), storage: CoefficientStorage::default() }
+    }
+}
+
+impl HaarRowOptions {
+    /// As many coefficients as go into so many bytes with the same number for each row, one at least.
+    #[must_use]
+    pub fn within(self, bytes: u64, rows: usize) -> Self {
+        let each = self.storage.bytes() as u64 * rows.max(1) as u64;
+        Self { keep: ((bytes / each) as usize).clamp(1, LIGHT_TEXELS), ..self }
+    }
+}
+
+impl CoefficientStorage {
+    /// Bytes of a coefficient with its number.
+    fn bytes(self) -> usize {
+        match self {
+            Self::Byte => 3,
+            Self::Single => 6,
+        }
+    }
+}
+
+/// Rows in wavelets of the six faces of 32 x 32 texels: the largest coefficients of each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HaarRows {
+    options: HaarRowOptions,
+    begins: Vec<usize>,
+    /// Face 1024 + place in the face's pyramid.
+    coefficients: Vec<u16>,
+    /// Rounded as they are stored.
+    values: Vec<f32>,
+}
+
+impl HaarRows {
+    /// The largest coefficients of each row of a matrix.
+    ///
+    /// # Errors
+    /// [`RivalError::Columns`], [`RivalError::Coefficients`].
+    pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, RivalError> {
+        if matrix.columns() != LIGHT_TEXELS {
+            return Err(RivalError::Columns { found: matrix.columns() });
+        }
+        if !(1..=LIGHT_TEXELS).contains(&options.keep) {
+            return Err(RivalError::Coefficients { found: options.keep });
+        }
+        let weights = weights(options.priority);
+        let scratch = || (Haar::new(LIGHT_SIDE), vec![0.0; FACE]);
+        let of_rows: Vec<Vec<(u16, f64)>> = (0..matrix.rows())
+            .into_par_iter()
+            .map_init(scratch, |(haar, square), row| {
+                let mut all = coefficients(matrix.row(row), matrix.unit(), haar, square);
+                keep_largest(&mut all, options.keep, &weights);
+                all
+            })
+            .collect();
+        let largest = of_rows.iter().flatten().fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
+        let step = largest / BYTE;
+        let stored = |value: f64| match options.storage {
+            CoefficientStorage::Byte if step > 0.0 => ((value / step).round() * step) as f32,
+            CoefficientStorage::Byte | CoefficientStorage::Single => value as f32,
+        };
+        let mut rows = Self { options, begins: vec![0], coefficients: Vec::new(), values: Vec::new() };
+        for of_row in of_rows {
+            rows.coefficients.extend(of_row.iter().map(|(at, _)| *at));
+            rows.values.extend(of_row.iter().map(|(_, value)| stored(*value)));
+            rows.begins.push(rows.coefficients.len());
+        }
+        Ok(rows)
+    }
+
+    /// How many coefficients are stored: fewer than asked for where rows have no more.
+    pub fn stored(&self) -> usize {
+        self.coefficients.len()
+    }
+
+    /// A row's coefficients, by increasing number, with their values.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn row(&self, row: usize) -> impl ExactSizeIterator<Item = (usize, f64)> {
+        let of = self.begins[row]..self.begins[row + 1];
+        let values = self.values[of.clone()].iter().map(|&value| f64::from(value));
+        self.coefficients[of].iter().map(|&at| usize::from(at)).zip(values)
+    }
+}
+
+impl StoredTransfer for HaarRows {
+    fn sizes(&self) -> Vec<StoredSize> {
+        let each = self.options.storage.bytes();
+        let rows = self.begins.len() - 1;
+        let filled = match self.options.storage {
+            CoefficientStorage::Byte => "3 bytes a coefficient, as many in each row",
+            CoefficientStorage::Single => "6 bytes a coefficient, as many in each row",
+        };
+        let whole = StoredSize { layout: filled, bytes: (each * self.options.keep * rows) as u64 };
+        let bytes = (each * self.stored() + 4 * self.begins.len()) as u64;
+        vec![whole, StoredSize { layout: "those other than 0, 4 bytes a row", bytes }]
+    }
+
+    fn multiply(&self, light: &[f64]) -> Vec<f64> {
+        let light = transformed(light);
+        let row = |row| self.row(row).fold(0.0, |sum, (at, value)| sum + value * light[at]);
+        (0..self.begins.len() - 1).map(row).collect()
+    }
+}
+
+/// Coefficients of a vector over all light texels, face by face.
+pub(super) fn transformed(vector: &[f64]) -> Vec<f64> {
+    assert_eq!(vector.len(), LIGHT_TEXELS, "a number per light texel");
+    let (mut haar, mut all) = (Haar::new(LIGHT_SIDE), vector.to_vec());
+    all.chunks_exact_mut(FACE).for_each(|face| haar.forward(face));
+    all
+}
+
+/// What a coefficient's magnitude is weighed by, over a face.
+fn weights(priority: CoefficientPriority) -> Vec<f64> {
+    let haar = Haar::new(LIGHT_SIDE);
+    let weight = |at: usize| match priority {
+        CoefficientPriority::Area => haar.support(at).side.pow(2) as f64,
+        CoefficientPriority::Magnitude => 1.0,
+    };
+    (0..FACE).map(weight).collect()
+}
+
+/// All coefficients of a row other than 0, by increasing number: of those faces alone that have an entry.
+fn coefficients(entries: &[MatrixEntry], unit: f64, haar: &mut Haar, square: &mut [f64]) -> Vec<(u16, f64)> {
+    let face = |entry: &MatrixEntry| entry.index as usize / FACE;
+    let mut all = Vec::new();
+    for of_face in entries.chunk_by(|a, b| face(a) == face(b)) {
+        square.fill(0.0);
+        let first = face(&of_face[0]) * FACE;
+        of_face.iter().for_each(|entry| square[entry.index as usize - first] = unit * f64::from(entry.value));
+        haar.forward(square);
+        let nonzero = (first..).zip(&*square).filter(|(_, value)| **value != 0.0);
+        all.extend(nonzero.map(|(at, &value)| (at as u16, value)));
+    }
+    all
+}
+
+/// Leaves the coefficients of largest weighed magnitude, by increasing number.
+fn keep_largest(all: &mut Vec<(u16, f64)>, keep: usize, weights: &[f64]) {
+    if all.len() > keep {
+        let priority = |&(at, value): &(u16, f64)| weights[usize::from(at) % FACE] * value.abs();
+        all.select_nth_unstable_by(keep - 1, |a, b| priority(b).total_cmp(&priority(a)).then(a.0.cmp(&b.0)));
+        all.truncate(keep);
+    }
+    all.sort_unstable_by_key(|&(at, _)| at);
+}

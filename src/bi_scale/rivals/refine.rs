@@ -1,0 +1,201 @@
+//! Clusters of sparse rows made better with all rows taking part, a round at a time.
+//!
+//! Dense rows of a whole transfer matrix would take 25 GB for a million rows; their inner products with the clusters'
+//! vectors need the entries alone. A round sends each row to the cluster that approximates it best, of equal ones the
+//! first; then each cluster takes the mean of its rows, and its vectors are multiplied with the covariance of its rows
+//! and made orthonormal again (orthogonal iteration). No step adds error: means and nearest clusters are best, and
+//! for a positive semidefinite C and orthonormal V the trace of U^T C U is at least that of V^T C V where U spans C V,
+//! since U is the best for the tangent of this convex function at V.
+
+use rayon::prelude::*;
+
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::linalg::dot;
+use crate::transfer::clustering::CpcaForm;
+
+/// What is left of a vector beside others, relative to its length, below which it has no direction of its own.
+const NOTHING: f64 = 1e-12;
+
+/// The subspace of a cluster of rows: a mean, and orthonormal vectors one after another, as long each.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct RowSubspace {
+    pub(super) mean: Vec<f64>,
+    pub(super) vectors: Vec<f64>,
+}
+
+/// A row in its cluster.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PlacedRow {
+    pub(super) cluster: u32,
+    pub(super) weights: Vec<f64>,
+    pub(super) squared_error: f64,
+}
+
+/// All means and vectors by column, so that a row's entries read what stands side by side.
+struct ByColumn {
+    /// Per cluster where its mean stands; its vectors follow.
+    begins: Vec<usize>,
+    stride: usize,
+    values: Vec<f64>,
+    /// Per place the inner product with the cluster's mean.
+    with_mean: Vec<f64>,
+}
+
+impl ByColumn {
+    fn new(subspaces: &[RowSubspace]) -> Self {
+        let length = subspaces.first().map_or(0, |first| first.mean.len());
+        let lines = || subspaces.iter().flat_map(|s| std::iter::once(&s.mean[..]).chain(s.vectors.chunks(length)));
+        let mut begins = vec![0];
+        for subspace in subspaces {
+            begins.push(begins.last().unwrap_or(&0) + 1 + subspace.vectors.len() / length);
+        }
+        let stride = lines().count();
+        let mut values = vec![0.0; stride * length];
+        for (at, line) in lines().enumerate() {
+            line.iter().enumerate().for_each(|(column, &value)| values[column * stride + at] = value);
+        }
+        let with_mean = subspaces.iter().flat_map(|s| {
+            std::iter::once(dot(&s.mean, &s.mean)).chain(s.vectors.chunks(length).map(|vector| dot(vector, &s.mean)))
+        });
+        let with_mean = with_mean.collect();
+        Self { begins, stride, values, with_mean }
+    }
+
+    /// Inner products of a row with all lines, and with itself.
+    fn products(&self, matrix: &SparseMatrix, row: usize, sums: &mut [f64]) -> f64 {
+        sums.fill(0.0);
+        let mut square = 0.0;
+        for entry in matrix.row(row) {
+            let value = matrix.unit() * f64::from(entry.value);
+            let lines = &self.values[entry.index as usize * self.stride..][..self.stride];
+            sums.iter_mut().zip(lines).for_each(|(sum, line)| *sum += value * line);
+            square += value * value;
+        }
+        square
+    }
+
+    /// The best cluster of a row.
+    fn place(&self, matrix: &SparseMatrix, row: usize, sums: &mut [f64]) -> PlacedRow {
+        let square = self.products(matrix, row, sums);
+        let along = |at: usize| sums[at] - self.with_mean[at];
+        let mut best = (0, f64::INFINITY);
+        for (cluster, ends) in self.begins.windows(2).enumerate() {
+            let mut error = square - 2.0 * sums[ends[0]] + self.with_mean[ends[0]];
+            (ends[0] + 1..ends[1]).for_each(|at| error -= along(at) * along(at));
+            if error < best.1 {
+                best = (cluster, error);
+            }
+        }
+        let (cluster, squared_error) = best;
+        let weights = (self.begins[cluster] + 1..self.begins[cluster + 1]).map(along).collect();
+        PlacedRow { cluster: cluster as u32, weights, squared_error: squared_error.max(0.0) }
+    }
+}
+
+/// Each row in its best cluster, of equal ones the first.
+pub(super) fn placed(matrix: &SparseMatrix, subspaces: &[RowSubspace]) -> Vec<PlacedRow> {
+    let lines = ByColumn::new(subspaces);
+    let rows = (0..matrix.rows()).into_par_iter();
+    rows.map_init(|| vec![0.0; lines.stride], |sums, row| lines.place(matrix, row, sums)).collect()
+}
+
+/// The subspaces that the rows of each cluster ask for. A cluster without rows stays.
+pub(super) fn refitted(
+    matrix: &SparseMatrix,
+    (before, form): (Vec<RowSubspace>, CpcaForm),
+    placed: &[PlacedRow],
+) -> Vec<RowSubspace> {
+    let mut members = vec![Vec::new(); before.len()];
+    (0..).zip(placed).for_each(|(row, placed)| members[placed.cluster as usize].push(row));
+    let refit = |(subspace, rows): (RowSubspace, Vec<usize>)| match rows[..] {
+        [] => subspace,
+        _ => refit(matrix, &subspace, form, &rows),
+    };
+    before.into_par_iter().zip(members).map(refit).collect()
+}
+
+fn refit(matrix: &SparseMatrix, before: &RowSubspace, form: CpcaForm, rows: &[usize]) -> RowSubspace {
+    let length = matrix.columns();
+    let mut mean = vec![0.0; length];
+    if form == CpcaForm::Affine {
+        rows.iter().for_each(|&row| add(matrix, row, 1.0, &mut mean));
+        mean.iter_mut().for_each(|sum| *sum /= rows.len() as f64);
+    }
+    let alone = RowSubspace { mean: vec![0.0; length], vectors: before.vectors.clone() };
+    let lines = ByColumn::new(std::slice::from_ref(&alone));
+    let (mut products, mut sums) = (vec![0.0; lines.stride], vec![0.0; lines.stride]);
+    let mut images = vec![0.0; before.vectors.len()];
+    let with_mean: Vec<f64> = before.vectors.chunks(length).map(|vector| dot(vector, &mean)).collect();
+    for &row in rows {
+        lines.products(matrix, row, &mut products);
+        for (at, image) in images.chunks_exact_mut(length).enumerate() {
+            let along = products[at + 1] - with_mean[at];
+            sums[at + 1] += along;
+            add(matrix, row, along, image);
+        }
+    }
+    for (image, sum) in images.chunks_exact_mut(length).zip(&sums[1..]) {
+        image.iter_mut().zip(&mean).for_each(|(image, mean)| *image -= sum * mean);
+    }
+    let mut vectors = Vec::with_capacity(images.len());
+    for (image, vector) in images.chunks_exact(length).zip(before.vectors.chunks_exact(length)) {
+        // Rows that have nothing along a vector leave it as it is.
+        if !add_orthonormal(&mut vectors, image) {
+            add_orthonormal(&mut vectors, vector);
+        }
+    }
+    RowSubspace { mean, vectors }
+}
+
+/// Adds a row times a number.
+fn add(matrix: &SparseMatrix, row: usize, scale: f64, into: &mut [f64]) {
+    let scale = scale * matrix.unit();
+    matrix.row(row).iter().for_each(|entry| into[entry.index as usize] += scale * f64::from(entry.value));
+}
+
+/// Adds a vector to orthonormal ones, made orthogonal to them and of length 1, if anything is left of it.
+fn add_orthonormal(vectors: &mut Vec<f64>, vector: &[f64]) -> bool {
+    let mut vector = vector.to_vec();
+    let mut before = dot(&vector, &vector).sqrt();
+    // Twice against rounding.
+    for _ in 0..2 {
+        for earlier in vectors.chunks_exact(vector.len()) {
+            let along = dot(earlier, &vector);
+            vector.iter_mut().zip(earlier).for_each(|(value, earlier)| *value -= along * earlier);
+        }
+        let length = dot(&vector, &vector).sqrt();
+        if length <= NOTHING * before || length == 0.0 {
+            return false;
+        }
+        vector.iter_mut().for_each(|value| *value /= length);
+        before = 1.0;
+    }
+    vectors.extend(vector);
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bi_scale::matrix::MatrixEntry;
+
+    /// Rows along two directions from a mean, and one that is far off.
+    fn matrix() -> SparseMatrix {
+        let mut matrix = SparseMatrix::new(5, 0).unwrap();
+        for (a, b) in [(1, 5), (3, 5), (2, 7), (2, 3), (9, 1)] {
+            matrix.push_row(&[MatrixEntry { index: 0, value: a }, MatrixEntry { index: 3, value: b }]).unwrap();
+        }
+        matrix
+    }
+
+    #[test]
+    fn rows_in_a_plane_are_met_exactly_by_two_vectors() {
+        let start = RowSubspace { mean: vec![0.0; 5], vectors: vec![1., 0., 0., 0., 0., 0., 0.6, 0., 0.8, 0.] };
+        let first = placed(&matrix(), std::slice::from_ref(&start));
+        let once = refitted(&matrix(), (vec![start], CpcaForm::Affine), &first);
+        assert_eq!(once[0].mean, [17.0 / 5.0, 0.0, 0.0, 21.0 / 5.0, 0.0]);
+        for row in placed(&matrix(), &once) {
+            assert!(row.squared_error < 1e-12, "{row:?}");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! The form that section IV-A rejects: down-sample first, rotate afterwards.
+//!
+//! Visibility is kept at few texels of a coarse cube in the global frame; a rotation into a vertex's frame becomes a
+//! list that says, for each local direction, which coarse texel lies there. That is small, and L~ takes one product per
+//! local direction; but the order of down-sampling and rotation is swapped. A coarse texel goes whole to all the local
+//! directions whose nearest it is, and to no others; its light and its visibility are means, so that what hides a part
+//! of a texel dims its light instead.
+
+use rayon::prelude::*;
+
+use super::error::RivalError;
+use super::local_transfer::{LocalTransfer, cell_integrals};
+use super::stored::{StoredSize, StoredTransfer};
+use crate::sphere::CubeMap;
+use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
+
+/// Visibility of a coarse cube's texels and a shuffle of them, per vertex.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReshuffledVisibility {
+    cube: CubeMap,
+    /// Per vertex and coarse texel the mean of its light texels' visible shares.
+    visibility: Vec<f32>,
+    /// Per vertex and local direction the coarse texel that it lies in.
+    shuffle: Vec<u16>,
+    /// Per local direction the solid angle that it stands for.
+    solid_angles: Vec<f64>,
+}
+
+impl ReshuffledVisibility {
+    /// Of coarse cubes with so many texels along an edge: a power of two up to 32. With 4 they have 96 texels, about as
+    /// many over the hemisphere as there are local directions of 8 x 8.
+    ///
+    /// # Errors
+    /// [`RivalError::CoarseSide`].
+    pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, RivalError> {
+        if !side.is_power_of_two() || side > LIGHT_SIDE {
+            return Err(RivalError::CoarseSide { found: side });
+        }
+        let cube = CubeMap::new(side);
+        let share = 1.0 / (LIGHT_SIDE / side).pow(2) as f64;
+        let of_vertex = |vertex: usize| {
+            let mut means = vec![0.0; cube.len()];
+            for (texel, visible) in transfer.visibility(vertex).into_iter().enumerate() {
+                means[coarse(texel, side)] += share * visible;
+            }
+            let frame = &transfer.frames()[vertex];
+            let nearest = |direction: &glam::DVec3| {
+                let [face, column, row] = cube.texel_of(frame.to_global(*direction));
+                ((face * side + row) * side + column) as u16
+            };
+            let shuffle: Vec<u16> = transfer.directions().directions().iter().map(nearest).collect();
+            (means.into_iter().map(|mean| mean as f32).collect::<Vec<f32>>(), shuffle)
+        };
+        let all: Vec<(Vec<f32>, Vec<u16>)> = (0..transfer.frames().len()).into_par_iter().map(of_vertex).collect();
+        let root = (4.0 * std::f64::consts::PI).sqrt();
+        let solid_angles = cell_integrals(transfer.directions(), 1).into_iter().map(|cell| root * cell[0]).collect();
+        let (visibility, shuffle): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        Ok(Self { cube, visibility: visibility.concat(), shuffle: shuffle.concat(), solid_angles })
+    }
+}
+
+impl StoredTransfer for ReshuffledVisibility {
+    fn sizes(&self) -> Vec<StoredSize> {
+        let texel = if self.cube.len() > 256 { 2 } else { 1 };
+        let numbers = self.visibility.len() as u64;
+        let shuffle = texel * self.shuffle.len() as u64;
+        let bytes = |each: u64| each * numbers + shuffle;
+        vec![
+            StoredSize { layout: "4 bytes a coarse texel, its number a direction", bytes: bytes(4) },
+            StoredSize { layout: "a byte a coarse texel, its number a direction", bytes: bytes(1) },
+        ]
+    }
+
+    fn multiply(&self, light: &[f64]) -> Vec<f64> {
+        assert_eq!(light.len(), LIGHT_TEXELS, "a number per light texel");
+        let side = self.cube.side();
+        let mut radiance = vec![0.0; self.cube.len()];
+        for (texel, light) in light.iter().enumerate() {
+            radiance[coarse(texel, side)] += light;
+        }
+        for (at, radiance) in radiance.iter_mut().enumerate() {
+            let [_, row, column] = face_row_column(at, side);
+            *radiance /= self.cube.solid_angle(column, row);
+        }
+        let vertices = self.shuffle.chunks_exact(self.solid_angles.len()).zip(self.visibility.chunks(self.cube.len()));
+        let of_vertex = |(shuffle, visibility): (&[u16], &[f32])| -> Vec<f64> {
+            let of_direction = |(&at, solid_angle): (&u16, &f64)| {
+                let at = usize::from(at);
+                f64::from(visibility[at]) * radiance[at] * solid_angle
+            };
+            shuffle.iter().zip(&self.solid_angles).map(of_direction).collect()
+        };
+        vertices.flat_map(of_vertex).collect()
+    }
+}
+
+/// The coarse texel that a light texel lies in.
+fn coarse(texel: usize, side: usize) -> usize {
+    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+    let parts = LIGHT_SIDE / side;
+    (face * side + row / parts) * side + column / parts
+}

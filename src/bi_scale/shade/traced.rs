@@ -1,0 +1,165 @@
+//! A pixel by rays (the paper's reference pictures), and by the same with one thing after the other done as transfer
+//! does it, so that the error of a picture can be told apart by its causes.
+//!
+//! Exact here means: light in 128 x 128 texels a face, each seen or not from the pixel's own point, the patch of
+//! heights asked at the exact directions. Sums run over directions in the order of their numbers, in f64.
+
+use glam::DVec3;
+
+use super::pixel::ShadedPixel;
+use super::reference;
+use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch, SeenPoint, ViewSamples};
+use crate::geom::Ray;
+use crate::geom::vector::{narrow, wide};
+use crate::tracer::HostTracer;
+use crate::tracer::offset::SurfacePoint;
+use crate::transfer::LocalFrame;
+use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS, light_texel, texel_center};
+use crate::transfer::visibility::{Horizon, VisibilitySampling};
+
+/// What is done as transfer does it; each includes those before.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TracedRung {
+    /// Nothing.
+    Exact,
+    /// Light is constant over the texels of 6 x 32 x 32.
+    Light,
+    /// A texel is seen as far as its 2^m x 2^m directions are.
+    Visibility,
+    /// A texel's light comes from the local direction that is nearest to its center.
+    Directions,
+    /// The patch is known from some views, and interpolated between them.
+    Views,
+    /// And at texels, and interpolated between them: it is a texture.
+    Texture,
+}
+
+impl TracedRung {
+    /// All, in order.
+    pub const ALL: [Self; 6] =
+        [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Views, Self::Texture];
+}
+
+/// How many rungs there are.
+const RUNGS: usize = TracedRung::ALL.len();
+
+/// A light as both a pixel by rays and transfer have it.
+#[derive(Clone, Copy, Debug)]
+pub struct TracedLight<'a> {
+    /// Radiance in the fine directions.
+    pub fine: &'a [[f64; 3]],
+    /// Radiance of the light's texels.
+    pub texels: &'a [[f64; 3]],
+}
+
+/// A point of a mesh, as its pixel sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct TracedPoint {
+    /// Where it lies on its triangle.
+    pub point: SurfacePoint,
+    /// The pixel's local frame.
+    pub frame: LocalFrame,
+}
+
+/// A mesh that is in the light's way.
+#[derive(Debug)]
+pub struct TracedScene<'a> {
+    /// Both sides of its triangles.
+    pub tracer: &'a HostTracer,
+    /// The length of rays that end outside of it.
+    pub length: f64,
+    /// How visibility is sampled for transfer.
+    pub sampling: VisibilitySampling,
+}
+
+impl TracedScene<'_> {
+    /// Per direction of a sampling whether a point sees light there.
+    fn sees_light(&self, of: &TracedPoint, directions: &FineDirections, texels: &[[f64; 3]]) -> Vec<bool> {
+        let origin = of.point.lifted(of.point.normal, 0.0);
+        let sees = |direction: DVec3| {
+            let is_above = self.sampling.horizon == Horizon::Geometry || of.frame.normal().dot(direction) > 0.0;
+            if !is_above || of.point.normal.dot(direction) <= 0.0 {
+                return false;
+            }
+            let ray = Ray::new(origin, narrow(self.length * direction));
+            ray.is_ok_and(|ray| !self.tracer.occluded_before(&ray, 1.0).0)
+        };
+        let mut found = vec![false; directions.directions().len()];
+        let lit = texels.iter().enumerate().filter(|(_, radiance)| **radiance != [0.0; 3]);
+        for number in lit.flat_map(|(texel, _)| directions.in_texel(texel)) {
+            found[number] = sees(directions.directions()[number]);
+        }
+        found
+    }
+
+    /// The pixel's radiance on every rung, in their order.
+    ///
+    /// # Panics
+    /// If a light has not one radiance per direction or texel.
+    pub fn rungs(
+        &self,
+        of: &TracedPoint,
+        pixel: &ShadedPixel,
+        (patch, texture): (&MesoPatch, &BidirectionalTexture),
+        light: TracedLight<'_>,
+    ) -> [[f64; 3]; RUNGS] {
+        assert_eq!((light.fine.len(), light.texels.len()), (FINE_DIRECTIONS, LIGHT_TEXELS), "radiance of each");
+        let (fine, coarse) = (FineDirections::get(), self.sampling.directions());
+        let [sees, sees_coarsely] = [fine, coarse].map(|directions| self.sees_light(of, directions, light.texels));
+        let seen = patch.seen(pixel.place, pixel.view);
+        let mut rungs = [[0.0; 3]; RUNGS];
+        let mut add = |rung: TracedRung, b: [f64; 3], radiance: [f64; 3], solid_angle: f64| {
+            let into = &mut rungs[rung as usize];
+            (0..3).for_each(|channel| into[channel] += b[channel] * radiance[channel] * solid_angle);
+        };
+        // The patch's response, integrated over each texel, and each texel's solid angle.
+        let mut of_texel = vec![[0.0; 3]; LIGHT_TEXELS];
+        let mut solid_angles = vec![0.0; LIGHT_TEXELS];
+        for (number, &direction) in fine.directions().iter().enumerate() {
+            let (texel, solid_angle) = (light_texel(number), fine.solid_angles()[number]);
+            solid_angles[texel] += solid_angle;
+            if light.texels[texel] == [0.0; 3] {
+                continue;
+            }
+            let b = patch.reflected(&seen, of.frame.to_local(direction));
+            if sees[number] {
+                add(TracedRung::Exact, b, light.fine[number], solid_angle);
+                add(TracedRung::Light, b, light.texels[texel], solid_angle);
+            }
+            (0..3).for_each(|channel| of_texel[texel][channel] += b[channel] * solid_angle);
+        }
+        let directions = texture.light();
+        let of_view = |seen: &SeenPoint| -> Vec<[f64; 3]> {
+            directions.directions().iter().map(|&direction| patch.reflected(seen, direction)).collect()
+        };
+        let responses = of_view(&seen);
+        let mut local = vec![[0.0; 3]; responses.len()];
+        for (texel, &radiance) in light.texels.iter().enumerate() {
+            let open = coarse.in_texel(texel).filter(|&number| sees_coarsely[number]).count();
+            let share = open as f64 / coarse.in_texel(texel).count() as f64;
+            add(TracedRung::Visibility, of_texel[texel], radiance, share);
+            let nearest = directions.nearest(of.frame.to_local(texel_center(texel)));
+            add(TracedRung::Directions, responses[nearest], radiance, share * solid_angles[texel]);
+            (0..3).for_each(|channel| local[nearest][channel] += radiance[channel] * share * solid_angles[texel]);
+        }
+        let around = ViewSamples::around(texture.view(), pixel.view);
+        for (view, weight) in around.numbers.into_iter().zip(around.weights).filter(|(_, weight)| *weight > 0.0) {
+            let responses = of_view(&patch.seen(pixel.place, texture.view().directions()[view]));
+            for (b, &arriving) in responses.into_iter().zip(&local) {
+                add(TracedRung::Views, b, arriving, weight);
+            }
+        }
+        let own = ShadedPixel { corners: [0; 3], weights: [1.0, 0.0, 0.0], ..*pixel };
+        rungs[TracedRung::Texture as usize] = reference::radiance(texture, &local, &own);
+        rungs
+    }
+}
+
+impl TracedPoint {
+    /// The point of a triangle with these weights; `None` where the triangle has no area.
+    pub fn new(corners: [[f32; 3]; 3], weights: [f64; 3], frame: LocalFrame) -> Option<Self> {
+        let point = SurfacePoint::of(corners.map(wide), DVec3::from(weights), crate::tracer::offset::SINGLE)?;
+        Some(Self { point, frame })
+    }
+}

@@ -1,0 +1,211 @@
+//! A patch of heights, each texel of a material: b(u, e, d) at any directions.
+//!
+//! A place u of the mesh's surface is seen along the view: the point of the patch that lies behind it (parallax)
+//! answers with its BRDF times the cosine at the patch's own surface, unless the patch is in the light's way.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::field::HeightField;
+use super::material::MesoMaterial;
+use super::ray::{SurfaceHit, TexelRay, follow};
+use crate::elementary::on_circle;
+use crate::transfer::LocalFrame;
+use crate::transfer::brdf::BrdfError;
+
+/// What of the heights is drawn (section VII: normal maps and spatially invariant BRDFs in place of a bidirectional
+/// texture).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum MesoDetail {
+    /// All: parallax, normals, shadows.
+    #[default]
+    Relief,
+    /// A normal map: the normals alone.
+    Normals,
+    /// Nothing: the materials on the mesh's own surface.
+    Flat,
+}
+
+/// A repeated patch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MesoPatch {
+    heights: HeightField,
+    materials: Vec<MesoMaterial>,
+    texels: Vec<MesoTexel>,
+    /// What of it is drawn.
+    pub detail: MesoDetail,
+}
+
+/// What stands at a texel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MesoTexel {
+    /// The number of its material.
+    pub material: u32,
+    /// The tangent's angle from u towards v, in turns.
+    pub turns: f64,
+}
+
+/// Why parts make no patch.
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MesoPatchError {
+    /// Not one entry per height.
+    #[error("expected {expected} texels, one per height, found {found}")]
+    Count { expected: usize, found: usize },
+    /// A texel of no material, or without a direction.
+    #[error(
+        "expected a material below {materials} and a finite tangent, found {} and {} in row {row}, column {column}",
+        found.material, found.turns
+    )]
+    Texel { materials: usize, found: MesoTexel, row: usize, column: usize },
+    /// A material's figures.
+    #[error("material {material} (counted from 0): {reason}")]
+    Material { material: usize, reason: BrdfError },
+}
+
+/// What a view sees through a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenPoint {
+    /// The place in texels, in the patch that was hit.
+    at: [f64; 2],
+    /// Its height, in edges of the patch.
+    height: f64,
+    /// The surface's frame in that of the mesh: x along the texel's tangent.
+    frame: LocalFrame,
+    /// The direction to the eye in it.
+    view: DVec3,
+    material: usize,
+}
+
+impl MesoPatch {
+    /// A patch of heights, texels by rows and their materials.
+    ///
+    /// # Errors
+    /// [`MesoPatchError`].
+    pub fn new(
+        heights: HeightField,
+        materials: Vec<MesoMaterial>,
+        texels: Vec<MesoTexel>,
+    ) -> Result<Self, MesoPatchError> {
+        let (expected, side) = (heights.heights().len(), heights.side());
+        if texels.len() != expected {
+            return Err(MesoPatchError::Count { expected, found: texels.len() });
+        }
+        let is_good = |texel: &MesoTexel| (texel.material as usize) < materials.len() && texel.turns.is_finite();
+        if let Some(at) = texels.iter().position(|texel| !is_good(texel)) {
+            let (row, column) = (at / side, at % side);
+            return Err(MesoPatchError::Texel { materials: materials.len(), found: texels[at], row, column });
+        }
+        for (material, of) in materials.iter().enumerate() {
+            of.check().map_err(|reason| MesoPatchError::Material { material, reason })?;
+        }
+        Ok(Self { heights, materials, texels, detail: MesoDetail::default() })
+    }
+
+    /// The same material everywhere, without relief: a spatially invariant BRDF.
+    ///
+    /// # Errors
+    /// [`MesoPatchError::Material`].
+    pub fn plain(material: MesoMaterial) -> Result<Self, MesoPatchError> {
+        Self::new(HeightField::flat(), vec![material], vec![MesoTexel::default()])
+    }
+
+    /// The heights.
+    pub fn heights(&self) -> &HeightField {
+        &self.heights
+    }
+
+    /// b(u, e, d): radiance that leaves towards `view` at texture coordinates, per radiance times solid angle from
+    /// `light`. Directions are of length 1, in the mesh's local frame; light from below its horizon gives 0, a view
+    /// from there is taken for one at the horizon.
+    pub fn response(&self, place: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
+        self.reflected(&self.seen(place, view), light)
+    }
+
+    /// What a view sees through texture coordinates.
+    pub fn seen(&self, place: [f64; 2], view: DVec3) -> SeenPoint {
+        self.seen_by(place, view, |field, ray| {
+            follow(ray, |span| ray.hit(field, span).map_or(ControlFlow::Continue(()), ControlFlow::Break))
+        })
+    }
+
+    /// What comes back of light from a direction.
+    pub fn reflected(&self, seen: &SeenPoint, light: DVec3) -> [f64; 3] {
+        self.reflected_by(seen, light, |field, ray| {
+            let dips = |is: bool| if is { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+            follow(ray, |span| dips(ray.dips(field, span))).is_some()
+        })
+    }
+
+    /// The point that is seen, by a way of finding the first hit of a ray.
+    pub(super) fn seen_by(
+        &self,
+        place: [f64; 2],
+        view: DVec3,
+        first_hit: impl Fn(&HeightField, &TexelRay) -> Option<SurfaceHit>,
+    ) -> SeenPoint {
+        let field = &self.heights;
+        let view = if view.z > 0.0 { view } else { level(view) };
+        let through = field.texels(place);
+        let floor = |at: [f64; 2]| at.map(|at| at.floor() as isize);
+        let (at, cell) = match self.detail {
+            MesoDetail::Normals | MesoDetail::Flat => (through, floor(through)),
+            MesoDetail::Relief => {
+                let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
+                // A ray that is followed to its end stands on the lowest ground, or has come too far.
+                let end = ray.place(ray.end.max(0.0));
+                first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell))
+            }
+        };
+        let texel = self.texels[field.wrapped((at[0] + 0.5).floor() as isize, (at[1] + 0.5).floor() as isize)];
+        let normal = if self.detail == MesoDetail::Flat { DVec3::Z } else { field.normal_in(cell, at) };
+        let [x, y] = on_circle(texel.turns);
+        // Normals point upwards, so that no tangent in the plane runs along one.
+        let frame = LocalFrame::new(normal, DVec3::new(x, y, 0.0)).unwrap_or_else(|| LocalFrame::of_normal(normal));
+        SeenPoint {
+            at,
+            height: field.height_at(at),
+            frame,
+            view: frame.to_local(view),
+            material: texel.material as usize,
+        }
+    }
+
+    /// What comes back of light, by a way of finding whether a ray is blocked.
+    pub(super) fn reflected_by(
+        &self,
+        seen: &SeenPoint,
+        light: DVec3,
+        is_blocked: impl Fn(&HeightField, &TexelRay) -> bool,
+    ) -> [f64; 3] {
+        let local = seen.frame.to_local(light);
+        if !(light.z > 0.0 && local.z > 0.0 && seen.view.z > 0.0) {
+            return [0.0; 3];
+        }
+        if self.detail == MesoDetail::Relief {
+            let field = &self.heights;
+            let ray = TexelRay::new(field.side(), seen.at, seen.height, light.to_array(), -field.depth());
+            if is_blocked(field, &ray) {
+                return [0.0; 3];
+            }
+        }
+        self.materials[seen.material].value(seen.view, local).map(|value| value * local.z)
+    }
+}
+
+impl SeenPoint {
+    /// The point's place in edges of the patch, u, v and height: parallax moves it away from the place looked through.
+    pub fn point(&self, patch: &MesoPatch) -> DVec3 {
+        let [u, v] = self.at.map(|at| (at + 0.5) / patch.heights().side() as f64);
+        DVec3::new(u, v, self.height)
+    }
+}
+
+/// A direction below the horizon, moved to it.
+fn level(view: DVec3) -> DVec3 {
+    DVec3::new(view.x, view.y, 0.0).try_normalize().unwrap_or(DVec3::Z)
+}

@@ -1,0 +1,95 @@
+//! The macro-scale transfer T (section IV-A; equations 1 and 2): which of the light's texels each vertex sees, and to
+//! which of its local directions their light goes.
+//!
+//! Row M p + j is local direction j of vertex p, column k a light texel: face 1024 + row 32 + column of a cube with
+//! Direct3D's faces. Each texel that a vertex sees goes to one local direction, the nearest to the texel's center, so a
+//! column has at most one entry per vertex. The entry is the visible share of the texel's 2^m x 2^m directions, a
+//! multiple of 2^-2m. It holds neither solid angle nor cosine, which would tell entries apart that are equal: the solid
+//! angle is in the light ([`light_vector`]), the cosine in the bidirectional texture.
+
+use rayon::prelude::*;
+
+use super::directions::LocalDirections;
+use super::matrix::{MatrixEntry, SparseMatrix, SparseMatrixError};
+use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
+use crate::transfer::light::CubeLight;
+use crate::transfer::visibility::VisibilityMaps;
+use crate::transfer::{LocalFrame, Vertices};
+
+/// Vertices whose rows are made together.
+const BLOCK: usize = 256;
+
+/// T of the vertices of some visibility maps, map by map.
+///
+/// # Errors
+/// [`SparseMatrixError::Size`] if there are more rows than 32 bits can name, or none.
+///
+/// # Panics
+/// If the maps are of other vertices.
+pub fn transfer_matrix(
+    vertices: &Vertices,
+    maps: &VisibilityMaps,
+    directions: &LocalDirections,
+) -> Result<SparseMatrix, SparseMatrixError> {
+    let local = directions.directions().len();
+    let rows = maps.len().saturating_mul(local);
+    if rows == 0 || u32::try_from(rows).is_err() {
+        return Err(SparseMatrixError::Size { rows, columns: LIGHT_TEXELS });
+    }
+    let mut matrix = SparseMatrix::new(LIGHT_TEXELS, 2 * maps.sampling().log2_samples)?;
+    let all: Vec<usize> = (0..maps.len()).collect();
+    for block in all.chunks(BLOCK) {
+        let of_block: Vec<Vec<Vec<MatrixEntry>>> = block
+            .par_iter()
+            .map(|&map| {
+                let frame = &vertices.frames()[maps.vertices()[map] as usize];
+                vertex_rows(frame, &shares(maps, map), directions)
+            })
+            .collect();
+        for row in of_block.iter().flatten() {
+            matrix.push_row(row)?;
+        }
+    }
+    Ok(matrix)
+}
+
+/// Per light texel how many of its directions a vertex sees.
+pub fn shares(maps: &VisibilityMaps, map: usize) -> Vec<u32> {
+    let fine = maps.sampling().directions();
+    let seen = |texel: usize| fine.in_texel(texel).filter(|&fine| maps.is_visible(map, fine)).count() as u32;
+    (0..LIGHT_TEXELS).map(seen).collect()
+}
+
+/// T_p: per local direction the texels whose light goes there (equation 1).
+fn vertex_rows(frame: &LocalFrame, shares: &[u32], directions: &LocalDirections) -> Vec<Vec<MatrixEntry>> {
+    let mut rows = vec![Vec::new(); directions.directions().len()];
+    for (texel, &share) in shares.iter().enumerate().filter(|(_, share)| **share > 0) {
+        let nearest = directions.nearest(frame.to_local(texel_center(texel)));
+        rows[nearest].push(MatrixEntry { index: texel as u32, value: share.cast_signed() });
+    }
+    rows
+}
+
+/// [`light_vector`] of a light's red, green and blue.
+pub fn light_vectors(light: &CubeLight) -> [Vec<f64>; 3] {
+    [0, 1, 2]
+        .map(|channel: usize| light_vector(&light.texels().iter().map(|texel| texel[channel]).collect::<Vec<f64>>()))
+}
+
+/// Red, green and blue side by side: a color of each number of three vectors.
+pub fn side_by_side([red, green, blue]: [Vec<f64>; 3]) -> Vec<[f64; 3]> {
+    red.into_iter().zip(green).zip(blue).map(|((red, green), blue)| [red, green, blue]).collect()
+}
+
+/// L: radiance per texel times the texel's solid angle in steradians, which T leaves out.
+///
+/// # Panics
+/// If there is not one number per texel.
+pub fn light_vector(radiance: &[f64]) -> Vec<f64> {
+    assert_eq!(radiance.len(), LIGHT_TEXELS, "radiance of each texel");
+    let solid_angle = |texel: usize| {
+        let [_, row, column] = face_row_column(texel, LIGHT_SIDE);
+        LIGHT_MAP.solid_angle(column, row)
+    };
+    radiance.iter().enumerate().map(|(texel, radiance)| radiance * solid_angle(texel)).collect()
+}

@@ -1,0 +1,173 @@
+//! Superclusters: clusters whose constants are in the registers together.
+
+use std::collections::BTreeMap;
+
+use super::{CoherenceError, check_triangles, overdraw};
+use crate::transfer::clustering::Clustering;
+
+/// Constant registers for the products of clusters' vectors with the light (section 6.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConstantRegisters {
+    /// How many there are for all clusters of a supercluster.
+    pub limit: usize,
+    /// How many one representative vector takes.
+    pub per_vector: usize,
+}
+
+impl ConstantRegisters {
+    /// For glossy transfer with N_r rows, one color per pass: four numbers per register, whole registers per vector.
+    pub fn glossy(limit: usize, rows: usize) -> Self {
+        Self { limit, per_vector: rows.div_ceil(4) }
+    }
+
+    /// For diffuse transfer: a color per register.
+    pub fn diffuse(limit: usize) -> Self {
+        Self { limit, per_vector: 1 }
+    }
+
+    /// What a cluster of n' vectors takes: (n' + 1) vectors.
+    pub fn needed(self, vectors: usize) -> usize {
+        (vectors + 1).saturating_mul(self.per_vector)
+    }
+}
+
+/// Clusters in groups that are drawn as one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Superclusters {
+    of_cluster: Vec<u32>,
+    count: usize,
+}
+
+impl Superclusters {
+    /// Begins with a supercluster per cluster; then, again and again, merges those two with the most triangles in
+    /// common that fit the registers together, of equals the lowest, until no two neighbours do.
+    ///
+    /// # Errors
+    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or a cluster alone exceeds the registers.
+    pub fn new(
+        clustering: &Clustering,
+        triangles: &[[u32; 3]],
+        registers: ConstantRegisters,
+    ) -> Result<Self, CoherenceError> {
+        check_triangles(triangles, clustering.points())?;
+        let mut needed = needed(clustering, registers)?;
+        let mut of_cluster: Vec<u32> = (0..needed.len() as u32).collect();
+        let mut corners = mixed_triangles(triangles, clustering.of_point());
+        while let Some((a, b)) = best_pair(&corners, &needed, registers.limit) {
+            needed[a as usize] += needed[b as usize];
+            of_cluster.iter_mut().filter(|of| **of == b).for_each(|of| *of = a);
+            corners = renamed(corners, a, b);
+        }
+        Ok(Self::numbered(of_cluster))
+    }
+
+    /// A supercluster per cluster.
+    ///
+    /// # Errors
+    /// [`CoherenceError::Registers`] if a cluster exceeds the registers.
+    pub fn apart(clustering: &Clustering, registers: ConstantRegisters) -> Result<Self, CoherenceError> {
+        let count = needed(clustering, registers)?.len();
+        Ok(Self { of_cluster: (0..count as u32).collect(), count })
+    }
+
+    /// Numbers superclusters in the order of their lowest clusters.
+    fn numbered(mut of_cluster: Vec<u32>) -> Self {
+        let mut numbers = BTreeMap::new();
+        for of in &mut of_cluster {
+            let next = numbers.len() as u32;
+            *of = *numbers.entry(*of).or_insert(next);
+        }
+        Self { count: numbers.len(), of_cluster }
+    }
+
+    /// Number of superclusters.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Per cluster its supercluster.
+    pub fn of_cluster(&self) -> &[u32] {
+        &self.of_cluster
+    }
+
+    /// The number of triangles drawn, supercluster by supercluster.
+    ///
+    /// # Panics
+    /// If clustering and triangles are not those that the superclusters were made of.
+    pub fn overdraw(&self, clustering: &Clustering, triangles: &[[u32; 3]]) -> u64 {
+        let of_point: Vec<u32> = clustering.of_point().iter().map(|&k| self.of_cluster[k as usize]).collect();
+        overdraw(triangles, &of_point)
+    }
+}
+
+/// The registers that each cluster needs, none more than there are.
+fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<usize>, CoherenceError> {
+    let needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
+    match needed.iter().position(|&needed| needed > registers.limit) {
+        Some(cluster) => Err(CoherenceError::Registers { cluster, needed: needed[cluster], limit: registers.limit }),
+        None => Ok(needed),
+    }
+}
+
+/// The sets of two or three clusters that triangles have, with the number of such triangles. Two are [a, b, b].
+type MixedTriangles = BTreeMap<[u32; 3], u64>;
+
+fn mixed_triangles(triangles: &[[u32; 3]], of_point: &[u32]) -> MixedTriangles {
+    let mut found = MixedTriangles::new();
+    for corners in triangles {
+        add(&mut found, corners.map(|corner| of_point[corner as usize]), 1);
+    }
+    found
+}
+
+fn add(mixed: &mut MixedTriangles, mut clusters: [u32; 3], count: u64) {
+    clusters.sort_unstable();
+    let [a, b, c] = clusters;
+    if a != c {
+        *mixed.entry(if a == b { [a, c, c] } else { [a, b, c] }).or_default() += count;
+    }
+}
+
+fn renamed(mixed: MixedTriangles, to: u32, from: u32) -> MixedTriangles {
+    let mut found = MixedTriangles::new();
+    for (clusters, count) in mixed {
+        add(&mut found, clusters.map(|cluster| if cluster == from { to } else { cluster }), count);
+    }
+    found
+}
+
+/// The two superclusters with the most triangles in common that fit together, lower first.
+fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(u32, u32)> {
+    let mut common: BTreeMap<(u32, u32), u64> = BTreeMap::new();
+    for (&[a, b, c], &count) in mixed {
+        *common.entry((a, b)).or_default() += count;
+        if b != c {
+            *common.entry((a, c)).or_default() += count;
+            *common.entry((b, c)).or_default() += count;
+        }
+    }
+    let fitting = common.into_iter().filter(|((a, b), _)| needed[*a as usize] + needed[*b as usize] <= limit);
+    // Of equals, max_by_key gives the last: counted backwards, the first.
+    fitting.rev().max_by_key(|&(_, count)| count).map(|(pair, _)| pair)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Table 1, and what is left of 256 registers beside six constants for transform, eye and scale.
+    #[test]
+    fn registers_of_the_papers_models() {
+        let fitting = |registers: ConstantRegisters, vectors| {
+            [256, 250].map(|limit| limit / ConstantRegisters { limit, ..registers }.needed(vectors))
+        };
+        for (rows, vectors, needed, clusters) in
+            [(16, 6, 28, [9, 8]), (24, 8, 54, [4, 4]), (25, 8, 63, [4, 3]), (24, 20, 126, [2, 1]), (24, 0, 6, [42, 41])]
+        {
+            let registers = ConstantRegisters::glossy(256, rows);
+            assert_eq!((registers.needed(vectors), fitting(registers, vectors)), (needed, clusters), "{rows} rows");
+        }
+        let diffuse = ConstantRegisters::diffuse(256);
+        assert_eq!((diffuse.needed(8), fitting(diffuse, 8), fitting(diffuse, 4)), (9, [28, 27], [51, 50]));
+    }
+}

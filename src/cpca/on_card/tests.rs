@@ -1,0 +1,208 @@
+//! The vertex programs against the host's sums, bit for bit, and what does not fit.
+
+use refsim::exec::NoObserver;
+use refsim::exec::scalar::VertexProgram;
+use refsim::isa::Version;
+use refsim::machine::ExecutorKind;
+
+use super::*;
+use crate::cpca::kernels::VertexShading;
+use crate::transfer::brdf::ExitBasis;
+use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crate::transfer::synthetic::{hills, signal_at};
+use crate::transfer::{Tangents, Vertices};
+
+fn device(name: &str) -> Profile {
+    Profile::named(name).expect("a device")
+}
+
+/// Compressed transfer of hills: diffuse for light of 16 coefficients, or of so many functions for 4.
+struct Hills {
+    vertices: Vertices,
+    clustering: Clustering,
+    basis: ExitBasis,
+}
+
+impl Hills {
+    fn new(basis: ExitBasis, clusters: usize, vectors: usize, method: CpcaMethod) -> Self {
+        let vertices = Vertices::new(&hills(9), Tangents::Any).expect("vertices");
+        let columns = if matches!(basis, ExitBasis::Radiance) { 16 } else { 4 };
+        let place = |at: usize| vertices.positions()[at].map(f64::from);
+        let signal = signal_at(vertices.len(), basis.len() * columns, 5, place);
+        let options = CpcaOptions {
+            clusters,
+            vectors,
+            iterations: 4,
+            method,
+            form: CpcaForm::Affine,
+            start: StartPoints::Seed(1),
+        };
+        let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
+        Self { vertices, clustering, basis }
+    }
+
+    fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
+        let Self { vertices, clustering, basis } = self;
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
+    }
+}
+
+fn glossy(functions: usize) -> ExitBasis {
+    match functions {
+        24 => ExitBasis::without_1_0(5).expect("order 5"),
+        _ => ExitBasis::of_order(functions.isqrt()),
+    }
+}
+
+fn card<'a>(
+    name: &str,
+    transfer: CompressedTransfer<'a>,
+    options: &PrtCardOptions,
+) -> Result<PrtCard<'a>, PrtCardError> {
+    PrtCard::new(device(name), ExecutorKind::Batch, transfer, options)
+}
+
+/// Every vertex of every chunk: inside of its supercluster the host's sums, outside zeros.
+#[test]
+fn vertex_programs_give_the_hosts_sums() {
+    for (basis, clusters, vectors) in
+        [(ExitBasis::Radiance, 7, 5), (ExitBasis::Radiance, 3, 0), (glossy(16), 9, 6), (glossy(24), 6, 8)]
+    {
+        let hills = Hills::new(basis, clusters, vectors, CpcaMethod::Iterative);
+        let transfer = hills.transfer(vectors);
+        let light = HarmonicLight::red_and_blue(4);
+        for (name, superclusters, vertex_version, weights) in [
+            ("r300", true, None, WeightFormat::Fp32),
+            ("r300", false, None, WeightFormat::Unorm8),
+            ("r350", true, Some(Version::Vs1_1), WeightFormat::Fp16),
+            ("nv35", true, None, WeightFormat::Unorm16),
+        ] {
+            let map_format = if name == "nv35" { TexelFormat::Rgba8Snorm } else { TexelFormat::Rgba16Snorm };
+            let options =
+                PrtCardOptions { superclusters, vertex_version, map_format, weights, ..PrtCardOptions::default() };
+            let card = card(name, transfer, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let products = Products::new(&transfer, &card.weights, &light, 0.7).expect("products");
+            let rules = &card.machine.profile().rules;
+            let expected = order::exit_coefficients(rules, &transfer, &card.weights, &products).expect("sums");
+            let masks = if transfer.is_glossy() { 3 } else { 1 };
+            let mut inside = 0;
+            for chunk in &card.chunks {
+                for channel in 0..masks {
+                    inside += check_chunk(&card, chunk, (&products, channel), &expected);
+                }
+            }
+            assert_eq!(inside, masks * hills.vertices.len(), "{name}: each vertex once");
+        }
+    }
+}
+
+/// Checks one pass over a chunk; the number of vertices inside.
+fn check_chunk(
+    card: &PrtCard<'_>,
+    chunk: &Chunk,
+    (products, channel): (&Products, usize),
+    expected: &[[Vec<f32>; 3]],
+) -> usize {
+    let kernel = &card.programs.kernel;
+    let mut all = vec![[0.0; 4]; kernel.first()];
+    all.extend(chunk.constants(products, kernel, channel));
+    let program = VertexProgram::new(&card.programs.vertex, &card.machine.profile().rules, &constants(all));
+    let mut count = 0;
+    for at in 0..chunk.attributes.first().map_or(0, Vec::len) {
+        let mut attributes = [[0; 4]; 16];
+        attributes.iter_mut().zip(&chunk.attributes).for_each(|(into, from)| *into = from[at]);
+        let (result, _) = program.run(&attributes, &mut NoObserver);
+        let alpha = f32::from_bits(attributes[1][1]);
+        let vertex = card.positions.iter().position(|position| *position == attributes[0]).expect("a vertex");
+        let sums = &expected[vertex];
+        let wanted: Vec<f32> = match kernel.shading {
+            VertexShading::Glossy { .. } => sums[channel].clone(),
+            _ => sums.iter().map(|rows| rows[0]).collect(),
+        };
+        for (place, wanted) in wanted.iter().enumerate() {
+            let found = f32::from_bits(result.vertex.texcoords[place / 4][place % 4]);
+            if alpha == 0.0 {
+                assert_eq!(found, 0.0, "outside");
+            } else {
+                assert_eq!(found.to_bits(), wanted.to_bits(), "vertex {vertex}, number {place}: {found} {wanted}");
+            }
+        }
+        count += usize::from(alpha == 1.0);
+    }
+    count
+}
+
+/// Each weight is as near as its format's step, of the range of its cluster; zero and ends of the range are exact.
+#[test]
+fn weights_are_as_near_as_their_format() {
+    let hills = Hills::new(glossy(16), 5, 6, CpcaMethod::Iterative);
+    let clustering = &hills.clustering;
+    for (format, relative, of_range) in [
+        (WeightFormat::Fp32, f64::from(f32::EPSILON) / 2.0, 0.0),
+        (WeightFormat::Fp16, 1.0 / 2048.0, 0.0),
+        (WeightFormat::Unorm16, 1e-7, 0.5 / 65535.0),
+        (WeightFormat::Unorm8, 1e-7, 0.5 / 255.0),
+    ] {
+        let weights = CardWeights::new(clustering, format);
+        let (mut largest, mut allowed_largest) = (0.0_f64, 0.0_f64);
+        for (point, &cluster) in clustering.of_point().iter().enumerate() {
+            let ranges = weights.ranges(cluster as usize);
+            for (vector, (&weight, [low, extent])) in clustering.weights(point).iter().zip(ranges).enumerate() {
+                let read = low + extent * f64::from(weights.attribute(cluster as usize, vector, weight));
+                let allowed = relative * weight.abs().max(low.abs() + extent) + of_range * extent + 6e-8;
+                assert!((read - weight).abs() <= allowed, "{format}: {weight} {read}");
+                largest = largest.max((read - weight).abs());
+                allowed_largest = allowed_largest.max(allowed);
+            }
+        }
+        assert!(largest > allowed_largest / 20.0, "{format}: {largest} of {allowed_largest} allowed");
+    }
+}
+
+#[test]
+fn chunks_are_the_overdraw() {
+    let hills = Hills::new(glossy(24), 12, 8, CpcaMethod::Iterative);
+    let triangles = hills.vertices.triangles();
+    for superclusters in [false, true] {
+        let options = PrtCardOptions { superclusters, ..PrtCardOptions::default() };
+        let card = card("r300", hills.transfer(8), &options).expect("a card");
+        let drawn: usize = card.chunks.iter().map(|chunk| chunk.indices.len() / 3).sum();
+        assert_eq!(drawn as u64, card.superclusters().overdraw(&hills.clustering, triangles));
+        assert_eq!(card.superclusters().count() < 12, superclusters);
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let message = |name: &str, hills: &Hills, vectors, options: &PrtCardOptions| {
+        card(name, hills.transfer(vectors), options).map(|_| ()).expect_err("refused").to_string()
+    };
+    let options = PrtCardOptions::default();
+    let in_vs_1_1 = PrtCardOptions { vertex_version: Some(Version::Vs1_1), ..options };
+    let twenty = Hills::new(glossy(24), 1, 20, CpcaMethod::Iterative);
+    assert!(card("r300", twenty.transfer(20), &options).is_ok());
+    let refused = message("r300", &twenty, 20, &in_vs_1_1);
+    assert!(refused.contains("needs 126 constant registers, expected at most 91"), "{refused}");
+    let refused = message("nv25", &twenty, 20, &options);
+    assert!(refused.contains("`nv25` runs no `ps_2_0`") && refused.contains("r300"), "{refused}");
+    let forty = Hills::new(glossy(24), 1, 40, CpcaMethod::Iterative);
+    let refused = message("r300", &forty, 40, &options);
+    assert!(refused.contains("256") && refused.contains("258"), "constants suffice, slots do not: {refused}");
+    let wide = Hills::new(glossy(36), 2, 2, CpcaMethod::Iterative);
+    let refused = message("r300", &wide, 2, &options);
+    assert!(refused.contains("at most 28 functions") && refused.ends_with("found 36"), "{refused}");
+    let adaptive = Hills::new(ExitBasis::Radiance, 6, 3, CpcaMethod::Adaptive { rounds: 3 });
+    let refused = message("r300", &adaptive, 3, &options);
+    assert!(refused.contains("expected at most 3") && refused.contains("on the host alone"), "{refused}");
+    let diffuse = Hills::new(ExitBasis::Radiance, 2, 2, CpcaMethod::Iterative);
+    let refused = message("r300", &diffuse, 57, &options);
+    assert!(refused.contains("at most 56 vectors"), "{refused}");
+    let three = CompressedTransfer { channels: 3, ..diffuse.transfer(2) };
+    assert!(matches!(card("r300", three, &options), Err(PrtCardError::Shape { rows: 1, .. })));
+    let dim = HarmonicLight::constant(3, [1.0; 3]).expect("a light");
+    let weights = CardWeights::new(&diffuse.clustering, WeightFormat::Fp32);
+    let found = Products::new(&diffuse.transfer(2), &weights, &dim, 1.0);
+    assert!(matches!(found, Err(PrtCardError::LightOrder { expected: 4, found: 3 })));
+    let bright = HarmonicLight::constant(4, [1e30; 3]).expect("a light");
+    assert!(matches!(Products::new(&diffuse.transfer(2), &weights, &bright, 1e30), Err(PrtCardError::Figure { .. })));
+}

@@ -1,0 +1,72 @@
+//! Compressed transfer of a mesh: what is drawn.
+
+use crate::sphere::order_with;
+use crate::transfer::Vertices;
+use crate::transfer::brdf::ExitBasis;
+use crate::transfer::clustering::Clustering;
+
+use super::error::PrtCardError;
+use super::model::TransferSize;
+
+/// The compressed transfer of a mesh's vertices: a matrix per channel, row by row, from light in global coordinates to
+/// exit radiance in local ones.
+#[derive(Clone, Copy, Debug)]
+pub struct CompressedTransfer<'a> {
+    /// The mesh.
+    pub vertices: &'a Vertices,
+    /// A point per vertex.
+    pub clustering: &'a Clustering,
+    /// What rows are about: [`ExitBasis::Radiance`] is diffuse transfer.
+    pub basis: &'a ExitBasis,
+    /// Matrices per vertex: 1 for all channels alike, or 3.
+    pub channels: usize,
+    /// The number n' of vectors of a cluster. A cluster may have fewer, if that is its rank.
+    pub vectors: usize,
+}
+
+/// The order of the light that a transfer takes, and whether it is glossy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct TransferShape {
+    /// Matrices per vertex.
+    pub(super) channels: usize,
+    /// Rows of a matrix: N_r.
+    pub(super) rows: usize,
+    /// Columns: N_i.
+    pub(super) columns: usize,
+}
+
+impl CompressedTransfer<'_> {
+    /// Whether exit radiance depends on the view.
+    pub fn is_glossy(&self) -> bool {
+        matches!(self.basis, ExitBasis::Harmonics(_))
+    }
+
+    /// Its sizes.
+    ///
+    /// # Errors
+    /// [`PrtCardError`] if the parts do not go together.
+    pub fn size(&self) -> Result<TransferSize, PrtCardError> {
+        let TransferShape { rows, columns, .. } = self.shape()?;
+        let clusters = self.clustering.subspaces().len();
+        Ok(TransferSize { vertices: self.vertices.len(), rows, columns, clusters, vectors: self.vectors })
+    }
+
+    /// Checks that the parts go together.
+    pub(super) fn shape(&self) -> Result<TransferShape, PrtCardError> {
+        let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
+        let size = channels * rows;
+        let columns = found.checked_div(size).unwrap_or(0);
+        if ![1, 3].contains(&channels) || size * columns != found || order_with(columns).is_none() {
+            return Err(PrtCardError::Shape { channels, rows, found });
+        }
+        let (expected, found) = (self.vertices.len(), self.clustering.points());
+        if expected != found {
+            return Err(PrtCardError::Size { what: "points, one per vertex", expected, found });
+        }
+        let lens = self.clustering.subspaces().iter().map(|subspace| subspace.len());
+        match lens.enumerate().find(|&(_, found)| found > self.vectors) {
+            Some((cluster, found)) => Err(PrtCardError::Vectors { cluster, found, expected: self.vectors }),
+            None => Ok(TransferShape { channels, rows, columns }),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! How a material answers light: the exit radiance, in an exit basis, per unit of radiance that arrives from each
+//! direction of a rule.
+
+use std::f64::consts::PI;
+
+use crate::linalg::{Matrix, MatrixError, dot};
+use crate::sphere::{DirectionRule, function_count, harmonics};
+use crate::transfer::TransferError;
+use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
+
+/// How incident radiance reaches the BRDF of a glossy material.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Incident {
+    /// Through spherical harmonics of this order, as in M_p = B R_p T_p: incident radiance is cut to their band.
+    Harmonics {
+        /// The order; the paper takes 5.
+        order: usize,
+        /// Whether A_i^-1 stands between B and R_p T_p, as in equation 1.
+        inverse: bool,
+    },
+    /// Direction by direction, as in the double integral of section 3.1: no band but that of the light.
+    Directions,
+}
+
+/// A material's exit radiance in an exit basis, per radiance that arrives from each direction of a rule, in the local
+/// frame. With a rule that is exact for products of two functions, everything that follows is linear algebra: the
+/// transfer matrix is the integral of this column times the row of light functions, over the directions that see light.
+#[derive(Clone, Debug)]
+pub struct Response {
+    basis: ExitBasis,
+    /// The rule's directions.
+    directions: usize,
+    /// A column per direction.
+    columns: Vec<f64>,
+}
+
+impl Response {
+    /// Diffuse: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3.
+    ///
+    /// # Errors
+    /// [`TransferError::OutOfRange`] if the albedo is not in [0, 1].
+    pub fn diffuse(albedo: f64, rule: &DirectionRule) -> Result<Self, TransferError> {
+        if !(0.0..=1.0).contains(&albedo) {
+            let (what, expected) = ("the albedo", "a number from 0 to 1");
+            return Err(TransferError::OutOfRange { what, expected, found: albedo });
+        }
+        let columns = rule.directions().iter().map(|s| albedo / PI * s.z).collect();
+        Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
+    }
+
+    /// The irradiance that passes into a medium below the surface: cosine times the transmittance at that cosine. One
+    /// row, which is no radiance: it is made for [`Transfer::scattered`](super::Transfer::scattered), and does not
+    /// bounce.
+    pub fn entering(transmittance: impl Fn(f64) -> f64, rule: &DirectionRule) -> Self {
+        let columns = rule.directions().iter().map(|s| transmittance(s.z) * s.z).collect();
+        Self { basis: ExitBasis::Radiance, directions: rule.len(), columns }
+    }
+
+    /// Glossy, in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or one of its relatives. `exit_inverse` says
+    /// whether A_r^-1 is applied; without, rows are the zero-hemisphere projection of exit radiance. `views` is the
+    /// rule that B is integrated with ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
+    ///
+    /// # Errors
+    /// [`TransferError::Brdf`] for figures out of range.
+    pub fn glossy(
+        brdf: &Brdf,
+        exit: &ExitBasis,
+        exit_inverse: bool,
+        incident: Incident,
+        rule: &DirectionRule,
+        views: &DirectionRule,
+    ) -> Result<Self, TransferError> {
+        brdf.check()?;
+        let projector = Projector::new(exit, exit_inverse);
+        let columns = match incident {
+            Incident::Directions => exit_per_direction(brdf, &projector, rule.directions(), views),
+            Incident::Harmonics { order, inverse } => {
+                let inner = ExitBasis::of_order(order);
+                let inner = Projector::new(&inner, inverse);
+                let b = integrals(brdf, &projector, &inner, views)?;
+                let functions = inner.functions(rule.directions());
+                let at = |values| b.rows().map(move |row| dot(row, values));
+                functions.chunks_exact(b.column_count()).flat_map(at).collect()
+            }
+        };
+        Ok(Self { columns: projector.coefficients(columns), basis: exit.clone(), directions: rule.len() })
+    }
+
+    /// No material at all: the answer is the incident radiance itself, projected onto a basis by integrals over the
+    /// hemisphere, or with `inverse` by least squares.
+    pub(super) fn incident(basis: &ExitBasis, inverse: bool, rule: &DirectionRule) -> Self {
+        let projector = Projector::new(basis, inverse);
+        let columns = projector.coefficients(projector.functions(rule.directions()));
+        Self { columns, basis: basis.clone(), directions: rule.len() }
+    }
+
+    /// What exit radiance is expressed in.
+    pub fn basis(&self) -> &ExitBasis {
+        &self.basis
+    }
+
+    /// The number of directions of the rule.
+    pub fn direction_count(&self) -> usize {
+        self.directions
+    }
+
+    /// The column of each direction.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = &[f64]> {
+        self.columns.chunks_exact(self.basis.len())
+    }
+
+    /// The matrix that a vertex has which sees the whole hemisphere, for light of an order in local coordinates.
+    ///
+    /// # Errors
+    /// [`MatrixError`] never, since there are at most 100 functions.
+    ///
+    /// # Panics
+    /// If the order is not 1 to 10, or the rule is not of as many directions as the response's.
+    pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, MatrixError> {
+        assert_eq!(rule.len(), self.directions, "the response's rule");
+        let columns = function_count(light_order);
+        let (mut sums, mut y) = (Matrix::zeros([self.basis.len(), columns])?, vec![0.0; columns]);
+        for ((&s, weight), exits) in rule.directions().iter().zip(rule.weights()).zip(self.columns()) {
+            harmonics(light_order, s, &mut y);
+            for (row, exit) in exits.iter().enumerate() {
+                sums.row_mut(row).iter_mut().zip(&y).for_each(|(sum, y)| *sum += weight * exit * y);
+            }
+        }
+        Ok(sums)
+    }
+}

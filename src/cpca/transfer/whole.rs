@@ -1,0 +1,245 @@
+//! The transfer matrices of all vertices.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::gather::Gather;
+use super::rays::TracedRays;
+use super::response::Response;
+use crate::sphere::{MAX_ORDER, function_count};
+use crate::transfer::brdf::ExitBasis;
+use crate::transfer::{TransferError, Vertices};
+
+/// Vertices per chunk of a sum over all vertices: part of the shape of the sum.
+const CHUNK: usize = 1024;
+
+/// How often light is reflected on its way, beyond the reflection that sends it to the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bounces {
+    /// So many times; 0 is shadows alone.
+    Count(u32),
+    /// Until a bounce adds less than this share of the direct transfer (root mean square over all numbers).
+    Tolerance {
+        /// Above 0.
+        share: f64,
+        /// Bounces at most.
+        most: u32,
+    },
+}
+
+/// The transfer of every vertex: a matrix each, from light in global coordinates to exit radiance in an exit basis in
+/// local ones.
+#[derive(Clone, Debug)]
+pub struct Transfer {
+    basis: ExitBasis,
+    columns: usize,
+    values: Vec<f32>,
+    /// What each bounce added, as a share of the direct transfer (root mean square over all numbers).
+    pub bounces: Vec<f64>,
+}
+
+impl Transfer {
+    /// The transfer of all vertices for light of an order. One response per material, in one exit basis; the rays must
+    /// have been traced from these vertices, and have kept hits if light is to bounce.
+    ///
+    /// # Errors
+    /// [`TransferError`] for responses that do not go together or belong to another rule, a missing material, an order
+    /// not in 1 to 10, bounces without hits.
+    pub fn new(
+        vertices: &Vertices,
+        rays: &TracedRays,
+        responses: &[Response],
+        light_order: usize,
+        bounces: Bounces,
+    ) -> Result<Self, TransferError> {
+        if let Some((triangle, material)) = unknown_material(vertices, responses) {
+            return Err(TransferError::Material { triangle, material, responses: responses.len() });
+        }
+        check(vertices, rays, responses, light_order, bounces)?;
+        let gather = Gather::new(vertices, rays, responses, light_order);
+        let direct = gather.direct();
+        let whole = squares(&direct, gather.size());
+        let (most, least) = match bounces {
+            Bounces::Count(count) => (count, 0.0),
+            Bounces::Tolerance { share, most } => (most, share * share * whole),
+        };
+        let mut last = if most > 0 { direct.clone() } else { Vec::new() };
+        let (mut total, mut added) = (direct, Vec::new());
+        for _ in 0..most {
+            last = gather.bounce(&last, responses[0].basis());
+            total.par_iter_mut().zip(&last).for_each(|(total, more)| *total += more);
+            let now = squares(&last, gather.size());
+            added.push(if whole > 0.0 { (now / whole).sqrt() } else { 0.0 });
+            if now <= least {
+                break;
+            }
+        }
+        let (basis, columns) = (responses[0].basis().clone(), function_count(light_order));
+        Ok(Self { basis, columns, values: total, bounces: added })
+    }
+
+    /// The transferred incident radiance, R_p T_p, of all vertices in local coordinates: projected onto `basis` by
+    /// integrals over the hemisphere (zero hemisphere), or with `inverse` by least squares. What arrives from other
+    /// surfaces is taken from `exit`, their exit radiance; nothing arrives from them where `exit` is `None`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn incident(
+        vertices: &Vertices,
+        rays: &TracedRays,
+        (basis, inverse): (&ExitBasis, bool),
+        light_order: usize,
+        exit: Option<&Self>,
+    ) -> Result<Self, TransferError> {
+        let responses = [Response::incident(basis, inverse, rays.rule())];
+        check(vertices, rays, &responses, light_order, Bounces::Count(u32::from(exit.is_some())))?;
+        let gather = Gather::new(vertices, rays, &responses, light_order);
+        let mut values = gather.direct();
+        let columns = function_count(light_order);
+        if let Some(exit) = exit {
+            differ("columns", [columns, exit.columns])?;
+            differ("vertices", [vertices.len(), exit.vertex_count()])?;
+            let more = gather.bounce(&exit.values, &exit.basis);
+            values.iter_mut().zip(more).for_each(|(value, more)| *value += more);
+        }
+        Ok(Self { basis: basis.clone(), columns, values, bounces: Vec::new() })
+    }
+
+    /// The number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.values.len() / (self.row_count() * self.columns)
+    }
+
+    /// Rows of each matrix: functions of the exit basis.
+    pub fn row_count(&self) -> usize {
+        self.basis.len()
+    }
+
+    /// Columns of each matrix: functions of the light.
+    pub fn column_count(&self) -> usize {
+        self.columns
+    }
+
+    /// What rows are about.
+    pub fn basis(&self) -> &ExitBasis {
+        &self.basis
+    }
+
+    /// The matrix of a vertex, row by row.
+    ///
+    /// # Panics
+    /// If there is no such vertex.
+    pub fn of(&self, vertex: usize) -> &[f32] {
+        let size = self.row_count() * self.columns;
+        &self.values[vertex * size..(vertex + 1) * size]
+    }
+
+    /// The matrices of all vertices, one after the other, row by row: the values of a signal of rows times columns
+    /// numbers per point.
+    pub fn into_values(self) -> Vec<f32> {
+        self.values
+    }
+
+    /// The same basis and size with other numbers.
+    pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
+        Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
+    }
+
+    /// The radiance that a vertex sends in a local direction under light with these coefficients: y(v) M_p l.
+    ///
+    /// # Panics
+    /// If there is no such vertex, or the light has not one coefficient per column.
+    pub fn radiance(&self, vertex: usize, view: DVec3, light: &[f64]) -> f64 {
+        assert_eq!(light.len(), self.columns, "a coefficient per column");
+        let mut y = vec![0.0; self.row_count()];
+        self.basis().values(view, &mut y);
+        let rows = self.of(vertex).chunks_exact(self.columns);
+        let exit = |row: &[f32]| row.iter().zip(light).map(|(&m, l)| f64::from(m) * l).sum::<f64>();
+        y.iter().zip(rows).map(|(y, row)| y * exit(row)).sum()
+    }
+
+    /// Adds the transfer of the same vertices in another exit basis of harmonics, such as a diffuse part in
+    /// [`ExitBasis::Radiance`], whose radiance goes into y_0 (Figure 9).
+    ///
+    /// # Errors
+    /// [`TransferError`] if sizes do not fit, or this basis lacks a function of the other.
+    pub fn add(&mut self, other: &Self) -> Result<(), TransferError> {
+        differ("columns", [self.columns, other.columns])?;
+        differ("vertices", [self.vertex_count(), other.vertex_count()])?;
+        let places = places(&self.basis, &other.basis)?;
+        let (rows, columns, other_rows) = (self.row_count(), self.columns, other.row_count());
+        let into = self.values.par_chunks_exact_mut(rows * columns);
+        into.zip(other.values.par_chunks_exact(other_rows * columns)).for_each(|(into, from)| {
+            for (&(row, scale), from) in places.iter().zip(from.chunks_exact(columns)) {
+                let into = &mut into[row * columns..(row + 1) * columns];
+                into.iter_mut().zip(from).for_each(|(into, from)| *into += (scale * f64::from(*from)) as f32);
+            }
+        });
+        Ok(())
+    }
+}
+
+/// The row of one basis for each row of another, and what the latter is multiplied by.
+fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, TransferError> {
+    let missing = TransferError::ExitBases { found: [into.len(), from.len()] };
+    match (into, from) {
+        (ExitBasis::Radiance, ExitBasis::Radiance) => Ok(vec![(0, 1.0)]),
+        (ExitBasis::Radiance, ExitBasis::Harmonics(_)) => Err(missing),
+        // y_0 is 1 / sqrt(4 pi).
+        (ExitBasis::Harmonics(_), ExitBasis::Radiance) if into.functions().first() == Some(&0) => {
+            Ok(vec![(0, (4.0 * std::f64::consts::PI).sqrt())])
+        }
+        _ => {
+            let place = |index| into.functions().iter().position(|own| own == index).map(|row| (row, 1.0));
+            from.functions().iter().map(place).collect::<Option<_>>().ok_or(missing)
+        }
+    }
+}
+
+fn check(
+    vertices: &Vertices,
+    rays: &TracedRays,
+    responses: &[Response],
+    light_order: usize,
+    bounces: Bounces,
+) -> Result<(), TransferError> {
+    if !(1..=MAX_ORDER).contains(&light_order) {
+        let (what, expected) = ("the order of the light", "an order from 1 to 10");
+        return Err(TransferError::OutOfRange { what, expected, found: light_order as f64 });
+    }
+    differ("vertices of rays", [vertices.len(), rays.vertex_count()])?;
+    for response in responses {
+        differ("directions", [rays.rule().len(), response.direction_count()])?;
+        if responses[0].basis().functions() != response.basis().functions() {
+            let found = [responses[0].basis().len(), response.basis().len()];
+            return Err(TransferError::ExitBases { found });
+        }
+    }
+    match bounces {
+        Bounces::Tolerance { share, .. } if !(share > 0.0 && share.is_finite()) => {
+            let (what, expected) = ("the tolerance of bounces", "a finite number above 0");
+            Err(TransferError::OutOfRange { what, expected, found: share })
+        }
+        Bounces::Count(0) => Ok(()),
+        _ if !rays.keeps_hits() => Err(TransferError::NoHits),
+        _ => Ok(()),
+    }
+}
+
+/// The first triangle whose material has no response.
+fn unknown_material(vertices: &Vertices, responses: &[Response]) -> Option<(usize, u32)> {
+    let material = |corners: &[u32; 3]| vertices.materials()[corners[0] as usize];
+    let mut materials = vertices.triangles().iter().map(material).enumerate();
+    materials.find(|&(_, material)| material as usize >= responses.len())
+}
+
+/// The sum of squares over all vertices, in a fixed order.
+fn squares(values: &[f32], size: usize) -> f64 {
+    let chunk = |values: &[f32]| values.iter().map(|&value| f64::from(value) * f64::from(value)).sum::<f64>();
+    values.par_chunks(CHUNK * size).map(chunk).collect::<Vec<_>>().into_iter().sum()
+}
+
+/// An error if two numbers differ.
+fn differ(what: &'static str, found: [usize; 2]) -> Result<(), TransferError> {
+    if found[0] == found[1] { Ok(()) } else { Err(TransferError::Differ { what, found }) }
+}

@@ -1,0 +1,208 @@
+//! Principal components of a cluster (section 4.1).
+
+use refsim::exec::batch::SimdLevel;
+
+use super::gram::{COLUMNS, KeptProducts, add_products, square};
+use super::products::{Packed, ROWS, add_block, add_orthonormal};
+use super::{AffineSubspace, CpcaForm};
+use crate::linalg::{FactorError, LeadingEigen, Matrix};
+use crate::transfer::Signal;
+
+/// The share of a cluster's largest eigenvalue up to which others are rounding, and have no vectors.
+pub(super) const NO_EIGENVALUE: f64 = 1.0 / (1u64 << 44) as f64;
+
+/// Points per chunk of C^T C: part of the shape of its sums.
+const CHUNK: usize = 512;
+
+/// A cluster's subspace, and what it leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fitted {
+    pub(super) subspace: AffineSubspace,
+    /// What sums to the squared error of the cluster's points: the eigenvalues without vectors, where they are known.
+    left: Vec<f64>,
+}
+
+impl Fitted {
+    /// A mean alone, of points without error.
+    pub(super) fn at(mean: Vec<f64>) -> Self {
+        Self { subspace: AffineSubspace::at(mean), left: Vec::new() }
+    }
+
+    /// The squared error of all points of the cluster.
+    pub(super) fn squared_error(&self) -> f64 {
+        self.left.iter().sum()
+    }
+
+    /// All eigenvalues that may have a vector, the largest first. Fitted with no vector, none are known.
+    pub(super) fn eigenvalues(&self) -> Vec<f64> {
+        let all: Vec<f64> = self.subspace.eigenvalues.iter().chain(&self.left).copied().collect();
+        let kept = all.iter().take_while(|&&value| value > all[0] * NO_EIGENVALUE).count();
+        all[..kept].to_vec()
+    }
+
+    /// Leaves the first vectors, `count` of them or all.
+    pub(super) fn truncate(&mut self, count: usize) {
+        let cut = self.subspace.eigenvalues.iter().skip(count).copied();
+        self.left = cut.chain(self.left.iter().copied()).collect();
+        self.subspace.truncate(count);
+    }
+}
+
+/// The mean of some points, at least one, and their `count` first principal components; fewer where the residuals have
+/// a lower rank. In the linear form the mean is 0 once there are vectors; the inner products of points are kept then.
+pub(super) fn fit(
+    signal: &Signal,
+    points: &[u32],
+    count: usize,
+    form: CpcaForm,
+    level: SimdLevel,
+    kept: &mut KeptProducts,
+) -> Result<Fitted, FactorError> {
+    let linear = form == CpcaForm::Linear && count > 0;
+    let mean = if linear { vec![0.0; signal.dimension()] } else { mean(signal, points) };
+    if count == 0 || (points.len() == 1 && !linear) {
+        let squared_error = points.iter().map(|&point| squared_distance(signal.point(point as usize), &mean)).sum();
+        return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
+    }
+    let residuals = Residuals { signal, points, mean: &mean, level };
+    let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
+        Principal::of_components(&residuals.between_components()?, count, level)?
+    } else if linear {
+        let products = residuals.between_points(kept)?;
+        let found = Principal::of_points(&residuals, &products, count)?;
+        kept.keep(points, products);
+        found
+    } else {
+        Principal::of_points(&residuals, &residuals.between_points(&KeptProducts::default())?, count)?
+    };
+    let found = vectors.len() / mean.len();
+    let left = values.split_off(found).into_iter().map(|value| value.max(0.0)).collect();
+    Ok(Fitted { subspace: AffineSubspace { mean, vectors, eigenvalues: values }, left })
+}
+
+/// The first `count` principal vectors of some points less a center, one after another.
+pub(super) fn principal_vectors(
+    signal: &Signal,
+    points: &[u32],
+    center: &[f64],
+    count: usize,
+    level: SimdLevel,
+) -> Result<Vec<f64>, FactorError> {
+    let residuals = Residuals { signal, points, mean: center, level };
+    let products = residuals.between_points(&KeptProducts::default())?;
+    Ok(Principal::of_points(&residuals, &products, count)?.vectors)
+}
+
+/// All eigenvalues, the largest first, and some vectors.
+struct Principal {
+    values: Vec<f64>,
+    vectors: Vec<f64>,
+}
+
+impl Principal {
+    /// Of C^T C.
+    fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, FactorError> {
+        let (eigen, kept) = leading(products, count, level)?;
+        let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
+        Ok(Self { values: eigen.values, vectors })
+    }
+
+    /// Of C C^T.
+    fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, FactorError> {
+        let (eigen, kept) = leading(products, count, residuals.level)?;
+        let length = residuals.mean.len();
+        let combined = residuals.combined(&eigen.vectors, kept);
+        let mut vectors = Vec::with_capacity(combined.len());
+        residuals.level.run(
+            #[inline(always)]
+            || combined.chunks_exact(length).all(|vector| add_orthonormal(&mut vectors, vector.to_vec(), 0.0)),
+        );
+        Ok(Self { values: eigen.values, vectors })
+    }
+}
+
+/// Eigenvalues and vectors, and how many of these are more than rounding.
+fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), FactorError> {
+    let eigen = level.run(
+        #[inline(always)]
+        || LeadingEigen::new(products, count),
+    )?;
+    let least = eigen.values[0] * NO_EIGENVALUE;
+    let kept = eigen.values.iter().take(count).take_while(|&&value| value > least).count();
+    Ok((eigen, kept))
+}
+
+fn mean(signal: &Signal, points: &[u32]) -> Vec<f64> {
+    let mut mean = vec![0.0; signal.dimension()];
+    for &point in points {
+        mean.iter_mut().zip(signal.point(point as usize)).for_each(|(sum, &value)| *sum += f64::from(value));
+    }
+    mean.iter_mut().for_each(|sum| *sum /= points.len() as f64);
+    mean
+}
+
+fn squared_distance(point: &[f32], mean: &[f64]) -> f64 {
+    let differences = point.iter().zip(mean).map(|(&value, mean)| f64::from(value) - mean);
+    differences.map(|difference| difference * difference).sum()
+}
+
+/// The matrix C of a cluster: its points less the mean, a row each.
+struct Residuals<'a> {
+    signal: &'a Signal,
+    points: &'a [u32],
+    mean: &'a [f64],
+    level: SimdLevel,
+}
+
+impl Residuals<'_> {
+    fn residual(&self, point: u32, into: &mut [f64]) {
+        let values = self.signal.point(point as usize).iter().zip(self.mean);
+        into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
+    }
+
+    /// A component of the residuals of some points.
+    fn component(&self, points: &[u32], component: usize, into: &mut [f64]) {
+        let values = points.iter().map(|&point| self.signal.point(point as usize)[component]);
+        let mean = self.mean[component];
+        into.iter_mut().zip(values).for_each(|(into, value)| *into = f64::from(value) - mean);
+    }
+
+    /// C C^T.
+    fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, FactorError> {
+        kept.of(self.points, self.mean.len(), self.level, |point, into| self.residual(point, into))
+    }
+
+    /// C^T C, a chunk of points at a time.
+    fn between_components(&self) -> Result<Matrix, FactorError> {
+        let mut products = square(self.mean.len())?;
+        for chunk in self.points.chunks(CHUNK) {
+            let component = |j: usize, into: &mut [f64]| self.component(chunk, j, into);
+            add_products(&mut products, chunk.len(), self.level, component);
+        }
+        Ok(products)
+    }
+
+    /// C^T u for the first vectors u, one after another: combinations of the points' residuals.
+    fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
+        let (length, points) = (self.mean.len(), self.points.len());
+        let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
+        let columns = Packed::<f64, COLUMNS>::across(length, points, |at, first, into| {
+            let values = self.signal.point(self.points[at] as usize)[first..].iter().zip(&self.mean[first..]);
+            into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
+        });
+        let mut combined = vec![0.0; count * length];
+        for (rows, into) in rows.groups().zip(combined.chunks_mut(ROWS * length)) {
+            for (group, columns) in columns.groups().enumerate() {
+                let mut sums = [[0.0; COLUMNS]; ROWS];
+                self.level.run(
+                    #[inline(always)]
+                    || add_block(rows, columns, &mut sums),
+                );
+                for (into, sums) in into.chunks_exact_mut(length).zip(&sums) {
+                    into[group * COLUMNS..].iter_mut().zip(sums).for_each(|(into, &sum)| *into = sum);
+                }
+            }
+        }
+        combined
+    }
+}

@@ -1,0 +1,53 @@
+//! Which mesh a file belongs to.
+
+use std::fmt;
+
+use crate::transfer::{LocalFrame, Tangents, Vertices};
+
+/// Counts and checksums of the vertices that transfer is computed at. Vertices of other positions, normals or tangents,
+/// other triangles, or the same in another order, have another digest, but for one in 2^32.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshDigest {
+    /// Where tangents come from.
+    pub tangents: Tangents,
+    /// Number of vertices.
+    pub vertices: u32,
+    /// Number of triangles.
+    pub triangles: u32,
+    /// CRC-32 of all positions as little-endian f32, then all normals, then all tangents, as little-endian f64.
+    pub vertex_crc: u32,
+    /// CRC-32 of the triangles' corners as little-endian u32.
+    pub triangle_crc: u32,
+}
+
+impl MeshDigest {
+    /// Of the vertices of a mesh.
+    pub fn new(vertices: &Vertices) -> Self {
+        let (mut vertex, mut triangle) = (crc32fast::Hasher::new(), crc32fast::Hasher::new());
+        vertices.positions().as_flattened().iter().for_each(|value| vertex.update(&value.to_le_bytes()));
+        for axis in [LocalFrame::normal, LocalFrame::tangent] {
+            let values = vertices.frames().iter().flat_map(|frame| axis(frame).to_array());
+            values.for_each(|value| vertex.update(&value.to_le_bytes()));
+        }
+        vertices.triangles().as_flattened().iter().for_each(|corner| triangle.update(&corner.to_le_bytes()));
+        Self {
+            tangents: vertices.tangents(),
+            vertices: vertices.len() as u32,
+            triangles: vertices.triangles().len() as u32,
+            vertex_crc: vertex.finalize(),
+            triangle_crc: triangle.finalize(),
+        }
+    }
+}
+
+impl fmt::Display for MeshDigest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { tangents, vertices, triangles, vertex_crc, triangle_crc } = self;
+        write!(f, "{vertices} vertices ({vertex_crc:08x}) and {triangles} triangles ({triangle_crc:08x}), ")?;
+        match tangents {
+            Tangents::Any => f.write_str("any tangents"),
+            Tangents::Texture => f.write_str("tangents from texture coordinates"),
+            Tangents::Along(_) => write!(f, "tangents along {tangents}"),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The `.prt` file: transfer of a mesh, its clusters, or both, with all conventions in its header. docs/prt-format.md
+//! specifies it.
+//!
+//! Checksums cover every byte; a file is read whole or refused. Equal contents have equal bytes.
+
+mod digest;
+mod error;
+pub(crate) mod read;
+pub(crate) mod write;
+
+pub use digest::MeshDigest;
+pub use error::PrtFileError;
+pub use read::{load_prt, parse_prt};
+pub use write::{save_prt, write_prt};
+
+use super::Signal;
+use super::clustering::Clustering;
+
+/// How such a file begins: no text, and broken by programs that change line ends.
+pub const MAGIC: &[u8; 8] = b"\x89PRT\r\n\x1a\n";
+/// The version that is written, and the newest that is read.
+pub const VERSION: u32 = 1;
+/// Longest file that is read, in bytes (4 GiB).
+pub const MAX_BYTES: u64 = 1 << 32;
+
+/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2, [`BiScaleFile`] 3. Real orthonormal
+/// harmonics, function l(l+1)+m, no Condon-Shortley sign (l = 1 is y, z, x), light in the axes of the mesh, exit
+/// radiance in those of the vertex with its normal as z.
+const CONVENTIONS: u32 = 1;
+
+/// Numbers of [`Tangents`](crate::transfer::Tangents); 0 without a mesh.
+const ANY_TANGENTS: u32 = 1;
+const TEXTURE_TANGENTS: u32 = 2;
+const AXIS_TANGENTS: u32 = 3;
+
+const TRANSFER: &[u8; 4] = b"TRAN";
+const CLUSTERING: &[u8; 4] = b"CLUS";
+
+/// What a `.prt` file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrtFile {
+    /// What the numbers of a point are.
+    pub meaning: PrtMeaning,
+    /// The mesh whose vertices the points are, if they are: as many as points.
+    pub mesh: Option<MeshDigest>,
+    /// The uncompressed numbers.
+    pub transfer: Option<Signal>,
+    /// The compressed ones.
+    pub clustering: Option<Clustering>,
+}
+
+/// What the numbers of a point are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PrtMeaning {
+    /// Just numbers.
+    Numbers {
+        /// How many.
+        dimension: u32,
+    },
+    /// A transfer matrix per channel: channel by channel, row by row.
+    Transfer {
+        /// 1 or 3 (red, green, blue).
+        channels: u32,
+        /// Per row the function of exit radiance, l(l+1)+m, in increasing order; `[0]` for diffuse transfer.
+        exit_functions: Vec<u16>,
+        /// The order n of the light: n^2 columns.
+        light_order: u32,
+        /// Whether the numbers have the surface's albedo in them, or are to be multiplied by it.
+        includes_albedo: bool,
+    },
+}
+
+impl PrtMeaning {
+    /// Numbers per point, if that many can be counted.
+    pub fn dimension(&self) -> Option<usize> {
+        match self {
+            Self::Numbers { dimension } => usize::try_from(*dimension).ok(),
+            Self::Transfer { channels, exit_functions, light_order, .. } => {
+                let columns = usize::try_from(*light_order).ok()?.checked_pow(2)?;
+                usize::try_from(*channels).ok()?.checked_mul(exit_functions.len())?.checked_mul(columns)
+            }
+        }
+    }
+
+    /// What is wrong with it: the field, what was expected, what was found.
+    fn fault(&self) -> Option<(&'static str, &'static str, String)> {
+        let Self::Transfer { channels, exit_functions, light_order, .. } = self else {
+            return None;
+        };
+        if ![1, 3].contains(channels) {
+            return Some(("channels", "1 or 3", channels.to_string()));
+        }
+        if !(1..=MAX_ORDER).contains(light_order) {
+            return Some(("light order", "1 to 10", light_order.to_string()));
+        }
+        let increasing = exit_functions.windows(2).all(|pair| pair[0] < pair[1]);
+        let last = exit_functions.last().map(|&last| u32::from(last));
+        if !increasing || last.is_none_or(|last| last >= MAX_ORDER * MAX_ORDER) {
+            let found = format!("{} functions", exit_functions.len());
+            return Some(("exit functions", "at least one of 0 to 99, in increasing order", found));
+        }
+        None
+    }
+}
+
+/// The largest order of harmonics.
+const MAX_ORDER: u32 = 10;
+
+impl PrtFile {
+    /// Number of points, of the transfer or the clustering.
+    pub fn points(&self) -> usize {
+        let transfer = self.transfer.as_ref().map(Signal::points);
+        transfer.or(self.clustering.as_ref().map(Clustering::points)).unwrap_or(0)
+    }
+
+    /// Why the parts do not go together: the field, what was expected, what was found.
+    fn fault(&self) -> Option<(&'static str, String, String)> {
+        if let Some((field, expected, found)) = self.meaning.fault() {
+            return Some((field, expected.to_owned(), found));
+        }
+        let transfer = self.transfer.as_ref().map(|t| (t.points(), t.dimension()));
+        let clustering = self.clustering.as_ref().map(|c| (c.points(), c.dimension()));
+        let shape = |(points, dimension): (usize, usize)| format!("{points} points of {dimension} numbers");
+        let Some(first) = transfer.or(clustering) else {
+            return Some(("contents", "transfer or clusters".to_owned(), "neither".to_owned()));
+        };
+        if let Some(second) = clustering.filter(|&second| second != first) {
+            return Some(("clusters", shape(first), shape(second)));
+        }
+        if let Some(mesh) = self.mesh.filter(|mesh| mesh.vertices as usize != first.0) {
+            return Some(("vertices of the mesh", first.0.to_string(), mesh.vertices.to_string()));
+        }
+        let expected = self.meaning.dimension().map_or(usize::MAX, |dimension| dimension);
+        (first.1 != expected).then(|| ("numbers per point", expected.to_string(), first.1.to_string()))
+    }
+}

@@ -1,0 +1,284 @@
+//! Reading: nothing is allocated that the bytes at hand do not fill.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::{
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError,
+    PrtMeaning, TEXTURE_TANGENTS, TRANSFER, VERSION,
+};
+use crate::geom::vector::unit;
+use crate::io::{ReadError, read_limited};
+use crate::transfer::clustering::{AffineSubspace, Clustering};
+use crate::transfer::{Signal, Tangents};
+
+/// Fields of 32 bits between the conventions and the axis of tangents.
+const FIELDS: usize = 11;
+
+/// Reads a file; of `mesh`, if one is given.
+///
+/// # Errors
+/// [`PrtFileError`].
+pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFileError> {
+    let bytes = bytes_of(path)?;
+    let file = parse_prt(&bytes, path)?;
+    mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
+    Ok(file)
+}
+
+/// Whether bytes begin as a file of these conventions.
+pub(crate) fn has_conventions(bytes: &[u8], conventions: u32) -> bool {
+    let head = |at: usize| bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
+    bytes.starts_with(MAGIC) && head(8) == Some(VERSION) && head(12) == Some(conventions)
+}
+
+/// All bytes of a file of any kind.
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
+    let unreadable = |source| ReadError::Unreadable { what: ".prt file", path: path.into(), source };
+    let bytes = read_limited(path, MAX_BYTES).map_err(unreadable)?;
+    Ok(bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?)
+}
+
+/// Reads a file from bytes; `name` stands for it in messages.
+///
+/// # Errors
+/// [`PrtFileError`].
+pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
+    let mut reader = Reader { bytes, at: 0, name };
+    let header = reader.header()?;
+    let mut file = PrtFile { meaning: header.meaning, mesh: header.mesh, transfer: None, clustering: None };
+    let dimension = file.meaning.dimension().unwrap_or(usize::MAX);
+    for _ in 0..header.sections {
+        let (tag, mut section) = reader.section()?;
+        match &tag {
+            TRANSFER if file.transfer.is_none() && file.clustering.is_none() => {
+                file.transfer = Some(section.transfer(header.points, dimension)?)
+            }
+            CLUSTERING if file.clustering.is_none() => {
+                file.clustering = Some(section.clustering(header.points, dimension)?);
+            }
+            other => {
+                let found = format!("{:?}", String::from_utf8_lossy(other));
+                return Err(reader.field("section", "\"TRAN\", then \"CLUS\", each at most once", found));
+            }
+        }
+        section.end()?;
+    }
+    reader.end()?;
+    match file.fault() {
+        Some((field, expected, found)) => Err(reader.field(field, expected, found)),
+        None => Ok(file),
+    }
+}
+
+impl PrtFile {
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    ///
+    /// # Errors
+    /// [`PrtFileError::OtherMesh`].
+    pub fn require_mesh(&self, expected: &MeshDigest, path: &Path) -> Result<(), PrtFileError> {
+        match self.mesh {
+            Some(found) if found == *expected => Ok(()),
+            found => Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found }),
+        }
+    }
+}
+
+struct PrtHeader {
+    meaning: PrtMeaning,
+    mesh: Option<MeshDigest>,
+    points: usize,
+    sections: u32,
+}
+
+/// Bytes, from a place on. A section's reader ends with the section.
+pub(crate) struct Reader<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) at: usize,
+    pub(crate) name: &'a Path,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn field(
+        &self,
+        field: &'static str,
+        expected: impl Into<String>,
+        found: impl Into<String>,
+    ) -> PrtFileError {
+        PrtFileError::Field { path: self.name.into(), field, expected: expected.into(), found: found.into() }
+    }
+
+    /// The next `needed` bytes.
+    pub(crate) fn take(&mut self, needed: u64, what: &'static str) -> Result<&'a [u8], PrtFileError> {
+        let rest = &self.bytes[self.at..];
+        match usize::try_from(needed).ok().and_then(|needed| rest.get(..needed)) {
+            Some(taken) => {
+                self.at += taken.len();
+                Ok(taken)
+            }
+            None => {
+                let (path, offset) = (self.name.into(), self.at);
+                Err(PrtFileError::Truncated { path, what, offset, needed, found: rest.len() })
+            }
+        }
+    }
+
+    pub(crate) fn array<const N: usize>(&mut self, what: &'static str) -> Result<[u8; N], PrtFileError> {
+        let mut bytes = [0; N];
+        bytes.copy_from_slice(self.take(N as u64, what)?);
+        Ok(bytes)
+    }
+
+    pub(crate) fn integer(&mut self, what: &'static str) -> Result<u32, PrtFileError> {
+        self.array(what).map(u32::from_le_bytes)
+    }
+
+    /// The next `count` numbers of N bytes.
+    pub(crate) fn numbers<const N: usize>(
+        &mut self,
+        count: usize,
+        what: &'static str,
+    ) -> Result<&'a [[u8; N]], PrtFileError> {
+        let bytes = (count as u64).saturating_mul(N as u64);
+        Ok(self.take(bytes, what)?.as_chunks().0)
+    }
+
+    pub(crate) fn doubles(&mut self, count: usize, what: &'static str) -> Result<Vec<f64>, PrtFileError> {
+        Ok(self.numbers(count, what)?.iter().map(|&bytes| f64::from_le_bytes(bytes)).collect())
+    }
+
+    pub(crate) fn integers(&mut self, count: usize, what: &'static str) -> Result<Vec<u32>, PrtFileError> {
+        Ok(self.numbers(count, what)?.iter().map(|&bytes| u32::from_le_bytes(bytes)).collect())
+    }
+
+    /// Compares the checksum that follows with that of all bytes from `first` on.
+    pub(crate) fn checksum(&mut self, first: usize, what: &'static str) -> Result<(), PrtFileError> {
+        let found = crc32fast::hash(&self.bytes[first..self.at]);
+        let expected = self.integer("checksum")?;
+        if found == expected {
+            return Ok(());
+        }
+        Err(PrtFileError::Checksum { path: self.name.into(), what, offset: first, expected, found })
+    }
+
+    pub(crate) fn end(&self) -> Result<(), PrtFileError> {
+        match self.bytes.len() - self.at {
+            0 => Ok(()),
+            found => Err(PrtFileError::Trailing { path: self.name.into(), offset: self.at, found }),
+        }
+    }
+
+    /// The beginning, with the version first: what follows depends on it.
+    pub(crate) fn version(&mut self) -> Result<(), PrtFileError> {
+        if !self.bytes.starts_with(MAGIC) {
+            return Err(PrtFileError::Magic { path: self.name.into() });
+        }
+        self.at = MAGIC.len();
+        match self.integer("header")? {
+            VERSION => Ok(()),
+            found => Err(PrtFileError::Version { path: self.name.into(), found }),
+        }
+    }
+
+    /// The conventions, before the rest of the header, which depends on them.
+    pub(crate) fn conventions(&mut self, expected: u32) -> Result<(), PrtFileError> {
+        match self.integer("header")? {
+            found if found == expected => Ok(()),
+            found => Err(self.field("conventions", format!("{expected} to {expected}"), found.to_string())),
+        }
+    }
+
+    fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
+        self.version()?;
+        self.conventions(CONVENTIONS)?;
+        let mut fields = [0; FIELDS];
+        for field in &mut fields {
+            *field = self.integer("header")?;
+        }
+        let [channels, rows, columns, albedo, points, sections, digest @ .., tangents] = fields;
+        let axis = self.doubles(3, "axis of tangents")?;
+        let exit_functions = self.numbers(rows as usize, "exit functions")?;
+        let exit_functions: Vec<u16> = exit_functions.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
+        self.checksum(0, "the header")?;
+        // What is not used is 0, so that equal contents have equal bytes.
+        let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
+        let fields = [
+            ("number of exit functions", rows, 0..=matrix * u32::MAX),
+            ("albedo", albedo, 0..=matrix),
+            ("tangents", tangents, 0..=AXIS_TANGENTS),
+            ("mesh's digest", digest.iter().copied().max().unwrap_or(0), 0..=of_mesh * u32::MAX),
+            ("number of sections", sections, 1..=2),
+        ];
+        for (field, found, expected) in fields {
+            if !expected.contains(&found) {
+                return Err(self.field(
+                    field,
+                    format!("{} to {}", expected.start(), expected.end()),
+                    found.to_string(),
+                ));
+            }
+        }
+        let tangents = self.tangents(tangents, DVec3::from_slice(&axis))?;
+        let [vertices, triangles, vertex_crc, triangle_crc] = digest;
+        let mesh = tangents.map(|tangents| MeshDigest { tangents, vertices, triangles, vertex_crc, triangle_crc });
+        let meaning = match channels {
+            0 => PrtMeaning::Numbers { dimension: columns },
+            _ => PrtMeaning::Transfer { channels, exit_functions, light_order: columns, includes_albedo: albedo == 1 },
+        };
+        Ok(PrtHeader { meaning, mesh, points: points as usize, sections })
+    }
+
+    /// Where tangents come from; `None` without a mesh.
+    pub(crate) fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
+        let is_axis = number == AXIS_TANGENTS;
+        let is_used = axis.to_array().iter().any(|value| value.to_bits() != 0);
+        if is_used != is_axis || (is_axis && unit(axis).is_none()) {
+            let expected = if is_axis { "a finite length above 0" } else { "zeros" };
+            return Err(self.field("axis of tangents", expected, Tangents::Along(axis).to_string()));
+        }
+        Ok(match number {
+            ANY_TANGENTS => Some(Tangents::Any),
+            TEXTURE_TANGENTS => Some(Tangents::Texture),
+            AXIS_TANGENTS => Some(Tangents::Along(axis)),
+            _ => None,
+        })
+    }
+
+    /// The next section, its checksum compared.
+    pub(crate) fn section(&mut self) -> Result<([u8; 4], Self), PrtFileError> {
+        let first = self.at;
+        let tag = self.array("section")?;
+        let length = u64::from_le_bytes(self.array("section")?);
+        let begin = self.at;
+        self.take(length, "section")?;
+        let end = self.at;
+        self.checksum(first, "a section")?;
+        Ok((tag, Self { bytes: &self.bytes[..end], at: begin, name: self.name }))
+    }
+
+    fn transfer(&mut self, points: usize, dimension: usize) -> Result<Signal, PrtFileError> {
+        let values = self.numbers(points.saturating_mul(dimension), "transfer")?;
+        let values = values.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+        Signal::new(dimension, values).map_err(|reason| PrtFileError::Transfer { path: self.name.into(), reason })
+    }
+
+    fn clustering(&mut self, points: usize, dimension: usize) -> Result<Clustering, PrtFileError> {
+        let clusters = self.integer("number of clusters")? as usize;
+        let counts = self.integers(clusters, "numbers of vectors")?;
+        let mut subspaces = Vec::new();
+        for &count in &counts {
+            subspaces.push(AffineSubspace {
+                mean: self.doubles(dimension, "mean")?,
+                eigenvalues: self.doubles(count as usize, "eigenvalues")?,
+                vectors: self.doubles((count as usize).saturating_mul(dimension), "vectors")?,
+            });
+        }
+        let of_point = self.integers(points, "clusters of points")?;
+        let count = |&cluster: &u32| counts.get(cluster as usize).map_or(0, |&count| count as usize);
+        let weights = of_point.iter().map(count).fold(0, usize::saturating_add);
+        let weights = self.doubles(weights, "weights")?;
+        Clustering::new(subspaces, of_point, weights)
+            .map_err(|reason| PrtFileError::Clustering { path: self.name.into(), reason })
+    }
+}

@@ -1,0 +1,269 @@
+//! The hat functions of equation 10: how much each light texel counts in each fine direction.
+//!
+//! With a width of two texels the hat of a texel is bilinear on its face: 1 at its center, 0 at the centers of its
+//! neighbors. At a fine direction, a and b in 0..1/2 texel widths from the center of the texel that it lies in, four
+//! texels have the weights (1 - a)(1 - b), a (1 - b), (1 - a) b and a b.
+//!
+//! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
+//!   texels of both faces meet one to one.
+//! - *At the eight corners* only three texels meet. The weight a b of the one that is not there goes to the three in
+//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hats are continuous over all three
+//!   edges and have the symmetry of the cube.
+//!
+//! For every fine direction the weights sum to 1 (to rounding where a third is none of f64): light of radiance 1 in
+//! every texel is 1 in every direction. All hats together are what the texels' light is interpolated by.
+//!
+//! `DIFFERENCE`: the text has the hat "centered at the sample" over "the cone of directions within one cube map texel",
+//! and says nothing of edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
+//! two texels wide. The other reading, one texel wide, can only sum to 1 as a box.
+
+use super::grid::{
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, SUPERSAMPLES, Segmentation, face_row_column,
+};
+use crate::sphere::CUBE_FACES;
+
+/// How wide the hat of a light texel is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum HatWidth {
+    /// The texel alone: a box.
+    OneTexel,
+    /// Bilinear, to the centers of the neighbors.
+    #[default]
+    TwoTexels,
+}
+
+/// Texels that share a fine direction, at most.
+const SHARED: usize = 4;
+
+/// The light texels that count in a fine direction, with their weights, the texel that it lies in first.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HatWeights {
+    texels: [u32; SHARED],
+    weights: [f64; SHARED],
+    count: usize,
+}
+
+impl HatWeights {
+    /// Of a fine direction by number.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn of(width: HatWidth, fine: usize) -> Self {
+        assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
+        let [face, row, column] = face_row_column(fine, FINE_SIDE);
+        let own = [row / SUPERSAMPLES, column / SUPERSAMPLES].map(usize::cast_signed);
+        let mut found = Self::default();
+        if width == HatWidth::OneTexel {
+            found.add(texel(face, own), 1.0);
+            return found;
+        }
+        let (towards_row, b) = offset(row % SUPERSAMPLES);
+        let (towards_column, a) = offset(column % SUPERSAMPLES);
+        let beside = texel(face, [own[0], own[1] + towards_column]);
+        let below = texel(face, [own[0] + towards_row, own[1]]);
+        let across = texel(face, [own[0] + towards_row, own[1] + towards_column]);
+        // At a corner of the cube the fourth texel is none: a third of its weight for each of the others.
+        let third = if across.is_none() { a * b / 3.0 } else { 0.0 };
+        found.add(texel(face, own), (1.0 - a) * (1.0 - b) + third);
+        found.add(beside, a * (1.0 - b) + third);
+        found.add(below, (1.0 - a) * b + third);
+        found.add(across, a * b);
+        found
+    }
+
+    fn add(&mut self, texel: Option<usize>, weight: f64) {
+        if let Some(texel) = texel {
+            (self.texels[self.count], self.weights[self.count]) = (texel as u32, weight);
+            self.count += 1;
+        }
+    }
+
+    /// Texels and weights. No texel stands twice.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.texels[..self.count].iter().map(|&texel| texel as usize).zip(self.weights[..self.count].iter().copied())
+    }
+}
+
+/// Which neighbor a fine row or column of a texel is nearer to, and its distance from the texel's center in widths.
+fn offset(fine: usize) -> (isize, f64) {
+    let from_center = (2 * fine + 1) as f64 / (2 * SUPERSAMPLES) as f64 - 0.5;
+    (if from_center < 0.0 { -1 } else { 1 }, from_center.abs())
+}
+
+/// The texel at a row and column of a face that may lie one beyond its border: then it is that of the next face which
+/// meets the border there. `None` beyond a corner.
+fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
+    let side = LIGHT_SIDE.cast_signed();
+    let is_inside = |at: isize| (0..side).contains(&at);
+    if is_inside(row) && is_inside(column) {
+        return Some((face * LIGHT_SIDE + row.cast_unsigned()) * LIGHT_SIDE + column.cast_unsigned());
+    }
+    if !is_inside(row) && !is_inside(column) {
+        return None;
+    }
+    // In half texels from the cube's middle, whose faces are `side` away: whole numbers, exact in f64. The strip of
+    // texels beyond an edge is folded back by a quarter turn around it.
+    let axes = CUBE_FACES[face];
+    let half_texels = |at: isize| (2 * at + 1 - side) as f64;
+    let [down, right] = [half_texels(row), half_texels(column)];
+    let reach = side as f64;
+    let beyond = (down.abs().max(right.abs()) - reach).max(0.0);
+    let folded = axes.center * (reach - beyond)
+        + axes.right * right.clamp(-reach, reach)
+        + axes.down * down.clamp(-reach, reach);
+    let next = CUBE_FACES.iter().position(|other| *other != axes && other.center.dot(folded) == reach)?;
+    let place = |along: f64| ((along + reach - 1.0) / 2.0) as usize;
+    let [row, column] = [CUBE_FACES[next].down, CUBE_FACES[next].right].map(|axis| place(axis.dot(folded)));
+    Some((next * LIGHT_SIDE + row) * LIGHT_SIDE + column)
+}
+
+/// A fine direction as one segment of the light sees it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SegmentSample {
+    /// The fine direction.
+    pub(crate) fine: u32,
+    /// Places within the segment, and the weights of their hats times the solid angle. Unused ones are 0.
+    pub(crate) places: [u16; SHARED],
+    pub(crate) weights: [f64; SHARED],
+    pub(crate) count: u8,
+}
+
+/// The hats of all texels of one segment: the fine directions in which any of them is not 0, in order.
+#[derive(Clone, Debug)]
+pub(crate) struct SegmentHats {
+    pub(crate) samples: Vec<SegmentSample>,
+    /// The words of visibility bits that the samples lie in: the word, the bits that count, and the first sample of
+    /// the word.
+    pub(crate) words: Vec<(u32, u64, u32)>,
+    /// See [`Hats::rim`].
+    rim: Vec<u32>,
+}
+
+/// The hats of all segments.
+#[derive(Clone, Debug)]
+pub struct Hats {
+    width: HatWidth,
+    segments: Vec<SegmentHats>,
+}
+
+impl Hats {
+    /// Of all light texels, for the 24 segments.
+    pub fn new(width: HatWidth) -> Self {
+        let segmentation = Segmentation::Quarters;
+        let mut samples: Vec<Vec<SegmentSample>> = vec![Vec::new(); segmentation.count()];
+        for (fine, &solid_angle) in FineDirections::get().solid_angles().iter().enumerate() {
+            for (texel, weight) in HatWeights::of(width, fine).iter() {
+                let [segment, place] = segmentation.place(texel);
+                let of_segment = &mut samples[segment];
+                if of_segment.last().is_none_or(|last| last.fine as usize != fine) {
+                    of_segment.push(SegmentSample { fine: fine as u32, ..SegmentSample::default() });
+                }
+                let Some(sample) = of_segment.last_mut() else { continue };
+                let at = usize::from(sample.count);
+                (sample.places[at], sample.weights[at]) = (place as u16, weight * solid_angle);
+                sample.count += 1;
+            }
+        }
+        Self { width, segments: samples.into_iter().map(SegmentHats::new).collect() }
+    }
+
+    /// How wide they are.
+    pub const fn width(&self) -> HatWidth {
+        self.width
+    }
+
+    /// The fine directions in which a hat of a segment is not 0, in order.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn directions(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
+        self.segments[segment].samples.iter().map(|sample| sample.fine as usize)
+    }
+
+    /// Fine directions of a segment between which all of its others lie: if these are below a horizon, so are they.
+    /// On each face they are the corners of a rectangle.
+    pub(crate) fn rim(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
+        self.segments[segment].rim.iter().map(|&fine| fine as usize)
+    }
+
+    pub(crate) fn segment(&self, segment: usize) -> &SegmentHats {
+        &self.segments[segment]
+    }
+}
+
+impl SegmentHats {
+    fn new(samples: Vec<SegmentSample>) -> Self {
+        let mut words: Vec<(u32, u64, u32)> = Vec::new();
+        for (at, sample) in samples.iter().enumerate() {
+            let word = sample.fine / 64;
+            if words.last().is_none_or(|last| last.0 != word) {
+                words.push((word, 0, at as u32));
+            }
+            if let Some(last) = words.last_mut() {
+                last.1 |= 1 << (sample.fine % 64);
+            }
+        }
+        let rim = rim(&samples);
+        Self { samples, words, rim }
+    }
+
+    /// Whether any fine direction that counts is among these bits.
+    pub(crate) fn sees(&self, bits: &[u64]) -> bool {
+        self.words.iter().any(|&(word, mask, _)| bits[word as usize] & mask != 0)
+    }
+
+    /// The samples whose bits are set, in order.
+    #[inline(always)]
+    pub(crate) fn for_each_seen(&self, bits: &[u64], mut visit: impl FnMut(&SegmentSample)) {
+        for &(word, mask, first) in &self.words {
+            let mut left = bits[word as usize] & mask;
+            while left != 0 {
+                let lowest = left.trailing_zeros();
+                left &= left - 1;
+                let before = (mask & ((1 << lowest) - 1)).count_ones();
+                visit(&self.samples[(first + before) as usize]);
+            }
+        }
+    }
+}
+
+/// The first and last samples of the first and last rows on each face.
+fn rim(samples: &[SegmentSample]) -> Vec<u32> {
+    let place = |sample: &SegmentSample| face_row_column(sample.fine as usize, FINE_SIDE);
+    let mut found = Vec::new();
+    for of_face in samples.chunk_by(|a, b| place(a)[0] == place(b)[0]) {
+        let rows: Vec<_> = of_face.chunk_by(|a, b| place(a)[1] == place(b)[1]).collect();
+        for row in [rows.first(), rows.last()].into_iter().flatten() {
+            found.extend([row.first(), row.last()].into_iter().flatten().map(|sample| sample.fine));
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inside_a_face_hats_are_bilinear() {
+        // Fine row 41 is row 1 of texel row 10, 1/8 above its center; fine column 47 column 3 of texel 11, 3/8 right.
+        let found: Vec<_> = HatWeights::of(HatWidth::TwoTexels, 4 * 16_384 + 41 * 128 + 47).iter().collect();
+        let at = |row: usize, column: usize| 4 * 1024 + row * 32 + column;
+        let expected =
+            [(at(10, 11), 35.0 / 64.0), (at(10, 12), 21.0 / 64.0), (at(9, 11), 5.0 / 64.0), (at(9, 12), 3.0 / 64.0)];
+        assert_eq!(found, expected);
+        let one: Vec<_> = HatWeights::of(HatWidth::OneTexel, 4 * 16_384 + 41 * 128 + 47).iter().collect();
+        assert_eq!(one, [(at(10, 11), 1.0)]);
+    }
+
+    #[test]
+    fn beyond_an_edge_lies_the_next_face() {
+        // +x has -z to its right, +y above; beyond its right border lies -z's left column.
+        assert_eq!(texel(0, [7, 32]), Some(5 * 1024 + 7 * 32));
+        assert_eq!(texel(0, [7, -1]), Some(4 * 1024 + 7 * 32 + 31));
+        // Above +x's row 0 lies +y's right column; +x's columns run along -z, +y's rows along +z.
+        assert_eq!(texel(0, [-1, 0]), Some(2 * 1024 + 31 * 32 + 31));
+        assert_eq!(texel(0, [-1, -1]), None);
+    }
+}

@@ -1,0 +1,213 @@
+//! The texels of a light.
+
+use glam::{DMat3, DVec3};
+use rayon::prelude::*;
+
+use super::disks::{DiskSource, add_disk};
+use super::error::CubeLightError;
+use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
+use crate::transfer::grid::{
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
+};
+
+/// How 4 x 4 samples become a texel.
+///
+/// The paper says "supersample the lighting 4 x 4 and decimate", without weights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Decimation {
+    /// Their mean, weighted by the solid angles of the samples: keeps the flux through the texel.
+    #[default]
+    SolidAngle,
+    /// Their plain mean, the plain reading of the text. Samples of a texel differ by up to 1.4 in solid angle.
+    Plain,
+}
+
+/// Radiance from infinitely far: red, green and blue of each light texel, finite and at least 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CubeLight {
+    texels: Vec<[f64; 3]>,
+}
+
+impl CubeLight {
+    /// Of radiances by texel number.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite and at least 0.
+    pub fn new(texels: Vec<[f64; 3]>) -> Result<Self, CubeLightError> {
+        if texels.len() != LIGHT_TEXELS {
+            return Err(CubeLightError::Texels { found: texels.len() });
+        }
+        check(&texels, |texel| texel)?;
+        Ok(Self { texels })
+    }
+
+    /// The same radiance from everywhere.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Radiance`] if it is negative or not finite.
+    pub fn constant(radiance: [f64; 3]) -> Result<Self, CubeLightError> {
+        Self::new(vec![radiance; LIGHT_TEXELS])
+    }
+
+    /// Of a function of unit directions, sampled in the 4 x 4 fine directions of each texel. Direction v of the
+    /// function shines from `rotation` v.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] if the matrix is no rotation, or a radiance is negative or not finite.
+    pub fn sampled(
+        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        Self::decimated(&fine_samples(radiance, rotation)?, decimation)
+    }
+
+    /// Of a picture of the whole sphere, whose radiance is constant over each pixel.
+    ///
+    /// # Errors
+    /// As [`Self::sampled`].
+    pub fn from_picture(
+        picture: &EnvironmentPicture,
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
+    }
+
+    /// Of small sources, counted from 0 in errors. Each adds its radiance times the share of each fine texel that it
+    /// covers; the shares are found on a grid as fine as the source needs and scaled so that the source's flux,
+    /// 2 pi (1 - cos radius) times its radiance, is kept.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
+    pub fn from_disks(
+        sources: &[DiskSource],
+        rotation: &DMat3,
+        decimation: Decimation,
+    ) -> Result<Self, CubeLightError> {
+        Self::decimated(&fine_disks(sources, rotation)?, decimation)
+    }
+
+    /// Of the CIE clear sky over z >= 0 with its sun, and the ground below.
+    ///
+    /// # Errors
+    /// As [`Self::sampled`], and for a sun that is not above the horizon.
+    pub fn sky(sky: &ClearSky, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+        sky.relative(DVec3::Z)?;
+        let without_sun = Self::sampled(|v| sky_radiance(sky, v), rotation, decimation)?;
+        Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
+    }
+
+    /// [`HarmonicLight::red_and_blue`], not cut to an order: two disks in a dim surrounding.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
+    pub fn red_and_blue(rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+        let surrounding = Self::constant(HarmonicLight::RED_AND_BLUE_SURROUNDING)?;
+        Ok(Self::from_disks(&red_and_blue_disks(), rotation, decimation)?.plus(&surrounding))
+    }
+
+    /// Samples in all fine directions to texels.
+    fn decimated(fine: &[[f64; 3]], decimation: Decimation) -> Result<Self, CubeLightError> {
+        let solid_angles = FineDirections::get().solid_angles();
+        let texel = |texel: usize| {
+            let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+            let first = (face * FINE_SIDE + row * SUPERSAMPLES) * FINE_SIDE + column * SUPERSAMPLES;
+            let (mut sum, mut whole) = ([0.0; 3], 0.0);
+            for at in (0..SUPERSAMPLES * SUPERSAMPLES).map(|k| first + k / SUPERSAMPLES * FINE_SIDE + k % SUPERSAMPLES)
+            {
+                let weight = match decimation {
+                    Decimation::SolidAngle => solid_angles[at],
+                    Decimation::Plain => 1.0,
+                };
+                sum.iter_mut().zip(fine[at]).for_each(|(sum, radiance)| *sum += weight * radiance);
+                whole += weight;
+            }
+            sum.map(|sum| sum / whole)
+        };
+        Self::new((0..LIGHT_TEXELS).map(texel).collect())
+    }
+
+    /// Both lights together.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        let both = self.texels.iter().zip(&other.texels);
+        Self { texels: both.map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect() }
+    }
+
+    /// The radiances, by texel number.
+    pub fn texels(&self) -> &[[f64; 3]] {
+        &self.texels
+    }
+
+    /// The integral of the radiance over all directions, radiance being constant over each texel.
+    pub fn flux(&self) -> [f64; 3] {
+        let solid_angles = FineDirections::get().solid_angles();
+        let mut sum = [0.0; 3];
+        for (fine, solid_angle) in solid_angles.iter().enumerate() {
+            let radiance = self.texels[light_texel(fine)];
+            sum.iter_mut().zip(radiance).for_each(|(sum, radiance)| *sum += solid_angle * radiance);
+        }
+        sum
+    }
+}
+
+/// A function of unit directions in all fine directions; direction v of the function shines from `rotation` v.
+pub(super) fn fine_samples(
+    radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+    rotation: &DMat3,
+) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    check_rotation(rotation)?;
+    let back = rotation.transpose();
+    let fine: Vec<[f64; 3]> =
+        FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
+    // A sample that is none would hide in the mean of sixteen.
+    check(&fine, light_texel)?;
+    Ok(fine)
+}
+
+/// The mean radiances of disks over all fine texels.
+pub(super) fn fine_disks(sources: &[DiskSource], rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+    check_rotation(rotation)?;
+    let mut fine = vec![[0.0; 3]; FINE_DIRECTIONS];
+    for (number, source) in sources.iter().enumerate() {
+        add_disk(&source.checked(number)?, rotation, &mut fine);
+    }
+    Ok(fine)
+}
+
+/// The clear sky without its sun, and the ground below.
+pub(super) fn sky_radiance(sky: &ClearSky, direction: DVec3) -> [f64; 3] {
+    match direction.z >= 0.0 {
+        true => sky.zenith.map(|zenith| zenith * sky.relative(direction).unwrap_or(0.0)),
+        false => sky.ground,
+    }
+}
+
+/// A clear sky's sun.
+pub(super) fn sun_disk(sky: &ClearSky) -> DiskSource {
+    DiskSource { towards: sky.sun, radius: crate::sphere::SUN_RADIUS, radiance: sky.sun_radiance }
+}
+
+/// The disks of [`CubeLight::red_and_blue`].
+pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
+    HarmonicLight::RED_AND_BLUE_DISKS.map(|(towards, radiance)| DiskSource {
+        towards,
+        radius: HarmonicLight::RED_AND_BLUE_RADIUS,
+        radiance,
+    })
+}
+
+/// Refuses radiances that are none; `texel` gives the light texel of each.
+fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize) -> Result<(), CubeLightError> {
+    for (at, color) in radiances.iter().enumerate() {
+        for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
+            if !(found.is_finite() && found >= 0.0) {
+                let [face, row, column] = face_row_column(texel(at), LIGHT_SIDE);
+                return Err(CubeLightError::Radiance { found, channel, face, row, column });
+            }
+        }
+    }
+    Ok(())
+}

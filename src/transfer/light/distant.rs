@@ -1,0 +1,96 @@
+//! Light that can be turned.
+
+use glam::{DMat3, DVec3};
+
+use super::cube_light::{fine_disks, fine_samples, red_and_blue_disks, sky_radiance, sun_disk};
+use super::{CubeLight, CubeLightError, Decimation, DiskSource};
+use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
+use crate::transfer::grid::{FINE_DIRECTIONS, LIGHT_MAP, LIGHT_SIDE};
+
+/// Distant light, before it is sampled by the cube's texels.
+#[derive(Debug)]
+pub enum DistantLight {
+    /// The same radiance from everywhere.
+    Constant([f64; 3]),
+    /// Disks in the dark.
+    Disks(Vec<DiskSource>),
+    /// A clear sky with a sun.
+    Sky(ClearSky),
+    /// A red and a blue disk in dim light.
+    RedAndBlue,
+    /// A picture of all directions.
+    Picture(EnvironmentPicture),
+    /// Radiances of the cube's texels, as in [`CubeLight`]. Turned, a direction has the radiance of the texel that it
+    /// falls into.
+    Texels(CubeLight),
+}
+
+impl DistantLight {
+    /// The cube of it, turned by a rotation.
+    ///
+    /// # Errors
+    /// [`CubeLightError`].
+    pub fn cube(&self, rotation: &DMat3, decimation: Decimation) -> Result<CubeLight, CubeLightError> {
+        match self {
+            Self::Constant(radiance) => CubeLight::constant(*radiance),
+            Self::Disks(sources) => CubeLight::from_disks(sources, rotation, decimation),
+            Self::Sky(sky) => CubeLight::sky(sky, rotation, decimation),
+            Self::RedAndBlue => CubeLight::red_and_blue(rotation, decimation),
+            Self::Picture(picture) => CubeLight::from_picture(picture, rotation, decimation),
+            Self::Texels(light) if *rotation == DMat3::IDENTITY => Ok(light.clone()),
+            Self::Texels(light) => CubeLight::sampled(|v| light.texels()[texel(v)], rotation, decimation),
+        }
+    }
+
+    /// The radiances in the fine directions, 4 x 4 per texel: what [`Self::cube`] takes the means of.
+    ///
+    /// # Errors
+    /// [`CubeLightError`].
+    pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+        match self {
+            Self::Constant(radiance) => fine_samples(|_| *radiance, rotation),
+            Self::Disks(sources) => fine_disks(sources, rotation),
+            Self::Sky(sky) => {
+                sky.relative(DVec3::Z)?;
+                Ok(sum(&fine_samples(|v| sky_radiance(sky, v), rotation)?, &fine_disks(&[sun_disk(sky)], rotation)?))
+            }
+            Self::RedAndBlue => {
+                let surrounding = vec![HarmonicLight::RED_AND_BLUE_SURROUNDING; FINE_DIRECTIONS];
+                Ok(sum(&fine_disks(&red_and_blue_disks(), rotation)?, &surrounding))
+            }
+            Self::Picture(picture) => fine_samples(|v| picture.radiance(v), rotation),
+            Self::Texels(light) => fine_samples(|v| light.texels()[texel(v)], rotation),
+        }
+    }
+}
+
+fn sum(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    one.iter().zip(other).map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect()
+}
+
+/// The texel that a direction falls into.
+fn texel(direction: DVec3) -> usize {
+    let [face, column, row] = LIGHT_MAP.texel_of(direction);
+    (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::transfer::grid::LIGHT_TEXELS;
+
+    #[test]
+    fn texels_turn_with_the_cube() {
+        let texels: Vec<[f64; 3]> = (0..LIGHT_TEXELS).map(|at| [at as f64, 1.0, 0.5]).collect();
+        let light = DistantLight::Texels(CubeLight::new(texels.clone()).expect("light"));
+        let same = light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).expect("light");
+        assert_eq!(same.texels(), &texels[..]);
+        // A quarter turn around z takes +x to +y: the middle of face +x comes to that of face +y.
+        let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
+        let turned = light.cube(&turn, Decimation::SolidAngle).expect("light");
+        let at = |direction: DVec3| turned.texels()[texel(direction)][0];
+        for direction in [DVec3::new(1.0, 0.3, -0.2), DVec3::new(-0.1, 0.2, 1.0), DVec3::new(0.4, -1.0, 0.6)] {
+            assert!((at(turn * direction) - texel(direction) as f64).abs() < 1e-9, "{direction}");
+        }
+    }
+}

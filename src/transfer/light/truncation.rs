@@ -1,0 +1,84 @@
+//! Truncation: the few coefficients of a light that matter most (section 6; \[NRH03\]'s "non-linear" approximation).
+
+use super::coefficients::HaarLight;
+use super::error::CubeLightError;
+use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation, light_texel};
+use crate::transfer::haar::Haar;
+
+/// By what coefficients are chosen: \[NRH03\]'s three.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TruncationPriority<'a> {
+    /// Magnitude.
+    #[default]
+    Magnitude,
+    /// Magnitude times the solid angle of the basis function's support.
+    Area,
+    /// Magnitude times the average response of the transfer to the coefficient, over all vertices: a number per
+    /// coefficient, in the light's segments.
+    Transfer(&'a [f64]),
+}
+
+/// A truncated light and what is left of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightTruncation {
+    /// The light, coefficients that were dropped set to 0.
+    pub light: HaarLight,
+    /// Coefficients of the whole light that are not 0.
+    pub nonzero: usize,
+    /// Coefficients that were kept: fewer than asked for if there are no more.
+    pub kept: usize,
+    /// The energy of the whole light.
+    pub energy: f64,
+    /// The share of it that was kept, in [0, 1]; 1 of a black light.
+    pub kept_energy: f64,
+}
+
+impl HaarLight {
+    /// The light with so many coefficients at most. A coefficient is kept in all three channels or in none; its
+    /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Of equal priorities the
+    /// first by number is kept.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Responses`] if there is not one average response per coefficient.
+    pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, CubeLightError> {
+        let weights = match priority {
+            TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],
+            TruncationPriority::Area => support_areas(self.segmentation()),
+            TruncationPriority::Transfer(responses) if responses.len() == LIGHT_TEXELS => responses.to_vec(),
+            TruncationPriority::Transfer(responses) => {
+                return Err(CubeLightError::Responses { found: responses.len() });
+            }
+        };
+        let mut order: Vec<(f64, usize)> = (0..LIGHT_TEXELS)
+            .filter(|&at| self.energy_at(at) != 0.0)
+            .map(|at| (self.energy_at(at).sqrt() * weights[at], at))
+            .collect();
+        let nonzero = order.len();
+        order.sort_by(|(a, at), (b, other)| b.total_cmp(a).then(at.cmp(other)));
+        order.truncate(keep);
+        let mut channels = [0, 1, 2].map(|_| vec![0.0; LIGHT_TEXELS]);
+        for &(_, at) in &order {
+            channels.iter_mut().zip(self.channels()).for_each(|(into, from)| into[at] = from[at]);
+        }
+        let light = Self::of_channels(self.segmentation(), channels);
+        let (energy, kept) = (self.energy(), light.energy());
+        let kept_energy = if energy > 0.0 { kept / energy } else { 1.0 };
+        Ok(LightTruncation { light, nonzero, kept: order.len(), energy, kept_energy })
+    }
+}
+
+/// The solid angle of each basis function's support.
+fn support_areas(segmentation: Segmentation) -> Vec<f64> {
+    let mut texels = vec![0.0; LIGHT_TEXELS];
+    for (fine, solid_angle) in FineDirections::get().solid_angles().iter().enumerate() {
+        texels[light_texel(fine)] += solid_angle;
+    }
+    let (haar, side, len) = (Haar::new(segmentation.side()), segmentation.side(), segmentation.len());
+    let area = |at: usize| {
+        let support = haar.support(at % len);
+        let rows = support.row..support.row + support.side;
+        let places = rows.flat_map(|row| (support.column..support.column + support.side).map(move |c| row * side + c));
+        places.map(|place| texels[segmentation.texel(at / len, place)]).sum()
+    };
+    (0..LIGHT_TEXELS).map(area).collect()
+}

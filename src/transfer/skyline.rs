@@ -1,0 +1,347 @@
+//! Which directions a vertex certainly sees the sky in, so that no ray need be traced there.
+//!
+//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts, rings narrow at the horizon. A hierarchy of
+//! boxes over the triangles marks the parts that a triangle may reach into: by the sphere around it, by its height over
+//! the vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the front. What is
+//! not marked is free in exact arithmetic; the margins are far larger than what rounding does to the origin and
+//! direction of a ray.
+
+use glam::DVec3;
+
+use super::frame::LocalFrame;
+use super::vertices::Vertices;
+use crate::elementary::{atan2, on_circle};
+
+/// Parts by z: ring k begins at z = (k / RINGS)^2.
+const RINGS: usize = 24;
+/// Parts by azimuth; a word of bits holds a ring.
+const COLUMNS: usize = 64;
+/// Triangles of a leaf.
+const LEAF: usize = 4;
+/// A box seen under a smaller angle than this (its sine) is marked as a whole: at first, and if that marks little.
+const SMALL: [f64; 2] = [0.25, 0.08];
+/// The share of the hemisphere above which what was marked at first stays: there is little sky to be found.
+const MUCH: f64 = 0.5;
+/// A box seen under a larger angle than this (its sine) is opened without asking whether all that it covers is marked.
+const WIDE: f64 = 0.4;
+/// A sphere seen under a larger angle than this (its sine) is near.
+const NEAR: f64 = 0.9;
+/// What angles are widened by, in radians: rays differ from their f64 directions by 1e-7.
+const MARGIN: f64 = 1e-5;
+
+/// The parts of a hemisphere that something may be seen in, by local direction.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Skyline([u64; RINGS]);
+
+/// A part of the hemisphere, by ring and column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SkyPart {
+    ring: u8,
+    column: u8,
+}
+
+impl SkyPart {
+    /// The part that a local direction with z >= 0 lies in.
+    pub(crate) fn of(local: DVec3) -> Self {
+        Self { ring: ring(local.z) as u8, column: (turns(local) * COLUMNS as f64) as u8 % COLUMNS as u8 }
+    }
+
+    fn middle(self) -> DVec3 {
+        let ring = usize::from(self.ring);
+        at(f64::midpoint(lower_end(ring), lower_end(ring + 1)), (f64::from(self.column) + 0.5) / COLUMNS as f64)
+    }
+}
+
+/// The ring of a z; what lies beyond either end belongs to the last there.
+fn ring(z: f64) -> usize {
+    ((z.max(0.0).sqrt() * RINGS as f64) as usize).min(RINGS - 1)
+}
+
+/// The z at which a ring begins.
+fn lower_end(ring: usize) -> f64 {
+    let root = ring as f64 / RINGS as f64;
+    root * root
+}
+
+fn at(z: f64, turns: f64) -> DVec3 {
+    let [x, y] = on_circle(turns);
+    let radius = (1.0 - z * z).sqrt();
+    DVec3::new(radius * x, radius * y, z)
+}
+
+impl Skyline {
+    /// Whether something may be seen in a part.
+    pub(crate) fn is_marked(&self, part: SkyPart) -> bool {
+        self.0[usize::from(part.ring)] >> part.column & 1 != 0
+    }
+
+    /// Whether something may be seen within an angle, given by its sine, of a local direction of length 1, as far as
+    /// that lies above the horizon.
+    pub(crate) fn may_block(&self, local: DVec3, sine: f64) -> bool {
+        Region::of(local, 1.0, sine, f64::INFINITY).is_some_and(|region| self.meets(&region))
+    }
+
+    /// The share of the hemisphere that is marked.
+    fn share(&self) -> f64 {
+        let count = (1..).step_by(2).zip(&self.0).map(|(area, ring)| area * ring.count_ones()).sum::<u32>();
+        f64::from(count) / (RINGS * RINGS * COLUMNS) as f64
+    }
+
+    fn mark(&mut self, region: &Region) {
+        self.0[region.rings[0]..=region.rings[1]].iter_mut().for_each(|ring| *ring |= region.columns);
+    }
+
+    fn meets(&self, region: &Region) -> bool {
+        self.0[region.rings[0]..=region.rings[1]].iter().any(|ring| ring & region.columns != 0)
+    }
+
+    fn holds(&self, region: &Region) -> bool {
+        self.0[region.rings[0]..=region.rings[1]].iter().all(|ring| ring & region.columns == region.columns)
+    }
+}
+
+/// Consecutive rings, and columns as bits.
+struct Region {
+    rings: [usize; 2],
+    columns: u64,
+}
+
+impl Region {
+    /// What a sphere at a local place covers, as far as it lies above the horizon and below `highest`, the largest z of
+    /// its directions; `None` if nothing. `sine` is that of half its angle, below 1.
+    fn of(at: DVec3, distance: f64, sine: f64, highest: f64) -> Option<Self> {
+        let sine = sine + MARGIN;
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let z = at.z / distance;
+        let across = (1.0 - z * z).max(0.0).sqrt();
+        // Heights of the lowest and highest points of the circle; 1 if it holds the pole.
+        let low = z * cosine - across * sine;
+        let holds_pole = sine >= across && z > 0.0;
+        let high = if holds_pole { 1.0 } else { z * cosine + across * sine };
+        let high = high.min(highest + MARGIN);
+        if high < 0.0 {
+            return None;
+        }
+        let rings = [ring(low - MARGIN), ring(high + MARGIN)];
+        let ratio = sine / across;
+        if ratio >= 1.0 || ratio.is_nan() {
+            return Some(Self { rings, columns: u64::MAX });
+        }
+        // The angle of this sine is at most ratio + (pi/2 - 1) ratio^3.
+        let half = (ratio + 0.571 * ratio * ratio * ratio) / std::f64::consts::TAU + MARGIN;
+        if half >= 0.5 {
+            return Some(Self { rings, columns: u64::MAX });
+        }
+        let middle = turns(at);
+        let column = |turns: f64| (turns * COLUMNS as f64).floor();
+        let (first, last) = (column(middle - half), column(middle + half));
+        let count = (last - first) as u32 + 1;
+        let ones = if count >= COLUMNS as u32 { u64::MAX } else { (1 << count) - 1 };
+        Some(Self { rings, columns: ones.rotate_left(first.rem_euclid(COLUMNS as f64) as u32) })
+    }
+}
+
+/// Azimuth in [0, 1].
+fn turns(local: DVec3) -> f64 {
+    let turns = atan2(local.y, local.x) / std::f64::consts::TAU;
+    if turns < 0.0 { turns + 1.0 } else { turns }
+}
+
+/// A box over triangles, and where its first child or triangle is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxNode {
+    pub(super) middle: DVec3,
+    pub(super) half: DVec3,
+    /// The second child, or the first triangle of a leaf; the first child follows its parent.
+    pub(super) next: u32,
+    /// Triangles of a leaf; 0 for a node with children.
+    pub(super) count: u32,
+    /// The axis along which the children were parted: the first holds the lower ones.
+    pub(super) axis: u8,
+}
+
+/// The triangles of a mesh in a hierarchy of boxes.
+#[derive(Clone, Debug)]
+pub(crate) struct Occluders {
+    nodes: Vec<BoxNode>,
+    triangles: Vec<[DVec3; 3]>,
+    /// The middles of all parts, ring by ring.
+    middles: Vec<DVec3>,
+    /// By ring.
+    part_radii: [f64; RINGS],
+}
+
+impl Occluders {
+    pub(crate) fn new(vertices: &Vertices) -> Self {
+        let mut triangles: Vec<[DVec3; 3]> =
+            (0..vertices.triangles().len() as u32).map(|triangle| vertices.corners(triangle)).collect();
+        let mut nodes = Vec::with_capacity(triangles.len());
+        build(&mut nodes, &mut triangles, 0);
+        let part = |i: usize| SkyPart { ring: (i / COLUMNS) as u8, column: (i % COLUMNS) as u8 };
+        let middles = (0..RINGS * COLUMNS).map(|i| part(i).middle()).collect();
+        Self { nodes, triangles, middles, part_radii: std::array::from_fn(part_radius) }
+    }
+
+    /// The boxes, each before those that it holds.
+    pub(super) fn nodes(&self) -> &[BoxNode] {
+        &self.nodes
+    }
+
+    /// The corners of the triangles, leaf by leaf.
+    pub(super) fn triangles(&self) -> &[[DVec3; 3]] {
+        &self.triangles
+    }
+
+    /// The skyline of a point, in the local coordinates of a frame.
+    pub(crate) fn skyline(&self, at: DVec3, frame: &LocalFrame, waiting: &mut Vec<u32>) -> Skyline {
+        let coarse = self.skyline_with(SMALL[0], at, frame, waiting);
+        if coarse.share() > MUCH { coarse } else { self.skyline_with(SMALL[1], at, frame, waiting) }
+    }
+
+    fn skyline_with(&self, small: f64, at: DVec3, frame: &LocalFrame, waiting: &mut Vec<u32>) -> Skyline {
+        let mut skyline = Skyline::default();
+        let rows = [frame.tangent(), frame.normal().cross(frame.tangent()), frame.normal()].map(DVec3::abs);
+        waiting.clear();
+        waiting.push(0);
+        while let Some(index) = waiting.pop() {
+            let node = self.nodes[index as usize];
+            let middle = frame.to_local(node.middle - at);
+            let top = middle.z + rows[2].dot(node.half);
+            if top <= 0.0 {
+                continue;
+            }
+            let (distance, radius) = (middle.length(), node.half.length());
+            let sine = radius / distance;
+            if sine < WIDE {
+                let highest = top / (distance - radius);
+                match Region::of(middle, distance, sine, highest) {
+                    None => continue,
+                    Some(region) if skyline.holds(&region) => continue,
+                    Some(region) if sine < small => {
+                        skyline.mark(&region);
+                        continue;
+                    }
+                    Some(_) => {}
+                }
+            }
+            if node.count == 0 {
+                waiting.extend([node.next, index + 1]);
+                continue;
+            }
+            for corners in &self.triangles[node.next as usize..(node.next + node.count) as usize] {
+                self.triangle(small, corners.map(|corner| frame.to_local(corner - at)), &mut skyline);
+            }
+        }
+        skyline
+    }
+
+    /// The triangles that may lie within a share of their size, or of the place's coordinates, of a place.
+    pub(crate) fn around(&self, place: DVec3, share: f64, mut visit: impl FnMut([DVec3; 3])) {
+        let mut waiting = vec![0];
+        while let Some(index) = waiting.pop() {
+            let node = self.nodes[index as usize];
+            let reach = share * (2.0 * node.half.length() + place.abs().element_sum());
+            if !((place - node.middle).abs() - node.half).cmple(DVec3::splat(reach)).all() {
+                continue;
+            }
+            if node.count == 0 {
+                waiting.extend([node.next, index + 1]);
+            } else {
+                self.triangles[node.next as usize..(node.next + node.count) as usize]
+                    .iter()
+                    .copied()
+                    .for_each(&mut visit);
+            }
+        }
+    }
+
+    /// Marks what a triangle in local coordinates may cover.
+    fn triangle(&self, small: f64, [a, b, c]: [DVec3; 3], skyline: &mut Skyline) {
+        let top = a.z.max(b.z).max(c.z);
+        if top <= 0.0 {
+            return;
+        }
+        let middle = (a + b + c) / 3.0;
+        let radius = [a, b, c].map(|corner| corner.distance(middle)).into_iter().fold(0.0, f64::max);
+        let distance = middle.length();
+        let sine = radius / distance;
+        let (highest, near) = if sine < NEAR { (top / (distance - radius), false) } else { (f64::INFINITY, true) };
+        let region = if near {
+            Some(Region { rings: [0, RINGS - 1], columns: u64::MAX })
+        } else {
+            Region::of(middle, distance, sine, highest)
+        };
+        let Some(region) = region.filter(|region| !skyline.holds(region)) else { return };
+        if sine < small {
+            skyline.mark(&region);
+            return;
+        }
+        // Rays from here meet the triangle only if they run towards its plane.
+        let across = (b - a).cross(c - a);
+        let length = across.length();
+        if length == 0.0 {
+            return;
+        }
+        let plane = if across.dot(a) > 0.0 { -across } else { across } / length;
+        let slope = plane.truncate().length();
+        for ring in region.rings[0]..=region.rings[1] {
+            // No column of the ring has a smaller product than this.
+            let (middle, radius) = (self.middles[ring * COLUMNS], self.part_radii[ring]);
+            if plane.z * middle.z - slope * middle.truncate().length() >= radius + MARGIN {
+                continue;
+            }
+            for column in ones(region.columns & !skyline.0[ring]) {
+                if plane.dot(self.middles[ring * COLUMNS + column]) < radius {
+                    skyline.0[ring] |= 1 << column;
+                }
+            }
+        }
+    }
+}
+
+/// The largest distance of a direction from the middle of its part, in a ring, with the margin.
+fn part_radius(ring: usize) -> f64 {
+    let middle = SkyPart { ring: ring as u8, column: 0 }.middle();
+    let ends = [lower_end(ring), lower_end(ring + 1)];
+    ends.map(|z| at(z, 0.0).distance(middle)).into_iter().fold(0.0, f64::max) + MARGIN
+}
+
+/// The bits that are set, from the lowest up.
+pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        (bits != 0).then(|| {
+            let lowest = bits.trailing_zeros() as usize;
+            bits &= bits - 1;
+            lowest
+        })
+    })
+}
+
+/// Appends the boxes over `triangles`, which stand from `first` on, and brings the triangles into the order of leaves.
+fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for corner in triangles.iter().flatten() {
+        (low, high) = (low.min(*corner), high.max(*corner));
+    }
+    let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+    let node = nodes.len();
+    let count = triangles.len();
+    if count <= LEAF {
+        nodes.push(BoxNode { middle, half, next: first, count: count as u32, axis: 0 });
+        return;
+    }
+    let axis = if half.x >= half.y && half.x >= half.z {
+        0
+    } else if half.y >= half.z {
+        1
+    } else {
+        2
+    };
+    nodes.push(BoxNode { middle, half, next: 0, count: 0, axis: axis as u8 });
+    let sum = |corners: &[DVec3; 3]| corners[0][axis] + corners[1][axis] + corners[2][axis];
+    triangles.select_nth_unstable_by(count / 2, |one, other| sum(one).total_cmp(&sum(other)));
+    let (lower, upper) = triangles.split_at_mut(count / 2);
+    build(nodes, lower, first);
+    nodes[node].next = nodes.len() as u32;
+    build(nodes, upper, first + (count / 2) as u32);
+}

@@ -1,0 +1,69 @@
+//! Which segments of the light a vertex sees: the share omega of Table 1.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::maps::VisibilityMaps;
+use crate::transfer::Vertices;
+use crate::transfer::grid::{FineDirections, Segmentation};
+use crate::transfer::hats::Hats;
+
+/// How many of the 24 segments of the light are empty at vertices, and why. Segments of a vertex are counted one by
+/// one; each is in one of the three numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SegmentCensus {
+    /// Vertices times 24.
+    pub segments: u64,
+    /// All of the segment's fine directions lie below the horizon of the vertex's normal.
+    pub below_horizon: u64,
+    /// Some lie above, but all of these are shadowed.
+    pub shadowed: u64,
+    /// The others: segments with transfer.
+    pub nonempty: u64,
+    /// The least number of segments below the horizon at a vertex.
+    pub least_below: u32,
+}
+
+impl SegmentCensus {
+    /// Of all vertices of some maps. A fine direction is one of a segment's if a hat of its texels is not 0 there: with
+    /// hats of one texel, if it lies in it.
+    ///
+    /// # Panics
+    /// If the maps are of other vertices.
+    pub fn new(vertices: &Vertices, maps: &VisibilityMaps, hats: &Hats) -> Self {
+        let of_map = |map: usize| {
+            let normal = vertices.frames()[maps.vertices()[map] as usize].normal();
+            let below = segments_below_horizon(normal, hats);
+            let seen = (0..24).filter(|&segment| hats.segment(segment).sees(maps.bits(map))).count() as u64;
+            (below, seen)
+        };
+        let counted: Vec<(u32, u64)> = (0..maps.len()).into_par_iter().map(of_map).collect();
+        let mut census = Self { segments: 24 * maps.len() as u64, least_below: 24, ..Self::default() };
+        for (below, seen) in counted {
+            let below = below.count_ones();
+            census.below_horizon += u64::from(below);
+            census.nonempty += seen;
+            census.least_below = census.least_below.min(below);
+        }
+        census.shadowed = census.segments - census.below_horizon - census.nonempty;
+        census
+    }
+
+    /// The share omega of segments with transfer.
+    pub fn omega(&self) -> f64 {
+        self.nonempty as f64 / self.segments.max(1) as f64
+    }
+
+    /// Segments below the horizon, per vertex.
+    pub fn mean_below(&self) -> f64 {
+        24.0 * self.below_horizon as f64 / self.segments.max(1) as f64
+    }
+}
+
+/// The segments of which no fine direction lies above the horizon of a unit normal, a bit each from the lowest up.
+pub fn segments_below_horizon(normal: DVec3, hats: &Hats) -> u32 {
+    let directions = FineDirections::get().directions();
+    let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;
+    (0..Segmentation::Quarters.count())
+        .fold(0, |found, segment| found | u32::from(!hats.rim(segment).any(is_above)) << segment)
+}

@@ -1,0 +1,161 @@
+//! The bits.
+
+use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections};
+
+/// Which directions a vertex looks in, and which of them count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VisibilitySampling {
+    /// m: 2^m x 2^m directions in each of the light's texels, 0 to 2.
+    pub log2_samples: u32,
+    /// What ends a vertex's view.
+    pub horizon: Horizon,
+}
+
+impl Default for VisibilitySampling {
+    /// 4 x 4 directions above the plane of the normal, as system 5 has them.
+    fn default() -> Self {
+        Self { log2_samples: 2, horizon: Horizon::Normal }
+    }
+}
+
+impl VisibilitySampling {
+    /// The directions.
+    ///
+    /// # Panics
+    /// If there are more than 4 x 4 in a texel.
+    pub fn directions(self) -> &'static FineDirections {
+        FineDirections::of(1 << self.log2_samples)
+    }
+
+    /// Words of bits per vertex.
+    pub(super) fn words(self) -> usize {
+        self.directions().directions().len() / 64
+    }
+}
+
+/// What ends the view of a vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Horizon {
+    /// The plane of its normal, and triangles.
+    #[default]
+    Normal,
+    /// Triangles alone: where the surface curves away from the normal, a vertex sees below the normal's plane.
+    Geometry,
+}
+
+/// Memory of a vertex's map of 4 x 4 directions a texel in bytes: 12 KiB. 50,000 vertices take 614 MB.
+pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
+
+/// Numbers of directions, and vertices that something is wrong with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VisibilityCounts {
+    /// Directions above the horizon of their vertex's normal.
+    pub above: u64,
+    /// Of these, those that run into all triangles that the vertex lies on.
+    pub below_triangles: u64,
+    /// Those that a ray was cast for; the others certainly meet nothing. 0 of maps that were drawn.
+    pub traced: u64,
+    /// Those in which the vertex sees the light.
+    pub visible: u64,
+    /// Vertices on triangles that face each other so that no origin of rays is in front of all of them.
+    pub unclear: Vec<u32>,
+}
+
+/// The visibility q_p of some vertices: a bit per vertex and fine direction, 1 where it sees the light. Directions that
+/// are not above the vertex's horizon are 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VisibilityMaps {
+    sampling: VisibilitySampling,
+    vertices: Vec<u32>,
+    words: Vec<u64>,
+    /// How many directions, and what is wrong.
+    pub counts: VisibilityCounts,
+}
+
+impl VisibilityMaps {
+    /// All bits 0.
+    pub(super) fn dark(vertices: &[u32], sampling: VisibilitySampling) -> Self {
+        let counts = VisibilityCounts::default();
+        Self { sampling, vertices: vertices.to_vec(), words: vec![0; vertices.len() * sampling.words()], counts }
+    }
+
+    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map; nothing is known of
+    /// how they came about but the number of bits. `None` if the last map is incomplete.
+    pub fn from_words(words: Vec<u64>) -> Option<Self> {
+        let sampling = VisibilitySampling::default();
+        if !words.len().is_multiple_of(sampling.words()) {
+            return None;
+        }
+        let vertices = (0..u32::try_from(words.len() / sampling.words()).ok()?).collect();
+        let mut maps = Self { sampling, vertices, words, counts: VisibilityCounts::default() };
+        maps.count_visible();
+        Some(maps)
+    }
+
+    /// Which directions the bits are of.
+    pub fn sampling(&self) -> VisibilitySampling {
+        self.sampling
+    }
+
+    /// The same maps of vertices whose numbers are less by `first`: those of the second of two joined meshes, by their
+    /// numbers in it.
+    ///
+    /// # Panics
+    /// If a vertex has a lower number.
+    #[must_use]
+    pub fn counted_from(mut self, first: u32) -> Self {
+        let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
+        self.vertices.iter_mut().chain(&mut self.counts.unclear).for_each(lower);
+        self
+    }
+
+    /// All words, map by map.
+    pub fn words(&self) -> &[u64] {
+        &self.words
+    }
+
+    /// The vertices that the maps are of, by their number in the mesh.
+    pub fn vertices(&self) -> &[u32] {
+        &self.vertices
+    }
+
+    /// The number of maps.
+    pub fn len(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// The bits of a map, 64 directions per word, the first in the lowest bit. Maps count from 0, in the order of
+    /// [`Self::vertices`].
+    ///
+    /// # Panics
+    /// If there is no such map.
+    pub fn bits(&self, map: usize) -> &[u64] {
+        let words = self.sampling.words();
+        &self.words[map * words..(map + 1) * words]
+    }
+
+    /// Whether a map's vertex sees the light in a fine direction.
+    ///
+    /// # Panics
+    /// If there is no such map or direction.
+    pub fn is_visible(&self, map: usize, fine: usize) -> bool {
+        let bits = self.bits(map);
+        assert!(fine < 64 * bits.len(), "a fine direction, not {fine}");
+        bits[fine / 64] >> (fine % 64) & 1 != 0
+    }
+
+    pub(super) fn words_mut(&mut self) -> &mut [u64] {
+        &mut self.words
+    }
+
+    /// Counts the bits that are set.
+    pub(super) fn count_visible(&mut self) {
+        self.counts.visible = self.words.iter().map(|word| u64::from(word.count_ones())).sum();
+    }
+}

@@ -1,0 +1,146 @@
+//! Visibility by rays.
+
+use rayon::prelude::*;
+
+use super::maps::{VisibilityMaps, VisibilitySampling};
+use super::sight::{Asked, above, look, set};
+use crate::geom::Ray;
+use crate::geom::vector::narrow;
+use crate::tracer::Caster;
+use crate::transfer::{Occluders, RayOrigin, TransferError, Vertices, origins, ray_length};
+
+/// Vertices whose rays are cast together.
+const BLOCK: usize = 32;
+
+/// Where rays start, and how they are made.
+struct Rays<'a> {
+    sampling: VisibilitySampling,
+    vertices: &'a Vertices,
+    origins: Vec<RayOrigin>,
+    length: f64,
+}
+
+impl Rays<'_> {
+    /// The rays of a vertex in some directions; without those that single precision has no ray for, near its limits.
+    fn of(&self, vertex: u32, fine: &[u32]) -> (Vec<u32>, Vec<Ray>) {
+        let ray = |fine: u32| {
+            let direction = self.length * self.sampling.directions().directions()[fine as usize];
+            Some((fine, Ray::new(self.origins[vertex as usize].at, narrow(direction)).ok()?))
+        };
+        fine.iter().filter_map(|&fine| ray(fine)).unzip()
+    }
+}
+
+impl VisibilityMaps {
+    /// [`Self::trace_sampled`] in the default sampling.
+    ///
+    /// # Errors
+    /// As [`Self::trace_sampled`].
+    pub fn trace(
+        vertices: &Vertices,
+        of: &[u32],
+        caster: &mut dyn Caster,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, TransferError> {
+        Self::trace_sampled(vertices, of, VisibilitySampling::default(), caster, done)
+    }
+
+    /// The maps of some vertices of a mesh, by any-hit rays in the fine directions. The caster must be one of the mesh
+    /// that the vertices were made from, and see both sides of triangles. A vertex's rays start off all triangles that
+    /// it lies on. `done` is called with the vertices done and of all.
+    ///
+    /// The answers are those of casting every ray above the horizons, in any number of threads; directions in which a
+    /// vertex certainly sees nothing are not cast.
+    ///
+    /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast at most 32
+    /// vertices times 98,304 directions times 30 bytes, 90 MB.
+    ///
+    /// # Errors
+    /// [`TransferError::OutOfRange`] for a vertex that is not there; [`TransferError::Cast`] if the caster fails.
+    pub fn trace_sampled(
+        vertices: &Vertices,
+        of: &[u32],
+        sampling: VisibilitySampling,
+        caster: &mut dyn Caster,
+        done: &mut dyn FnMut(usize, usize),
+    ) -> Result<Self, TransferError> {
+        check(vertices, of)?;
+        let occluders = Occluders::new(vertices);
+        let rays = Rays { sampling, vertices, origins: origins(vertices, &occluders), length: ray_length(vertices) };
+        let mut maps = Self::dark(of, sampling);
+        let map_words = sampling.words();
+        maps.counts.unclear = unclear(&rays.origins, of);
+        for (block, of_block) in of.chunks(BLOCK).enumerate() {
+            let words = &mut maps.words_mut()[block * BLOCK * map_words..];
+            let asked: Vec<(Asked, Vec<Ray>)> = words
+                .par_chunks_mut(map_words)
+                .zip(of_block)
+                .map_init(Vec::new, |waiting, (bits, &vertex)| {
+                    let at = (&rays.vertices.frames()[vertex as usize], &rays.origins[vertex as usize]);
+                    let mut asked = look(at, &occluders, sampling, waiting, bits);
+                    let cast;
+                    (asked.fine, cast) = rays.of(vertex, &asked.fine);
+                    (asked, cast)
+                })
+                .collect();
+            let all: Vec<Ray> = asked.iter().flat_map(|(_, rays)| rays).copied().collect();
+            let mut answers = caster.occluded(&all)?.into_iter();
+            for (bits, (asked, _)) in words.chunks_mut(map_words).zip(&asked) {
+                for (&fine, _) in asked.fine.iter().zip(answers.by_ref()).filter(|(_, is_blocked)| !is_blocked) {
+                    set(bits, fine);
+                }
+            }
+            for (asked, rays) in &asked {
+                maps.counts.above += asked.above;
+                maps.counts.below_triangles += asked.below_triangles;
+                maps.counts.traced += rays.len() as u64;
+            }
+            done(block * BLOCK + of_block.len(), of.len());
+        }
+        maps.count_visible();
+        Ok(maps)
+    }
+
+    /// The same with every ray cast: what [`Self::trace_sampled`] is tested against.
+    ///
+    /// # Errors
+    /// As [`Self::trace_sampled`].
+    pub fn trace_all(
+        vertices: &Vertices,
+        of: &[u32],
+        sampling: VisibilitySampling,
+        caster: &mut dyn Caster,
+    ) -> Result<Self, TransferError> {
+        check(vertices, of)?;
+        let origins = origins(vertices, &Occluders::new(vertices));
+        let rays = Rays { sampling, vertices, origins, length: ray_length(vertices) };
+        let mut maps = Self::dark(of, sampling);
+        maps.counts.unclear = unclear(&rays.origins, of);
+        for (map, &vertex) in of.iter().enumerate() {
+            let (fine, below) = above(&vertices.frames()[vertex as usize], &rays.origins[vertex as usize], sampling);
+            maps.counts.above += fine.len() as u64 + below;
+            let (fine, cast) = rays.of(vertex, &fine);
+            let answers = caster.occluded(&cast)?;
+            let bits = &mut maps.words_mut()[map * sampling.words()..(map + 1) * sampling.words()];
+            fine.iter().zip(answers).filter(|(_, is_blocked)| !is_blocked).for_each(|(&fine, _)| set(bits, fine));
+            maps.counts.below_triangles += below;
+            maps.counts.traced += cast.len() as u64;
+        }
+        maps.count_visible();
+        Ok(maps)
+    }
+}
+
+/// Whether all vertices are there.
+pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
+    let (what, expected) = ("a vertex's number", "one below the number of vertices");
+    match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
+        Some(&vertex) => Err(TransferError::OutOfRange { what, expected, found: f64::from(vertex) }),
+        None => Ok(()),
+    }
+}
+
+/// Which of some vertices are not clear of all triangles that they lie on.
+pub(super) fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
+    of.iter().copied().filter(|&vertex| !origins[vertex as usize].is_clear).collect()
+}
