@@ -11,7 +11,7 @@ use crate::transfer::brdf::ExitBasis;
 use crate::transfer::{FrontHit, LocalFrame, Vertices};
 
 /// Everything that is the same for all vertices.
-pub(super) struct Gather<'a> {
+pub(super) struct TransferGather<'a> {
     vertices: &'a Vertices,
     rays: &'a TracedRays,
     rows: usize,
@@ -30,7 +30,7 @@ struct WeightedResponse {
     whole: Vec<f64>,
 }
 
-impl<'a> Gather<'a> {
+impl<'a> TransferGather<'a> {
     pub(super) fn new(
         vertices: &'a Vertices,
         rays: &'a TracedRays,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::gather::Gather;
+use super::gather::TransferGather;
 use super::rays::TracedRays;
 use super::response::Response;
 use crate::sphere::{MAX_ORDER, function_count};
@@ -56,7 +56,7 @@ impl Transfer {
             return Err(TransferError::Material { triangle, material, responses: responses.len() });
         }
         check(vertices, rays, responses, light_order, bounces)?;
-        let gather = Gather::new(vertices, rays, responses, light_order);
+        let gather = TransferGather::new(vertices, rays, responses, light_order);
         let direct = gather.direct();
         let whole = squares(&direct, gather.size());
         let (most, least) = match bounces {
@@ -93,7 +93,7 @@ impl Transfer {
     ) -> Result<Self, TransferError> {
         let responses = [Response::incident(basis, inverse, rays.rule())];
         check(vertices, rays, &responses, light_order, Bounces::Count(u32::from(exit.is_some())))?;
-        let gather = Gather::new(vertices, rays, &responses, light_order);
+        let gather = TransferGather::new(vertices, rays, &responses, light_order);
         let mut values = gather.direct();
         let columns = function_count(light_order);
         if let Some(exit) = exit {
