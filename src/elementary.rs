@@ -1,11 +1,11 @@
-//! Elementary functions with the same bits everywhere: those of the standard library vary by platform.
+//! Elementary functions with the same bits on every platform, by libm: those of the standard library vary.
 
-/// The natural logarithm.
+/// Natural logarithm.
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// The logarithm to base 10.
+/// Logarithm to base 10.
 pub fn log10(x: f64) -> f64 {
     libm::log10(x)
 }
@@ -20,37 +20,37 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
-/// e to the power x, less 1, without loss near 0.
+/// e to the power x, less 1, without cancellation near 0.
 pub fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
 
-/// The square root of x^2 + y^2, without overflow.
+/// Square root of x^2 + y^2, without overflow.
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
 
-/// The cube root.
+/// Cube root.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
-/// The angle of the point (x, y) from the x axis, in radians.
+/// Angle of the point (x, y) from the x axis, in radians.
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// The angle in [0, pi] whose cosine is x.
+/// Angle in [0, pi] whose cosine is x.
 pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
-/// The hyperbolic cosine.
+/// Hyperbolic cosine.
 pub fn cosh(x: f64) -> f64 {
     libm::cosh(x)
 }
 
-/// The number whose hyperbolic sine is x.
+/// Inverse hyperbolic sine.
 pub fn asinh(x: f64) -> f64 {
     libm::asinh(x)
 }
@@ -60,7 +60,7 @@ pub fn sin_cos(radians: f64) -> (f64, f64) {
     libm::sincos(radians)
 }
 
-/// The point of the unit circle at `turns` full turns from (1, 0), counter-clockwise. Quarters are exact.
+/// Point of the unit circle at `turns` full turns from (1, 0), counter-clockwise. Exact at multiples of a quarter turn.
 pub fn on_circle(turns: f64) -> [f64; 2] {
     let quarters = turns * 4.0;
     let whole = (quarters + 0.5).floor();

@@ -1,11 +1,12 @@
-//! How much unpolarised light a smooth boundary reflects and passes: Fresnel's equations for dielectrics in the forms
-//! that renderers and BRDF models take, and Schlick's approximation.
+//! Reflectance and transmittance of a smooth boundary for unpolarised light: Fresnel's equations for dielectrics in the
+//! forms that renderers and BRDF models use, and Schlick's approximation.
 //!
-//! Two of them are written out. [`reflectance`] is good where little passes, [`transmittance`] where little is
-//! reflected: neither is a difference of nearly equal numbers there. Their sum is 1 to rounding.
+//! [`reflectance`] is accurate where little is transmitted, [`transmittance`] where little is reflected: neither
+//! suffers from cancellation there. Their sum is 1 up to rounding.
 
-/// How much a boundary reflects, in [0, 1]: the mean of both polarisations. `cosine` is that of the angle to the normal
-/// on the side of the light, `ratio` the index of that side over that of the other. 1 under total internal reflection.
+/// Fresnel reflectance of a boundary, in [0, 1]: the mean of both polarisations. `cosine` is that of the angle to the
+/// normal on the side of the light, `ratio` the index of that side over that of the other. 1 under total internal
+/// reflection.
 pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     let cosine = cosine.clamp(0.0, 1.0);
     let square = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
@@ -18,11 +19,11 @@ pub fn reflectance(cosine: f64, ratio: f64) -> f64 {
     (across * across + along * along) / 2.0
 }
 
-/// The fraction of light that passes the boundary, in [0, 1]: 1 less the mean of both polarisations' reflectances.
+/// Fresnel transmittance of a boundary, in [0, 1]: 1 less the mean of both polarisations' reflectances.
 ///
-/// `eta` is the index of refraction of the far side relative to the near one: above 1 for light that enters the
-/// medium, below 1 for light that leaves it. `cosine` is that of the angle on the near side. 0 for light that runs
-/// along the surface or comes from behind it (cosine not above 0), and where it is reflected totally.
+/// `eta` is the index of refraction of the far side relative to the near one: above 1 for light that enters the medium,
+/// below 1 for light that leaves it. `cosine` is that of the angle on the near side. 0 for light along the surface or
+/// from behind it (cosine not above 0), and under total internal reflection.
 pub fn transmittance(eta: f64, cosine: f64) -> f64 {
     let c = cosine.min(1.0);
     // The square of eta times the cosine on the far side.
@@ -38,14 +39,14 @@ pub fn transmittance(eta: f64, cosine: f64) -> f64 {
     (2.0 * c * far * (1.0 / (across * across) + (eta / along) * (eta / along))).min(1.0)
 }
 
-/// [`reflectance`] as Cook and Torrance give it, from the reflectance at normal incidence, in [0, 1): the index follows
-/// from that. `cosine` is in [0, 1].
+/// Fresnel reflectance in Cook and Torrance's form, from the reflectance at normal incidence, in [0, 1), which
+/// determines the index. `cosine` is in [0, 1].
 pub fn dielectric(normal_incidence: f64, cosine: f64) -> f64 {
     let root = normal_incidence.sqrt();
     reflectance(cosine, (1.0 - root) / (1.0 + root))
 }
 
-/// Schlick's approximation, from the reflectance at normal incidence; `cosine` is in [0, 1].
+/// Schlick's approximation of the Fresnel reflectance, from the reflectance at normal incidence; `cosine` is in [0, 1].
 pub fn schlick(normal_incidence: f64, cosine: f64) -> f64 {
     let left = 1.0 - cosine;
     let square = left * left;
@@ -73,13 +74,13 @@ mod tests {
         assert!(reflectance(0.8, 1.5) < 1.0);
     }
 
-    /// What is not reflected passes, into the medium and out of it.
+    /// Reflectance and transmittance sum to 1, into the medium and out of it.
     #[test]
     fn reflectance_and_transmittance_sum_to_1() {
         for eta in [1.0, 1.0 + 1e-9, 1.3, 1.5, 2.4, 1.0 / 1.3, 1.0 / 2.4] {
             for step in 0..=200 {
                 let cosine = f64::from(step) / 200.0;
-                // Light along the surface does not pass, whatever the index; the quotients are of no use there.
+                // Light along the surface is not transmitted, whatever the index; the quotients are 0 / 0 there.
                 let reflected = if step > 0 { reflectance(cosine, 1.0 / eta) } else { 1.0 };
                 assert_abs_diff_eq!(transmittance(eta, cosine) + reflected, 1.0, epsilon = 1e-12);
             }
@@ -91,7 +92,7 @@ mod tests {
         for f0 in [0.0, 0.04, 0.5, 0.95] {
             for fresnel in [schlick, dielectric] {
                 assert_abs_diff_eq!(fresnel(f0, 1.0), f0, epsilon = 1e-15);
-                // At an index of 1 the boundary is none, and its grazing reflectance is whatever a formula makes of it.
+                // At an index of 1 there is no boundary, and the grazing reflectance depends on the formula.
                 if f0 > 0.0 {
                     assert_abs_diff_eq!(fresnel(f0, 0.0), 1.0, epsilon = 1e-12);
                 }

@@ -1,7 +1,7 @@
 //! Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
 //!
 //! The emulated cards are in the crate `refsim`; the systems that ran on them, the studies and the program are here. So
-//! is [`oracle`], which judges other people's ray-triangle intersectors by exact arithmetic:
+//! is [`oracle`], which checks other ray-triangle intersectors by exact arithmetic:
 //!
 //! ```
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
@@ -16,7 +16,7 @@
 //! # }
 //! ```
 //!
-//! A system runs on any card and any executor, and its answer can be held against exact arithmetic:
+//! A system runs on any card and any executor, and its results can be compared with exact arithmetic:
 //!
 #![cfg_attr(feature = "systems", doc = "```")]
 #![cfg_attr(not(feature = "systems"), doc = "```ignore")]

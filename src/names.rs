@@ -1,10 +1,10 @@
-//! Which of some names was meant.
+//! Suggestions for misspelt names.
 
-/// Longer names are nobody's slip of the finger.
+/// Maximum length of a name for which a suggestion is made.
 const LONGEST: usize = 80;
 
-/// The name nearest to what was found, if it is near: at most one letter in three is wrong, missing, too many or
-/// swapped with the next. Case does not count. Of equally near names the first.
+/// Returns the name nearest to what was found, if it is near: at most one letter in three is wrong, missing,
+/// superfluous or swapped with the next. Case is ignored. Of equally near names the first.
 pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters = found.chars().take(LONGEST + 1).count();
     if letters > LONGEST {
@@ -16,12 +16,13 @@ pub fn nearest<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     near.min_by_key(|(far, _)| *far).map(|(_, name)| name)
 }
 
-/// ``did you mean `r200`? ``, to stand before other help; empty if no name is near.
+/// Returns ``did you mean `r200`? ``, as a prefix of other help; empty if no name is near.
 pub fn did_you_mean<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     nearest(found, names).map(|name| format!("did you mean `{name}`? ")).unwrap_or_default()
 }
 
-/// The same for serde's messages on unknown fields and variants, which quote what was found and then the known names.
+/// Like [`did_you_mean`], for serde's messages on unknown fields and variants, which quote what was found and then the
+/// known names.
 pub fn did_you_mean_field(message: &str) -> String {
     if !message.starts_with("unknown ") {
         return String::new();

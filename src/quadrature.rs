@@ -2,14 +2,14 @@
 
 use crate::elementary;
 
-/// A point and its weight; weights sum to 1.
+/// Point and weight; the weights of a rule sum to 1.
 pub type GaussPoint = (f64, f64);
 
-/// Three points.
+/// Rule with three points.
 pub const THREE: [GaussPoint; 3] =
     rule([(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)]);
 
-/// Five points.
+/// Rule with five points.
 pub const FIVE: [GaussPoint; 5] = rule([
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
@@ -18,7 +18,7 @@ pub const FIVE: [GaussPoint; 5] = rule([
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ]);
 
-/// Eight points.
+/// Rule with eight points.
 pub const EIGHT: [GaussPoint; 8] = rule([
     (-0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
     (-0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
@@ -30,7 +30,7 @@ pub const EIGHT: [GaussPoint; 8] = rule([
     (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
 ]);
 
-/// Sixteen points.
+/// Rule with sixteen points.
 pub const SIXTEEN: [GaussPoint; 16] = rule([
     (-0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
     (-0.944_575_023_073_232_6, 0.062_253_523_938_647_894),
@@ -50,13 +50,14 @@ pub const SIXTEEN: [GaussPoint; 16] = rule([
     (0.989_400_934_991_649_9, 0.027_152_459_411_754_096),
 ]);
 
-/// Most points of a rule by [`gauss_legendre`].
+/// Maximum number of points of a rule by [`gauss_legendre`].
 pub const MAX_POINTS: usize = 1024;
 
-/// Steps of Newton's method: from the asymptotic roots, three reach the last bits and two more change nothing.
+/// Number of steps of Newton's method: from the asymptotic roots, three reach the last bits and two more change
+/// nothing.
 const NEWTON_STEPS: usize = 5;
 
-/// The rule of any number of points from 1 to [`MAX_POINTS`], from 0 to 1: Newton's method on the roots of the Legendre
+/// Computes the rule with 1 to [`MAX_POINTS`] points on [0, 1], by Newton's method on the roots of the Legendre
 /// polynomial.
 ///
 /// # Panics
@@ -83,7 +84,7 @@ pub fn gauss_legendre(points: usize) -> Vec<GaussPoint> {
     rule
 }
 
-/// The Legendre polynomial of a degree of at least 1, and its derivative, at x.
+/// Legendre polynomial of a degree of at least 1, and its derivative, at x.
 fn legendre(degree: usize, x: f64) -> [f64; 2] {
     let ([mut before, mut now], [mut slope_before, mut slope]) = ([1.0, x], [0.0, 1.0]);
     for l in 1..degree {
@@ -94,18 +95,18 @@ fn legendre(degree: usize, x: f64) -> [f64; 2] {
     [now, slope]
 }
 
-/// The sixteen points of an interval and their weights, which sum to its length.
+/// Sixteen points of an interval and their weights, which sum to its length.
 pub fn integral_points(from: f64, to: f64) -> [GaussPoint; 16] {
     SIXTEEN.map(|(x, weight)| (from + (to - from) * x, (to - from) * weight))
 }
 
-/// The integral of a function from `from` to `to` by sixteen points.
+/// Integral of a function from `from` to `to` by sixteen points.
 pub fn integral(from: f64, to: f64, value: impl Fn(f64) -> f64) -> f64 {
     integral_points(from, to).iter().map(|&(x, weight)| weight * value(x)).sum()
 }
 
-/// The integral from 0 to `to` of a function that varies fast near 0: sixteen points in each of `panels` intervals,
-/// every one half as long as the next; the first begins at 0.
+/// Integral from 0 to `to` of a function that varies fast near 0: sixteen points in each of `panels` intervals, every
+/// one half as long as the next; the first begins at 0.
 pub fn graded_integral(to: f64, panels: u32, value: impl Fn(f64) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut end = to;
@@ -116,7 +117,7 @@ pub fn graded_integral(to: f64, panels: u32, value: impl Fn(f64) -> f64) -> f64 
     sum + integral(0.0, end, &value)
 }
 
-/// A rule on [-1, 1] mapped to [0, 1].
+/// Maps a rule on [-1, 1] to [0, 1].
 const fn rule<const N: usize>(table: [GaussPoint; N]) -> [GaussPoint; N] {
     let mut nodes = table;
     let mut i = 0;

@@ -1,4 +1,4 @@
-//! Shader texts from files and cases: read, assembled, judged; errors with name and place.
+//! Shader texts from files and cases: reading, assembly, checking, and errors with name and position.
 
 use std::{io, path::Path, sync::Arc};
 
@@ -14,29 +14,29 @@ use serde::Serialize;
 use crate::io::read_limited;
 use crate::report::{SourceText, quoted_line};
 
-/// The longest shader file that is read, in bytes: the assembler takes no more.
+/// Maximum length of a shader file, in bytes: the limit of the assembler.
 const MAX_BYTES: u64 = asm::MAX_TEXT as u64;
 
-/// A shader's text and what to call it in messages.
+/// Shader text with its name in messages.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShaderText {
     source: Arc<SourceText>,
 }
 
-/// A line of a shader, to be quoted.
+/// Line of a shader, for quotation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SourceLine {
-    /// What the shader is called.
+    /// Name of the shader.
     pub file: String,
-    /// The line, from 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// The column of the piece that was asked for, from 1.
+    /// Column of the quoted position, from 1.
     pub column: usize,
-    /// The line without space around it; a long one is cut around the piece.
+    /// Trimmed line; a long one is truncated around the position.
     pub text: String,
 }
 
-/// Why a shader cannot be used.
+/// Error of reading, assembling or checking a shader.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -45,11 +45,11 @@ pub enum ShaderError {
     #[error("shader `{name}` cannot be read")]
     #[diagnostic(code(crossbar::shader::unreadable), help("check the path"))]
     Unreadable { name: String, source: io::Error },
-    /// The file is no text.
+    /// The file is not text.
     #[error("expected a shader in ASCII or UTF-8, found byte {byte:#04x} at offset {offset} of `{name}`")]
     #[diagnostic(code(crossbar::shader::text), help("name a file with shader assembly, not a compiled shader"))]
     NotText { name: String, byte: u8, offset: usize },
-    /// The file is far longer than any shader.
+    /// The file exceeds the maximum length.
     #[error("expected a shader of at most {MAX_BYTES} bytes, found more in `{name}`")]
     #[diagnostic(code(crossbar::shader::length), help("check that this is the file you mean"))]
     TooLong { name: String },
@@ -60,7 +60,7 @@ pub enum ShaderError {
         name: String,
         #[source_code]
         source_code: Arc<SourceText>,
-        /// Every error, in the order of the text; at least one.
+        /// All errors, in the order of the text; at least one.
         #[related]
         errors: Vec<SyntaxError>,
     },
@@ -73,15 +73,15 @@ pub enum ShaderError {
         device: String,
         #[source_code]
         source_code: Arc<SourceText>,
-        /// Every violation, in the order of the text; at least one.
+        /// All violations, in the order of the text; at least one.
         #[related]
         violations: Vec<Violation>,
-        /// Every warning, in the order of the text.
+        /// All warnings, in the order of the text.
         warnings: Vec<Warning>,
     },
 }
 
-/// A warning of the checker with the text that it is about.
+/// Warning of the checker with the text that it refers to.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{message}")]
 #[diagnostic(code("check"), severity(Warning), help("{code}: {help}"))]
@@ -100,7 +100,7 @@ fn count(number: usize, noun: &str) -> String {
 }
 
 impl ShaderText {
-    /// A shader that was written somewhere else than in a file of its own.
+    /// Creates a shader text from a source other than a file of its own.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
@@ -108,21 +108,21 @@ impl ShaderText {
     /// Reads a shader file.
     ///
     /// # Errors
-    /// If it cannot be read, is no text or is longer than the assembler takes.
+    /// If it cannot be read, is not text or exceeds the limit of the assembler.
     pub fn read(path: &Path) -> Result<Self, ShaderError> {
         let name = path.display().to_string();
         let unreadable = |source| ShaderError::Unreadable { name: name.clone(), source };
-        // No more than the limit is read: the name may be that of a device without an end.
+        // Reads no more than the limit: the path may name an endless device file.
         let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
             return Err(ShaderError::TooLong { name });
         };
         Self::from_bytes(name, bytes)
     }
 
-    /// A shader from the bytes of a file.
+    /// Creates a shader text from the bytes of a file.
     ///
     /// # Errors
-    /// If they are no text.
+    /// If they are not text.
     pub fn from_bytes(name: String, bytes: Vec<u8>) -> Result<Self, ShaderError> {
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::new(name, text)),
@@ -134,12 +134,12 @@ impl ShaderText {
         }
     }
 
-    /// What the shader is called in messages.
+    /// Name in messages.
     pub fn name(&self) -> &str {
         self.source.name()
     }
 
-    /// The line on which a piece of the text starts.
+    /// Line on which a span of the text starts.
     pub fn line(&self, span: Span) -> SourceLine {
         let start = span.start as usize;
         let line = self.source.line_of(start);
@@ -153,7 +153,7 @@ impl ShaderText {
         }
     }
 
-    /// The text with its name, as errors show it.
+    /// Text with its name, as errors show it.
     pub fn named_source(&self) -> Arc<SourceText> {
         self.source.clone()
     }
@@ -161,7 +161,7 @@ impl ShaderText {
     /// Assembles the text.
     ///
     /// # Errors
-    /// Every syntax error at once.
+    /// All syntax errors.
     pub fn assemble(&self) -> Result<Program, ShaderError> {
         asm::assemble(self.source.text()).map_err(|found| ShaderError::Syntax {
             name: self.name().to_owned(),
@@ -170,10 +170,10 @@ impl ShaderText {
         })
     }
 
-    /// Judges the text's program against its version and a device.
+    /// Checks the text's program against its version and a device.
     ///
     /// # Errors
-    /// Every violation at once.
+    /// All violations.
     pub fn check(&self, program: Program, profile: &Profile) -> Result<Checked<Program>, ShaderError> {
         check::check(program, profile).map_err(|report| ShaderError::Illegal {
             name: self.name().to_owned(),
@@ -185,7 +185,7 @@ impl ShaderText {
         })
     }
 
-    /// The warnings of the text's program, ready to be shown.
+    /// Warnings of the text's program, with its text.
     pub fn warnings<'a>(&'a self, program: &'a Checked<Program>) -> impl Iterator<Item = ShaderWarning> + 'a {
         program.warnings().iter().map(|warning| {
             let (start, end) = (warning.span.start as usize, warning.span.end as usize);
@@ -200,7 +200,7 @@ impl ShaderText {
     }
 }
 
-/// The instruction slots of a program; an instruction that is issued together with another takes none of its own.
+/// Counts the instruction slots of a program; a co-issued instruction takes none of its own.
 pub fn slots(program: &Program) -> SlotCount {
     let alone = program.instructions.iter().filter(|instruction| !instruction.coissue);
     alone.fold(SlotCount::default(), |sum, instruction| {

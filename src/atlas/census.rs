@@ -1,29 +1,29 @@
-//! What is odd about a mesh.
+//! Irregularities of a mesh.
 
 use super::surface::AtlasSurface;
 use crate::geom::{Adjacency, Mesh};
 
-/// What is odd about a mesh, counted with vertices at one place as one. Nothing of it keeps a mesh from its atlas.
+/// Irregularities of a mesh, counted with vertices at the same position merged. None of them prevents an atlas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Census {
-    /// Faces.
+    /// Number of faces.
     pub faces: usize,
-    /// Parts that share no edge with each other.
+    /// Number of parts that share no edge with each other.
     pub parts: usize,
-    /// Edges of a single face.
+    /// Number of edges of a single face.
     pub boundary_edges: usize,
-    /// Edges of more than two faces.
+    /// Number of edges of more than two faces.
     pub crowded_edges: usize,
-    /// How often a face runs through an edge the same way as another face.
+    /// Number of times that a face traverses an edge in the same direction as another face.
     pub orientation_conflicts: usize,
-    /// Faces without area.
+    /// Number of faces without area.
     pub faces_without_area: usize,
-    /// Faces with the same three corners as a face before them, in any order.
+    /// Number of faces with the same three corners as an earlier face, in any order.
     pub duplicate_faces: usize,
 }
 
 impl Census {
-    /// The census of a mesh that has one vertex per place.
+    /// Counts the irregularities of a mesh whose vertices are merged by position.
     pub(super) fn new(surface: &AtlasSurface, welded: &Mesh, adjacency: &Adjacency, parts: usize) -> Self {
         let mut corners: Vec<[u32; 3]> = welded.triangles().to_vec();
         corners.iter_mut().for_each(|corners| corners.sort_unstable());
@@ -40,7 +40,7 @@ impl Census {
         }
     }
 
-    /// Whether the surface is closed, in one part, oriented alike everywhere and without any other oddity.
+    /// Returns `true` if the surface is closed, connected, consistently oriented and without any other irregularity.
     pub fn is_sound(&self) -> bool {
         let plain = Self { faces: self.faces, parts: 1, ..Self::default() };
         *self == plain

@@ -1,4 +1,4 @@
-//! The faces of a cluster, and which of them share an edge.
+//! Graph of the faces of a cluster, linked where they share an edge.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,21 +7,21 @@ use super::surface::AtlasSurface;
 use crate::geom::vector::wide;
 use crate::geom::{Adjacency, Mesh};
 
-/// A distance that is none: there is no path.
+/// Distance to a face without a path.
 pub(super) const UNREACHED: u64 = u64::MAX;
 
-/// From a face to one that shares an edge with it.
+/// Link from a face to one that shares an edge with it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FaceLink {
-    /// The other face, by its place in the graph.
+    /// Index of the other face in the graph.
     pub(super) to: u32,
-    /// How far the centers are apart across the edge, in whole units, at least 1: whole numbers add without rounding.
+    /// Distance of the centres across the edge, in whole units, at least 1: integers add without rounding.
     pub(super) length: u32,
-    /// How long their edge is, in the same units.
+    /// Length of the common edge, in the same units.
     pub(super) edge: u32,
 }
 
-/// Faces with the links between them. A face's links are those of `links` from its start to that of the next.
+/// Faces with their links. The links of a face are those of `links` from its start to that of the next.
 #[derive(Debug, Clone)]
 pub(super) struct FaceGraph {
     faces: Vec<u32>,
@@ -30,7 +30,7 @@ pub(super) struct FaceGraph {
 }
 
 impl FaceGraph {
-    /// All faces of a mesh. Where an edge has more than two faces, each is linked to the next only.
+    /// Builds the graph of all faces of a mesh. Where an edge has more than two faces, each is linked to the next only.
     pub(super) fn of_mesh(surface: &AtlasSurface, welded: &Mesh, adjacency: &Adjacency) -> Self {
         let unit_per_length = units_per_length(welded);
         let mut pairs: Vec<(u32, FaceLink)> = Vec::with_capacity(surface.len() * 3);
@@ -59,7 +59,7 @@ impl FaceGraph {
         self.faces.len()
     }
 
-    /// The faces of the mesh, by place in the graph.
+    /// Faces of the mesh, by index in the graph.
     pub(super) fn faces(&self) -> &[u32] {
         &self.faces
     }
@@ -69,7 +69,7 @@ impl FaceGraph {
         &self.links[self.starts[of] as usize..self.starts[of + 1] as usize]
     }
 
-    /// The lengths of the shortest paths from a face to all.
+    /// Lengths of the shortest paths from a face to all faces.
     pub(super) fn distances(&self, from: u32) -> Vec<u64> {
         let mut found = vec![UNREACHED; self.len()];
         let mut open = BinaryHeap::new();
@@ -91,7 +91,7 @@ impl FaceGraph {
     }
 
     /// Connected parts of the faces of each side: per face the number of its part, counted from 0 in the order of their
-    /// first faces, and how many there are.
+    /// first faces, and the number of parts.
     pub(super) fn parts(&self, side: impl Fn(u32) -> bool) -> (Vec<u32>, u32) {
         let mut part = vec![u32::MAX; self.len()];
         let (mut count, mut open) = (0, Vec::new());
@@ -114,7 +114,7 @@ impl FaceGraph {
         (part, count)
     }
 
-    /// The length of the edges between faces of different sides.
+    /// Total length of the edges between faces of different sides.
     pub(super) fn cut_length(&self, second: &[bool]) -> u64 {
         let across = |of: u32| {
             let links = self.links(of).iter().filter(move |link| second[link.to as usize]);
@@ -123,7 +123,7 @@ impl FaceGraph {
         (0..self.len() as u32).filter(|&face| !second[face as usize]).map(across).sum()
     }
 
-    /// The faces of each side, with the links within it.
+    /// Splits the graph: the faces of each side, with the links within it.
     pub(super) fn halves(&self, second: &[bool]) -> [Self; 2] {
         let mut place = vec![0; self.len()];
         let mut counts = [0, 0];
@@ -147,7 +147,8 @@ impl FaceGraph {
     }
 }
 
-/// So many units that the longest link of a mesh fits into 32 bits: 2^30 for the diagonal of its box.
+/// Number of units per length, such that the longest link of a mesh fits into 32 bits: 2^30 for the diagonal of its
+/// box.
 fn units_per_length(mesh: &Mesh) -> f64 {
     let diagonal = mesh.bounds().map_or(0.0, |[low, high]| (wide(high) - wide(low)).length());
     if diagonal > 0.0 { f64::from(1_u32 << 30) / diagonal } else { 0.0 }

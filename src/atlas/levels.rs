@@ -1,4 +1,4 @@
-//! The clusters of every level of an atlas.
+//! Clusters of every level of an atlas.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,10 +8,10 @@ use super::place::FacePlace;
 use super::surface::AtlasSurface;
 use super::texel::{Cluster, Texel};
 
-/// What a radius is lengthened by, so that rounding leaves nothing outside.
+/// Factor of a radius, so that rounding leaves nothing outside.
 const ROUNDING: f64 = 1.0 + 1e-14;
 
-/// The clusters of each level, the finest first.
+/// Computes the clusters of each level, the finest first.
 pub(super) fn levels(surface: &AtlasSurface, places: &[FacePlace], texels: &[Texel], side: u32) -> Vec<Vec<Cluster>> {
     let mut levels: Vec<Vec<Cluster>> =
         vec![texels.iter().map(|texel| Cluster { area: texel.area, point: texel.point, radius: 0.0 }).collect()];
@@ -27,7 +27,7 @@ pub(super) fn levels(surface: &AtlasSurface, places: &[FacePlace], texels: &[Tex
     levels
 }
 
-/// The clusters of the level above one of `width` clusters per row.
+/// Computes the clusters of the level above one of `width` clusters per row.
 fn coarser(finer: &[Cluster], width: u32) -> Vec<Cluster> {
     let (width, half) = (width as usize, width as usize / 2);
     let of_four = |at: usize| {
@@ -37,7 +37,7 @@ fn coarser(finer: &[Cluster], width: u32) -> Vec<Cluster> {
     (0..half * half).into_par_iter().map(of_four).collect()
 }
 
-/// The radius of each cluster of a level.
+/// Computes the radius of each cluster of a level.
 fn find_radii(
     surface: &AtlasSurface,
     places: &[FacePlace],

@@ -1,4 +1,4 @@
-//! What a cut of a cluster goes by.
+//! Measures that splits of clusters optimise.
 
 use std::ops::RangeInclusive;
 
@@ -6,20 +6,20 @@ use glam::DVec3;
 
 use super::surface::AtlasSurface;
 
-/// How many faces the first half of a cluster may have.
+/// Allowed number of faces in the first half of a cluster.
 pub(super) type SplitLimits = RangeInclusive<usize>;
 
-/// What a cut goes by, per face of the mesh.
+/// Measures of each face of the mesh.
 #[derive(Debug)]
 pub(super) struct FaceMeasures {
     centers: Vec<DVec3>,
-    /// Normals, as long as twice the areas.
+    /// Normals, with twice the areas as lengths.
     normals: Vec<DVec3>,
     demands: Vec<f64>,
 }
 
 impl FaceMeasures {
-    /// The measures of faces that share `texels`.
+    /// Computes the measures of faces that share `texels`.
     pub(super) fn new(surface: &AtlasSurface, texels: f64) -> Self {
         let mean = surface.areas().iter().sum::<f64>() / texels;
         let demand = |area: &f64| if mean > 0.0 { (area / mean).max(LEAST_DEMAND) } else { 1.0 };
@@ -34,16 +34,16 @@ impl FaceMeasures {
         self.centers[face as usize]
     }
 
-    /// A normal as long as twice the face's area.
+    /// Normal of a face, with twice its area as length.
     pub(super) fn normal(&self, face: u32) -> DVec3 {
         self.normals[face as usize]
     }
 
-    /// How many texels the face should have: its area over that of a mean texel, but at least [`LEAST_DEMAND`].
+    /// Target number of texels of a face: its area over that of a mean texel, but at least [`LEAST_DEMAND`].
     pub(super) fn demand(&self, face: u32) -> f64 {
         self.demands[face as usize]
     }
 }
 
-/// A face has a texel, however small it is.
+/// Minimum demand: every face has a texel, however small it is.
 const LEAST_DEMAND: f64 = 1.0;

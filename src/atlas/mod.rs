@@ -2,16 +2,16 @@
 //!
 //! Every face has a rectangle of texels of its own, and every texel lies on one face. Faces are clustered in a binary
 //! tree whose nodes are squares and 2:1 rectangles, so that a texel of a coarser level is the mean of a cluster.
-//! docs/atlas.md explains the construction and says how good it is.
+//! docs/atlas.md explains the construction and measures its quality.
 //!
-//! - [`whole`]: the atlas itself, and how points get from texels to faces and back;
+//! - [`whole`]: the atlas itself, and maps from texels to faces and back;
 //! - [`place`]: a face's rectangle, and the map between the two;
-//! - [`texel`]: what a texel and a cluster know;
+//! - [`texel`]: attributes of texels and clusters;
 //! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
 //! - [`drawn`]: triangles as a card draws them into the atlas, and from it;
 //! - [`tree`]: the binary tree of clusters; `graph`, `measures`, `split`, `sweep` and `small` build it;
-//! - [`census`]: what is odd about a mesh;
-//! - [`quality`]: how even, connected and compact an atlas is.
+//! - [`census`]: irregularities of a mesh;
+//! - [`quality`]: evenness, connectivity and compactness of an atlas.
 
 pub mod census;
 pub mod drawn;

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::place::FacePlace;
 
-/// The part of a face under a rectangle of its texels: one or two flat convex polygons, as the diagonal of the face's
+/// Part of a face under a rectangle of its texels: one or two flat convex polygons, as the diagonal of the face's
 /// rectangle divides it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TexelPart {
@@ -13,10 +13,10 @@ pub struct TexelPart {
 }
 
 impl TexelPart {
-    /// The part of the face with these corners between two corners of a rectangle, in texel coordinates.
+    /// Clips the face with these corners to the rectangle between two points in texel coordinates.
     pub(super) fn new(place: &FacePlace, corners: [DVec3; 3], low: [f64; 2], high: [f64; 2]) -> Self {
         let ring = [low, [high[0], low[1]], high, [low[0], high[1]]];
-        // How far from the diagonal, in texels times texels: positive on the side of corner (x + width, y).
+        // Scaled distance from the diagonal, in texels squared: positive on the side of corner (x + width, y).
         let [x, y, width, height] = [place.x, place.y, place.width, place.height].map(f64::from);
         let side = |at: [f64; 2]| (at[0] - x) * height - (at[1] - y) * width;
         let mut part = Self { corners: [[DVec3::ZERO; 5]; 2], counts: [0; 2] };
@@ -44,13 +44,13 @@ impl TexelPart {
         part
     }
 
-    /// The polygons, each a ring of three to five points.
+    /// Iterates over the polygons, each a ring of three to five points.
     pub fn polygons(&self) -> impl Iterator<Item = &[DVec3]> {
         let rings = self.corners.iter().zip(self.counts).map(|(ring, count)| &ring[..usize::from(count)]);
         rings.filter(|ring| !ring.is_empty())
     }
 
-    /// The distance from a point to the farthest corner.
+    /// Distance from a point to the farthest corner.
     pub(super) fn farthest(&self, from: DVec3) -> f64 {
         let corners = self.polygons().flatten();
         corners.map(|corner| corner.distance_squared(from)).fold(0.0, f64::max).sqrt()

@@ -9,26 +9,26 @@
 
 use glam::DVec3;
 
-/// A face's rectangle, in texels, and which corner of the face lies where.
+/// Rectangle of a face, in texels, and the assignment of corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FacePlace {
-    /// The column of its first texel.
+    /// Column of its first texel.
     pub x: u32,
-    /// The row of its first texel.
+    /// Row of its first texel.
     pub y: u32,
     /// Texels per row: a power of two.
     pub width: u32,
     /// Rows: as many as `width`, or twice as many.
     pub height: u32,
-    /// The corner of the face, 0 to 2, that lies at (x, y): corner a. Corners b and c follow it in the face's order.
+    /// Index, 0 to 2, of the face's corner at (x, y): corner a. Corners b and c follow it in the face's order.
     pub first: u8,
-    /// Whether corner b lies along y and c along x, instead of b along x and c along y.
+    /// `true` if corner b lies along y and c along x, instead of b along x and c along y.
     pub transposed: bool,
 }
 
 impl FacePlace {
-    /// The place of a face with these corners in a rectangle: of the six ways to lay it there the one with the squarest
-    /// texels. Of equal ones it is the first, by corner, then untransposed.
+    /// Chooses the placement of a face in a rectangle: of the six possible, the one with the squarest texels, of equals
+    /// the first, by corner, then untransposed.
     pub(super) fn squarest([x, y, width, height]: [u32; 4], corners: [DVec3; 3]) -> Self {
         let mut best: Option<(f64, Self)> = None;
         for first in 0..3_u8 {
@@ -43,8 +43,8 @@ impl FacePlace {
         best.map_or(Self { x, y, width, height, first: 0, transposed: false }, |(_, place)| place)
     }
 
-    /// The squares of the sides of a texel's image, in both halves together. All ways have the same area, so the least
-    /// sum is the squarest image: the sum over the area is least, 2 per half, for a square.
+    /// Sum of the squared sides of a texel's image, in both halves. All placements have the same area, so that the
+    /// smallest sum is the squarest image: the sum over the area is smallest, 2 per half, for a square.
     fn stretch(&self, corners: [DVec3; 3]) -> f64 {
         let [a, b, c] = self.in_turn(corners);
         let [along_u, along_v] = if self.transposed { [self.height, self.width] } else { [self.width, self.height] };
@@ -53,13 +53,13 @@ impl FacePlace {
         ((b - a).length_squared() + far) / along_u + ((c - a).length_squared() + far) / along_v
     }
 
-    /// Something per corner of the face, by index, as that of corners a, b and c.
+    /// Reorders values per corner of the face, by index, to the order of corners a, b and c.
     pub fn in_turn<T: Copy>(&self, of: [T; 3]) -> [T; 3] {
         let first = usize::from(self.first) % 3;
         [of[first], of[(first + 1) % 3], of[(first + 2) % 3]]
     }
 
-    /// What stands for corners a, b and c, per corner of the face by index: the opposite of [`FacePlace::in_turn`].
+    /// Reorders values of corners a, b and c to the face's order by index: the inverse of [`FacePlace::in_turn`].
     pub fn by_index<T: Copy>(&self, [a, b, c]: [T; 3]) -> [T; 3] {
         match self.first {
             0 => [a, b, c],
@@ -73,27 +73,27 @@ impl FacePlace {
         self.width * self.height
     }
 
-    /// Whether a texel of the atlas is one of the face's.
+    /// Returns `true` if a texel of the atlas is one of the face's.
     pub fn contains(&self, x: u32, y: u32) -> bool {
         (self.x..self.x + self.width).contains(&x) && (self.y..self.y + self.height).contains(&y)
     }
 
-    /// The least and the largest texel coordinates, `[x, y, x, y]`, with which a bilinear read stays on the face: half
-    /// a texel within the rectangle. Coordinates clamped to them also read the nearest texel of the face.
+    /// Smallest and largest texel coordinates, `[x, y, x, y]`, with which a bilinear read stays on the face: half a
+    /// texel within the rectangle. Coordinates clamped to them also read the nearest texel of the face.
     pub fn bounds(&self) -> [f64; 4] {
         let [x, y, width, height] = [self.x, self.y, self.width, self.height].map(f64::from);
         [x + 0.5, y + 0.5, x + width - 0.5, y + height - 0.5]
     }
 
-    /// Weights of the corners of the face, by index, at texel coordinates of its rectangle. Coordinates outside it are
-    /// clamped to it. Exact where the coordinates are multiples of 2^-20 texels.
+    /// Barycentric weights, by corner index, at texel coordinates of the face's rectangle, to which they are clamped.
+    /// Exact where the coordinates are multiples of 2^-20 texels.
     pub fn weights(&self, x: f64, y: f64) -> [f64; 3] {
         let [u, v] = self.local(x, y);
         self.weights_of(u, v, u.min(v))
     }
 
-    /// Texel coordinates of the point of the face with these weights of its corners, by index. The weights are clamped
-    /// to the face.
+    /// Texel coordinates of the point of the face with these barycentric weights, by corner index. The weights are
+    /// clamped to the face.
     pub fn coordinates(&self, weights: [f64; 3]) -> [f64; 2] {
         let [a, b, c] = self.in_turn(weights).map(|weight| if weight >= 0.0 { weight.min(1.0) } else { 0.0 });
         let [u, v] = if b >= c { [1.0 - a, 2.0 * c] } else { [2.0 * b, 1.0 - a] }.map(|part: f64| part.min(1.0));
@@ -102,7 +102,7 @@ impl FacePlace {
         [x + width * along_x, y + height * along_y]
     }
 
-    /// Weights of the corners of the face, by index, at the mean point of a rectangle within its own: exact means, also
+    /// Barycentric weights, by corner index, at the mean point of a rectangle within the face's own: exact means, also
     /// of rectangles that the diagonal crosses.
     pub fn mean_weights(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> [f64; 3] {
         let ([u0, v0], [u1, v1]) = (self.local(x0, y0), self.local(x1, y1));
@@ -119,7 +119,7 @@ impl FacePlace {
         self.weights_of(u, v, least)
     }
 
-    /// (u, v), each from 0 to 1, at texel coordinates.
+    /// Local coordinates (u, v), each from 0 to 1, at texel coordinates.
     fn local(&self, x: f64, y: f64) -> [f64; 2] {
         let part = |at: f64, from: u32, texels: u32| {
             let part = (at - f64::from(from)) / f64::from(texels);

@@ -1,4 +1,4 @@
-//! How even, connected and compact an atlas is.
+//! Quality of an atlas: evenness, connectivity and compactness.
 
 use rayon::prelude::*;
 
@@ -6,51 +6,51 @@ use super::tree::{ClusterNode, ClusterTree};
 use super::whole::Atlas;
 use crate::geom::{Adjacency, Mesh};
 
-/// How good an atlas is.
+/// Quality of an atlas.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtlasQuality {
-    /// The share of the texels that lie on a face with an area.
+    /// Fraction of the texels that lie on a face with an area, in [0, 1].
     pub used: f64,
-    /// The standard deviation of the texels' areas, over their mean.
+    /// Standard deviation of the texels' areas, relative to their mean.
     pub deviation: f64,
-    /// The same over the surface: every texel counts by its area.
+    /// The same with every texel weighted by its area.
     pub deviation_by_area: f64,
-    /// The least area of a texel that has one, over the mean.
+    /// Smallest non-zero area of a texel, relative to the mean.
     pub least: f64,
-    /// The largest area of a texel, over the mean.
+    /// Largest area of a texel, relative to the mean.
     pub most: f64,
-    /// Nodes of the tree.
+    /// Number of nodes of the tree.
     pub nodes: usize,
-    /// Those whose faces are connected by edges.
+    /// Number of nodes whose faces are connected by edges.
     pub connected: usize,
-    /// Those that are also simply connected: without holes and handles.
+    /// Number of nodes that are also simply connected: without holes and handles.
     pub simply_connected: usize,
-    /// Those that are connected and have a child that is not.
+    /// Number of connected nodes with a disconnected child.
     pub torn: usize,
     /// Every level, the finest first.
     pub levels: Vec<LevelQuality>,
 }
 
-/// How compact the clusters of a level are.
+/// Quality of the clusters of a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelQuality {
-    /// How many clusters there are.
+    /// Number of clusters.
     pub clusters: usize,
-    /// The mean compactness of those with an area.
+    /// Mean compactness of the clusters with an area.
     pub compactness: f64,
-    /// The compactness that one in twenty of them falls short of.
+    /// Fifth percentile of the compactness.
     pub low_compactness: f64,
-    /// The mean radius over that of a disc of the mean area.
+    /// Mean radius, relative to that of a disc of the mean area.
     pub radius: f64,
-    /// Nodes of the tree of this size that have more than one face.
+    /// Number of nodes of the tree of this size that have more than one face.
     pub nodes: usize,
-    /// Those that are connected.
+    /// Number of these that are connected.
     pub connected: usize,
-    /// Those that are simply connected.
+    /// Number of these that are simply connected.
     pub simply_connected: usize,
 }
 
-/// What a set of faces is like where edges hold them together.
+/// Topology of a set of faces connected by edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Topology {
     connected: bool,
@@ -110,7 +110,7 @@ fn level_quality(atlas: &Atlas, topologies: &[Topology], level: u32) -> LevelQua
     }
 }
 
-/// The topology of each node of a tree.
+/// Computes the topology of each node of a tree.
 fn topologies(tree: &ClusterTree, welded: &Mesh, adjacency: &Adjacency) -> Vec<Topology> {
     let mut place = vec![0; tree.order().len()];
     (0..).zip(tree.order()).for_each(|(at, &face)| place[face as usize] = at);
@@ -121,8 +121,8 @@ fn topologies(tree: &ClusterTree, welded: &Mesh, adjacency: &Adjacency) -> Vec<T
     tree.nodes().par_iter().map(of).collect()
 }
 
-/// Glues faces along their common edges and counts what comes out. Vertices count once per fan of faces, so that a
-/// cluster that touches itself at a vertex has no hole there.
+/// Connects faces along their common edges and computes the topology of the result. Vertices count once per fan of
+/// faces, so that a cluster that touches itself at a vertex has no hole there.
 fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: &Adjacency) -> Topology {
     let mut corners = Classes::new(3 * faces.len());
     let mut parts = Classes::new(faces.len());
@@ -152,7 +152,7 @@ fn topology(faces: &[u32], first: u32, place: &[u32], welded: &Mesh, adjacency: 
     Topology { connected, simply: connected && corners.count + faces.len() > edges }
 }
 
-/// Classes of things that are joined one by one.
+/// Disjoint sets (union-find).
 struct Classes {
     parent: Vec<u32>,
     count: usize,

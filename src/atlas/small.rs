@@ -1,16 +1,16 @@
-//! The best cut of a small cluster, among all there are.
+//! Optimal split of a small cluster, by exhaustive search.
 
 use super::graph::FaceGraph;
 use super::measures::{FaceMeasures, SplitLimits};
 
-/// The most faces of which all cuts are tried.
+/// Maximum number of faces for exhaustive search.
 pub(super) const MOST: usize = 8;
 
-/// How much the spread of two halves counts beside their unevenness: both are shares between 0 and 1.
+/// Weight of the spread of two halves relative to their unevenness: both lie between 0 and 1.
 const SPREAD: f64 = 0.25;
 
-/// Cuts a cluster of 2 to [`MOST`] faces: within the limits, into the fewest connected parts; of such cuts the most
-/// even and compact. `true` for the second half.
+/// Splits a cluster of 2 to [`MOST`] faces: within the limits, into the fewest connected parts; of such splits, the
+/// most even and compact. `true` marks the second half.
 pub(super) fn cut(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
     let count = graph.len();
     let linked: Vec<u32> =
@@ -43,7 +43,7 @@ fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-/// The number of connected parts of a set of faces.
+/// Number of connected parts of a set of faces.
 fn parts(linked: &[u32], set: u32) -> u32 {
     let (mut left, mut count) = (set, 0);
     while left != 0 {
@@ -62,7 +62,7 @@ fn parts(linked: &[u32], set: u32) -> u32 {
     count
 }
 
-/// The demand of a set of faces, and how far their centers lie from their mean: the sum of the squares.
+/// Demand of a set of faces, and the sum of the squared distances of their centres from the mean.
 fn moments(graph: &FaceGraph, measures: &FaceMeasures, set: u32) -> (f64, f64) {
     let faces = || (0..graph.len()).filter(|face| set >> face & 1 == 1).map(|face| graph.faces()[face]);
     let demand = faces().map(|face| measures.demand(face)).sum();

@@ -1,13 +1,13 @@
-//! A cluster cut in two.
+//! Split of a cluster in two.
 
 use super::graph::FaceGraph;
 use super::measures::FaceMeasures;
 use super::{small, sweep};
 
-/// Cuts a cluster of at least two faces into halves that get `capacity` texels each: `true` for the second half.
+/// Splits a cluster of at least two faces into halves with `capacity` texels each: `true` marks the second half.
 ///
-/// Neither half has more faces than texels. Both are connected where the cluster is, if such a cut is found; as far as
-/// that leaves a choice, they demand the same number of texels.
+/// Neither half has more faces than texels. Both are connected where the cluster is, if such a split is found; within
+/// that constraint, their demands are as equal as possible.
 pub(super) fn cut(graph: &FaceGraph, measures: &FaceMeasures, capacity: usize) -> Vec<bool> {
     let count = graph.len();
     let limits = count.saturating_sub(capacity).max(1)..=capacity.min(count - 1);

@@ -1,23 +1,23 @@
-//! What the atlas keeps of a mesh: its faces with their corners, normals and areas.
+//! Faces of a mesh with their corners, normals and areas.
 
 use glam::DVec3;
 
 use crate::geom::Mesh;
 use crate::geom::vector::{unit, wide};
 
-/// The faces of a mesh, in its order.
+/// Faces of a mesh, in its order.
 #[derive(Debug, Clone)]
 pub(super) struct AtlasSurface {
     corners: Vec<[[f32; 3]; 3]>,
-    /// At the corners of each face; of length 1, or zero where none is known.
+    /// Normals at the corners of each face; of length 1, or zero where none is known.
     normals: Vec<[DVec3; 3]>,
     areas: Vec<f64>,
-    /// Whether the mesh came with normals.
+    /// `true` if the mesh had normals.
     given: bool,
 }
 
 impl AtlasSurface {
-    /// The faces of `mesh`; `welded` is the same mesh with one vertex per place.
+    /// Collects the faces of `mesh`; `welded` is the same mesh with vertices merged by position.
     pub(super) fn new(mesh: &Mesh, welded: &Mesh) -> Self {
         let corners: Vec<_> = mesh.iter_corners().collect();
         let areas = (0..mesh.len() as u32).map(|face| mesh.area(face)).collect();
@@ -28,7 +28,7 @@ impl AtlasSurface {
         self.corners.len()
     }
 
-    /// The faces with one vertex per place.
+    /// Returns the faces with vertices merged by position.
     pub(super) fn welded(&self) -> Mesh {
         let positions = self.corners.iter().flatten().copied().collect();
         let triangles = (0..self.corners.len() as u32).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
@@ -60,7 +60,7 @@ impl AtlasSurface {
         unit(combined(normals, weights)).unwrap_or(normals[0])
     }
 
-    /// A normal as long as twice the area.
+    /// Normal of a face, with twice its area as length.
     pub(super) fn area_vector(&self, face: u32) -> DVec3 {
         let [a, b, c] = self.corners(face);
         (b - a).cross(c - a)
@@ -72,13 +72,13 @@ impl AtlasSurface {
     }
 }
 
-/// Three vectors with weights.
+/// Weighted sum of three vectors.
 pub(super) fn combined([a, b, c]: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     a * weights[0] + b * weights[1] + c * weights[2]
 }
 
-/// Normals at the corners of each face: those of the mesh; where it has none, the means of the faces around each place;
-/// where these have no direction, the face's own.
+/// Computes the normals at the corners of each face: those of the mesh; where it has none, the means of the faces
+/// around each position; where these have no direction, the face's own.
 fn corner_normals(mesh: &Mesh, welded: &Mesh) -> Vec<[DVec3; 3]> {
     let computed = welded.vertex_normals();
     let given = mesh.normals();

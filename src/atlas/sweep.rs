@@ -1,4 +1,4 @@
-//! Cuts of large clusters: faces in an order in which every prefix is a half.
+//! Splits of large clusters: an order of the faces of which every prefix is a candidate half.
 //!
 //! From two faces far apart, A and B, faces are ordered by how much farther from A than from B they are. A face's
 //! predecessor on the shortest path from A comes before it, and that on the shortest path from B behind it, so both
@@ -12,23 +12,24 @@ use super::measures::{FaceMeasures, SplitLimits};
 use crate::elementary::on_circle;
 use crate::geom::vector::{least_axis, unit};
 
-/// The share of the demand by which two halves may differ so that a part of the mesh stays whole.
+/// Maximum difference of two halves, as a fraction of the demand, that is accepted to keep a part of the mesh whole.
 const WHOLE_PARTS: f64 = 1.0 / 32.0;
 
-/// The share by which they may differ so that both are connected, before other seeds are tried.
+/// Maximum difference, as a fraction of the demand, that is accepted to make both halves connected before other seeds
+/// are tried.
 const MENDED: f64 = 1.0 / 16.0;
 
-/// How many flat cuts are tried.
+/// Number of flat cuts that are tried.
 const DIRECTIONS: u32 = 6;
 
-/// Two halves: `true` for the second.
+/// Two halves: `true` marks the second.
 struct Halves {
     second: Vec<bool>,
-    /// How much the demands of the halves differ, as a share of their sum.
+    /// Difference of the halves' demands, as a fraction of their sum.
     uneven: f64,
 }
 
-/// Cuts a connected cluster: flat, by the shortest cut with connected halves, else by paths.
+/// Splits a connected cluster: by the shortest flat cut with connected halves, otherwise by paths.
 pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: SplitLimits) -> Vec<bool> {
     if let Some(flat) = cut_flat(graph, measures, &limits) {
         return flat;
@@ -55,8 +56,8 @@ pub(super) fn cut_connected(graph: &FaceGraph, measures: &FaceMeasures, limits: 
     connected.or(plain).map_or_else(|| vec![false; graph.len()], |halves| halves.second)
 }
 
-/// The shortest of some flat cuts, in directions all round in the plane of the cluster's mean normal, that leave both
-/// halves connected.
+/// Finds the shortest of several flat cuts, in directions spread over the plane of the cluster's mean normal, that
+/// leave both halves connected.
 fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) -> Option<Vec<bool>> {
     let mean: DVec3 = graph.faces().iter().map(|&face| measures.normal(face)).sum();
     let [right, up] = plane(unit(mean).unwrap_or(DVec3::Z));
@@ -77,14 +78,13 @@ fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) ->
     best.map(|(_, second)| second)
 }
 
-/// Two directions at right angles to each other and to a normal.
+/// Two directions orthogonal to each other and to a normal.
 fn plane(normal: DVec3) -> [DVec3; 2] {
     let right = unit(least_axis(normal).cross(normal)).unwrap_or(DVec3::X);
     [right, normal.cross(right)]
 }
 
-/// Cuts a cluster of several parts, in the order in which they lie along the longest axis: between parts, or through
-/// the one in the middle.
+/// Splits a cluster of several parts, in their order along the longest axis: between parts, or through the middle one.
 pub(super) fn cut_parts(
     graph: &FaceGraph,
     measures: &FaceMeasures,
@@ -116,7 +116,7 @@ pub(super) fn cut_parts(
     cut_order(graph, measures, &limits, &order).second
 }
 
-/// The place of each part in the order along an axis, by the mean of its centers.
+/// Rank of each part along an axis, by the mean of its centres.
 fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[u32], parts: u32) -> Vec<u32> {
     let mut sums = vec![(0.0, 0.0); parts as usize];
     for (&of, &face) in part.iter().zip(graph.faces()) {
@@ -131,7 +131,7 @@ fn part_places(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, part: &[
     place
 }
 
-/// The axes by the extent of the cluster along them, the longest first.
+/// Axes by the extent of the cluster along them, the longest first.
 fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &face in graph.faces() {
@@ -144,8 +144,7 @@ fn axes(graph: &FaceGraph, measures: &FaceMeasures) -> [usize; 3] {
     axes
 }
 
-/// The faces of a connected part in the order of a sweep from its lowest face along an axis to the one farthest from
-/// that.
+/// Orders the faces of a connected part by a sweep from its lowest face along an axis to the one farthest from that.
 fn order(graph: &FaceGraph, measures: &FaceMeasures, axis: usize, of: impl Fn(u32) -> bool) -> Vec<u32> {
     let mut order: Vec<u32> = (0..graph.len() as u32).filter(|&face| of(face)).collect();
     let along = |face: u32| measures.center(graph.faces()[face as usize])[axis];
@@ -168,8 +167,8 @@ fn demand(graph: &FaceGraph, measures: &FaceMeasures, faces: &[u32]) -> f64 {
     faces.iter().map(|&face| measures.demand(graph.faces()[face as usize])).sum()
 }
 
-/// Where to cut an order: the number of faces of the first half, within the limits, with which the halves' demands are
-/// nearest to each other.
+/// Finds the best split of an order: the number of faces of the first half, within the limits, with which the halves'
+/// demands are most equal.
 fn best_cut(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits, order: &[u32]) -> usize {
     let half = demand(graph, measures, order) / 2.0;
     let mut best = (f64::INFINITY, *limits.start());
@@ -196,8 +195,8 @@ fn second_of(order: &[u32], at: usize) -> Vec<bool> {
     second
 }
 
-/// Connected halves from halves of several parts: of each half the part of the largest demand stays, the others go
-/// over. `None` where that is outside the limits or not enough.
+/// Makes halves of several parts connected: of each half the part of the largest demand stays, the others move to the
+/// other half. `None` if that violates the limits or does not suffice.
 fn mend(
     graph: &FaceGraph,
     measures: &FaceMeasures,

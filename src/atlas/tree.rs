@@ -1,22 +1,22 @@
-//! The binary tree of clusters.
+//! Binary tree of clusters.
 
 use super::graph::FaceGraph;
 use super::measures::FaceMeasures;
 use super::split::cut;
 
-/// From how many faces on the halves of a cluster are worked on side by side.
+/// Minimum number of faces from which the halves of a cluster are processed in parallel.
 const SIDE_BY_SIDE: usize = 2048;
 
-/// A node of the tree: a cluster of faces and its rectangle of texels.
+/// Node of the tree: a cluster of faces and its rectangle of texels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ClusterNode {
-    /// Where its faces begin in [`ClusterTree::order`].
+    /// Start of its faces in [`ClusterTree::order`].
     pub first: u32,
-    /// How many there are.
+    /// Number of its faces.
     pub faces: u32,
-    /// The column of its first texel.
+    /// Column of its first texel.
     pub x: u32,
-    /// The row of its first texel.
+    /// Row of its first texel.
     pub y: u32,
     /// Texels per row.
     pub width: u32,
@@ -24,7 +24,7 @@ pub struct ClusterNode {
     pub height: u32,
 }
 
-/// A binary tree of clusters with one face per leaf: 2 T - 1 nodes for T faces.
+/// Binary tree of clusters with one face per leaf: 2 T - 1 nodes for T faces.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ClusterTree {
     nodes: Vec<ClusterNode>,
@@ -32,7 +32,7 @@ pub struct ClusterTree {
 }
 
 impl ClusterTree {
-    /// The tree of the faces of a graph, at least one, over a square of texels that has one for each.
+    /// Builds the tree of the faces of a graph, at least one, over a square with at least as many texels.
     pub(super) fn new(graph: FaceGraph, measures: &FaceMeasures, side: u32) -> Self {
         let count = graph.len();
         let mut nodes = vec![ClusterNode::default(); 2 * count - 1];
@@ -42,22 +42,22 @@ impl ClusterTree {
         Self { nodes, order }
     }
 
-    /// All nodes: the root, all below its first child, all below its second.
+    /// All nodes in depth-first order: the root, its first subtree, its second subtree.
     pub fn nodes(&self) -> &[ClusterNode] {
         &self.nodes
     }
 
-    /// The faces in the order in which the leaves have them: those of a node are neighbors here.
+    /// Faces in the order of the leaves: those of a node are contiguous.
     pub fn order(&self) -> &[u32] {
         &self.order
     }
 
-    /// The faces of a node.
+    /// Faces of a node.
     pub fn faces(&self, node: &ClusterNode) -> &[u32] {
         self.order.get(node.first as usize..).and_then(|from| from.get(..node.faces as usize)).unwrap_or_default()
     }
 
-    /// The children of a node, as indices into [`ClusterTree::nodes`]; `None` of a leaf and of a node that does not
+    /// Children of a node, as indices into [`ClusterTree::nodes`]; `None` for a leaf and for a node that does not
     /// exist.
     pub fn children(&self, node: usize) -> Option<[usize; 2]> {
         let first = node + 1;
@@ -65,7 +65,7 @@ impl ClusterTree {
     }
 }
 
-/// Fills the nodes and the order below a node.
+/// Fills the nodes and the order of a subtree.
 fn grow(graph: FaceGraph, measures: &FaceMeasures, node: ClusterNode, nodes: &mut [ClusterNode], order: &mut [u32]) {
     nodes[0] = node;
     if graph.len() == 1 {
@@ -89,7 +89,7 @@ fn grow(graph: FaceGraph, measures: &FaceMeasures, node: ClusterNode, nodes: &mu
     }
 }
 
-/// The children of a node whose first child has so many faces: a square is halved in width, a rectangle in height.
+/// Children of a node whose first child has `faces` faces: a square is halved in width, a rectangle in height.
 fn rectangles(node: ClusterNode, faces: u32) -> [ClusterNode; 2] {
     let (width, height) =
         if node.width == node.height { (node.width / 2, node.height) } else { (node.width, node.height / 2) };

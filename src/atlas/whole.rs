@@ -16,10 +16,10 @@ use super::texel::{Cluster, Texel};
 use super::tree::ClusterTree;
 use crate::geom::Mesh;
 
-/// The longest side of an atlas, in texels.
+/// Maximum side of an atlas, in texels.
 pub const MAX_SIDE: u32 = 8192;
 
-/// A mesh in a square of texels.
+/// Mesh in a square of texels.
 #[derive(Debug, Clone)]
 pub struct Atlas {
     side: u32,
@@ -32,7 +32,7 @@ pub struct Atlas {
 }
 
 impl Atlas {
-    /// The atlas of a mesh with `side` texels along a side: a power of two.
+    /// Builds the atlas of a mesh with `side` texels along a side: a power of two.
     ///
     /// ```
     /// use crossbar::atlas::Atlas;
@@ -85,17 +85,17 @@ impl Atlas {
         &self.texels
     }
 
-    /// The number of levels: 1 more than the logarithm of the side to base 2. Level 0 is the finest.
+    /// Number of levels: 1 more than the logarithm of the side to base 2. Level 0 is the finest.
     pub fn levels(&self) -> u32 {
         self.levels.len() as u32
     }
 
-    /// The clusters of a level, row by row; none of a level that does not exist.
+    /// Clusters of a level, row by row; empty for a level that does not exist.
     pub fn clusters(&self, level: u32) -> &[Cluster] {
         self.levels.get(level as usize).map_or(&[], Vec::as_slice)
     }
 
-    /// The cluster under a texel of a level.
+    /// Returns the cluster under a texel of a level.
     ///
     /// # Panics
     /// If there is no such level, column or row.
@@ -105,55 +105,56 @@ impl Atlas {
         &self.levels[level as usize][y as usize * width as usize + x as usize]
     }
 
-    /// The rectangle of each face of the mesh, in its order.
+    /// Rectangle of each face of the mesh, in its order.
     pub fn places(&self) -> &[FacePlace] {
         &self.places
     }
 
-    /// The tree of clusters.
+    /// Tree of clusters.
     pub const fn tree(&self) -> &ClusterTree {
         &self.tree
     }
 
-    /// The area of the surface.
+    /// Area of the surface.
     pub fn area(&self) -> f64 {
         self.surface.areas().iter().sum()
     }
 
-    /// The area of the surface over the number of texels.
+    /// Area of the surface over the number of texels.
     pub fn mean_texel_area(&self) -> f64 {
         self.area() / self.texels.len() as f64
     }
 
-    /// What is odd about the mesh.
+    /// Irregularities of the mesh.
     pub const fn census(&self) -> &Census {
         &self.census
     }
 
-    /// The mesh with one vertex per place, and no vertex that no face uses.
+    /// Returns the mesh with vertices merged by position, without unused vertices.
     pub(super) fn welded(&self) -> Mesh {
         self.surface.welded()
     }
 
-    /// Whether normals are those of the mesh; else they are the means of the faces around each vertex.
+    /// Returns `true` if the normals are those of the mesh; otherwise they are the means of the faces around each
+    /// vertex.
     pub const fn has_given_normals(&self) -> bool {
         self.surface.has_given_normals()
     }
 
-    /// The corners of a face of the mesh.
+    /// Returns the corners of a face of the mesh.
     ///
     /// # Panics
-    /// If there is no such face, as the following.
+    /// If there is no such face.
     pub fn corners(&self, face: u32) -> [DVec3; 3] {
         self.surface.corners(face)
     }
 
-    /// The normals at the corners of a face, at length 1; zero where none is known.
+    /// Normals at the corners of a face, at length 1; zero where none is known.
     pub fn normals(&self, face: u32) -> [DVec3; 3] {
         self.surface.normals(face)
     }
 
-    /// The face and the point of it at texel coordinates, which are clamped to the atlas: texel (x, y) reaches from
+    /// Returns the face and its point at texel coordinates, which are clamped to the atlas: texel (x, y) extends from
     /// there to (x + 1, y + 1).
     pub fn point_at(&self, x: f64, y: f64) -> (u32, DVec3) {
         let clamped = |at: f64| if at >= 0.0 { at.min(f64::from(self.side)) } else { 0.0 };
@@ -163,20 +164,20 @@ impl Atlas {
         (face, self.surface.point(face, self.places[face as usize].weights(x, y)))
     }
 
-    /// Texel coordinates of the point of a face with these weights of its corners, by index.
+    /// Texel coordinates of the point of a face with these barycentric weights, by corner index.
     pub fn coordinates(&self, face: u32, weights: [f64; 3]) -> [f64; 2] {
         self.places[face as usize].coordinates(weights)
     }
 
-    /// The part of the surface under a texel, by its index.
+    /// Part of the surface under a texel, by its index.
     pub fn part(&self, texel: u32) -> TexelPart {
         let face = self.texels[texel as usize].face;
         let [x, y] = self.column_and_row(texel);
         TexelPart::new(&self.places[face as usize], self.surface.corners(face), [x, y], [x + 1.0, y + 1.0])
     }
 
-    /// `n` x `n` points that share the area of a texel's part evenly, row by row: the mean points of so many equal
-    /// parts of it. Their mean is the texel's.
+    /// `n` x `n` points that stratify a texel's part, row by row: the mean points of parts of equal area. Their mean is
+    /// that of the texel.
     pub fn points(&self, texel: u32, n: u32) -> impl Iterator<Item = DVec3> {
         let face = self.texels[texel as usize].face;
         let [x, y] = self.column_and_row(texel);
@@ -192,7 +193,7 @@ impl Atlas {
         [f64::from(texel % self.side), f64::from(texel / self.side)]
     }
 
-    /// A face as a card draws it into the atlas, and from it.
+    /// Face as a card draws it into the atlas, and from it.
     pub fn drawn(&self, face: u32) -> DrawnFace {
         let place = self.places[face as usize];
         let [a, b, c] = place.in_turn(self.surface.corners(face));
@@ -206,7 +207,7 @@ impl Atlas {
         DrawnFace { triangles: [[a, b, m], [a, m, c]], bounds: place.bounds() }
     }
 
-    /// A face as a card draws it whole, from the atlas.
+    /// Face as a card draws it as one triangle, from the atlas.
     pub fn drawn_whole(&self, face: u32) -> WholeFace {
         let place = self.places[face as usize];
         let [positions, normals] = [self.surface.corners(face), self.surface.normals(face)];
@@ -221,7 +222,7 @@ impl Atlas {
     }
 }
 
-/// Whether so many faces have an atlas of this side.
+/// Checks that `faces` faces fit into an atlas of this side.
 fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
     if !side.is_power_of_two() || side > MAX_SIDE {
         return Err(AtlasError::Side { side, most: MAX_SIDE });
@@ -243,7 +244,7 @@ fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
     Ok(())
 }
 
-/// The rectangle of each face: that of its leaf.
+/// Returns the rectangle of each face: that of its leaf.
 fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
     let mut rectangles = vec![[0; 4]; surface.len()];
     for leaf in tree.nodes().iter().filter(|node| node.faces == 1) {
@@ -252,7 +253,7 @@ fn places(surface: &AtlasSurface, tree: &ClusterTree) -> Vec<FacePlace> {
     (0..).zip(rectangles).map(|(face, rectangle)| FacePlace::squarest(rectangle, surface.corners(face))).collect()
 }
 
-/// All texels, row by row.
+/// Computes all texels, row by row.
 fn texels(surface: &AtlasSurface, places: &[FacePlace], side: u32) -> Vec<Texel> {
     let mut face_of = vec![0_u32; side as usize * side as usize];
     for (face, place) in (0..).zip(places) {

@@ -1,4 +1,4 @@
-//! What every step from the words of a case to the emulator's state needs.
+//! Context for binding the text of a case to the emulator's state.
 
 use std::path::{Path, PathBuf};
 
@@ -7,23 +7,23 @@ use toml::Spanned;
 
 use super::{CaseError, error::CaseText, value::Number};
 
-/// What to put in place of what a case says about its device: to run one case on two cards, in two formats, or with two
-/// answers to an open question.
+/// Replacements for a case's device settings: to run one case on two cards, in two formats, or with two settings of an
+/// open question.
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
-    /// Instead of `device`, or of `shader_model` and `format`. Switches of the case that this device does not have are
-    /// left out.
+    /// Replaces `device`, or `shader_model` and `format`. Switches of the case that this device lacks are ignored.
     pub device: Option<Profile>,
-    /// Instead of the format of the pixel registers.
+    /// Replaces the format of the pixel registers.
     pub format: Option<Format>,
-    /// Switches on top of those of the case, set last.
+    /// Switches set after those of the case.
     pub switches: Vec<(String, String)>,
-    /// Instructions that a program may execute per pixel or vertex, in place of what case and device say.
+    /// Maximum number of instructions that a program may execute per pixel or vertex; replaces the settings of case and
+    /// device.
     pub step_budget: Option<u32>,
 }
 
 impl Overrides {
-    /// Applies format and switches.
+    /// Applies format and switches to a profile.
     pub(super) fn apply(&self, profile: &mut Profile) -> Result<(), CaseError> {
         if let Some(format) = self.format {
             profile.set_format(format);
@@ -38,7 +38,7 @@ impl Overrides {
     }
 }
 
-/// What every step needs: where to report, where files are.
+/// Context of binding: text for error messages, and folder of files.
 pub(super) struct Binder<'a> {
     pub(super) place: CaseText,
     pub(super) name: &'a str,
@@ -51,7 +51,7 @@ impl Binder<'_> {
         self.folder.join(file)
     }
 
-    /// Exactly four numbers, as IEEE singles.
+    /// Converts exactly four numbers to IEEE singles.
     pub(super) fn four(&self, numbers: &[Number], span: std::ops::Range<usize>) -> Result<[u32; 4], CaseError> {
         <[Number; 4]>::try_from(numbers).map(|four| four.map(Number::single)).map_err(|_| {
             let message = format!("expected 4 numbers, found {}", numbers.len());
@@ -68,7 +68,7 @@ impl Binder<'_> {
     }
 }
 
-/// The number of a register such as `c17`, below `count`; no sign, no leading zeros.
+/// Parses the number of a register such as `c17`, below `count`; rejects signs and leading zeros.
 pub(super) fn register(name: &str, count: usize) -> Option<usize> {
     let digits = name.get(1..)?;
     let plain = digits.bytes().all(|byte| byte.is_ascii_digit()) && (digits == "0" || !digits.starts_with('0'));

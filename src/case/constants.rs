@@ -1,4 +1,4 @@
-//! The constants of a case.
+//! Binding of a case's constants.
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -15,7 +15,7 @@ use super::{
 };
 use crate::names::did_you_mean;
 
-/// Where a constant goes.
+/// Destination of a constant.
 enum Home {
     Float(usize),
     Int(usize),
@@ -24,8 +24,8 @@ enum Home {
 }
 
 impl Binder<'_> {
-    /// Puts the constants of a table where the program finds them: `c0`, `i0`, `b0`; for OpenGL's programs the names
-    /// that they write, and those that they declare.
+    /// Binds the constants of a table to a program: `c0`, `i0`, `b0`; for OpenGL's programs the names that they use,
+    /// and those that they declare.
     pub(super) fn constants(
         &self,
         written: &BTreeMap<String, Spanned<Constant>>,
@@ -97,7 +97,7 @@ impl Binder<'_> {
     }
 }
 
-/// The number of a constant that an OpenGL program calls by number: `p[3]`, `program.local[3]`, `program.env[3]`.
+/// Parses a constant that an OpenGL program refers to by number: `p[3]`, `program.local[3]`, `program.env[3]`.
 fn parameter(name: &str, version: Version) -> Option<usize> {
     let (words, rest) = name.split_once('[')?;
     let digits = rest.strip_suffix(']')?;

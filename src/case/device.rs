@@ -1,4 +1,4 @@
-//! Which device a case runs on: what the case says, or something in its place.
+//! Selection of a case's device: its own, or a replacement.
 
 use refsim::{
     device::{DeviceError, Profile},
@@ -11,7 +11,7 @@ use super::{CaseError, binder::Binder, schema::Case};
 use crate::names::did_you_mean;
 
 impl Binder<'_> {
-    /// The device, the version that the pixel program must have, and the switches that were left out.
+    /// Returns the device, the required version of the pixel program, and the switches that were ignored.
     pub(super) fn profile(&self, case: &Case) -> Result<(Profile, Option<Version>, Vec<String>), CaseError> {
         let (mut profile, model) = match &self.overrides.device {
             Some(profile) => (profile.clone(), None),
@@ -42,7 +42,7 @@ impl Binder<'_> {
         Ok((profile, model, left_out))
     }
 
-    /// The device that the case names, without switches.
+    /// Returns the device named by the case, without switches.
     fn named_by(&self, case: &Case) -> Result<(Profile, Option<Version>), CaseError> {
         match (&case.device, &case.shader_model) {
             (Some(device), None) => Ok((self.named(device)?, None)),
@@ -90,7 +90,7 @@ impl Binder<'_> {
     }
 }
 
-/// Which of its known names an error about a device was meant to find, as help; often nothing.
+/// Help text with the known name nearest to the one in a device error; often empty.
 pub(crate) fn meant(error: &DeviceError) -> String {
     match error {
         DeviceError::UnknownDevice { name: found, known: names }

@@ -1,4 +1,4 @@
-//! What can be wrong with a case.
+//! Errors and warnings of cases.
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
@@ -13,15 +13,15 @@ use crate::{
     shader::{ShaderError, ShaderWarning},
 };
 
-/// The text of a case with its name, cheap to hand to every error.
+/// Text of a case with its name, cheap to share among errors.
 pub(super) type Source = Arc<SourceText>;
 
-/// Why a case cannot be run.
+/// Error of reading, binding or running a case.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseError {
-    /// The file is no TOML, or something in it is not what the schema says.
+    /// The file is not TOML, or does not match the schema.
     #[error("{message}")]
     #[diagnostic(code(crossbar::case), help("{help}"))]
     Schema {
@@ -32,27 +32,27 @@ pub enum CaseError {
         #[label("here")]
         span: Option<SourceSpan>,
     },
-    /// A file that cannot be read.
+    /// A file cannot be read.
     #[error("`{}` cannot be read", path.display())]
     #[diagnostic(code(crossbar::case::unreadable), help("paths in a case are taken from the folder of the case"))]
     Unreadable {
         path: PathBuf,
         source: std::io::Error,
-        /// The text of the case, if a case names the file.
+        /// Text of the case, if a case names the file.
         #[source_code]
         source_code: Option<Source>,
         #[label("named here")]
         span: Option<SourceSpan>,
     },
-    /// The case is no text.
+    /// The case is not text.
     #[error("expected a case file in UTF-8, found byte {byte:#04x} at offset {offset}")]
     #[diagnostic(code(crossbar::case::text), help("save the file as UTF-8"))]
     NotText { byte: u8, offset: usize },
-    /// The case is longer than any case needs to be.
+    /// The case exceeds the maximum length.
     #[error("expected a case file of at most {most} bytes, found a longer one")]
     #[diagnostic(code(crossbar::case::length), help("keep texels in image files"))]
     TooLong { most: u64 },
-    /// The device cannot do what the case asks.
+    /// The device cannot execute the case.
     #[error("the case cannot be drawn: {0}")]
     #[diagnostic(code(crossbar::case::draw), help("change the case, or choose a device that can: `crossbar devices`"))]
     Draw(Box<MachineError>),
@@ -67,26 +67,26 @@ pub enum CaseError {
         #[label("one step too many")]
         span: SourceSpan,
     },
-    /// A switch that was asked for besides those of the case.
+    /// A switch set in addition to those of the case is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Device(#[from] DeviceError),
-    /// A picture of the result cannot be made.
+    /// A picture of the result cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// A shader that does not assemble or breaks a rule.
+    /// A shader does not assemble or breaks a rule.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Shader(#[from] ShaderError),
 }
 
-/// What runs otherwise than a case says, or may.
+/// Warning: something runs, or may run, differently than the case says.
 #[non_exhaustive]
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CaseWarning {
-    /// Something in the case.
+    /// A warning on the case.
     #[error("{message}")]
     #[diagnostic(code(crossbar::case), severity(Warning), help("{help}"))]
     Case {
@@ -97,7 +97,7 @@ pub enum CaseWarning {
         #[label("here")]
         span: SourceSpan,
     },
-    /// Something in a program.
+    /// A warning on a program.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Shader(ShaderWarning),
@@ -109,7 +109,7 @@ impl From<MachineError> for CaseError {
     }
 }
 
-/// Places errors in the text of a case.
+/// Creates errors with positions in the text of a case.
 #[derive(Clone, Debug)]
 pub(super) struct CaseText {
     source: Source,
@@ -120,7 +120,7 @@ impl CaseText {
         Self { source: Arc::new(SourceText::new(name, text)) }
     }
 
-    /// The error of the TOML reader: its message is ours to pass on, its span too.
+    /// Converts an error of the TOML reader, with its message and span.
     pub(super) fn toml(&self, error: &toml::de::Error) -> CaseError {
         let message = error.message().trim_end().replace('\n', ", ");
         CaseError::Schema {
@@ -131,7 +131,7 @@ impl CaseText {
         }
     }
 
-    /// Something at `span` is not as it should be.
+    /// Creates an error at `span`.
     pub(super) fn wrong(&self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) -> CaseError {
         CaseError::Schema {
             message: message.into(),
@@ -141,17 +141,17 @@ impl CaseText {
         }
     }
 
-    /// Something at `span` is not what it may look like.
+    /// Creates a warning at `span`.
     pub(super) fn warning(&self, span: Range<usize>, message: String, help: String) -> CaseWarning {
         CaseWarning::Case { message, help, source_code: self.source.clone(), span: self.clamp(span) }
     }
 
-    /// The file that the text at `span` names cannot be read.
+    /// Creates the error for the unreadable file named by the text at `span`.
     pub(super) fn unreadable(&self, span: Range<usize>, path: PathBuf, source: std::io::Error) -> CaseError {
         CaseError::Unreadable { path, source, source_code: Some(self.source.clone()), span: Some(self.clamp(span)) }
     }
 
-    /// A span that the renderer can show: inside the text, whatever the reader said.
+    /// Clamps a span to the text, so that it can be rendered.
     fn clamp(&self, span: Range<usize>) -> SourceSpan {
         let length = self.source.text().len();
         let start = span.start.min(length);

@@ -1,4 +1,4 @@
-//! `[state]`: what `!!ARBfp1.0` reads as `state.*`.
+//! `[state]`: OpenGL's state, which `!!ARBfp1.0` reads as `state.*`.
 
 use std::{collections::BTreeMap, ops::Range};
 
@@ -19,18 +19,18 @@ use super::{
 type FourNumbers = Exactly<Number, 4>;
 type FourRows = Exactly<FourNumbers, 4>;
 
-/// OpenGL's state, where it is not the default.
+/// OpenGL's state, where it differs from the default.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateTable {
-    /// The front material.
+    /// Front material.
     material: Option<MaterialTable>,
-    /// The back material.
+    /// Back material.
     back_material: Option<MaterialTable>,
     /// Lights, by number.
     #[serde(default)]
     light: BTreeMap<Spanned<String>, LightTable>,
-    /// Ambient light of the whole scene.
+    /// Ambient light of the scene.
     ambient: Option<FourNumbers>,
     /// Environment colors of texture units, by number.
     #[serde(default)]
@@ -43,7 +43,7 @@ pub struct StateTable {
     /// Matrices of texture units, by number.
     #[serde(default)]
     texture_matrix: BTreeMap<Spanned<String>, FourRows>,
-    /// The application's matrices, by number.
+    /// Program matrices of the application, by number.
     #[serde(default)]
     program_matrix: BTreeMap<Spanned<String>, FourRows>,
 }
@@ -81,7 +81,7 @@ struct FogTable {
 }
 
 impl Binder<'_> {
-    /// The state of a case; `None`, which is OpenGL's default state, if the case has none.
+    /// Binds the state of a case; `None`, which is OpenGL's default state, if the case has none.
     pub(super) fn fixed_function(
         &self,
         table: Option<&Spanned<StateTable>>,

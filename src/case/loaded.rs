@@ -1,4 +1,4 @@
-//! A case in the memory of a card: ready to be drawn, or followed pixel by pixel.
+//! A case loaded into a card, ready to be drawn or traced.
 
 use refsim::{
     device::DEFAULT_STEP_BUDGET,
@@ -15,7 +15,7 @@ use refsim::{
 
 use super::{CaseError, Setup, schema::Convention, vertices::Vertices};
 
-/// A card with everything that a case puts into it.
+/// Card with all resources of a case.
 #[derive(Debug)]
 pub struct Loaded<'s> {
     setup: &'s Setup,
@@ -23,20 +23,20 @@ pub struct Loaded<'s> {
     targets: Vec<TextureId>,
     depth: Option<DepthId>,
     samplers: Vec<(usize, TextureId, SamplerState)>,
-    /// The values of each attribute register, vertex by vertex.
+    /// Values of each attribute register, vertex by vertex.
     streams: Vec<Vec<[u32; 4]>>,
 }
 
 impl<'s> Loaded<'s> {
-    /// Uploads textures, makes and clears targets.
+    /// Uploads textures, creates and clears targets.
     ///
     /// # Errors
-    /// If the device cannot do what the case asks.
+    /// If the device cannot execute the case.
     pub fn new(setup: &'s Setup, executor: impl Into<Executor>) -> Result<Self, CaseError> {
         Self::on(executor.into().machine(setup.profile.clone())?, setup)
     }
 
-    /// The same on a machine that writes down what is asked of it, and lets the observer watch the texels.
+    /// Like [`Loaded::new`], on a machine that records its log and reports texel reads to the observer.
     ///
     /// # Errors
     /// As [`Loaded::new`].
@@ -81,14 +81,14 @@ impl<'s> Loaded<'s> {
     /// Draws.
     ///
     /// # Errors
-    /// If the device cannot do what the case asks.
+    /// If the device cannot execute the case.
     pub fn draw(&mut self) -> Result<DrawEvents, CaseError> {
-        // The machine changes, the rest is read.
+        // Borrows apart: the machine is mutable, the rest is read.
         let call = draw_call(self.setup, &self.streams, &self.targets, self.depth, &self.samplers);
         self.machine.draw(&call).map_err(|error| placed(self.setup, error))
     }
 
-    /// Follows some pixels through the draw, which is not made: see [`Machine::trace_pixels`].
+    /// Traces some pixels of the draw without drawing: see [`Machine::trace_pixels`].
     ///
     /// # Errors
     /// As [`Loaded::draw`], and if a pixel lies outside the targets.
@@ -97,7 +97,7 @@ impl<'s> Loaded<'s> {
         self.machine.trace_pixels(&call, pixels).map_err(|error| placed(self.setup, error))
     }
 
-    /// The corners of a triangle after the vertex stage: see [`Machine::corners`].
+    /// Returns the corners of a triangle after the vertex stage: see [`Machine::corners`].
     ///
     /// # Errors
     /// As [`Loaded::draw`].
@@ -106,35 +106,35 @@ impl<'s> Loaded<'s> {
         self.machine.corners(&call, instance, triangle).map_err(|error| placed(self.setup, error))
     }
 
-    /// What the colour targets hold.
+    /// Returns the color targets.
     ///
     /// # Errors
-    /// None that a loaded case can meet.
+    /// Never for a loaded case.
     pub fn targets(&self) -> Result<Vec<&Image>, CaseError> {
         let surfaces: Result<_, MachineError> = self.targets.iter().map(|&id| self.machine.read_back(id)).collect();
         Ok(surfaces?)
     }
 
-    /// What was asked of the machine, in order, if it writes that down.
+    /// Takes the log of the machine; empty if it does not record.
     pub fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 
-    /// What the depth buffer holds, if there is one.
+    /// Returns the depth buffer, if there is one.
     ///
     /// # Errors
-    /// None that a loaded case can meet.
+    /// Never for a loaded case.
     pub fn depth(&self) -> Result<Option<&DepthSurface>, CaseError> {
         Ok(self.depth.map(|id| self.machine.read_depth(id)).transpose()?)
     }
 }
 
-/// The pixel program's constants as instructions read them.
+/// Constants of the pixel program as instructions read them.
 pub(super) fn constants(setup: &Setup) -> ResolvedConstants {
     ResolvedConstants::pixel(&setup.pixel, &setup.profile.rules, &setup.pixel_constants)
 }
 
-/// An error of the machine: one about a program with the place in its text.
+/// Converts an error of the machine: one about a program gets the position in its text.
 fn placed(setup: &Setup, error: MachineError) -> CaseError {
     let MachineError::StepBudget { place, span, .. } = error else { return error.into() };
     let (text, key) = match place {
@@ -150,7 +150,7 @@ fn placed(setup: &Setup, error: MachineError) -> CaseError {
     CaseError::StepBudget { error: Box::new(error), help, source_code: text.named_source(), span }
 }
 
-/// The values of each attribute register, vertex by vertex.
+/// Values of each attribute register, vertex by vertex.
 fn streams(setup: &Setup) -> Vec<Vec<[u32; 4]>> {
     match &setup.geometry.vertices {
         Vertices::Transformed(_) => Vec::new(),
@@ -185,7 +185,7 @@ fn draw_call<'a>(
         (Vertices::Attributes(_), None) => VertexSource::Transformed(&[]),
     };
     let opengl = setup.geometry.convention == Convention::Opengl;
-    // The set-up lets no case through without a target.
+    // The set-up rejects cases without a target.
     let first = targets[0];
     let call = DrawCall {
         center: if opengl { PixelCenter::OpenGl } else { PixelCenter::Direct3d },

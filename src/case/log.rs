@@ -1,4 +1,4 @@
-//! What a case asks of its card, in order: what the timing model reads.
+//! Event log of a case, the input of the timing model.
 
 use refsim::{
     event::{Event, TexelObserver},
@@ -8,15 +8,15 @@ use refsim::{
 use super::{CaseError, Loaded, Setup};
 
 /// Draws the case as [`super::run`] does and returns the machine's log: textures up, targets cleared, the draw, targets
-/// and depth buffer back. The same for every executor.
+/// and depth buffer back. It is the same for every executor.
 ///
 /// # Errors
-/// If the device cannot do what the case asks.
+/// If the device cannot execute the case.
 pub fn log(setup: &Setup, executor: impl Into<Executor>) -> Result<Vec<Event>, CaseError> {
     log_of(Loaded::recording(setup, executor, None)?)
 }
 
-/// The same log with what the observer makes of every texel that is read. The scalar executor draws, slowly.
+/// Like [`log`], with an observer of every texel read. Draws on the scalar executor, which is slow.
 ///
 /// # Errors
 /// As [`log`].

@@ -1,8 +1,8 @@
-//! Cases: one shader, everything it reads and draws, and what must come out, in one TOML file.
+//! Cases: one shader, its inputs, its geometry, and the expected results, in one TOML file.
 //!
-//! A case passes through three stages. [`schema`] says what may be written. [`Setup`] binds it to a device: files are
-//! read, programs assembled and judged, images decoded, names and lengths checked. [`run`] draws once and answers the
-//! probes; [`Loaded`] is the card in between, and [`compare`] runs a case on two sides. Every error names the file and
+//! A case passes through three stages. [`schema`] defines the file format. [`Setup`] binds it to a device: files are
+//! read, programs assembled and checked, images decoded, names and lengths checked. [`run`] draws once and evaluates
+//! the probes; [`Loaded`] is the loaded card, and [`compare`] runs a case on two sides. Every error names the file and
 //! the place in it. docs/cases.md describes the format.
 
 mod binder;

@@ -1,4 +1,4 @@
-//! Whether a pixel is what was expected.
+//! Evaluation of probes.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::state::{Expected, Probe};
 
-/// What stands at a probed pixel.
+/// Value found at a probed pixel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Found {
@@ -43,18 +43,18 @@ impl fmt::Display for Expected {
     }
 }
 
-/// The answer to a probe.
+/// Result of a probe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbeResult {
-    /// The question.
+    /// The probe.
     pub probe: Probe,
-    /// What was found.
+    /// Value found.
     pub found: Found,
-    /// Whether it is what was expected.
+    /// `true` if it is as expected.
     pub passed: bool,
 }
 
-/// Answers a probe from the target that it names, or from the depth buffer.
+/// Evaluates a probe on the target that it names, or on the depth buffer.
 pub(super) fn answer(
     probe: &Probe,
     target: &Image,
@@ -80,7 +80,7 @@ pub(super) fn answer(
             (Found::Raw(found), passed)
         }
         Expected::Depth(expected) => {
-            // The set-up let this probe through only with a depth buffer.
+            // The set-up rejects depth probes without a depth buffer.
             let found = depth.and_then(|surface| {
                 let stored = surface.get(x, y)?;
                 Some(to_f64(&Format::FP32, surface.format().to_format(stored, Format::FP32)))

@@ -1,4 +1,4 @@
-//! Draws a case once and looks at what came out.
+//! Execution of a case.
 
 use refsim::{
     check::SlotCount,
@@ -17,34 +17,34 @@ use crate::{
     shader,
 };
 
-/// What a case did.
+/// Result of a case.
 #[derive(Clone, Debug)]
 pub struct CaseOutcome {
     /// Every target, and the depth buffer, as a picture.
     pub pictures: Vec<NamedFile>,
-    /// The answers to the probes, in their order.
+    /// Results of the probes, in their order.
     pub probes: Vec<ProbeResult>,
-    /// What happened, as counts.
+    /// Event counts of the draw.
     pub events: DrawEvents,
-    /// The work of the pixel program.
+    /// Instruction slots of the pixel program.
     pub slots: ShaderSlots,
 }
 
-/// The slots that the pixel program took: how much work, not how long it took.
+/// Instruction slots of the pixel program: the amount of work, not its duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct ShaderSlots {
-    /// Texture instruction slots of a fragment.
+    /// Texture instruction slots per fragment.
     pub texture: u64,
-    /// Arithmetic instruction slots of a fragment.
+    /// Arithmetic instruction slots per fragment.
     pub arithmetic: u64,
-    /// Both, over all shaded fragments.
+    /// Sum of both over all shaded fragments.
     pub total: u64,
-    /// Clocks that the pixel pipelines are busy at least; `None` where the profile does not say how fast they are.
+    /// Minimum number of clocks of the pixel pipelines; `None` where the profile states no issue rates.
     pub cycles: Option<u64>,
 }
 
 impl CaseOutcome {
-    /// Whether every probe found what it expected.
+    /// Returns `true` if every probe passed.
     pub fn passed(&self) -> bool {
         self.probes.iter().all(|result| result.passed)
     }
@@ -53,7 +53,7 @@ impl CaseOutcome {
 /// Draws the case.
 ///
 /// # Errors
-/// If the device cannot do what the case asks, or a picture cannot be encoded.
+/// If the device cannot execute the case, or a picture cannot be encoded.
 pub fn run(setup: &Setup, executor: impl Into<Executor>) -> Result<CaseOutcome, CaseError> {
     let mut loaded = Loaded::new(setup, executor)?;
     let events = loaded.draw()?;
@@ -88,15 +88,15 @@ fn slots(cost: SlotCount, fragments: u64, rates: &Rates) -> ShaderSlots {
     ShaderSlots { texture, arithmetic, total: (texture + arithmetic).saturating_mul(fragments), cycles }
 }
 
-/// The least that the profile's issue rates allow: texture and arithmetic slots side by side, every pipeline busy all
-/// the time, memory for nothing.
+/// Minimum number of clocks by the profile's issue rates: texture and arithmetic slots in parallel, every pipeline
+/// always busy, memory free.
 fn pipe_cycles(texture: u64, arithmetic: u64, fragments: u64, rates: &Rates) -> Option<u64> {
     let clocks = |slots: u64, rate: Option<u64>| Some(slots.div_ceil(rate.filter(|r| *r > 0)?));
     let fragment = clocks(texture, rates.texture_reads_per_clock)?.max(clocks(arithmetic, rates.alu_pairs_per_clock)?);
     clocks(fragments.saturating_mul(fragment.max(1)), rates.pixel_pipes)
 }
 
-/// A target as PNG where its channels are unsigned fractions, else as EXR with the values as singles.
+/// Encodes a target as PNG if its channels are unsigned fractions, otherwise as EXR with the values as singles.
 fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result<NamedFile, PictureError> {
     let (width, height) = (target.width(), target.height());
     let record = target.format().record();
@@ -124,7 +124,7 @@ fn picture_of(stem: &str, target: &Image, minimum: SignedTexelMinimum) -> Result
     Ok((format!("{stem}.exr"), exr(&picture)?))
 }
 
-/// An unsigned fraction in steps of `1 / most`, to the nearest.
+/// Rounds an unsigned fraction to multiples of `1 / most` and returns the multiple.
 fn scaled(value: ChannelValue, most: u64) -> u64 {
     match value {
         ChannelValue::Ratio { numerator, denominator } => {

@@ -1,4 +1,4 @@
-//! What a case may say. Field by field this is what docs/cases.md describes.
+//! Schema of a case. docs/cases.md describes every field.
 
 use std::{collections::BTreeMap, path::PathBuf};
 
@@ -15,31 +15,31 @@ use refsim::{
 use super::fixed_function::StateTable;
 use super::value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
 
-/// A case as written, with places for error messages; nothing in it is checked beyond words and types.
+/// A case as written, with source positions; only names and types are checked.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Case {
-    /// What the case shows.
+    /// Title of the case.
     pub title: Option<String>,
-    /// A device profile; or else `shader_model` and `format`.
+    /// Device profile; alternatively `shader_model` and `format`.
     pub device: Option<Spanned<String>>,
-    /// The version token that the pixel program must have, on a device without limits.
+    /// Required version token of the pixel program, on a device without limits.
     pub shader_model: Option<Spanned<String>>,
-    /// The format of the pixel registers; with `device`, in place of the device's own.
+    /// Format of the pixel registers; with `device`, replaces the device's own.
     pub format: Option<Spanned<String>>,
-    /// The device's open questions, by name.
+    /// Settings of the device's open questions, by name.
     #[serde(default)]
     pub switches: BTreeMap<String, Spanned<String>>,
-    /// Instructions that a program may execute per pixel or vertex, in place of the device's figures.
+    /// Maximum number of instructions that a program may execute per pixel or vertex, in place of the device's.
     pub step_budget: Option<Spanned<u32>>,
-    /// The pixel program.
+    /// Pixel program.
     pub pixel: Spanned<ShaderSource>,
-    /// The vertex program, if there is one.
+    /// Vertex program, if there is one.
     pub vertex: Option<Spanned<ShaderSource>>,
-    /// The pixel program's constants: `c0` to lists of numbers, `i0` to lists of integers, `b0` to truth values.
+    /// Constants of the pixel program: `c0` to lists of numbers, `i0` to lists of integers, `b0` to truth values.
     #[serde(default)]
     pub constants: BTreeMap<String, Spanned<Constant>>,
-    /// The vertex program's constants.
+    /// Constants of the vertex program.
     #[serde(default)]
     pub vertex_constants: BTreeMap<String, Spanned<Constant>>,
     /// OpenGL's state, which `!!ARBfp1.0` reads as `state.*`.
@@ -50,72 +50,72 @@ pub struct Case {
     /// Bump state of texture stages.
     #[serde(default)]
     pub bump: Vec<Spanned<Bump>>,
-    /// What is drawn.
+    /// Geometry to draw.
     pub geometry: Spanned<Geometry>,
-    /// What is drawn on.
+    /// Render targets.
     pub target: TargetTable,
-    /// The depth buffer, if there is one.
+    /// Depth buffer, if there is one.
     pub depth: Option<Depth>,
-    /// The alpha test, if there is one.
+    /// Alpha test, if there is one.
     pub alpha: Option<Alpha>,
     /// Blending, if there is any.
     pub blend: Option<Blend>,
-    /// What must come out.
+    /// Expected results.
     #[serde(default)]
     pub probe: Vec<Spanned<Probe>>,
 }
 
-/// A program: in a file or in the case itself.
+/// A program: in a file or inline.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShaderSource {
-    /// A file, from the folder of the case.
+    /// Path of a file, relative to the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
-    /// The program itself.
+    /// Inline text of the program.
     pub source: Option<Spanned<String>>,
 }
 
-/// A texture and the sampler that reads it.
+/// A texture with its sampler state.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Texture {
-    /// The sampler, or texture stage, from 0.
+    /// Index of the sampler, or texture stage, from 0.
     pub slot: Spanned<u32>,
-    /// The shape.
+    /// Dimensionality.
     #[serde(default)]
     pub kind: TextureKind,
-    /// The texel format.
+    /// Texel format.
     pub format: Spanned<String>,
-    /// Width, height, depth, as many as the kind has; with a `file` the picture's.
+    /// Width, height, depth, as many as the kind has; with a `file` those of the picture.
     pub size: Option<Spanned<Vec<u32>>>,
-    /// A PNG file, from the folder of the case.
+    /// Path of a PNG file, relative to the folder of the case.
     pub file: Option<Spanned<PathBuf>>,
-    /// The texels of level 0, each red, green, blue, alpha, as many as are not (0, 0, 0, 1): rows from the top, then
-    /// faces or slices.
+    /// Texels of level 0 that differ from (0, 0, 0, 1), each red, green, blue, alpha: rows from the top, then faces or
+    /// slices.
     pub texels: Option<Spanned<Vec<Vec<Number>>>>,
-    /// Whether `texels` and `mipmaps` are the stored codes, whole numbers: as many to a texel as the format stores.
+    /// `true` if `texels` and `mipmaps` are the stored codes, integers: as many per texel as the format stores.
     #[serde(default)]
     pub raw: bool,
-    /// Where levels 1 and up come from.
+    /// Source of levels 1 and up.
     pub mipmaps: Option<Spanned<Mipmaps>>,
-    /// Both `min` and `mag`.
+    /// Filter for both `min` and `mag`.
     pub filter: Option<Spanned<Filter>>,
-    /// How a texture is read that appears smaller.
+    /// Minification filter.
     pub min: Option<Filter>,
-    /// How a texture is read that appears larger.
+    /// Magnification filter.
     pub mag: Option<Filter>,
-    /// How mip levels are chosen.
+    /// Mipmap filter.
     #[serde(default)]
     pub mip: MipFilter,
-    /// What lies outside: one for all axes, or one per axis.
+    /// Address mode outside of the texture: one for all axes, or one per axis.
     pub address: Option<Spanned<OneOrMany>>,
-    /// The colour outside, for `border`.
+    /// Border color, for `border`.
     pub border: Option<Spanned<Vec<Number>>>,
-    /// Added to the level of detail.
+    /// Bias added to the level of detail.
     pub lod_bias: Option<Number>,
-    /// The most detailed level that is read.
+    /// Most detailed level that is read.
     pub max_mip_level: Option<Spanned<u32>>,
-    /// The coordinate that `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the others by.
+    /// Coordinate by which `tex`, `texbem` and `texbeml` of ps_1_1 to 1_3 divide the others.
     pub projected: Option<Spanned<Projection>>,
 }
 
@@ -123,43 +123,43 @@ pub struct Texture {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bump {
-    /// The stage: the number of the destination of `texbem`, `texbeml` or `bem`.
+    /// Stage: the number of the destination of `texbem`, `texbeml` or `bem`.
     pub stage: Spanned<u32>,
     /// M00, M01, M10, M11.
     pub matrix: Exactly<Number, 4>,
-    /// What `texbeml` multiplies the luminance by; 0 if not said.
+    /// Scale of the luminance in `texbeml`; defaults to 0.
     pub luminance_scale: Option<Number>,
-    /// What `texbeml` adds to that; 0 if not said.
+    /// Offset of the luminance in `texbeml`; defaults to 0.
     pub luminance_offset: Option<Number>,
 }
 
-/// What is drawn.
+/// Geometry to draw.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Geometry {
-    /// How vertices make triangles.
+    /// Primitive topology.
     pub primitive: Option<Spanned<Primitive>>,
-    /// The vertices: attribute name to up to four numbers.
+    /// Vertices: attribute name to up to four numbers.
     #[serde(default)]
     pub vertices: Vec<Spanned<BTreeMap<String, Spanned<Vec<Number>>>>>,
-    /// Instead of vertices: one quad over the whole target, its `t0` going from (0, 0) in row 0 to (1, 1).
+    /// Draws one quad over the whole target in place of vertices, with `t0` from (0, 0) in row 0 to (1, 1).
     #[serde(default)]
     pub full_screen: bool,
-    /// Attributes of every vertex that does not set them itself.
+    /// Default attributes of all vertices.
     #[serde(default)]
     pub attributes: BTreeMap<String, Spanned<Vec<Number>>>,
-    /// Which side is left out.
+    /// Culled side.
     #[serde(default)]
     pub cull: Cull,
-    /// Whether the colours `v#` are interpolated or those of one vertex.
+    /// Interpolation of the colors `v#`: smooth or flat.
     #[serde(default)]
     pub shading: Shading,
-    /// Where in a pixel its centre lies, and how depth is clipped.
+    /// Convention of pixel centres and clip space.
     #[serde(default)]
     pub convention: Convention,
 }
 
-/// Whether colours are interpolated.
+/// Interpolation of colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the variants are the words")]
@@ -169,7 +169,7 @@ pub enum Shading {
     Flat,
 }
 
-/// Whose rules hold for pixel centres and clip space.
+/// Convention of pixel centres and clip space.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "the variants are the words")]
@@ -179,77 +179,77 @@ pub enum Convention {
     Opengl,
 }
 
-/// What is drawn on.
+/// Render targets.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TargetTable {
     /// Width and height in pixels.
     pub size: Spanned<Exactly<u32, 2>>,
-    /// The texel format, or up to four for several targets.
+    /// Texel format, or up to four for several targets.
     pub format: Spanned<OneOrMany>,
-    /// What every target holds before the draw; (0, 0, 0, 0) if not said.
+    /// Clear color of every target; defaults to (0, 0, 0, 0).
     pub clear: Option<Spanned<Vec<Number>>>,
-    /// The channels that are written, some of `rgba`.
+    /// Channels that are written, some of `rgba`.
     pub write: Option<Spanned<String>>,
 }
 
-/// The depth buffer.
+/// Depth buffer.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Depth {
-    /// The format; `d24` if not said.
+    /// Format; defaults to `d24`.
     pub format: Option<Spanned<String>>,
-    /// What it holds before the draw; 1 if not said.
+    /// Clear depth; defaults to 1.
     pub clear: Option<Spanned<Number>>,
-    /// The test a fragment must pass; none if not said.
+    /// Depth test; defaults to none.
     pub test: Option<CompareFunction>,
-    /// Whether fragments that pass write their depth.
+    /// `true` if fragments that pass write their depth.
     pub write: Option<Spanned<bool>>,
 }
 
-/// The alpha test.
+/// Alpha test.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alpha {
-    /// The test that a fragment's alpha must pass.
+    /// Comparison of a fragment's alpha with the reference.
     pub test: CompareFunction,
-    /// What it is compared with.
+    /// Reference value.
     pub reference: Spanned<Number>,
 }
 
-/// Blending. Without the `alpha_` fields alpha is blended as colour is.
+/// Blending. Without the `alpha_` fields alpha is blended like color.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Blend {
-    /// What the fragment is multiplied by.
+    /// Factor of the fragment.
     pub source: BlendFactor,
-    /// What the target is multiplied by.
+    /// Factor of the target.
     pub destination: BlendFactor,
-    /// How the products are combined.
+    /// Operation that combines the products.
     #[serde(default)]
     pub operation: BlendOp,
-    /// `source` for alpha.
+    /// Factor `source` for alpha.
     pub alpha_source: Option<BlendFactor>,
-    /// `destination` for alpha.
+    /// Factor `destination` for alpha.
     pub alpha_destination: Option<BlendFactor>,
     /// `operation` for alpha.
     pub alpha_operation: Option<BlendOp>,
 }
 
-/// What must come out at a pixel.
+/// Expected value at a pixel.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
     /// Column and row, from the top left, from 0.
     pub pixel: Spanned<Exactly<u32, 2>>,
-    /// Which target, from 0.
+    /// Index of the target, from 0.
     pub target: Option<Spanned<u32>>,
-    /// Red, green, blue, alpha as numbers; channels left out at the end may be anything.
+    /// Red, green, blue, alpha as numbers; omitted trailing channels are not checked.
     pub expected: Option<Spanned<Vec<Number>>>,
-    /// The stored channels as whole numbers, to the bit.
+    /// Stored channels as integers, to the bit.
     pub raw: Option<Spanned<Vec<u32>>>,
-    /// The depth as a number.
+    /// Depth as a number.
     pub depth: Option<Number>,
-    /// How far numbers may be off.
+    /// Maximum absolute error of numbers.
     pub tolerance: Option<Spanned<Number>>,
 }

@@ -1,4 +1,4 @@
-//! From the words of a case to a device, programs, images and state.
+//! Binding of a case to a device, programs, images and state.
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -29,25 +29,25 @@ use crate::{
     shader::{ShaderError, ShaderText},
 };
 
-/// The longest case file that is read, in bytes.
+/// Maximum length of a case file, in bytes.
 const MAX_BYTES: u64 = 1 << 26;
 
-/// A case that is ready to be drawn.
+/// Case that is ready to be drawn.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// What the case shows.
+    /// Title of the case.
     pub title: Option<String>,
-    /// The device with the case's switches and format.
+    /// Device with the case's switches and format.
     pub profile: Profile,
-    /// Switches of the case that the device does not have, where another device was put in the case's place.
+    /// Switches of the case that a replacement device lacks.
     pub left_out: Vec<String>,
-    /// The pixel program.
+    /// Pixel program.
     pub pixel: Checked<Program>,
-    /// The pixel program's text.
+    /// Text of the pixel program.
     pub pixel_text: ShaderText,
-    /// The vertex program.
+    /// Vertex program.
     pub vertex: Option<Checked<Program>>,
-    /// The vertex program's text.
+    /// Text of the vertex program.
     pub vertex_text: Option<ShaderText>,
     /// Constants of the pixel program.
     pub pixel_constants: Constants,
@@ -59,45 +59,45 @@ pub struct Setup {
     pub bump: [BumpStage; BUMP_STAGES],
     /// Projected textures of the texture stages.
     pub projections: [Projection; BUMP_STAGES],
-    /// What is drawn.
+    /// Geometry to draw.
     pub geometry: Geometry,
     /// Width and height of all targets, in pixels.
     pub size: [u32; 2],
-    /// The colour targets.
+    /// Color targets.
     pub targets: Vec<TexelFormat>,
-    /// What the colour targets hold before the draw, IEEE singles.
+    /// Clear color of the targets, as IEEE singles.
     pub clear: [u32; 4],
-    /// Which channels are written: red is bit 0.
+    /// Mask of the written channels: red is bit 0.
     pub write_mask: u8,
-    /// The depth buffer: format, what it holds before the draw (IEEE single), state.
+    /// Depth buffer: format, clear depth (IEEE single), state.
     pub depth: Option<(DepthFormat, u32, DepthState)>,
-    /// The alpha test.
+    /// Alpha test.
     pub alpha: Option<AlphaTest>,
     /// Blending.
     pub blend: Option<BlendState>,
-    /// What must come out.
+    /// Expected results.
     pub probes: Vec<Probe>,
-    /// What runs otherwise than the case says, or may.
+    /// Warnings on the case.
     pub warnings: Vec<CaseWarning>,
 }
 
 impl Setup {
-    /// Reads a case and everything that it names.
+    /// Reads a case and all files that it names.
     ///
     /// # Errors
-    /// [`CaseError`] for the first thing in the case that is not as it should be.
+    /// [`CaseError`] for the first error in the case.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
         Self::read_with(path, &Overrides::default())
     }
 
-    /// [`Setup::read`] with something in place of what the case says.
+    /// Like [`Setup::read`], with replacements for the case's device settings.
     ///
     /// # Errors
     /// As [`Setup::read`].
     pub fn read_with(path: &Path, overrides: &Overrides) -> Result<Self, CaseError> {
         let unreadable =
             |source| CaseError::Unreadable { path: path.to_owned(), source, source_code: None, span: None };
-        // No more than the limit is read: the name may be that of a device without an end.
+        // Reads no more than the limit: the path may name an endless device file.
         let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
             return Err(CaseError::TooLong { most: MAX_BYTES });
         };
@@ -105,7 +105,7 @@ impl Setup {
         Self::bound(&path.display().to_string(), &bytes, folder, overrides)
     }
 
-    /// A case from the bytes of a file called `name`; the paths in it are taken from `folder`.
+    /// Reads a case from the bytes of a file called `name`; its paths are relative to `folder`.
     ///
     /// # Errors
     /// As [`Setup::read`].
@@ -130,7 +130,7 @@ impl Setup {
 impl Binder<'_> {
     fn bind(&self, case: Case) -> Result<Setup, CaseError> {
         let (profile, model, left_out) = self.profile(&case)?;
-        // A card to try on: what it refuses is reported where it stands in the case.
+        // A trial card, whose errors are reported at their positions in the case.
         let mut card = Machine::new(profile.clone(), ExecutorKind::default());
         let (pixel, pixel_text) = self.program(&case.pixel, "pixel", Stage::Pixel, &profile, model)?;
         let vertex = case
@@ -204,13 +204,13 @@ impl Binder<'_> {
         })
     }
 
-    /// What the card said to something in the case.
+    /// Attaches a position in the case to an error of the card.
     fn accepted<T>(&self, answer: Result<T, MachineError>, span: std::ops::Range<usize>) -> Result<T, CaseError> {
         let help = "change the case, or choose a device that can: `crossbar devices` lists them";
         answer.map_err(|error| self.place.wrong(span, error.to_string(), help))
     }
 
-    /// Reads, assembles and judges a program.
+    /// Reads, assembles and checks a program.
     fn program(
         &self,
         shader: &Spanned<schema::ShaderSource>,

@@ -1,4 +1,4 @@
-//! One case on two sides: two executors, two formats, two devices.
+//! Comparison of one case on two sides: two executors, two formats, two devices.
 
 use refsim::{
     event::DrawEvents,
@@ -14,10 +14,10 @@ use crate::compare::{
     first_difference, images,
 };
 
-/// Pixels that are followed at a time: the vertices are processed once for them.
+/// Number of pixels traced at a time: the vertices are processed once for them.
 const TOGETHER: usize = 1024;
 
-/// One side: a case with its overrides, and the executor.
+/// One side of a comparison: a case with its overrides, and the executor.
 #[derive(Clone, Debug)]
 pub struct Side<'s> {
     /// The case. Both sides come from the same file.
@@ -26,59 +26,59 @@ pub struct Side<'s> {
     pub executor: Executor,
 }
 
-/// How much is compared.
+/// Scope of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// What the draw leaves behind: targets, depth buffer, counts.
+    /// Results of the draw: targets, depth buffer, counts.
     Results,
-    /// And what every instruction writes at every pixel.
+    /// Results, and the register writes of every instruction at every pixel.
     Registers,
-    /// And what every instruction writes at one pixel: column and row.
+    /// Results, and the register writes of every instruction at one pixel: column and row.
     Pixel([u32; 2]),
 }
 
-/// What a comparison found.
+/// Result of a comparison.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Every target, then the depth buffer.
     pub surfaces: Vec<SurfaceDifference>,
-    /// Pixels of the targets.
+    /// Number of pixels of the targets.
     pub pixels: u64,
-    /// Pixels at which some surface differs.
+    /// Number of pixels at which some surface differs.
     pub different: u64,
     /// Counts that differ.
     pub counts: Vec<CountDifference>,
-    /// Pixels that were followed on both sides, and how many of those differ in something.
+    /// Number of pixels traced on both sides, and of those that differ.
     pub followed: [u64; 2],
-    /// The first difference; `None` if there is none.
+    /// First difference; `None` if there is none.
     pub first: Option<First>,
 }
 
-/// A count that differs.
+/// Count that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CountDifference {
-    /// What is counted.
+    /// Name of the count.
     pub count: &'static str,
-    /// On the left.
+    /// Value on the left.
     pub left: u64,
-    /// On the right.
+    /// Value on the right.
     pub right: u64,
 }
 
-/// The first difference.
+/// First difference.
 #[derive(Clone, Debug)]
 pub struct First {
-    /// The draw, from 0. A case has one.
+    /// Index of the draw, from 0. A case has one.
     pub draw: usize,
     /// Column and row of the first pixel that differs, row by row from the top left.
     pub pixel: [u32; 2],
-    /// The first difference of its fragments' traces; `None` if their traces are equal although what the draws left
-    /// is not: then the draw of a side differs from its own trace.
+    /// First difference of its fragments' traces; `None` if the traces are equal although the results of the draws are
+    /// not: then the draw of a side differs from its own trace.
     pub difference: Option<TraceDifference>,
 }
 
 impl Comparison {
-    /// Whether nothing differs.
+    /// Returns `true` if nothing differs.
     pub fn equal(&self) -> bool {
         self.different == 0 && self.counts.is_empty() && self.first.is_none()
     }
@@ -87,7 +87,7 @@ impl Comparison {
 /// Runs a case on two sides and compares.
 ///
 /// # Errors
-/// If a side cannot be drawn, or the pixel of the scope lies outside the targets.
+/// If a side cannot be executed, or the pixel of the scope lies outside the targets.
 pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Comparison, CaseError> {
     let mut sides = [DrawnSide::new(left)?, DrawnSide::new(right)?];
     let events = [sides[0].draw()?, sides[1].draw()?];
@@ -108,7 +108,7 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
     let pixels: Vec<(u32, u32)> = match scope {
         Scope::Pixel([x, y]) => vec![(x, y)],
         Scope::Results if !differing.is_empty() => vec![place(differing[0])],
-        // Only counts differ: no target says where.
+        // Only counts differ: no target gives a position.
         Scope::Results if comparison.counts.is_empty() => Vec::new(),
         Scope::Results | Scope::Registers => (0..count).map(place).collect(),
     };
@@ -128,7 +128,7 @@ pub fn compare(left: &Side<'_>, right: &Side<'_>, scope: Scope) -> Result<Compar
     Ok(comparison)
 }
 
-/// A side with two cards: one that draws, one whose memory stays as it was before the draw.
+/// Side with two cards: one that draws, one whose memory stays as before the draw.
 struct DrawnSide<'s> {
     drawn: Loaded<'s>,
     before: Loaded<'s>,
@@ -152,7 +152,7 @@ impl<'s> DrawnSide<'s> {
     }
 }
 
-/// Follows pixels on both sides, counts those that differ and keeps the first.
+/// Traces pixels on both sides, counts those that differ and keeps the first.
 fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Comparison) -> Result<(), CaseError> {
     let setup = sides[0].setup;
     let shape = TargetFormats { targets: &setup.targets, depth: setup.depth.map(|(format, ..)| format) };
@@ -173,7 +173,7 @@ fn follow(sides: &[DrawnSide<'_>; 2], pixels: &[(u32, u32)], comparison: &mut Co
     Ok(())
 }
 
-/// A difference before the program may come from the vertices: then it is there that the sides part.
+/// Attributes a difference before the program to the vertex stage, if the corners differ.
 fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Result<TraceDifference, CaseError> {
     if !matches!(difference.stage, TraceStage::Coverage { .. } | TraceStage::Input) {
         return Ok(difference);
@@ -189,7 +189,7 @@ fn from_vertices(sides: &[DrawnSide<'_>; 2], difference: TraceDifference) -> Res
     })
 }
 
-/// Both sides' surfaces. They have the same shapes: both are of one case.
+/// Compares the surfaces of both sides. They have the same shapes, since both are of one case.
 fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifference>, CaseError> {
     let (a, b) = (left.targets()?, right.targets()?);
     let targets = a.iter().zip(b).enumerate();
@@ -201,7 +201,7 @@ fn surfaces(left: &Loaded<'_>, right: &Loaded<'_>) -> Result<Vec<SurfaceDifferen
     Ok(found)
 }
 
-/// The counts of a draw, by name.
+/// Counts of a draw, by name.
 fn counts(events: &DrawEvents) -> Vec<(&'static str, u64)> {
     vec![
         ("vertices", events.vertices),

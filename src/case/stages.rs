@@ -1,4 +1,4 @@
-//! What a case says of texture stages besides their textures: bump state and projections.
+//! Binding of texture stages: bump state and projections.
 
 use refsim::{
     exec::{BUMP_STAGES, BumpStage, Projection},
@@ -8,7 +8,7 @@ use toml::Spanned;
 
 use super::{CaseError, CaseWarning, binder::Binder, schema, value::Number};
 
-/// Bump state by stage, as Direct3D has it before anything is set: zeros.
+/// Binds the bump state of each stage; Direct3D's initial state is zero.
 pub(super) fn bump(
     binder: &Binder<'_>,
     written: &[Spanned<schema::Bump>],

@@ -1,4 +1,4 @@
-//! Targets, tests, blending and probes: from words to the emulator's state.
+//! Binding of targets, tests, blending and probes to the emulator's state.
 
 use refsim::{
     output::{AlphaTest, BlendEquation, BlendState, DepthFormat, DepthState},
@@ -12,31 +12,31 @@ use crate::names::did_you_mean;
 /// 1.0 as an IEEE single.
 const ONE: u32 = 0x3f80_0000;
 
-/// What must come out at a pixel.
+/// Expected value at a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Probe {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// Which target.
+    /// Index of the target.
     pub target: usize,
-    /// What is expected.
+    /// Expected value.
     pub expected: Expected,
-    /// How far numbers may be off.
+    /// Maximum absolute error of numbers.
     pub tolerance: f64,
 }
 
-/// What a probe compares with.
+/// Expected value of a probe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expected {
     /// Red, green, blue, alpha, from the first on, as numbers.
     Color(Vec<f64>),
-    /// The stored channels, to the bit.
+    /// Stored channels, to the bit.
     Raw(Vec<u32>),
-    /// The depth as a number.
+    /// Depth as a number.
     Depth(f64),
 }
 
-/// The formats of the colour targets.
+/// Binds the formats of the color targets.
 pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Result<Vec<TexelFormat>, CaseError> {
     let names = &target.format.get_ref().0;
     if names.is_empty() || names.len() > refsim::output::MAX_TARGETS {
@@ -46,7 +46,7 @@ pub(super) fn targets(binder: &Binder<'_>, target: &schema::TargetTable) -> Resu
     names.iter().map(|name| texel_format(binder, name, target.format.span())).collect()
 }
 
-/// A texel format by name.
+/// Parses a texel format.
 pub(super) fn texel_format(
     binder: &Binder<'_>,
     name: &str,
@@ -59,7 +59,7 @@ pub(super) fn texel_format(
     })
 }
 
-/// The written channels as a mask, red in bit 0.
+/// Binds the written channels as a mask, red in bit 0.
 pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -> Result<u8, CaseError> {
     let Some(write) = write else { return Ok(0b1111) };
     let mut mask = 0;
@@ -73,7 +73,7 @@ pub(super) fn write_mask(binder: &Binder<'_>, write: Option<&Spanned<String>>) -
     Ok(mask)
 }
 
-/// The depth buffer: format, contents, state.
+/// Binds the depth buffer: format, contents, state.
 pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(DepthFormat, u32, DepthState), CaseError> {
     let format = depth.format.as_ref().map_or(Ok(DepthFormat::Unorm24), |format| {
         format.get_ref().parse().map_err(|error: refsim::output::OutputError| {
@@ -90,7 +90,7 @@ pub(super) fn depth(binder: &Binder<'_>, depth: &schema::Depth) -> Result<(Depth
     Ok((format, clear, state))
 }
 
-/// The single of a number from 0 to 1.
+/// Converts a number from 0 to 1 to an IEEE single.
 fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result<u32, CaseError> {
     let value = number.get_ref().double();
     if (0.0..=1.0).contains(&value) {
@@ -100,13 +100,13 @@ fn fraction(binder: &Binder<'_>, number: &Spanned<Number>, what: &str) -> Result
     Err(binder.place.wrong(number.span(), message, "the card takes nothing else"))
 }
 
-/// The alpha test.
+/// Binds the alpha test.
 pub(super) fn alpha(binder: &Binder<'_>, alpha: &schema::Alpha) -> Result<AlphaTest, CaseError> {
     let reference = fraction(binder, &alpha.reference, "a reference")?;
     Ok(AlphaTest { function: alpha.test, reference })
 }
 
-/// Blending; alpha as colour where nothing else is said.
+/// Binds blending; alpha is blended like color unless specified.
 pub(super) fn blend(blend: &schema::Blend) -> BlendState {
     let color = BlendEquation { source: blend.source, destination: blend.destination, op: blend.operation };
     let alpha = BlendEquation {
@@ -117,7 +117,7 @@ pub(super) fn blend(blend: &schema::Blend) -> BlendState {
     BlendState { color, alpha }
 }
 
-/// The probes: inside the target, one expectation each.
+/// Binds the probes: inside the target, one expectation each.
 pub(super) fn probes(
     binder: &Binder<'_>,
     probes: &[Spanned<schema::Probe>],

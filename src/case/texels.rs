@@ -1,4 +1,4 @@
-//! Textures of a case: inline texels or PNG files, and how they are read.
+//! Textures of a case: inline texels or PNG files, with their sampler state.
 
 use std::io::Cursor;
 
@@ -21,18 +21,18 @@ use super::{
 use crate::io::{picture::MAX_BYTES, read_limited};
 use crate::names::did_you_mean;
 
-/// A texture of a case.
+/// Texture of a case.
 #[derive(Clone, Debug)]
 pub struct CaseTexture {
-    /// Its texels.
+    /// Texels.
     pub image: Image,
-    /// How it is read.
+    /// Sampler state.
     pub sampler: SamplerState,
-    /// Whether the card makes its levels 1 and up, of which the image holds none yet.
+    /// `true` if the card generates levels 1 and up, which the image does not contain yet.
     pub generate_mipmaps: bool,
 }
 
-/// The sampler, and the texture that it reads.
+/// Binds a texture; returns its sampler's index.
 pub(super) fn bind(binder: &Binder<'_>, texture: &Spanned<schema::Texture>) -> Result<(usize, CaseTexture), CaseError> {
     let written = texture.get_ref();
     let slot = *written.slot.get_ref() as usize;
@@ -64,7 +64,7 @@ fn mipmaps(written: &schema::Texture) -> Option<&Mipmaps> {
     written.mipmaps.as_ref().map(Spanned::get_ref)
 }
 
-/// The texels of levels 1 and up that the case lists.
+/// Texels of levels 1 and up that the case lists.
 fn listed_levels(written: &schema::Texture) -> &[Spanned<Vec<Vec<Number>>>] {
     match mipmaps(written) {
         Some(Mipmaps::Texels(levels)) => levels,
@@ -99,7 +99,7 @@ fn from_texels(
         let help = "1d and cube have one number, 2d and rectangle two, volume three";
         return Err(binder.place.wrong(size.span(), message, help));
     };
-    // Before memory is taken for the size: so many texels must have been written.
+    // Checked before allocating the size: the case must list as many texels.
     let faces = if written.kind == TextureKind::Cube { 6 } else { 1 };
     let expected = extents.iter().try_fold(faces, |product: usize, &side| product.checked_mul(side as usize));
     if expected != Some(texels.get_ref().len()) {
@@ -118,8 +118,8 @@ fn from_texels(
     Ok(image)
 }
 
-/// The stored texel of a list of codes, one for each channel in the order red, green, blue, alpha (luminance first);
-/// in signed channels those below zero stand for their two's complement. The error is what was expected.
+/// Encodes a texel from a list of codes, one for each channel in the order red, green, blue, alpha (luminance first);
+/// in signed channels negative codes stand for their two's complement. The error is the expected value.
 fn stored(format: TexelFormat, codes: &[Number]) -> Result<u128, String> {
     let channels = format.record().stored();
     if codes.len() != channels.len() {
@@ -259,7 +259,7 @@ fn sampler(binder: &Binder<'_>, written: &schema::Texture, image: &Image) -> Res
     })
 }
 
-/// One mode for all axes, or one per axis; clamp where nothing is said.
+/// Binds the address modes: one for all axes, or one per axis; defaults to clamp.
 fn address(binder: &Binder<'_>, written: &schema::Texture) -> Result<[AddressMode; 3], CaseError> {
     let Some(address) = &written.address else { return Ok([AddressMode::Clamp; 3]) };
     let mode = |name: &String| {

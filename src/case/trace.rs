@@ -1,27 +1,27 @@
-//! One pixel of a case, followed through the draw.
+//! Trace of one pixel of a case.
 
 use refsim::machine::{Executor, FragmentTrace};
 
 use super::{CaseError, Loaded, Setup};
 
-/// How far around a pixel that nothing covers one is looked for that something covers, in pixels.
+/// Search distance for a covered pixel around one that nothing covers, in pixels.
 const AROUND: u32 = 16;
 
-/// What happened at a pixel.
+/// Trace of a pixel.
 #[derive(Clone, Debug)]
 pub struct PixelTrace {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// The fragments of all triangles that cover it, in order.
+    /// Fragments of all triangles that cover it, in order.
     pub fragments: Vec<FragmentTrace>,
-    /// If there are none: the nearest pixel within 16 columns and rows that has one.
+    /// If there are none: the nearest covered pixel within 16 columns and rows.
     pub nearest: Option<[u32; 2]>,
 }
 
-/// Follows a pixel through the draw of a case.
+/// Traces a pixel through the draw of a case.
 ///
 /// # Errors
-/// If the device cannot do what the case asks, or the pixel lies outside the targets.
+/// If the device cannot execute the case, or the pixel lies outside the targets.
 pub fn trace(setup: &Setup, executor: impl Into<Executor>, pixel: [u32; 2]) -> Result<PixelTrace, CaseError> {
     let loaded = Loaded::new(setup, executor)?;
     let [x, y] = pixel;

@@ -1,4 +1,4 @@
-//! Numbers as cases write them.
+//! Number syntax of cases.
 
 use std::fmt;
 
@@ -8,27 +8,27 @@ use serde::{
 };
 use toml::Spanned;
 
-/// A number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
+/// Number: a TOML integer or float, or a bit pattern of an IEEE single as text (`"0x3f800000"`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
-    /// Written as a number; rounded to nearest even where a single is wanted.
+    /// Written as a number; rounded to nearest even where a single is expected.
     Value(f64),
     /// Written as a bit pattern.
     Bits(u32),
 }
 
 impl Number {
-    /// The IEEE single. NaN is the positive quiet one.
+    /// Converts to an IEEE single. NaN is the positive quiet one.
     pub fn single(self) -> u32 {
         match self {
             Self::Bits(bits) => bits,
             Self::Value(value) if value.is_nan() => 0x7fc0_0000,
-            // A cast rounds to nearest even, and says infinity beyond the range.
+            // A cast rounds to nearest even, and gives infinity beyond the range.
             Self::Value(value) => (value as f32).to_bits(),
         }
     }
 
-    /// The number as a double: exact for a bit pattern.
+    /// Converts to a double: exact for a bit pattern.
     pub fn double(self) -> f64 {
         match self {
             Self::Bits(bits) => f64::from(f32::from_bits(bits)),
@@ -75,7 +75,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// A list of exactly so many. (serde's arrays take longer lists and drop what is too much.)
+/// List of exactly N elements. (serde's arrays accept longer lists and drop the rest.)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exactly<T, const N: usize>(pub [T; N]);
 
@@ -88,7 +88,7 @@ impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exactly<T, N
     }
 }
 
-/// One text, or a list of them.
+/// One string, or a list of strings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OneOrMany(pub Vec<String>);
 
@@ -120,12 +120,12 @@ impl<'de> Deserialize<'de> for OneOrMany {
     }
 }
 
-/// Where levels 1 and up of a texture come from.
+/// Source of levels 1 and up of a texture.
 #[derive(Clone, Debug)]
 pub enum Mipmaps {
-    /// `"automatic"`: the card makes all of them from level 0.
+    /// `"automatic"`: the card generates all of them from level 0.
     Automatic,
-    /// The texels of each level.
+    /// Texels of each level.
     Texels(Vec<Spanned<Vec<Vec<Number>>>>),
 }
 
@@ -160,7 +160,7 @@ impl<'de> Deserialize<'de> for Mipmaps {
     }
 }
 
-/// The value of a constant register.
+/// Value of a constant register.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Constant {
     /// `b#`
@@ -197,7 +197,7 @@ impl<'de> Deserialize<'de> for Constant {
     }
 }
 
-/// A whole number, if it is one.
+/// Converts to an integer; `None` if it is not integral.
 pub(super) fn whole(number: &Number) -> Option<i64> {
     match *number {
         Number::Value(value) if value % 1.0 == 0.0 && value.abs() < 4_503_599_627_370_496.0 => Some(value as i64),
@@ -206,7 +206,7 @@ pub(super) fn whole(number: &Number) -> Option<i64> {
     }
 }
 
-/// Up to four numbers; those that are not written come from (0, 0, 0, 1), as Direct3D fills up vertex data.
+/// Converts up to four numbers; missing ones come from (0, 0, 0, 1), as Direct3D expands vertex data.
 pub(super) fn vector(numbers: &[Number]) -> Option<[u32; 4]> {
     if numbers.is_empty() || numbers.len() > 4 {
         return None;

@@ -1,4 +1,4 @@
-//! What is drawn: vertices by attribute name.
+//! Binding of vertices by attribute name.
 
 use std::collections::BTreeMap;
 
@@ -18,21 +18,21 @@ use super::{
 /// 1.0 and -1.0 as IEEE singles.
 const ONE: u32 = 0x3f80_0000;
 const MINUS_ONE: u32 = 0xbf80_0000;
-/// The most vertices of a case.
+/// Maximum number of vertices of a case.
 const MAX_VERTICES: usize = 1 << 20;
 
-/// What is drawn, and how.
+/// Geometry with its state.
 #[derive(Clone, Debug)]
 pub struct Geometry {
-    /// How vertices make triangles.
+    /// Primitive topology.
     pub primitive: Primitive,
-    /// The vertices.
+    /// Vertices.
     pub vertices: Vertices,
-    /// Which side is left out.
+    /// Culled side.
     pub cull: Cull,
-    /// Flat shading: whose colours a primitive has, as the convention says.
+    /// Flat shading: the vertex that provides the colors of a primitive, by convention; `None` for smooth shading.
     pub flat: Option<Provoking>,
-    /// Whose rules hold for pixel centres and clip space.
+    /// Convention of pixel centres and clip space.
     pub convention: Convention,
 }
 
@@ -41,7 +41,7 @@ pub struct Geometry {
 pub enum Vertices {
     /// Attributes `v0` to `v15` of each vertex, for the vertex program.
     Attributes(Vec<[[u32; 4]; 16]>),
-    /// What the rasteriser takes: there is no vertex program.
+    /// Input of the rasteriser, if there is no vertex program.
     Transformed(Vec<Vertex>),
 }
 
@@ -98,7 +98,7 @@ pub(super) fn bind(
 /// Position and `t0` of a corner of the screen.
 type Corner = ([u32; 4], [u32; 4]);
 
-/// The corners of the screen in turn; `t0` grows with columns and rows, and row 0 is the upper one in Direct3D only.
+/// Corners of the screen in order; `t0` grows with columns and rows, and row 0 is the upper one in Direct3D only.
 fn corners(convention: Convention) -> [Corner; 4] {
     [(0, 0), (ONE, 0), (ONE, ONE), (0, ONE)].map(|(s, t)| {
         let x = if s == 0 { MINUS_ONE } else { ONE };
@@ -109,13 +109,13 @@ fn corners(convention: Convention) -> [Corner; 4] {
 
 struct Reader<'a> {
     binder: &'a Binder<'a>,
-    /// Attributes of every vertex.
+    /// Default attributes of all vertices.
     all: &'a Attributes,
     program: Option<&'a Program>,
 }
 
 impl Reader<'_> {
-    /// A vertex without a vertex program.
+    /// Binds a vertex without a vertex program.
     fn plain(&self, written: &Spanned<Attributes>) -> Result<Vertex, CaseError> {
         let mut vertex = Vertex::default();
         for (name, value) in self.all.iter().chain(written.get_ref()) {
@@ -161,7 +161,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A vertex for the vertex program.
+    /// Binds a vertex for the vertex program.
     fn attributes(&self, written: &Spanned<Attributes>) -> Result<[[u32; 4]; 16], CaseError> {
         let mut registers = [[0, 0, 0, ONE]; 16];
         for (name, value) in self.all.iter().chain(written.get_ref()) {
@@ -182,14 +182,14 @@ impl Reader<'_> {
             registers[number] = self.bits(value)?;
         }
         registers[self.attribute("position", geometry.span())?] = position;
-        // A program that does not ask for coordinates gets none.
+        // Only a program that reads coordinates receives them.
         if let Some(number) = self.declared("t0") {
             registers[number] = t0;
         }
         Ok(registers)
     }
 
-    /// The input register that an attribute's name stands for.
+    /// Input register for an attribute's name.
     fn attribute(&self, name: &str, span: std::ops::Range<usize>) -> Result<usize, CaseError> {
         let direct = if name.starts_with('v') { register(name, 16) } else { None };
         direct.or_else(|| self.declared(name)).ok_or_else(|| {
@@ -199,7 +199,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The register that the program declares for a usage.
+    /// Register that the program declares for a usage.
     fn declared(&self, name: &str) -> Option<usize> {
         let usage = match name {
             "position" => Usage::Position(0),

@@ -1,4 +1,4 @@
-//! The one place that says "equal": numbers, pictures, and what two runs of one program did.
+//! The only definition of equality: of numbers, pictures, and traces of a program.
 //!
 //! - [`f32_ulps`]: how far apart two f32 are; it needs no emulator, the others do.
 //! - [`Number`]: two patterns are equal if their bits are, where both have the same layout; across layouts if they are

@@ -1,4 +1,4 @@
-//! Two numbers, perhaps of two formats.
+//! Comparison of two numbers, possibly of two formats.
 
 use std::cmp::Ordering;
 
@@ -8,7 +8,7 @@ use refsim::{
 };
 use serde::Serialize;
 
-/// A pattern and its format.
+/// Bit pattern with its format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Number {
     /// The format.
@@ -23,33 +23,33 @@ impl From<f32> for Number {
     }
 }
 
-/// A value by two sides, ready to be read.
+/// Pair of values, formatted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Compared {
-    /// What has the value: `r0.x`, `target 0 red`.
+    /// Name of the value: `r0.x`, `target 0 red`.
     pub name: String,
-    /// The left value in decimal.
+    /// Left value in decimal.
     pub left: String,
-    /// Its bits, hexadecimal.
+    /// Bits of the left value, hexadecimal.
     pub left_bits: String,
-    /// The right value in decimal.
+    /// Right value in decimal.
     pub right: String,
-    /// Its bits, hexadecimal.
+    /// Bits of the right value, hexadecimal.
     pub right_bits: String,
-    /// How far apart they are, in units of the last place of `unit`; `None` where one is no finite number.
+    /// Distance in units of the last place of `unit`; `None` where one is not finite.
     pub ulps: Option<f64>,
-    /// The format whose last place is counted.
+    /// Format whose last place is counted.
     pub unit: String,
 }
 
 impl Number {
-    /// The number as a double, which holds every number of every format exactly; NaN and infinities as such.
+    /// Converts to a double, which represents every number of every format exactly; NaN and infinities as such.
     pub fn double(&self) -> f64 {
         to_f64(&self.format, self.bits)
     }
 
-    /// Whether two numbers are equal: with one layout (sizes of the fields), if their bits are, so that 0 and -0
-    /// differ; with two, if they are the same number. NaN equals NaN.
+    /// Returns `true` if two numbers are equal: if their bits are, for the same layout (sizes of the fields), so that 0
+    /// and -0 differ; if their values are, for different layouts. NaN equals NaN.
     pub fn equals(&self, other: &Self) -> bool {
         if self.format.kind == other.format.kind {
             let nan = self.format.is_nan(self.bits) && other.format.is_nan(other.bits);
@@ -59,18 +59,18 @@ impl Number {
         a == b || (a.is_nan() && b.is_nan())
     }
 
-    /// The number in decimal: enough digits that no other number of any format is written so.
+    /// Formats in decimal, with enough digits to distinguish all numbers of all formats.
     pub fn decimal(&self) -> String {
         plain(self.double())
     }
 
-    /// All bits of the format, hexadecimal.
+    /// Formats all bits of the format, hexadecimal.
     pub fn hex(&self) -> String {
         let digits = self.format.width().div_ceil(4) as usize;
         format!("0x{:0digits$x}", self.bits)
     }
 
-    /// The place of the last bit at a magnitude: the distance from one number to the next.
+    /// Unit in the last place at a magnitude: the distance from one number to the next.
     fn last_place(&self, magnitude: f64) -> f64 {
         match self.format.kind {
             FormatKind::Fixed { frac_bits, .. } => power_of_two(-i32::from(frac_bits)),
@@ -82,7 +82,7 @@ impl Number {
         }
     }
 
-    /// An integer that grows by one from each number of the layout to the next.
+    /// Integer that grows by one from each number of the layout to the next.
     fn step(&self) -> i64 {
         let bits = i64::from(self.bits & self.format.mask());
         match self.format.kind {
@@ -93,9 +93,9 @@ impl Number {
     }
 }
 
-/// How far apart two numbers are, and the format whose last place is counted.
+/// Distance of two numbers, and the format whose last place is counted.
 ///
-/// With one layout this is how many numbers of it one has to step over to get from one to the other. With two it is the
+/// With one layout this is the number of steps between neighbouring numbers from one to the other. With two it is the
 /// exact difference divided by the last place, at the larger of the two magnitudes, of the format whose last place is
 /// the larger there. `None` if one of them is not finite, or NaN, and they are not equal.
 pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
@@ -116,7 +116,7 @@ pub fn ulps(left: &Number, right: &Number) -> (Option<f64>, Format) {
     (known.then(|| (a - b).abs() / unit), format)
 }
 
-/// A double as text: plain near one, with an exponent far from it.
+/// Formats a double: plain near one, with an exponent far from it.
 pub(super) fn plain(real: f64) -> String {
     let magnitude = real.abs();
     if real == 0.0 || !real.is_finite() || (1e-4..1e9).contains(&magnitude) {
@@ -127,7 +127,7 @@ pub(super) fn plain(real: f64) -> String {
 }
 
 impl Compared {
-    /// Two numbers of registers.
+    /// Pair of register values.
     pub fn registers(name: impl Into<String>, left: &Number, right: &Number) -> Self {
         let (ulps, unit) = ulps(left, right);
         Self {
@@ -141,7 +141,7 @@ impl Compared {
         }
     }
 
-    /// Two truth values.
+    /// Pair of truth values.
     pub fn truths(name: impl Into<String>, left: bool, right: bool) -> Self {
         let bits = |truth: bool| if truth { "0x1" } else { "0x0" }.to_owned();
         Self {
@@ -155,7 +155,7 @@ impl Compared {
         }
     }
 
-    /// The stored bits of one channel of two texels.
+    /// Pair of stored values of one channel of two texels.
     pub(super) fn channels(name: impl Into<String>, channel: Channel, left: u32, right: u32) -> Self {
         if let ChannelClass::Float(format) = channel.class {
             let number = |bits| Number { format, bits };
@@ -174,12 +174,12 @@ impl Compared {
     }
 }
 
-/// The value of a channel as a double, ratios rounded once.
+/// Value of a channel as a double, ratios rounded once.
 pub(super) fn channel_double(channel: Channel, bits: u32) -> f64 {
     decode_channel(channel, bits, SignedTexelMinimum::BelowMinusOne).to_f64()
 }
 
-/// How many stored values lie between two of a normalised channel.
+/// Number of steps between two stored values of a normalised channel.
 pub(super) fn channel_steps(channel: Channel, left: u32, right: u32) -> f64 {
     let spare = 32 - u32::from(channel.bits);
     let whole = |bits: u32| match channel.class {

@@ -1,4 +1,4 @@
-//! Operands of an instruction, reconstructed from the steps before it.
+//! Operands of an instruction, reconstructed from the earlier steps.
 
 use std::collections::BTreeMap;
 
@@ -14,17 +14,17 @@ use super::{
     side::{TraceSide, component},
 };
 
-/// A register that an instruction read, by both sides: before swizzle and modifier.
+/// Register that an instruction read, on both sides: before swizzle and modifier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Operand {
     /// The register's four components.
     pub values: Vec<Compared>,
-    /// Whether a component differs between the sides.
+    /// `true` if a component differs between the sides.
     pub differs: bool,
 }
 
-/// The registers that step `k` of two traces, which agree in all steps before it, has read. Registers that hold no
-/// numbers are left out.
+/// Returns the registers read by step `k` of two traces that agree in all earlier steps. Registers that hold no numbers
+/// are omitted.
 pub(super) fn operands(
     left: (&TraceSide<'_>, &FragmentTrace),
     right: (&TraceSide<'_>, &FragmentTrace),
@@ -55,7 +55,7 @@ pub(super) fn operands(
         .collect()
 }
 
-/// The registers of an instruction's sources, each once; a matrix's rows one by one.
+/// Registers of an instruction's sources, each once; a matrix's rows one by one.
 fn registers_read(instruction: &Instruction) -> Vec<Register> {
     let rows = instruction.opcode.matrix().map_or(1, |(rows, _)| rows);
     let mut registers = Vec::new();
@@ -70,14 +70,14 @@ fn registers_read(instruction: &Instruction) -> Vec<Register> {
     registers
 }
 
-/// Whether a register is read as interpolated, before it is brought to the register format.
+/// Returns `true` if a register is read as interpolated, before conversion to the register format.
 fn reads_coordinates(version: Version, instruction: &Instruction, register: &Register) -> bool {
     let coordinates = version == Version::Ps1_4 || version.is_ps_2();
     let texture = instruction.opcode.info().class == OpcodeClass::Texture;
     coordinates && texture && register.file == RegisterFile::Texture && version.stage() == Stage::Pixel
 }
 
-/// The registers of a lane before an instruction.
+/// Registers of a lane before an instruction.
 struct RegisterValues(BTreeMap<(RegisterFile, u16), [u32; 4]>);
 
 impl RegisterValues {
@@ -87,7 +87,7 @@ impl RegisterValues {
         let mut state = Self(delivered.collect());
         let steps = &shading.steps[..k.min(shading.steps.len())];
         let at = shading.steps.get(k).map_or(usize::MAX, |step| step.instruction);
-        // The second of a co-issued pair reads what stood before the pair.
+        // The second of a co-issued pair reads the registers as before the pair.
         let paired = side.program.instructions.get(at).is_some_and(|i| i.coissue);
         let steps = if paired { &steps[..steps.len().saturating_sub(1)] } else { steps };
         let phase = side.program.phase_marker();
@@ -111,7 +111,7 @@ impl RegisterValues {
         }
     }
 
-    /// `phase` clears the alpha of the temporaries.
+    /// Begins a phase: `phase` clears the alpha of the temporaries.
     fn phase(&mut self) {
         for ((file, _), value) in &mut self.0 {
             if *file == RegisterFile::Temp {
@@ -120,7 +120,7 @@ impl RegisterValues {
         }
     }
 
-    /// What a register holds; `None` if it holds no numbers.
+    /// Value of a register; `None` if it holds no numbers.
     fn value(&self, side: &TraceSide<'_>, register: &Register) -> Option<[u32; 4]> {
         match register.file {
             RegisterFile::Constant => {

@@ -1,7 +1,7 @@
-//! Two numbers of f32.
+//! Distance of two f32 numbers.
 
-/// How many numbers of f32 one has to step over to get from one to the other: both zeros are one number, and NaN is no
-/// step from NaN. `None` if one of them is not finite, or NaN, and they are not equal.
+/// Number of f32 steps from one number to the other: both zeros are one number, and two NaN are 0 steps apart. `None`
+/// if one of them is not finite, or NaN, and they are not equal.
 ///
 /// ```
 /// use crossbar::compare::f32_ulps;

@@ -1,4 +1,4 @@
-//! Two surfaces, bit by bit, and how far apart they are.
+//! Bitwise comparison of two surfaces, with the size of the differences.
 
 use refsim::{
     num::Format,
@@ -9,29 +9,29 @@ use serde::Serialize;
 
 use super::number::{Compared, channel_double};
 
-/// How two surfaces differ.
+/// Difference of two surfaces.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SurfaceDifference {
-    /// `target 0`, `depth`.
+    /// Name: `target 0`, `depth`.
     pub surface: String,
-    /// Pixels of the surface.
+    /// Number of pixels of the surface.
     pub pixels: u64,
-    /// Pixels of which a stored bit differs.
+    /// Number of pixels with a differing bit.
     pub different: u64,
-    /// The largest difference between two numbers, of the first pixel that has it. A difference from something that is
-    /// not finite is larger than all others.
+    /// Largest difference between two numbers, at the first pixel that has it. A difference from a value that is not
+    /// finite is larger than all others.
     pub largest: Option<Largest>,
-    /// For each pixel, row by row, whether it differs.
+    /// For each pixel, row by row, `true` if it differs.
     #[serde(skip)]
     pub map: Vec<bool>,
 }
 
-/// The largest difference of a surface.
+/// Largest difference of a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Largest {
     /// Column and row.
     pub pixel: [u32; 2],
-    /// The difference as a number; infinite where one side is not finite.
+    /// Absolute difference; infinite where one side is not finite.
     #[serde(serialize_with = "finite_or_text")]
     pub difference: f64,
     /// Both values.
@@ -39,14 +39,14 @@ pub struct Largest {
     pub values: Compared,
 }
 
-/// JSON has no infinity and no NaN.
+/// Serializes a number that may be infinite or NaN, which JSON lacks.
 fn finite_or_text<S: serde::Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     if number.is_finite() { serializer.serialize_f64(*number) } else { serializer.serialize_str(&number.to_string()) }
 }
 
 const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];
 
-/// The channels of two texels that differ: what to call them, and their bits.
+/// Iterates over the channels of two texels that differ: their names, formats and bits.
 pub(super) fn differing_channels(
     channels: &[Channel],
     left: u128,
@@ -60,7 +60,7 @@ pub(super) fn differing_channels(
     })
 }
 
-/// A distance between numbers; NaN is infinitely far from all but NaN.
+/// Distance between numbers; NaN is infinitely far from all but NaN.
 fn distance(left: f64, right: f64) -> f64 {
     if left == right || (left.is_nan() && right.is_nan()) {
         return 0.0;
@@ -88,7 +88,7 @@ pub fn images(name: &str, left: &Image, right: &Image) -> Option<SurfaceDifferen
     }))
 }
 
-/// Compares the patterns of two depth buffers of one size and format. `None` if size or format differ.
+/// Compares the bits of two depth buffers of one size and format. `None` if size or format differ.
 pub fn depths(name: &str, left: &DepthSurface, right: &DepthSurface) -> Option<SurfaceDifference> {
     let (width, height) = (left.width(), left.height());
     if (right.width(), right.height(), right.format()) != (width, height, left.format()) {
@@ -102,7 +102,7 @@ pub fn depths(name: &str, left: &DepthSurface, right: &DepthSurface) -> Option<S
     }))
 }
 
-/// A depth buffer's pattern read as a channel of a texel; the 24-bit float reads as the single that it is equal to.
+/// Depth format as a channel of a texel; the 24-bit float reads as the single that it is equal to.
 fn depth_channel(format: DepthFormat) -> Channel {
     let (bits, class) = match format {
         DepthFormat::Unorm16 => (16, ChannelClass::Unorm),
@@ -113,7 +113,7 @@ fn depth_channel(format: DepthFormat) -> Channel {
     Channel { shift: 0, bits, class, stored_from: 0 }
 }
 
-/// The bits of [`depth_channel`] for a stored pattern.
+/// Bits of [`depth_channel`] for a stored depth.
 fn depth_bits(format: DepthFormat, stored: u32) -> u32 {
     if format == DepthFormat::Float24 { format.to_format(stored, Format::FP32) } else { stored }
 }
@@ -122,12 +122,12 @@ fn depth_number(format: DepthFormat, stored: u32) -> f64 {
     channel_double(depth_channel(format), depth_bits(format, stored))
 }
 
-/// Two patterns of a depth buffer.
+/// Pair of depth-buffer values.
 pub(super) fn compared_depths(name: &str, format: DepthFormat, left: u32, right: u32) -> Compared {
     let bits = |stored| depth_bits(format, stored);
     let mut compared = Compared::channels(name, depth_channel(format), bits(left), bits(right));
     compared.unit = format.name().to_owned();
-    // Patterns of one depth format follow each other as depths do.
+    // Bit patterns of a depth format are ordered like the depths.
     compared.ulps = Some(f64::from(left.abs_diff(right)));
     if format == DepthFormat::Float24 {
         (compared.left_bits, compared.right_bits) = (format!("0x{left:06x}"), format!("0x{right:06x}"));
@@ -135,7 +135,7 @@ pub(super) fn compared_depths(name: &str, format: DepthFormat, left: u32, right:
     compared
 }
 
-/// Walks a surface; `look` says of a pixel whether it differs, and its largest difference.
+/// Compares a surface pixel by pixel; `look` returns whether a pixel differs, and its largest difference.
 fn surface(
     name: &str,
     [width, height]: [u32; 2],

@@ -1,4 +1,4 @@
-//! The first difference of two traces of one pixel.
+//! First difference of two traces of one pixel.
 
 use refsim::{
     exec::Step,
@@ -17,25 +17,25 @@ use super::{
     surface::{compared_depths, differing_channels},
 };
 
-/// The formats of what is drawn on, the same on both sides.
+/// Formats of the render targets, the same on both sides.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetFormats<'a> {
-    /// The colour targets.
+    /// Color targets.
     pub targets: &'a [TexelFormat],
-    /// The depth buffer.
+    /// Depth buffer.
     pub depth: Option<DepthFormat>,
 }
 
-/// Which of the fragments at a pixel.
+/// Identifies a fragment at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FragmentPass {
-    /// Its number at the pixel, from 0.
+    /// Its index at the pixel, from 0.
     pub index: usize,
-    /// The instance that it belongs to, from 0.
+    /// Instance, from 0.
     pub instance: usize,
-    /// The triangle within the instance, from 0.
+    /// Triangle within the instance, from 0.
     pub triangle: usize,
-    /// The part of the triangle that clipping made, from 0.
+    /// Part of the clipped triangle, from 0.
     pub part: usize,
 }
 
@@ -44,45 +44,45 @@ pub struct FragmentPass {
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "left and right are the sides that are compared")]
 pub enum TraceStage {
-    /// What the vertex stage gives for a corner of the triangle, 0 to 2. [`first_difference`] does not see corners;
+    /// Output of the vertex stage for a corner of the triangle, 0 to 2. [`first_difference`] does not see corners;
     /// [`differing_corner`] compares them.
     Vertex { corner: usize },
-    /// The triangle covers the pixel on one side only, or the order differs: what the vertex stage or the set-up of
-    /// triangles computes. Which pass each side has there.
+    /// The triangle covers the pixel on one side only, or the order differs, because of the vertex stage or triangle
+    /// set-up. Gives the fragment of each side.
     Coverage { left: Option<FragmentPass>, right: Option<FragmentPass> },
-    /// What the rasteriser interpolates.
+    /// Interpolated values of the rasteriser.
     Input,
     /// An input register: the interpolated value brought to the register format.
     Delivered,
-    /// What an instruction, by its index in the program, writes.
+    /// Result of an instruction, by its index in the program.
     Instruction { index: usize },
-    /// Which components an instruction writes: its predicate.
+    /// Write mask of an instruction: its predicate.
     Mask { index: usize, left: Mask, right: Mask },
-    /// Which instruction comes next: a branch. `None` where the program has ended.
+    /// Index of the next instruction: a branch. `None` where the program has ended.
     Flow { left: Option<usize>, right: Option<usize> },
-    /// What the program leaves behind that no register shows: kill, depth, clamped colour. With the instruction, if
-    /// there is only one that can have done it.
+    /// Output of the program that no register shows: kill, depth, clamped color. With the instruction, if only one can
+    /// be the cause.
     Output { instruction: Option<usize> },
-    /// The alpha test or the depth test.
+    /// Result of the alpha test or the depth test.
     Test { left: FragmentFate, right: FragmentFate },
-    /// What is stored: quantising, blending, masking; or the executor's own draw, which computes less than its trace.
+    /// Stored value: quantising, blending, masking; or the executor's own draw, which computes less than its trace.
     Merge,
 }
 
 /// The first difference of two traces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TraceDifference {
-    /// The pass.
+    /// Fragment at which the traces differ.
     pub pass: FragmentPass,
-    /// How many passes the pixel has on the left and on the right.
+    /// Number of fragments at the pixel, on the left and on the right.
     pub passes: [usize; 2],
-    /// Where.
+    /// Stage at which they differ.
     pub stage: TraceStage,
-    /// What differs there, the first component first.
+    /// Values that differ there, the first component first.
     pub values: Vec<Compared>,
-    /// What the instruction read, where [`Self::stage`] is one.
+    /// Operands of the instruction, where [`Self::stage`] is one.
     pub operands: Vec<Operand>,
-    /// The first instruction of the same pass that writes something different, where the stage is an earlier one.
+    /// First instruction of the same fragment that writes a different value, where the stage is an earlier one.
     pub instruction: Option<Box<TraceDifference>>,
 }
 
@@ -129,7 +129,7 @@ pub fn first_difference(
     })
 }
 
-/// The first corner of a triangle that differs, and in what.
+/// Returns the first corner of a triangle that differs, and the differing values.
 pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usize, Vec<Compared>)> {
     let differing = |a: &Vertex, b: &Vertex| {
         let vectors = |v: &Vertex| {
@@ -154,7 +154,7 @@ pub fn differing_corner(left: &[Vertex; 3], right: &[Vertex; 3]) -> Option<(usiz
     })
 }
 
-/// One fragment by both sides.
+/// Fragment on both sides.
 struct Pair<'a> {
     left: &'a TraceSide<'a>,
     right: &'a TraceSide<'a>,
@@ -167,7 +167,7 @@ impl Pair<'_> {
         (Number { format: self.left.format, bits: a }, Number { format: self.right.format, bits: b })
     }
 
-    /// The components of `names` in which two vectors of register values differ.
+    /// Components of `names` in which two vectors of register values differ.
     fn registers(&self, name: impl Fn(usize) -> String, a: [u32; 4], b: [u32; 4], mask: Mask) -> Vec<Compared> {
         let pairs = mask.components().map(|c| (c, self.numbers(a[c], b[c])));
         pairs.filter(|(_, (a, b))| !a.equals(b)).map(|(c, (a, b))| Compared::registers(name(c), &a, &b)).collect()
@@ -219,7 +219,7 @@ impl Pair<'_> {
         })
     }
 
-    /// The components in which two steps of one instruction differ.
+    /// Components in which two steps of one instruction differ.
     fn written(&self, x: &Step, y: &Step) -> Vec<Compared> {
         let Some(destination) = self.left.program.instructions.get(x.instruction).and_then(|i| i.destination) else {
             return Vec::new();
@@ -263,7 +263,7 @@ impl Pair<'_> {
         (!values.is_empty()).then_some((TraceStage::Output { instruction: None }, values))
     }
 
-    /// The one instruction of some operations that the fragment ran.
+    /// Returns the only instruction with one of these opcodes that the fragment ran.
     fn only(&self, opcodes: &[Opcode]) -> Option<usize> {
         let instructions = &self.left.program.instructions;
         let mut ran = self.a.shading.steps.iter().map(|step| step.instruction);
@@ -282,7 +282,7 @@ impl Pair<'_> {
     }
 }
 
-/// What differs between two states of a pixel's targets.
+/// Returns the differences between two states of a pixel's targets.
 fn differing_states(a: &PixelState, b: &PixelState, shape: &TargetFormats<'_>) -> Vec<Compared> {
     let mut values = Vec::new();
     for (n, (format, (a, b))) in shape.targets.iter().zip(a.colors.iter().zip(&b.colors)).enumerate() {

@@ -1,49 +1,49 @@
-//! Which triangles meet at each edge of a mesh.
+//! Edges of a mesh and the triangles that share them.
 
 use super::Mesh;
 
-/// An edge with the triangles on it.
+/// Edge with its triangles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edge {
     /// Its two vertices, the smaller index first.
     pub vertices: [u32; 2],
-    /// The triangles that have it, in rising order: one on a boundary, two inside a surface.
+    /// Triangles that contain the edge, in ascending order: one on a boundary, two inside a surface.
     pub triangles: Vec<u32>,
 }
 
 impl Edge {
-    /// Whether a single triangle has it.
+    /// Returns `true` if the edge belongs to a single triangle.
     pub fn is_boundary(&self) -> bool {
         self.triangles.len() == 1
     }
 
-    /// Whether at most two triangles have it.
+    /// Returns `true` if the edge belongs to at most two triangles.
     pub fn is_manifold(&self) -> bool {
         self.triangles.len() <= 2
     }
 }
 
-/// The edges of a mesh, and the edges of each triangle.
+/// Edges of a mesh, and the edges of each triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Adjacency {
     edges: Vec<Edge>,
-    /// Per triangle the edges from its first, second and third corner; none from a vertex to itself.
+    /// Edges of each triangle from its first, second and third corner; `None` for an edge from a vertex to itself.
     edges_of: Vec<[Option<u32>; 3]>,
 }
 
 impl Adjacency {
-    /// All edges in rising order of their vertices. A triangle's edge from a vertex to itself is left out.
+    /// All edges in ascending order of their vertices. Edges from a vertex to itself are omitted.
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
 
-    /// The edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; none from
-    /// a vertex to itself, nor of a triangle that does not exist.
+    /// Edges of a triangle from its first, second and third corner, as indices into [`Adjacency::edges`]; `None` for an
+    /// edge from a vertex to itself, and for a triangle that does not exist.
     pub fn edges_of(&self, triangle: u32) -> [Option<u32>; 3] {
         self.edges_of.get(triangle as usize).copied().unwrap_or_default()
     }
 
-    /// The other triangles on the edges of a triangle, edge by edge.
+    /// Iterates over the other triangles on the edges of a triangle, edge by edge.
     pub fn neighbors(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         let edges = self.edges_of(triangle).into_iter().flatten();
         let on_edge = edges.flat_map(|edge| self.edges[edge as usize].triangles.iter().copied());
@@ -52,7 +52,7 @@ impl Adjacency {
 }
 
 impl Mesh {
-    /// Which triangles meet at each edge. Vertices are told apart by index; see [`Mesh::welded`].
+    /// Computes which triangles share each edge. Vertices are compared by index; see [`Mesh::welded`].
     pub fn adjacency(&self) -> Adjacency {
         let mut sides: Vec<([u32; 2], u32, usize)> = Vec::with_capacity(self.len() * 3);
         for (id, &[a, b, c]) in (0_u32..).zip(self.triangles()) {
@@ -79,18 +79,18 @@ impl Mesh {
         Adjacency { edges, edges_of }
     }
 
-    /// The edges of [`Mesh::adjacency`].
+    /// Returns the edges of [`Mesh::adjacency`].
     pub fn edges(&self) -> Vec<Edge> {
         self.adjacency().edges
     }
 
-    /// Number of edges that only one triangle has: 0 for a closed surface.
+    /// Number of edges that belong to only one triangle: 0 for a closed surface.
     pub fn boundary_edge_count(&self) -> usize {
         self.edges().iter().filter(|edge| edge.is_boundary()).count()
     }
 
-    /// Number of edges through which more than one triangle runs the same way: 0 where the surface is oriented
-    /// consistently and no edge has three triangles. A triangle's edge from a vertex to itself is left out.
+    /// Number of edges that more than one triangle traverses in the same direction: 0 where the surface is oriented
+    /// consistently and no edge has three triangles. Edges from a vertex to itself are omitted.
     pub fn orientation_conflicts(&self) -> usize {
         let mut directed: Vec<[u32; 2]> = Vec::with_capacity(self.len() * 3);
         for &[a, b, c] in self.triangles() {

@@ -1,4 +1,4 @@
-//! Rays aimed where neighbours meet: at shared edges and at vertices.
+//! Rays aimed at shared edges and at vertices.
 //!
 //! The target is a point of the edge (in f64), the direction `target - eye` rounded to f32: so a ray passes an edge
 //! within the rounding of f32, on one side or the other, and only exact arithmetic can say which.
@@ -9,7 +9,7 @@ use super::random::CounterRng;
 use super::vector::{narrow, wide};
 use super::{Mesh, Ray};
 
-/// A ray, and what it is aimed at.
+/// Ray with its target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aimed {
     /// The ray.
@@ -18,8 +18,9 @@ pub struct Aimed {
     pub target: u32,
 }
 
-/// `per_edge` rays from `eye` to random points strictly inside every edge that two or more triangles share. The same
-/// seed gives the same rays. An edge so near the eye, or so far, that the direction vanishes or overflows is left out.
+/// Generates `per_edge` rays from `eye` to random points strictly inside every edge that two or more triangles share.
+/// The same seed gives the same rays. An edge so near the eye, or so far, that the direction vanishes or overflows is
+/// omitted.
 pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> Vec<Aimed> {
     let stream = CounterRng::new(seed);
     let mut rays = Vec::new();
@@ -29,7 +30,7 @@ pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> V
         }
         let [from, to] = edge.vertices.map(|vertex| wide(mesh.positions()[vertex as usize]));
         for sample in 0..per_edge {
-            // Half a step off, so that neither end is met.
+            // Half a step off, so that neither end is hit.
             let at = stream.unit(u64::from(target), u64::from(sample), 0) + 0.5 / 16_777_216.0;
             let point = from + at * (to - from);
             rays.extend(aim(eye, point).map(|ray| Aimed { ray, target }));
@@ -38,7 +39,7 @@ pub fn aimed_at_edges(mesh: &Mesh, eye: [f32; 3], per_edge: u32, seed: u64) -> V
     rays
 }
 
-/// One ray from `eye` to every vertex that a triangle uses.
+/// Generates one ray from `eye` to every vertex that a triangle uses.
 pub fn aimed_at_vertices(mesh: &Mesh, eye: [f32; 3]) -> Vec<Aimed> {
     let mut used = vec![false; mesh.positions().len()];
     for &index in mesh.triangles().iter().flatten() {
@@ -48,7 +49,7 @@ pub fn aimed_at_vertices(mesh: &Mesh, eye: [f32; 3]) -> Vec<Aimed> {
     vertices.filter_map(|((target, &position), _)| Some(Aimed { ray: aim(eye, wide(position))?, target })).collect()
 }
 
-/// The ray from an eye towards a point, if f32 has a direction for it.
+/// Returns the ray from an eye towards a point, if f32 can represent its direction.
 fn aim(eye: [f32; 3], point: DVec3) -> Option<Ray> {
     Ray::new(eye, narrow(point - wide(eye))).ok()
 }

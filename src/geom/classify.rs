@@ -1,54 +1,54 @@
-//! A renderer's answer held against the truth.
+//! Classification of a renderer's hit against the exact one.
 
 use num_bigint::BigUint;
 
 use super::exact::{ExactT, NearestHit, ratio};
 use super::{Contact, Mesh};
 
-/// What a renderer says a ray hits first.
+/// First hit of a ray as reported by a renderer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
     /// The triangle, or `None` for no hit.
     pub triangle: Option<u32>,
-    /// Its t; not looked at without a triangle.
+    /// Its t; ignored without a triangle.
     pub t: f32,
 }
 
-/// How the answer stands to the truth.
+/// Verdict on a hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum HitVerdict {
-    /// The first triangle, or one that ties with it at exactly the same t; or rightly none.
+    /// Correct: the first triangle, or one that ties with it at exactly the same t; or no hit where there is none.
     Right,
     /// No hit where there is a surface: a hole.
     Leak,
     /// A hit where there is no surface.
     FalseHit,
-    /// A hit, but of a triangle that is not first.
+    /// A hit of a triangle that is not the first.
     WrongTriangle {
-        /// Whether it shares an edge or a vertex with one that is.
+        /// `true` if it shares an edge or a vertex with a first triangle.
         adjacent: bool,
     },
 }
 
-/// The error of a t against the exact one. Both figures are infinite for a t that is not finite.
+/// Error of t against the exact value. Both errors are infinite for a t that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TError {
     /// |t - exact|, correctly rounded.
     pub absolute: f64,
-    /// |t - exact| / exact, correctly rounded; 0 when both are zero, infinite when only the exact t is.
+    /// |t - exact| / exact, correctly rounded; 0 if both are zero, infinite if only the exact t is.
     pub relative: f64,
 }
 
-/// A verdict, and the error of t where both sides have one.
+/// Verdict with the error of t where both sides have one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
-    /// What happened.
+    /// Verdict on the hit.
     pub verdict: HitVerdict,
-    /// For [`HitVerdict::Right`] hits and [`HitVerdict::WrongTriangle`]: t against the true first t.
+    /// Error against the exact first t, for [`HitVerdict::Right`] hits and [`HitVerdict::WrongTriangle`].
     pub t_error: Option<TError>,
 }
 
-/// Judges a candidate against the true first hit (`None`: the ray hits nothing).
+/// Classifies a candidate against the exact first hit (`None`: the ray hits nothing).
 pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -> Judgement {
     let (verdict, t_error) = match (truth, candidate.triangle) {
         (None, None) => (HitVerdict::Right, None),
@@ -67,7 +67,7 @@ pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -
     Judgement { verdict, t_error }
 }
 
-/// The error of a t against an exact one, computed exactly and rounded once.
+/// Computes the error of t against an exact value, exactly and rounded once.
 pub fn t_error(exact: &ExactT, t: f32) -> TError {
     if !t.is_finite() {
         return TError { absolute: f64::INFINITY, relative: f64::INFINITY };
@@ -95,7 +95,7 @@ pub fn t_error(exact: &ExactT, t: f32) -> TError {
     TError { absolute, relative }
 }
 
-/// A finite, non-negative f32 in units of 2^-149.
+/// Converts a finite, non-negative f32 to units of 2^-149.
 fn whole_units(value: f32) -> BigUint {
     let bits = value.to_bits();
     match bits >> 23 {
@@ -111,7 +111,7 @@ mod tests {
     use crate::geom::exact::{self, Sides};
     use approx::assert_abs_diff_eq;
 
-    /// Two triangles that share an edge in z = 0, one that touches a corner, one far off.
+    /// Two triangles that share an edge in z = 0, one that touches a corner, one far away.
     fn scene() -> Mesh {
         let positions = vec![
             [0.0, 0.0, 0.0],

@@ -7,9 +7,9 @@ use super::vector::{narrow, unit, wide};
 use glam::DVec3;
 
 impl Mesh {
-    /// The mesh with a normal per corner: the mean of the triangles at the corner's place whose normals lie within an
-    /// angle of the corner's own triangle, weighted by area. `cosine` is that of the angle. Vertices with several
-    /// normals are repeated; triangles keep their order, vertices their texture coordinates.
+    /// Returns the mesh with a normal per corner: the mean of the triangles at the corner's position whose normals lie
+    /// within an angle of the corner's own triangle, weighted by area. `cosine` is that of the angle. Vertices with
+    /// several normals are repeated; triangles keep their order, vertices their texture coordinates.
     #[must_use]
     pub fn creased(&self, cosine: f64) -> Self {
         let areas: Vec<DVec3> = self
@@ -19,7 +19,7 @@ impl Mesh {
                 (b - a).cross(c - a)
             })
             .collect();
-        // -0 and +0 are one place.
+        // -0 and +0 are the same position.
         let place = |vertex: u32| self.positions()[vertex as usize].map(|value| (value + 0.0).to_bits());
         let mut around: BTreeMap<[u32; 3], Vec<usize>> = BTreeMap::new();
         for (triangle, corners) in self.triangles().iter().enumerate() {

@@ -7,18 +7,18 @@ use thiserror::Error;
 
 use super::vector::{unit, wide};
 
-/// Triangles that share vertices. Every index is in range and every coordinate finite: [`Mesh::new`] has checked it.
+/// Triangles that share vertices. [`Mesh::new`] guarantees that every index is in range and every coordinate finite.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mesh {
     positions: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// Per vertex, or empty.
+    /// One per vertex, or empty.
     normals: Vec<[f32; 3]>,
-    /// Per vertex, or empty.
+    /// One per vertex, or empty.
     texcoords: Vec<[f32; 2]>,
 }
 
-/// Why positions and indices make no mesh.
+/// Error of a mesh's data.
 #[non_exhaustive]
 #[derive(Debug, Clone, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -29,31 +29,32 @@ pub enum MeshError {
     /// A coordinate is NaN or infinite.
     #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
     NotFinite { vertex: usize, value: f32 },
-    /// A mesh has one normal, or one pair of texture coordinates, per vertex, or none at all.
+    /// The number of normals or texture coordinates is neither that of the vertices nor 0.
     #[error("found {found} {what}, expected one per vertex: {vertices}")]
     AttributeCount { what: &'static str, found: usize, vertices: usize },
     /// A component of a normal or a texture coordinate is NaN or infinite.
     #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
     AttributeNotFinite { what: &'static str, vertex: usize, value: f32 },
-    /// More triangles than 31 bits can name.
+    /// There are more triangles than 31 bits can number.
     #[error("found {found} triangles, expected at most {}", i32::MAX)]
     TooMany { found: usize },
 }
 
-/// How two triangles touch.
+/// Contact of two triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Contact {
-    /// They have no corner in common.
+    /// No common corner.
     None,
-    /// They have one corner in common.
+    /// One common corner.
     Vertex,
-    /// They have two corners in common, or all three.
+    /// Two common corners, or all three.
     Edge,
 }
 
 impl Mesh {
-    /// A mesh of positions and corner indices (counted from 0). Triangles keep their order: a triangle's place is its
-    /// id. Degenerate triangles are accepted (nothing ever hits them); count them with [`Mesh::degenerate_count`].
+    /// Creates a mesh from positions and corner indices (counted from 0). Triangles keep their order: the id of a
+    /// triangle is its index. Degenerate triangles are accepted (nothing ever hits them); count them with
+    /// [`Mesh::degenerate_count`].
     ///
     /// ```
     /// use crossbar::geom::Mesh;
@@ -89,7 +90,7 @@ impl Mesh {
         Ok(Self { positions, triangles, ..Self::default() })
     }
 
-    /// The mesh with a normal per vertex, of any length; a zero vector where none is known.
+    /// Adds a normal per vertex, of any length; a zero vector where none is known.
     ///
     /// # Errors
     /// [`MeshError`] if there is not one finite normal per vertex.
@@ -99,7 +100,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with texture coordinates per vertex.
+    /// Adds texture coordinates per vertex.
     ///
     /// # Errors
     /// [`MeshError`] if there is not one finite pair per vertex.
@@ -109,7 +110,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh with every position and normal passed through a rotation.
+    /// Rotates every position and normal.
     #[must_use]
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.positions.iter_mut().chain(&mut self.normals).for_each(|vector| *vector = rotation(*vector));
@@ -142,12 +143,12 @@ impl Mesh {
         &self.positions
     }
 
-    /// Normals per vertex as they were given; `None` of a mesh without. [`Mesh::vertex_normals`] computes them.
+    /// Normals per vertex as they were given; `None` for a mesh without. [`Mesh::vertex_normals`] computes them.
     pub fn normals(&self) -> Option<&[[f32; 3]]> {
         (!self.normals.is_empty()).then_some(&self.normals)
     }
 
-    /// Texture coordinates per vertex; `None` of a mesh without.
+    /// Texture coordinates per vertex; `None` for a mesh without.
     pub fn texcoords(&self) -> Option<&[[f32; 2]]> {
         (!self.texcoords.is_empty()).then_some(&self.texcoords)
     }
@@ -162,23 +163,23 @@ impl Mesh {
         self.triangles.len()
     }
 
-    /// Whether there is no triangle.
+    /// Returns `true` if there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The three corners of a triangle, or `None` where there is no triangle of that id.
+    /// Returns the three corners of a triangle, or `None` for an id that does not exist.
     pub fn corners(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
         let indices = self.triangles.get(triangle as usize)?;
         Some(indices.map(|index| self.positions[index as usize]))
     }
 
-    /// The corners of all triangles, in order of id.
+    /// Iterates over the corners of all triangles, in the order of ids.
     pub fn iter_corners(&self) -> impl ExactSizeIterator<Item = [[f32; 3]; 3]> + '_ {
         self.triangles.iter().map(|indices| indices.map(|index| self.positions[index as usize]))
     }
 
-    /// Smallest and largest coordinates of the vertices that triangles use; `None` without a triangle.
+    /// Smallest and largest coordinates of the vertices that triangles use; `None` without triangles.
     pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
         let mut corners = self.iter_corners().flatten();
         let first = corners.next()?;
@@ -196,13 +197,13 @@ impl Mesh {
         Some(bounds)
     }
 
-    /// The area of a triangle; 0 where there is no triangle of that id.
+    /// Area of a triangle; 0 for an id that does not exist.
     pub fn area(&self, triangle: u32) -> f64 {
         self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
     }
 
-    /// Normals per vertex: the mean of the triangles that meet there, weighted by their areas, at length 1; zero where
-    /// that has no direction.
+    /// Computes normals per vertex: the mean of the adjoining triangles, weighted by area, at length 1; zero where the
+    /// mean has no direction.
     pub fn vertex_normals(&self) -> Vec<DVec3> {
         let mut normals = vec![DVec3::ZERO; self.positions.len()];
         for (corners, indices) in self.iter_corners().zip(&self.triangles) {
@@ -212,16 +213,16 @@ impl Mesh {
         normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
     }
 
-    /// The same triangles without attributes, in which vertices at the same place are one: files repeat vertices where
-    /// normals or texture coordinates jump, which would tear [`Mesh::adjacency`] apart.
+    /// Returns the same triangles without attributes, with vertices at the same position merged: files repeat vertices
+    /// where normals or texture coordinates jump, which would disconnect [`Mesh::adjacency`].
     pub fn welded(&self) -> Self {
         let mut welder = Welder::default();
         let triangles = self.iter_corners().map(|corners| corners.map(|position| welder.vertex(position))).collect();
         Self { positions: welder.into_positions(), triangles, ..Self::default() }
     }
 
-    /// How two triangles touch. Corners are compared by position, so a mesh whose file repeats its vertices is judged
-    /// like one that shares them. `None` also for an id that does not exist.
+    /// Contact of two triangles. Corners are compared by position, so that a mesh whose file repeats its vertices is
+    /// treated like one that shares them. [`Contact::None`] also for an id that does not exist.
     pub fn contact(&self, a: u32, b: u32) -> Contact {
         let (Some(a), Some(b)) = (self.corners(a), self.corners(b)) else {
             return Contact::None;
@@ -233,19 +234,19 @@ impl Mesh {
         }
     }
 
-    /// Whether two triangles share an edge or a vertex.
+    /// Returns `true` if two triangles share an edge or a vertex.
     pub fn are_adjacent(&self, a: u32, b: u32) -> bool {
         self.contact(a, b) != Contact::None
     }
 }
 
-/// The normal of a triangle, twice as long as its area.
+/// Normal of a triangle, with twice its area as length.
 fn area_vector(corners: [[f32; 3]; 3]) -> DVec3 {
     let [a, b, c] = corners.map(wide);
     (b - a).cross(c - a)
 }
 
-/// Collects triangles and shares their vertices: corners at the bit-identical place become one vertex.
+/// Builder that merges vertices with bit-identical positions.
 #[derive(Debug, Default)]
 pub(crate) struct Welder {
     positions: Vec<[f32; 3]>,
@@ -253,7 +254,7 @@ pub(crate) struct Welder {
 }
 
 impl Welder {
-    /// The vertex at a place, new or known. -0 and +0 are one place.
+    /// Returns the index of the vertex at a position, new or known. -0 and +0 are equal.
     pub(crate) fn vertex(&mut self, position: [f32; 3]) -> u32 {
         let position = position.map(|value| value + 0.0);
         let next = self.positions.len() as u32;
@@ -264,12 +265,12 @@ impl Welder {
         index
     }
 
-    /// The place of a vertex that [`Welder::vertex`] has named.
+    /// Position of a vertex with an index returned by [`Welder::vertex`].
     pub(crate) fn position(&self, index: u32) -> [f32; 3] {
         self.positions[index as usize]
     }
 
-    /// The vertices in the order in which they were first seen.
+    /// Vertex positions in the order of their first use.
     pub(crate) fn into_positions(self) -> Vec<[f32; 3]> {
         self.positions
     }

@@ -1,12 +1,12 @@
-//! Meshes, rays, the teapot, and what is true of them.
+//! Meshes, rays, the teapot, and exact ray-triangle intersection.
 //!
-//! - [`mesh`]: triangles with shared vertices, validated once, so that nothing behind it has to check an index again;
-//! - [`adjacency`]: which triangles meet at each edge;
+//! - [`mesh`]: triangles with shared vertices, validated once, so that no later code has to check an index;
+//! - [`adjacency`]: edges and the triangles that share them;
 //! - [`teapot`]: the Utah teapot at any rate of tessellation;
 //! - [`exact`]: which triangle a ray hits first, decided in exact arithmetic: the ground truth of the studies;
-//! - [`classify`]: a renderer's answer held against that truth;
+//! - [`classify`]: a renderer's hit compared with that ground truth;
 //! - [`aimed`]: rays aimed at shared edges and vertices, where inconsistent arithmetic leaks;
-//! - [`vector`]: what glam's vectors lack; [`UnitFrame`]: coordinates in units of a body's size;
+//! - [`vector`]: conversions and normalisation that glam lacks; [`UnitFrame`]: coordinates in units of a body's size;
 //! - [`random`]: a counter-based random number generator.
 
 pub mod adjacency;

@@ -1,12 +1,12 @@
-//! Surfaces whose triangles do not all run the same way round.
+//! Consistent orientation of surfaces.
 
 use super::{Adjacency, Mesh};
 
 impl Mesh {
-    /// The triangles to turn round so that neighbours run through their common edge in opposite ways, in rising order.
-    /// Corners count as one vertex where they are at one place. Of each connected surface the smaller part is turned,
+    /// Returns the triangles to flip so that neighbours traverse their common edge in opposite directions, in ascending
+    /// order. Corners at the same position count as one vertex. Of each connected surface the smaller part is flipped,
     /// of equal parts the one without its first triangle. Only edges of exactly two triangles connect, and a surface
-    /// that has no consistent orientation (a Moebius strip) stays as it is.
+    /// without a consistent orientation (a Moebius strip) is left unchanged.
     ///
     /// ```
     /// use crossbar::geom::Mesh;
@@ -22,7 +22,7 @@ impl Mesh {
     pub fn misoriented(&self) -> Vec<u32> {
         let welded = self.welded();
         let adjacency = welded.adjacency();
-        // Whether a triangle runs as the first of its surface does.
+        // `Some(true)` if a triangle has the orientation of the first of its surface.
         let mut same_way: Vec<Option<bool>> = vec![None; welded.len()];
         let mut wrong = Vec::new();
         for first in 0..welded.len() as u32 {
@@ -34,8 +34,7 @@ impl Mesh {
         wrong
     }
 
-    /// The mesh with some triangles turned round: their second and third corners change places. Ids that do not exist
-    /// are passed over.
+    /// Flips some triangles: exchanges their second and third corners. Ids that do not exist are ignored.
     #[must_use]
     pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         self.turn_round(triangles);
@@ -43,7 +42,7 @@ impl Mesh {
     }
 }
 
-/// The part to turn round of the surface of a triangle; empty where there is none.
+/// Returns the part of a triangle's surface to flip; empty if there is none.
 fn smaller_part(mesh: &Mesh, adjacency: &Adjacency, first: u32, same_way: &mut [Option<bool>]) -> Vec<u32> {
     let (mut parts, mut orientable, mut waiting) = ([Vec::new(), Vec::new()], true, vec![first]);
     same_way[first as usize] = Some(true);
@@ -72,7 +71,7 @@ fn smaller_part(mesh: &Mesh, adjacency: &Adjacency, first: u32, same_way: &mut [
     }
 }
 
-/// Whether a triangle runs through an edge from its first vertex to its second.
+/// Returns `true` if a triangle traverses an edge from its first vertex to its second.
 fn runs_forward(mesh: &Mesh, triangle: u32, [from, to]: [u32; 2]) -> bool {
     let [a, b, c] = mesh.triangles()[triangle as usize];
     [[a, b], [b, c], [c, a]].contains(&[from, to])

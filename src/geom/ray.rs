@@ -1,19 +1,19 @@
-//! Rays and what they hit.
+//! Rays and hits.
 
 use thiserror::Error;
 
-/// A half-line `origin + t * direction`, t >= 0, on the f32 figures as given: the direction is never renormalised.
+/// Half-line `origin + t * direction`, t >= 0, with the f32 values as given: the direction is never renormalised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
     origin: [f32; 3],
     direction: [f32; 3],
 }
 
-/// Why three and three numbers are no ray.
+/// Error of a ray's origin or direction.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum RayError {
-    /// A NaN or an infinity among the six numbers.
+    /// One of the six numbers is NaN or infinite.
     #[error("expected six finite numbers, found {what} {axis} not finite")]
     NotFinite {
         /// `origin` or `direction`.
@@ -27,7 +27,7 @@ pub enum RayError {
 }
 
 impl Ray {
-    /// A ray from an origin along a direction of any length but zero.
+    /// Creates a ray from an origin along a direction of any length but zero.
     ///
     /// # Errors
     /// [`RayError`] when a number is not finite or the direction is zero.
@@ -45,12 +45,12 @@ impl Ray {
         Ok(Self { origin, direction })
     }
 
-    /// Where the ray starts (t = 0).
+    /// Origin of the ray (t = 0).
     pub fn origin(&self) -> [f32; 3] {
         self.origin
     }
 
-    /// Where it goes: t counts in multiples of this vector.
+    /// Direction of the ray: t counts in multiples of this vector.
     pub fn direction(&self) -> [f32; 3] {
         self.direction
     }
@@ -62,7 +62,7 @@ impl AsRef<Self> for Ray {
     }
 }
 
-/// What a ray hits first.
+/// First hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Id of the triangle: its index in the mesh.

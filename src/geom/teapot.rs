@@ -31,13 +31,14 @@ use super::exact::{is_degenerate, ratio};
 use super::mesh::{Mesh, Welder};
 use super::teapot_table::{PATCHES, POINTS, UNITS};
 
-/// Largest rate of tessellation (4 million triangles; beyond it the poles' slivers come near the resolution of f32).
+/// Maximum rate of tessellation (4 million triangles; beyond it the slivers at the poles approach the resolution of
+/// f32).
 pub const MAX_RATE: u32 = 256;
 
-/// The rate at which the teapot has about the 9,000 triangles of a classic test model (9,120).
+/// Rate at which the teapot has about the 9,000 triangles of a classic test model (9,120).
 pub const DEFAULT_RATE: u32 = 12;
 
-/// Why there is no teapot.
+/// Error of the teapot's parameters.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -47,22 +48,22 @@ pub enum TeapotError {
     Rate { found: u32 },
 }
 
-/// A part of the teapot.
+/// Part of the teapot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TeapotPart {
-    /// Lip and wall, patches 0 to 11.
+    /// Lip and wall: patches 0 to 11.
     Body,
     /// Patches 12 to 15.
     Handle,
     /// Patches 16 to 19.
     Spout,
-    /// With its knob, patches 20 to 27.
+    /// Lid with its knob: patches 20 to 27.
     Lid,
     /// Patches 28 to 31, joined to the body.
     Bottom,
 }
 
-/// The part that a patch (0 to 31) belongs to.
+/// Returns the part that a patch (0 to 31) belongs to.
 pub fn part_of_patch(patch: u32) -> TeapotPart {
     match patch {
         0..=11 => TeapotPart::Body,
@@ -73,16 +74,16 @@ pub fn part_of_patch(patch: u32) -> TeapotPart {
     }
 }
 
-/// A tessellated teapot.
+/// Tessellated teapot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Teapot {
-    /// The surface.
+    /// Mesh of the surface.
     pub mesh: Mesh,
-    /// The patch (0 to 31) that each triangle lies on.
+    /// Patch (0 to 31) of each triangle.
     pub patch_of: Vec<u8>,
 }
 
-/// The teapot's mesh with `rate` x `rate` quads per patch, two triangles each.
+/// Builds the teapot's mesh with `rate` x `rate` quads per patch, two triangles each.
 ///
 /// ```
 /// let mesh = crossbar::geom::teapot::teapot(6).expect("a rate in range");
@@ -95,7 +96,7 @@ pub fn teapot(rate: u32) -> Result<Mesh, TeapotError> {
     tessellate(rate).map(|teapot| teapot.mesh)
 }
 
-/// As [`teapot`], with the patch of every triangle.
+/// Like [`teapot`], with the patch of every triangle.
 ///
 /// # Errors
 /// [`TeapotError::Rate`] for a rate outside 1 to [`MAX_RATE`].
@@ -120,7 +121,7 @@ pub fn tessellate(rate: u32) -> Result<Teapot, TeapotError> {
             for column in 0..side - 1 {
                 let at = row * side + column;
                 let [a, b, c, d] = [grid[at], grid[at + 1], grid[at + side + 1], grid[at + side]];
-                // The patches' own sense of rotation looks inwards. At a pole a = b, and one triangle remains.
+                // The patches' own orientation faces inwards. At a pole a = b, and one triangle remains.
                 for [p, q, r] in [[a, b, c], [a, c, d]] {
                     let corners = [p, q, r].map(|index| welder.position(index));
                     if !is_degenerate(&corners) {
@@ -141,8 +142,8 @@ fn bernstein(step: u32, rate: u32) -> [i128; 4] {
     [far * far * far, 3 * near * far * far, 3 * near * near * far, near * near * near]
 }
 
-/// A point of a patch: the exact fraction `sum(weights * control points) / scale`, each coordinate rounded to nearest
-/// once.
+/// Evaluates a point of a patch: the exact fraction `sum(weights * control points) / scale`, each coordinate rounded to
+/// nearest once.
 fn point(control: &[u16; 16], row: &[i128; 4], column: &[i128; 4], scale: &BigUint) -> [f32; 3] {
     let mut sum = [0_i128; 3];
     for (index, &number) in control.iter().enumerate() {
@@ -169,7 +170,7 @@ mod tests {
         assert!(mesh.positions().contains(&[2.8, 0.0, 2.4]), "the spout's tip");
     }
 
-    /// The places of a run of patches' control points, after a map.
+    /// Positions of the control points of a range of patches, mapped by `map`.
     fn places(patches: std::ops::Range<usize>, map: impl Fn([i32; 3]) -> [i32; 3]) -> Vec<[i32; 3]> {
         let mut places: Vec<_> =
             PATCHES[patches].iter().flatten().map(|&number| map(POINTS[usize::from(number) - 1])).collect();

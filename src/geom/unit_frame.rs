@@ -1,9 +1,9 @@
-//! Coordinates in units of a body's own size, so that the unit of length does not matter to single precision.
+//! Coordinates in units of a body's own size, so that single precision is independent of the unit of length.
 
 use glam::DVec3;
 
-/// Coordinates relative to the middle of a body's bounds, in units of a power of two that is larger than half their
-/// diagonal: the body lies within 1 of the origin.
+/// Coordinate frame of a body: relative to the centre of its bounds, in units of a power of two that exceeds half their
+/// diagonal, so that the body lies within 1 of the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnitFrame {
     center: DVec3,
@@ -11,7 +11,7 @@ pub struct UnitFrame {
 }
 
 impl UnitFrame {
-    /// Of a body's points; of none, that of the scene.
+    /// Creates the frame of a body's points; without points, the scene's own coordinates.
     pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
         let bounds = points.into_iter().fold(None, |bounds: Option<[DVec3; 2]>, p| {
             Some(bounds.map_or([p, p], |[low, high]| [low.min(p), high.max(p)]))
@@ -20,18 +20,18 @@ impl UnitFrame {
         Self { center: low / 2.0 + high / 2.0, unit: power_of_two_above((high / 2.0 - low / 2.0).length()) }
     }
 
-    /// A point of the scene in these coordinates.
+    /// Converts a point of the scene to these coordinates.
     pub fn of_scene(&self, point: DVec3) -> DVec3 {
         (point - self.center) / self.unit
     }
 
-    /// The length of the unit.
+    /// Length of the unit, in scene units.
     pub fn unit(&self) -> f64 {
         self.unit
     }
 }
 
-/// The power of two above a length; 1 for 0.
+/// Smallest power of two above a length; 1 for 0.
 fn power_of_two_above(length: f64) -> f64 {
     if length.is_normal() { f64::from_bits(((length.to_bits() >> 52) + 1) << 52) } else { 1.0 }
 }

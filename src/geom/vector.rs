@@ -1,25 +1,27 @@
-//! What glam's vectors lack: mesh coordinates to f64 and back, and a normalisation of one rounding per component.
+//! Conversion of mesh coordinates to f64 and back, and a normalisation with one rounding per component, which glam's
+//! vectors lack.
 
 use glam::DVec3;
 
-/// f32 coordinates as f64, exactly.
+/// Converts f32 coordinates to f64, exactly.
 pub fn wide(vector: [f32; 3]) -> DVec3 {
     vector.map(f64::from).into()
 }
 
-/// Each component rounded to f32.
+/// Rounds each component to f32.
 pub fn narrow(vector: DVec3) -> [f32; 3] {
     vector.as_vec3().into()
 }
 
-/// The vector divided by its length, if that is positive and finite. glam's `normalize` multiplies by the reciprocal
-/// instead, which rounds twice and gives other bits.
+/// Returns the vector divided by its length, if that is positive and finite. glam's `normalize` multiplies by the
+/// reciprocal instead, which rounds twice and gives other bits.
 pub fn unit(vector: DVec3) -> Option<DVec3> {
     let length = vector.length();
     (length > 0.0 && length.is_finite()).then(|| vector / length)
 }
 
-/// The coordinate axis that a direction follows least, the first of equals: far from parallel to it.
+/// Returns the coordinate axis along which a direction has its smallest component, the first of equals: far from
+/// parallel to it.
 pub fn least_axis(direction: DVec3) -> DVec3 {
     let size = direction.abs();
     if size.x <= size.y && size.x <= size.z {

@@ -1,31 +1,32 @@
-//! A matrix as reflections and two diagonals: the first half of a singular value decomposition.
+//! Bidiagonalisation of a matrix by reflections: the first half of a singular value decomposition.
 
 use rayon::prelude::*;
 
 use super::reflection::Reflection;
 use super::{Matrix, dot};
 
-/// Rows whose share of a product with columns is summed before it is added to the others'. Part of the result's bits.
+/// Rows per partial sum of a product with columns. Affects the bits of the result.
 const BLOCK: usize = 32;
 
-/// Work on fewer elements than this stays on one thread.
+/// Number of elements below which work stays on one thread.
 const MIN_PARALLEL_ELEMENTS: usize = 1 << 15;
 
-/// What is left of a matrix of at least as many rows as columns between reflections of its rows and of its columns.
+/// Bidiagonal form of a matrix with at least as many rows as columns, with the reflections of its rows and of its
+/// columns.
 pub(super) struct Bidiagonal {
-    /// The diagonal.
+    /// Diagonal elements.
     pub(super) diagonal: Vec<f64>,
-    /// Element i stands right of diagonal element i.
+    /// Superdiagonal elements: element i is to the right of diagonal element i.
     pub(super) above: Vec<f64>,
-    /// Reflection k is of rows k and on.
+    /// Reflection k acts on rows k and up.
     left: Vec<Option<Reflection>>,
-    /// Reflection k is of columns k + 1 and on.
+    /// Reflection k acts on columns k + 1 and up.
     right: Vec<Option<Reflection>>,
 }
 
 impl Bidiagonal {
-    /// Golub and Kahan 1965, with the two rank-one changes of a step made together, so that a step reads the matrix
-    /// twice and writes it once.
+    /// Bidiagonalises a matrix (Golub and Kahan 1965), with the two rank-one updates of a step fused, so that a step
+    /// reads the matrix twice and writes it once.
     pub(super) fn new(matrix: Matrix) -> Self {
         let mut rest = Trailing::new(matrix);
         let columns = rest.columns;
@@ -34,7 +35,7 @@ impl Bidiagonal {
         for k in 0..columns {
             let (left, diagonal) = Reflection::onto_first(column);
             found.diagonal.push(diagonal);
-            // What the last step changes, made now, while the product with this step's reflection is taken.
+            // Applies the update of the last step, fused with the product of this step's reflection.
             let product = rest.changed_product(k, change.take(), left.as_ref());
             if k + 1 == columns {
                 found.left.push(left);
@@ -54,14 +55,14 @@ impl Bidiagonal {
         found
     }
 
-    /// A left vector of the two diagonals, taken back to one of the matrix.
+    /// Transforms a left singular vector of the bidiagonal form to one of the matrix.
     pub(super) fn to_left(&self, vector: &mut [f64]) {
         for (k, reflection) in self.left.iter().enumerate().rev() {
             reflection.iter().for_each(|reflection| reflection.apply(&mut vector[k..]));
         }
     }
 
-    /// A right vector of the two diagonals, taken back to one of the matrix.
+    /// Transforms a right singular vector of the bidiagonal form to one of the matrix.
     pub(super) fn to_right(&self, vector: &mut [f64]) {
         for (k, reflection) in self.right.iter().enumerate().rev() {
             reflection.iter().for_each(|reflection| reflection.apply(&mut vector[k + 1..]));
@@ -69,8 +70,8 @@ impl Bidiagonal {
     }
 }
 
-/// What a step takes from the rows and columns behind it: from element (i, j) `left[i] beside[j] + product[i]
-/// right[j]`. Vectors count from the first row and column behind the step.
+/// Rank-two update of a step, subtracted from the trailing rows and columns: from element (i, j) `left[i] beside[j] +
+/// product[i] right[j]`. Vectors start at the first row and column after the step.
 struct Change {
     left: Vec<f64>,
     beside: Vec<f64>,
@@ -78,7 +79,7 @@ struct Change {
     right: Vec<f64>,
 }
 
-/// The matrix while it becomes bidiagonal: rows and columns from the current step on are still to be done.
+/// Matrix during the reduction: rows and columns from the current step on are still to be reduced.
 struct Trailing {
     rows: usize,
     columns: usize,
@@ -95,7 +96,7 @@ impl Trailing {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// A column from its diagonal element down.
+    /// Column from its diagonal element down.
     fn column(&self, column: usize) -> Vec<f64> {
         (column..self.rows).map(|row| self.row(row)[column]).collect()
     }
@@ -104,8 +105,8 @@ impl Trailing {
         (self.rows - step) * (self.columns - step) < MIN_PARALLEL_ELEMENTS
     }
 
-    /// Makes the change of the step before, and gives the product of the reflection's axis with the columns from `step`
-    /// on, divided by its half: block by block of rows, the blocks added in order.
+    /// Applies the update of the last step, and returns the product of the reflection's axis with the columns from
+    /// `step` on, divided by its half: block by block of rows, the blocks added in order.
     fn changed_product(&mut self, step: usize, change: Option<Change>, left: Option<&Reflection>) -> Vec<f64> {
         let (columns, small, width) = (self.columns, self.is_small(step), self.columns - step);
         let first_block = step / BLOCK;
@@ -145,7 +146,7 @@ impl Trailing {
         product
     }
 
-    /// What a step takes away, from its reflections and the product of the first with the columns behind.
+    /// Computes the update of a step, from its reflections and the product of the first with the trailing columns.
     fn change(&self, step: usize, left: Option<&Reflection>, beside: Vec<f64>, right: Option<&Reflection>) -> Change {
         let behind = self.rows - step - 1;
         let left = left.map_or_else(|| vec![0.0; behind], |left| left.axis[1..].to_vec());
@@ -165,7 +166,7 @@ impl Trailing {
         Change { left, beside, product, right: right.axis.clone() }
     }
 
-    /// The column behind a step, from its diagonal element down, as it will be once the step's change is made.
+    /// Column after a step, from its diagonal element down, with the step's update applied.
     fn next_column(&self, step: usize, change: &Change) -> Vec<f64> {
         let [beside, right] = [&change.beside, &change.right].map(|of| of.first().copied().unwrap_or(0.0));
         let value = |row: usize| {

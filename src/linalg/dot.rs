@@ -1,10 +1,11 @@
 //! The inner product.
 
-/// Partial sums side by side: enough to keep a processor's adders busy.
+/// Number of parallel partial sums: enough to keep a processor's adders busy.
 const LANES: usize = 8;
 
-/// The inner product of two vectors, as long as the shorter one. Element k goes to partial sum k mod 8; the eight are
-/// folded as a tree. With n elements the result is within `(n / 8 + 4) 2^-53` of the sum of the products' magnitudes.
+/// Inner product of two vectors, up to the length of the shorter one. Element k is added to partial sum k mod 8; the
+/// eight are folded as a tree. With n elements the error is at most `(n / 8 + 4) 2^-53` times the sum of the products'
+/// magnitudes.
 #[inline(always)]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];

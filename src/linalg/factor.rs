@@ -1,35 +1,35 @@
-//! Orthogonal factorisations. Signs that the mathematics leaves open are fixed: see each.
+//! Orthogonal factorisations, with a fixed choice of the arbitrary signs.
 
 use nalgebra::{DMatrix, DVector, Dyn};
 use thiserror::Error;
 
 use super::{Matrix, MatrixError};
 
-/// Iterations per row or column after which an eigenvalue or singular value counts as not found.
+/// Maximum iterations per row or column before an eigenvalue or singular value counts as not converged.
 const MAX_ITERATIONS: usize = 100;
 
-/// Why a matrix has no such factorisation.
+/// Error of a factorisation.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FactorError {
-    /// An element that is infinite or no number.
+    /// An element is infinite or NaN.
     #[error("expected finite elements, found {found} that are not")]
     NotFinite { found: usize },
-    /// The iteration did not end.
+    /// The iteration did not converge.
     #[error(
         "expected eigenvalues or singular values of {rows} x {columns} elements within {MAX_ITERATIONS} iterations each"
     )]
     NoConvergence { rows: usize, columns: usize },
-    /// Columns that depend on each other, or more columns than rows.
+    /// The columns are linearly dependent, or there are more columns than rows.
     #[error(
         "expected {columns} independent columns, found column {column} (counted from 0) to depend on those before it"
     )]
     RankDeficient { columns: usize, column: usize },
-    /// An eigenvalue and its vector that do not belong together: rounding has spoilt the factorisation.
+    /// The residual of an eigenpair is too large: rounding errors have spoilt the factorisation.
     #[error("expected eigenvectors with A v = lambda v, found some of {size} x {size} elements that are not")]
     Residual { size: usize },
-    /// A matrix that is needed on the way cannot be made.
+    /// An intermediate matrix is too large.
     #[error(transparent)]
     Matrix(#[from] MatrixError),
 }
@@ -44,10 +44,10 @@ pub struct SymmetricEigen {
 }
 
 impl SymmetricEigen {
-    /// Of a symmetric matrix, of which only the lower triangle is read.
+    /// Decomposes a symmetric matrix, of which only the lower triangle is read.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the iteration does not end.
+    /// [`FactorError`] if an element is not finite, or the iteration does not converge.
     ///
     /// # Panics
     /// If the matrix is not square.
@@ -67,7 +67,7 @@ impl SymmetricEigen {
     }
 }
 
-/// The thin singular value decomposition: `left` times the diagonal matrix of `values` times `right`.
+/// Thin singular value decomposition: `left` times the diagonal matrix of `values` times `right`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svd {
     /// Orthonormal columns, as many as there are values.
@@ -79,10 +79,10 @@ pub struct Svd {
 }
 
 impl Svd {
-    /// Of any matrix.
+    /// Decomposes a matrix.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the iteration does not end.
+    /// [`FactorError`] if an element is not finite, or the iteration does not converge.
     pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let values = finite(matrix)?;
@@ -104,15 +104,15 @@ impl Svd {
     }
 }
 
-/// The QR factorisation of a matrix of independent columns, by Householder reflections.
+/// QR factorisation of a matrix of independent columns, by Householder reflections.
 #[derive(Clone, Debug)]
 pub struct Qr(nalgebra::QR<f64, Dyn, Dyn>);
 
 impl Qr {
-    /// Of a matrix with at least as many rows as columns.
+    /// Factors a matrix with at least as many rows as columns.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, or the columns depend on each other.
+    /// [`FactorError`] if an element is not finite, or the columns are linearly dependent.
     pub fn new(matrix: &Matrix) -> Result<Self, FactorError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         let values = finite(matrix)?;
@@ -128,10 +128,10 @@ impl Qr {
         }
     }
 
-    /// The x for which the matrix times x is nearest to `right`: least squares.
+    /// Solves the least-squares problem: the x for which the matrix times x is nearest to `right`.
     ///
     /// # Panics
-    /// If `right` has not one element per row.
+    /// If `right` does not have one element per row.
     pub fn least_squares(&self, right: &[f64]) -> Vec<f64> {
         let mut projected = DVector::from_column_slice(right);
         self.0.q_tr_mul(&mut projected);

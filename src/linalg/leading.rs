@@ -1,14 +1,14 @@
 //! The largest eigenvalues of a symmetric matrix with their eigenvectors.
 //!
-//! Householder reflections make the matrix tridiagonal, implicit QL rotations make that diagonal. The rotations are
-//! recorded and applied to the wanted columns alone, so `count` vectors of n cost O(n^2 count) beside the 4/3 n^3
-//! operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
+//! The matrix is reduced to tridiagonal form by Householder reflections, and diagonalised by implicit QL rotations. The
+//! rotations are recorded and applied only to the requested columns, so `count` vectors of n cost O(n^2 count) beside
+//! the 4/3 n^3 operations of the reduction; all n of [`SymmetricEigen`](super::SymmetricEigen) cost several times that.
 
 use super::reflection::{NEGLIGIBLE_SQUARE, Reflection, inverse_power_of_two};
 use super::tridiagonal::{diagonalise, rotated};
 use super::{FactorError, Matrix, dot};
 
-/// The residual |A v - lambda v| of a pair that is accepted, as a share of the infinity norm of A.
+/// Maximum accepted residual |A v - lambda v| of an eigenpair, relative to the infinity norm of A.
 pub(super) const MAX_RESIDUAL: f64 = 1e-10;
 
 /// All eigenvalues of a symmetric matrix, and the eigenvectors of the largest.
@@ -21,13 +21,13 @@ pub struct LeadingEigen {
 }
 
 impl LeadingEigen {
-    /// Of a symmetric matrix, of which only the lower triangle is read: the eigenvectors of its `count` largest
-    /// eigenvalues, or of all if it has fewer. Inlined, so that who calls it may compile it for wider vector
-    /// instructions, which change no bit.
+    /// Decomposes a symmetric matrix, of which only the lower triangle is read: computes the eigenvectors of its
+    /// `count` largest eigenvalues, or of all if it has fewer. Inlined, so that the caller can compile it for wider
+    /// vector instructions, which change no bit.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, the iteration does not end, or a pair does not satisfy
-    /// A v = lambda v.
+    /// [`FactorError`] if an element is not finite, the iteration does not converge, or a pair does not satisfy A v =
+    /// lambda v.
     ///
     /// # Panics
     /// If the matrix is not square.
@@ -68,7 +68,7 @@ impl LeadingEigen {
     }
 }
 
-/// Changes the sign of a vector whose component of largest magnitude, the first of equals, is negative.
+/// Negates a vector whose component of largest magnitude, the first of equals, is negative.
 pub fn make_largest_positive(vector: &mut [f64]) {
     let mut largest = 0.0_f64;
     vector.iter().for_each(|&value| largest = if value.abs() > largest.abs() { value } else { largest });
@@ -77,7 +77,7 @@ pub fn make_largest_positive(vector: &mut [f64]) {
     }
 }
 
-/// The lower triangle of a symmetric matrix times a power of two that brings its largest magnitude near 1.
+/// Lower triangle of a symmetric matrix, scaled by a power of two that brings its largest magnitude near 1.
 #[derive(Clone)]
 struct Lower {
     /// Row i has i + 1 elements.
@@ -85,11 +85,12 @@ struct Lower {
     scale: f64,
 }
 
-/// Reflections and what is left between them: the diagonal, and the elements beside it (element i beside i and i + 1).
+/// Tridiagonal form with its reflections: the diagonal, and the off-diagonal elements (element i is between i and i +
+/// 1).
 struct Tridiagonal {
     diagonal: Vec<f64>,
     beside: Vec<f64>,
-    /// In the order in which they take a vector of the tridiagonal matrix back to one of the original.
+    /// In the order in which they transform a vector of the tridiagonal matrix to one of the original.
     reflections: Vec<Reflection>,
 }
 
@@ -105,7 +106,7 @@ impl Lower {
         Ok(Self { rows: lower().map(|row| row.iter().map(|value| value * scale).collect()).collect(), scale })
     }
 
-    /// The largest sum of magnitudes of a row of the whole matrix.
+    /// Infinity norm of the whole matrix: its maximum absolute row sum.
     fn infinity_norm(&self) -> f64 {
         let mut sums = vec![0.0; self.rows.len()];
         for (i, row) in self.rows.iter().enumerate() {
@@ -117,7 +118,7 @@ impl Lower {
         sums.into_iter().fold(0.0, f64::max)
     }
 
-    /// The product of the first rows and columns, as many as `vector` has elements, with it.
+    /// Product of the leading rows and columns, as many as `vector` has elements, with it.
     #[inline(always)]
     fn times(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];
@@ -129,10 +130,10 @@ impl Lower {
         product
     }
 
-    /// The infinity norm of A v - lambda v.
+    /// Infinity norm of A v - lambda v.
     fn residual(&self, vector: &[f64], value: f64) -> f64 {
         let product = self.times(vector);
-        // Not f64::max, which would pass over NaN.
+        // Not f64::max, which ignores NaN.
         let differences = product.iter().zip(vector).map(|(product, v)| (product - value * v).abs());
         differences.fold(0.0, |largest, difference| if difference <= largest { largest } else { difference })
     }
@@ -176,7 +177,7 @@ mod tests {
     use crate::linalg::SymmetricEigen;
     use approx::assert_abs_diff_eq;
 
-    /// A symmetric matrix of whole numbers from a rule.
+    /// Symmetric matrix of integers from a rule.
     fn matrix(size: usize, rule: impl Fn(usize, usize) -> f64) -> Matrix {
         let values = (0..size * size).map(|at| rule((at / size).max(at % size), (at / size).min(at % size)));
         Matrix::new([size; 2], values.collect()).expect("a matrix")

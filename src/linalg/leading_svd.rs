@@ -1,9 +1,10 @@
 //! All singular values of a matrix, with the vectors of the largest.
 //!
-//! Reflections of rows and columns make the matrix bidiagonal. Its singular values are the eigenvalues, each with both
-//! signs, of the symmetric tridiagonal matrix with zeros in the diagonal and the elements of the two diagonals beside
-//! it in turn (Golub and Kahan 1965), whose eigenvectors are right and left vector in turn. Nothing is squared: values
-//! are right to some roundings of the largest, where those by Q^T Q would lose half of the digits.
+//! Reflections of rows and columns reduce the matrix to bidiagonal form. Its singular values are the eigenvalues, each
+//! with both signs, of the symmetric tridiagonal matrix with zeros in the diagonal and the elements of the two
+//! diagonals beside it in turn (Golub and Kahan 1965), whose eigenvectors are right and left vector in turn. Since
+//! nothing is squared, values are accurate to a few roundings of the largest, where those of Q^T Q would lose half of
+//! the digits.
 
 use rayon::prelude::*;
 
@@ -18,23 +19,23 @@ use super::{FactorError, Matrix, dot};
 pub struct LeadingSvd {
     /// All singular values, the largest first: as many as the matrix has rows or columns, whichever is fewer.
     pub values: Vec<f64>,
-    /// Values that are told from 0: those above the largest times 2^-52 times the number of rows or columns, whichever
-    /// is more.
+    /// Numerical rank: the number of values above the largest times 2^-52 times the number of rows or columns,
+    /// whichever is larger.
     pub rank: usize,
-    /// Row k is the unit left vector of value k: an element per row of the matrix.
+    /// Row k is the unit left singular vector of value k: an element per row of the matrix.
     pub left: Matrix,
-    /// Row k is the unit right vector of value k: an element per column. Its component of largest magnitude is
+    /// Row k is the unit right singular vector of value k: an element per column. Its component of largest magnitude is
     /// positive.
     pub right: Matrix,
 }
 
 impl LeadingSvd {
-    /// Of any matrix: the vectors of its `count` largest singular values, or of all that are told from 0 if these are
-    /// fewer. The bits do not depend on the number of threads.
+    /// Decomposes a matrix: computes the vectors of its `count` largest singular values, or of all within
+    /// [`Self::rank`] if these are fewer. The bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`FactorError`] if an element is not finite, the iteration does not end, or a pair of vectors does not satisfy
-    /// A v = sigma u.
+    /// [`FactorError`] if an element is not finite, the iteration does not converge, or a pair of vectors does not
+    /// satisfy A v = sigma u.
     pub fn new(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
         if matrix.row_count() < matrix.column_count() {
             let Self { values, rank, left, right } = Self::of_tall(&matrix.transposed(), count)?;
@@ -43,7 +44,7 @@ impl LeadingSvd {
         Ok(Self::of_tall(matrix, count)?.with_signs())
     }
 
-    /// Of a matrix of at least as many rows as columns.
+    /// Decomposes a matrix with at least as many rows as columns.
     fn of_tall(matrix: &Matrix, count: usize) -> Result<Self, FactorError> {
         let found = matrix.rows().flatten().filter(|value| !value.is_finite()).count();
         if found > 0 {
@@ -79,7 +80,7 @@ impl LeadingSvd {
         Ok(found)
     }
 
-    /// Takes the tridiagonal matrix's vectors back to the matrix's, and checks them.
+    /// Transforms the tridiagonal matrix's vectors to the matrix's, and checks them.
     fn fill(
         &mut self,
         matrix: &Matrix,
@@ -129,7 +130,7 @@ impl LeadingSvd {
     }
 }
 
-/// No vectors, of so many elements each.
+/// Empty matrix of vectors with this many elements.
 fn none(elements: usize) -> Matrix {
     Matrix::zeros([0, elements]).expect("no elements")
 }
@@ -150,7 +151,7 @@ mod tests {
             .expect("a small matrix")
     }
 
-    /// Left times values times right.
+    /// Product of left vectors, values and right vectors.
     fn product(svd: &LeadingSvd) -> Matrix {
         let mut right = svd.right.clone();
         for (k, value) in svd.values.iter().enumerate().take(right.row_count()) {
@@ -189,7 +190,7 @@ mod tests {
         }
     }
 
-    /// Squares of the small values would vanish beside the square of the largest.
+    /// Squares of the small values would underflow relative to the square of the largest.
     #[test]
     fn small_values_keep_their_digits() {
         let m = matrix([20, 20], |i, j| if i == j { (0..i).fold(1.0, |value, _| value * 0.25) } else { 0.0 });
@@ -225,7 +226,7 @@ mod tests {
         assert_eq!(LeadingSvd::new(&matrix([0, 0], |_, _| 0.0), 2).expect("none").values, [0.0; 0]);
     }
 
-    /// Zero rows and columns between others: what maps have beyond their rim.
+    /// Zero rows and columns between others, as maps have beyond their rim.
     #[test]
     fn zeros_in_between_change_nothing() {
         let inner = |i: usize, j: usize| 1.0 / (1.0 + i as f64 + 2.0 * j as f64);

@@ -5,15 +5,15 @@ use thiserror::Error;
 
 use super::Matrix;
 
-/// A square matrix as the product of a lower and an upper triangle, rows exchanged.
+/// LU factorisation of a square matrix with row exchanges.
 #[derive(Clone, Debug)]
 pub struct Lu(nalgebra::LU<f64, Dyn, Dyn>);
 
-/// The matrix has no inverse that f64 could tell from none.
+/// Error: the matrix is singular to f64 precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected an invertible matrix, found no pivot in column {column} (counted from 0)")]
 pub struct Singular {
-    /// The first column without a pivot.
+    /// First column without a pivot.
     pub column: usize,
 }
 
@@ -35,10 +35,10 @@ impl Lu {
         }
     }
 
-    /// The x for which the matrix times x is `right`.
+    /// Solves for the x for which the matrix times x is `right`.
     ///
     /// # Panics
-    /// If `right` has not one element per row.
+    /// If `right` does not have one element per row.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut x = DVector::from_column_slice(right);
         let solved = self.0.solve_mut(&mut x);

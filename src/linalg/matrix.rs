@@ -1,4 +1,4 @@
-//! Dense matrices by rows.
+//! Dense matrices, stored by rows.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -6,15 +6,15 @@ use thiserror::Error;
 
 use super::dot;
 
-/// Rows of the largest square matrix.
+/// Maximum number of rows of a square matrix.
 pub const MAX_SQUARE: usize = 16_384;
-/// Elements of the largest matrix: 2 GiB of f64.
+/// Maximum number of elements of a matrix: 2 GiB of f64.
 pub const MAX_ELEMENTS: usize = MAX_SQUARE * MAX_SQUARE;
 
-/// Products of fewer elements than this stay on one thread.
+/// Number of elements below which products stay on one thread.
 const MIN_PARALLEL_ELEMENTS: usize = 1 << 16;
 
-/// A matrix of f64, row by row.
+/// Matrix of f64, stored by rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrix {
     rows: usize,
@@ -22,12 +22,12 @@ pub struct Matrix {
     values: Vec<f64>,
 }
 
-/// Why a matrix cannot be made.
+/// Error of creating a matrix.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MatrixError {
-    /// Too many elements.
+    /// There are too many elements.
     #[error(
         "expected a matrix of at most {MAX_ELEMENTS} elements ({MAX_SQUARE} x {MAX_SQUARE}), found {rows} x {columns}"
     )]
@@ -38,10 +38,10 @@ pub enum MatrixError {
 }
 
 impl Matrix {
-    /// A matrix of so many rows and columns.
+    /// Creates a matrix from rows, columns and values.
     ///
     /// # Errors
-    /// [`MatrixError`] if it is too large, or the values do not fill it.
+    /// [`MatrixError`] if it is too large, or the number of values is wrong.
     pub fn new([rows, columns]: [usize; 2], values: Vec<f64>) -> Result<Self, MatrixError> {
         if elements([rows, columns])? != values.len() {
             return Err(MatrixError::Count { rows, columns, values: values.len() });
@@ -49,7 +49,7 @@ impl Matrix {
         Ok(Self { rows, columns, values })
     }
 
-    /// A matrix of zeros.
+    /// Creates a matrix of zeros.
     ///
     /// # Errors
     /// [`MatrixError::TooLarge`].
@@ -57,22 +57,22 @@ impl Matrix {
         Ok(Self { rows, columns, values: vec![0.0; elements([rows, columns])?] })
     }
 
-    /// The number of rows.
+    /// Number of rows.
     pub fn row_count(&self) -> usize {
         self.rows
     }
 
-    /// The number of columns.
+    /// Number of columns.
     pub fn column_count(&self) -> usize {
         self.columns
     }
 
-    /// Whether there are as many rows as columns.
+    /// Returns `true` if there are as many rows as columns.
     pub fn is_square(&self) -> bool {
         self.rows == self.columns
     }
 
-    /// A row.
+    /// Returns a row.
     ///
     /// # Panics
     /// If there is no such row.
@@ -80,7 +80,7 @@ impl Matrix {
         &self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// A row, to be written.
+    /// Returns a mutable row.
     ///
     /// # Panics
     /// If there is no such row.
@@ -88,17 +88,17 @@ impl Matrix {
         &mut self.values[row * self.columns..(row + 1) * self.columns]
     }
 
-    /// All rows, from the first; none if they have no columns.
+    /// Iterates over all rows; empty if they have no columns.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.values.chunks_exact(self.columns.max(1))
     }
 
-    /// All rows, to be written on all threads.
+    /// Iterates over all mutable rows in parallel.
     pub fn par_rows_mut(&mut self) -> impl IndexedParallelIterator<Item = &mut [f64]> {
         self.values.par_chunks_exact_mut(self.columns.max(1))
     }
 
-    /// The elements of `count` rows at a time, row by row, to be written; fewer rows in the last block.
+    /// Iterates over mutable blocks of `count` rows; the last block may have fewer.
     ///
     /// # Panics
     /// If `count` is 0.
@@ -107,12 +107,12 @@ impl Matrix {
         self.values.chunks_mut(count * self.columns.max(1))
     }
 
-    /// The elements of the diagonal.
+    /// Elements of the diagonal.
     pub fn diagonal(&self) -> Vec<f64> {
         self.rows().take(self.columns).enumerate().map(|(i, row)| row[i]).collect()
     }
 
-    /// The product with a vector, one [`dot`] per row.
+    /// Product with a vector, one [`dot`] per row.
     pub fn times(&self, vector: &[f64]) -> Vec<f64> {
         if self.values.len() < MIN_PARALLEL_ELEMENTS {
             return self.rows().map(|row| dot(row, vector)).collect();
@@ -120,13 +120,13 @@ impl Matrix {
         self.values.par_chunks_exact(self.columns.max(1)).map(|row| dot(row, vector)).collect()
     }
 
-    /// The product with a matrix, one [`dot`] per element.
+    /// Product with a matrix, one [`dot`] per element.
     ///
     /// # Errors
     /// [`MatrixError::TooLarge`].
     ///
     /// # Panics
-    /// If the other has not as many rows as this one has columns.
+    /// If the other does not have as many rows as this one has columns.
     pub fn product(&self, other: &Self) -> Result<Self, MatrixError> {
         assert_eq!(self.columns, other.rows, "as many rows as columns");
         let (mut product, columns) = (Self::zeros([self.rows, other.columns])?, other.transposed());
@@ -136,7 +136,7 @@ impl Matrix {
         Ok(product)
     }
 
-    /// The transposed matrix.
+    /// Transposed matrix.
     pub fn transposed(&self) -> Self {
         let mut values = vec![0.0; self.values.len()];
         values.par_chunks_exact_mut(self.rows.max(1)).enumerate().for_each(|(column, into)| {

@@ -2,7 +2,7 @@
 //!
 //! - [`Matrix`]: a dense matrix by rows, and its products; [`dot`]: the inner product;
 //! - [`Lu`], [`Qr`], [`SymmetricEigen`], [`Svd`]: factorisations, by nalgebra;
-//! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, and the vectors of the largest alone.
+//! - [`LeadingEigen`], [`LeadingSvd`]: all eigenvalues or singular values, and only the vectors of the largest.
 //!
 //! The order of sums in products is our own, since nalgebra's product chooses its kernel by the processor when its
 //! `std` feature is on (docs/decisions/0016).

@@ -2,11 +2,11 @@
 
 use super::dot;
 
-/// The squared length below which part of a vector counts as 0 beside a largest element of at least 1: far below all
-/// rounding, and far above where squares of squares vanish.
+/// Squared length below which part of a vector counts as 0 relative to a largest element of at least 1: far below all
+/// rounding errors, and far above underflow of its square.
 pub(super) const NEGLIGIBLE_SQUARE: f64 = 1e-60;
 
-/// I - axis axis^T / half, on the first components.
+/// Householder reflection I - axis axis^T / half, on the first components.
 pub(super) struct Reflection {
     pub(super) axis: Vec<f64>,
     pub(super) half: f64,
@@ -18,8 +18,8 @@ impl Reflection {
         vector.iter_mut().zip(&self.axis).for_each(|(value, axis)| *value -= along * axis);
     }
 
-    /// The reflection that leaves of a vector the first component alone, and what that becomes; `None` if the others
-    /// are 0, or the whole counts as 0.
+    /// Returns the reflection that maps a vector to a multiple of the first unit vector, and that multiple; `None` if
+    /// the other components are 0, or the whole vector counts as 0.
     pub(super) fn onto_first(mut axis: Vec<f64>) -> (Option<Self>, f64) {
         let Some((&first, others)) = axis.split_first() else { return (None, 0.0) };
         let rest = dot(others, others);
@@ -34,9 +34,9 @@ impl Reflection {
     }
 }
 
-/// The power of two that brings a magnitude into [1, 2); 1 for 0.
+/// Power of two that scales a magnitude into [1, 2); 1 for 0.
 pub(super) fn inverse_power_of_two(magnitude: f64) -> f64 {
     let exponent = (magnitude.to_bits() >> 52) & 0x7ff;
-    // Beyond these, the inverse would be no normal number.
+    // Beyond these, the inverse would not be a normal number.
     if magnitude == 0.0 { 1.0 } else { f64::from_bits((2046 - exponent.clamp(1, 2045)) << 52) }
 }

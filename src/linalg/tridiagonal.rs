@@ -1,18 +1,18 @@
-//! Symmetric tridiagonal matrices: all eigenvalues by implicit QL, and some of the eigenvectors.
+//! Symmetric tridiagonal matrices: all eigenvalues by implicit QL, and selected eigenvectors.
 
 use super::FactorError;
 
-/// QL sweeps per eigenvalue after which it counts as not found.
+/// Maximum QL sweeps per eigenvalue before it counts as not converged.
 const MAX_SWEEPS: usize = 100;
 
-/// A rotation of columns `first` and `first + 1`.
+/// Rotation of columns `first` and `first + 1`.
 pub(super) struct Rotation {
     first: usize,
     cosine: f64,
     sine: f64,
 }
 
-/// Makes a tridiagonal matrix diagonal; gives the rotations in the order of their application.
+/// Diagonalises a tridiagonal matrix; returns the rotations in the order of their application.
 pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Vec<Rotation>, FactorError> {
     let size = diagonal.len();
     let norm = diagonal.iter().chain(beside.iter()).fold(0.0_f64, |norm, value| norm.max(value.abs()));
@@ -33,7 +33,7 @@ pub(super) fn diagonalise(diagonal: &mut [f64], beside: &mut [f64]) -> Result<Ve
     Ok(rotations)
 }
 
-/// One implicit QL sweep over a block that no negligible element divides, from its last pair to its first.
+/// Performs one implicit QL sweep over an unreduced block, from its last pair to its first.
 fn sweep_once(diagonal: &mut [f64], beside: &mut [f64], block: std::ops::Range<usize>, rotations: &mut Vec<Rotation>) {
     let first = block.start;
     // The shift: the eigenvalue of the first 2 x 2 block that is nearer to its first element.
@@ -48,7 +48,7 @@ fn sweep_once(diagonal: &mut [f64], beside: &mut [f64], block: std::ops::Range<u
             beside[i + 1] = length;
         }
         if length == 0.0 {
-            // The block falls apart here.
+            // The block splits here.
             diagonal[i + 1] -= moved;
             return;
         }

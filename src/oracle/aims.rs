@@ -1,4 +1,4 @@
-//! Wrong answers, counted by what the rays were aimed at.
+//! Counts of wrong hits by the aim of the rays.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,7 +9,7 @@ use super::disagreement::DisagreementKind;
 use super::hard::{Aim, HardRay};
 use super::report::Report;
 
-/// How often each kind of wrong answer occurs among the rays of each [`Aim`]. As text a table, as JSON a map.
+/// Number of wrong hits of each kind among the rays of each [`Aim`]. Displays as a table, serializes as a map.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(transparent)]
 pub struct AimCounts {
@@ -23,7 +23,7 @@ struct AimRow {
 }
 
 impl Report {
-    /// The wrong answers by aim. `rays` are the rays that were judged, in the same order.
+    /// Counts the wrong hits by aim. `rays` are the rays that were judged, in the same order.
     pub fn by_aim(&self, rays: &[HardRay]) -> AimCounts {
         let mut counts = AimCounts::default();
         for hard in rays {
@@ -38,17 +38,17 @@ impl Report {
 }
 
 impl AimCounts {
-    /// Rays of an aim.
+    /// Number of rays of an aim.
     pub fn rays(&self, aim: Aim) -> usize {
         self.rows.get(&aim).map_or(0, |row| row.rays)
     }
 
-    /// Wrong answers of one kind among the rays of an aim.
+    /// Number of wrong hits of one kind among the rays of an aim.
     pub fn count(&self, aim: Aim, kind: DisagreementKind) -> usize {
         self.rows.get(&aim).and_then(|row| row.counts.get(&kind).copied()).unwrap_or(0)
     }
 
-    /// Leaks among the rays of an aim.
+    /// Number of leaks among the rays of an aim.
     pub fn leaks(&self, aim: Aim) -> usize {
         DisagreementKind::ALL.into_iter().filter(|kind| kind.is_leak()).map(|kind| self.count(aim, kind)).sum()
     }

@@ -1,4 +1,4 @@
-//! One answer that departs from the truth.
+//! A hit that disagrees with the exact one.
 
 use std::cmp::Reverse;
 use std::fmt;
@@ -8,49 +8,48 @@ use serde::Serialize;
 use super::hard::Aim;
 use crate::geom::{ExactT, Hit, Ray, RayError};
 
-/// In what way an answer is wrong; the worst first.
+/// Kind of a wrong hit; the worst first.
 ///
-/// The last three are what rounding may do to a sound intersector: [`DisagreementKind::Silhouette`] and
-/// [`DisagreementKind::Start`] are right for a ray within a few ULPs of the one given
-/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), [`Disagreement::right_for`]. A leak is right for
-/// none of them: at an edge whose two triangles face the same way, seen along the ray, every ray nearby meets one of
+/// The last three can result from rounding in a correct intersector: [`DisagreementKind::Silhouette`] and
+/// [`DisagreementKind::Start`] are correct for a ray within a few ULPs of the one given
+/// ([`Oracle::with_nearby_ulps`](super::Oracle::with_nearby_ulps)), [`Disagreement::right_for`]. A leak is correct for
+/// no nearby ray: at an edge whose two triangles face the same way, seen along the ray, every nearby ray hits one of
 /// the two.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DisagreementKind {
-    /// A triangle that the mesh does not have.
+    /// A triangle id that the mesh does not have.
     NoSuchTriangle,
     /// No hit where there is a surface: a hole.
     Leak,
-    /// A triangle that the ray meets behind the first one, which was missed: a hole through which something else is
-    /// seen.
+    /// A triangle behind the first one, which was missed: a hole through which something else is seen.
     LeakThrough,
-    /// A hit where the ray meets nothing.
+    /// A hit where the ray hits nothing.
     FalseHit,
-    /// A triangle that the ray meets from behind, where only fronts count.
+    /// A triangle that the ray hits from behind, where only fronts count.
     BackFace,
-    /// A triangle that has nothing to do with the right one.
+    /// A triangle unrelated to the correct one.
     WrongTriangle,
-    /// A triangle that shares an edge or a vertex with the right one.
+    /// A triangle that shares an edge or a vertex with the correct one.
     WrongNeighbour,
-    /// The right triangle, at a t beyond the tolerance.
+    /// The correct triangle, at a t beyond the tolerance.
     TOff,
-    /// A surface missed, or met, beside its outline: the answer is right for a ray whose direction differs by a few
-    /// ULPs. Of a surface missed before another, it is enough that such a ray meets nothing in front of half-way to the
-    /// other: seen from far away, triangles are smaller than an ULP. Of a triangle that was met, it is enough that such
-    /// a ray passes the vertex or edge which it shares with the first one, or a corner of it as far away: at a vertex
-    /// of the outline triangles that face away tie with those in front of them.
+    /// A surface missed, or hit, beside its silhouette: the result is correct for a ray whose direction differs by a
+    /// few ULPs. If a surface was missed in front of another, it suffices that such a ray hits nothing in front of
+    /// half-way to the other: seen from far away, triangles are smaller than an ULP. If a triangle was hit, it suffices
+    /// that such a ray passes the vertex or edge which it shares with the first one, or a corner of it as far away: at
+    /// a vertex of the silhouette, triangles that face away tie with those in front of them.
     Silhouette,
-    /// A surface missed, or met, where the ray starts: the answer is right for an origin moved a few ULPs along the
+    /// A surface missed, or hit, where the ray starts: the result is correct for an origin moved a few ULPs along the
     /// ray.
     Start,
-    /// A triangle that the ray meets behind the first one by no more than the tolerance of t.
+    /// A triangle behind the first one by no more than the tolerance of t.
     NearTie,
 }
 
 impl DisagreementKind {
-    /// All of them, the worst first.
+    /// All kinds, the worst first.
     pub const ALL: [Self; 11] = [
         Self::NoSuchTriangle,
         Self::Leak,
@@ -65,19 +64,19 @@ impl DisagreementKind {
         Self::NearTie,
     ];
 
-    /// Whether a surface that is there was missed, for this ray and every ray nearby: a hole.
+    /// Returns `true` if an existing surface was missed, for this ray and every nearby ray: a hole.
     #[must_use]
     pub const fn is_leak(self) -> bool {
         matches!(self, Self::Leak | Self::LeakThrough)
     }
 
-    /// Whether a surface was hit that is not there, for this ray and every ray nearby.
+    /// Returns `true` if a surface was hit that does not exist, for this ray and every nearby ray.
     #[must_use]
     pub const fn is_false_hit(self) -> bool {
         matches!(self, Self::NoSuchTriangle | Self::FalseHit | Self::BackFace | Self::WrongTriangle)
     }
 
-    /// What to call it: `leak`, `wrong neighbour`.
+    /// Name: `leak`, `wrong neighbour`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -102,12 +101,12 @@ impl fmt::Display for DisagreementKind {
     }
 }
 
-/// What is true of a ray that hits.
+/// Exact first hit of a ray.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Expected {
-    /// All triangles at the first t, in rising order: each is right.
+    /// All triangles at the first t, in ascending order: each is correct.
     pub triangles: Vec<u32>,
-    /// The first t, in multiples of the ray's direction; in JSON the nearest double.
+    /// First t, in multiples of the ray's direction; serialized as the nearest double.
     #[serde(serialize_with = "nearest_double")]
     pub t: ExactT,
 }
@@ -116,40 +115,41 @@ fn nearest_double<S: serde::Serializer>(t: &ExactT, serializer: S) -> Result<S::
     serializer.serialize_f64(t.to_f64())
 }
 
-/// A ray whose answer is wrong.
+/// Ray with a wrong hit.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Disagreement {
-    /// Its place among the rays that were judged.
+    /// Index of the ray among those that were judged.
     pub ray: usize,
-    /// What it was aimed at, if the rays say.
+    /// Aim of the ray, if known.
     pub aim: Option<Aim>,
-    /// Where it starts.
+    /// Origin of the ray.
     pub origin: [f32; 3],
-    /// Where it goes.
+    /// Direction of the ray.
     pub direction: [f32; 3],
-    /// In what way.
+    /// Kind of error.
     pub kind: DisagreementKind,
-    /// What it truly hits, if anything.
+    /// Exact first hit, if there is one.
     pub expected: Option<Expected>,
-    /// What was found, if anything.
+    /// Hit of the intersector, if there is one.
     #[serde(serialize_with = "found")]
     pub found: Option<Hit>,
-    /// Steps from one f32 to the next between the t found and the true first t rounded to f32. `None` where only one
-    /// side has a t, or one is not finite.
+    /// Number of f32 steps between the found t and the exact first t rounded to f32. `None` where only one side has a
+    /// t, or one is not finite.
     pub t_ulps: Option<u64>,
-    /// Where the ray truly meets the triangle that was found, if it does, from either side; in JSON the nearest double.
+    /// Exact t at which the ray hits the triangle that was found, from either side, if it does; serialized as the
+    /// nearest double.
     #[serde(serialize_with = "nearest_double_if_any")]
     pub met_at: Option<ExactT>,
-    /// A ray within a few ULPs of this one for which the same triangle, or the same miss, is exactly right. Looked for
-    /// unless the triangle does not exist or is the right one.
+    /// A ray within a few ULPs of this one for which the same triangle, or the same miss, is exactly correct. Searched
+    /// for unless the triangle does not exist or is the correct one.
     #[serde(serialize_with = "ray_if_any")]
     pub right_for: Option<Ray>,
-    /// Where there is no such ray: this ray, or one within a few ULPs, that passes, within as many, the vertex or edge
-    /// which the triangle found shares with the first one that it hits, or a corner of it as far away.
+    /// If there is no such ray: this ray, or one within a few ULPs, that passes, within as many ULPs, the vertex or
+    /// edge which the triangle found shares with the first one that it hits, or a corner of it as far away.
     #[serde(serialize_with = "ray_if_any")]
     pub touched_by: Option<Ray>,
-    /// The corners of the triangle that was found; where none was, or there is none of that id, of the one expected.
+    /// Corners of the triangle that was found; if none was, or its id does not exist, of the expected one.
     pub corners: Option<[[f32; 3]; 3]>,
 }
 
@@ -166,7 +166,7 @@ fn nearest_double_if_any<S: serde::Serializer>(t: &Option<ExactT>, serializer: S
     t.as_ref().map(ExactT::to_f64).serialize(serializer)
 }
 
-/// A hit in JSON, which has no infinity and no NaN: its t is null then, and its bits say which.
+/// Serializes a hit: JSON has no infinity and no NaN, for which t is null, and its bits are given.
 fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Found {
@@ -183,16 +183,17 @@ fn found<S: serde::Serializer>(hit: &Option<Hit>, serializer: S) -> Result<S::Ok
 }
 
 impl Disagreement {
-    /// The ray, as it was given.
+    /// Returns the ray, as it was given.
     ///
     /// # Errors
-    /// [`RayError`] if the fields have been changed and are no ray any more.
+    /// [`RayError`] if the fields have been changed and are not a valid ray any more.
     pub fn ray(&self) -> Result<Ray, RayError> {
         Ray::new(self.origin, self.direction)
     }
 
-    /// Whether rounding explains it: the answer is right for a ray within a few ULPs, or names a neighbour of the right
-    /// triangle where such a ray passes what the two share, or t's of the tolerance cannot tell.
+    /// Returns `true` if rounding explains the result: it is correct for a ray within a few ULPs, or names a neighbour
+    /// of the correct triangle where such a ray passes their common edge or vertex, or the two t cannot be told apart
+    /// within the tolerance.
     #[must_use]
     pub fn is_rounding(&self) -> bool {
         match self.kind {
@@ -202,8 +203,8 @@ impl Disagreement {
         }
     }
 
-    /// The ray and [`Disagreement::corners`] as Rust, to be pasted into a test: every number reads back to the same
-    /// bits.
+    /// Formats the ray and [`Disagreement::corners`] as Rust source, to be pasted into a test: every number reads back
+    /// to the same bits.
     #[must_use]
     pub fn literal(&self) -> String {
         let Self { origin, direction, .. } = self;
@@ -229,14 +230,14 @@ impl Disagreement {
         }
     }
 
-    /// Rises from the worst on: by kind, then the larger error of t (unknown is larger still), then the place of the
-    /// ray.
+    /// Sort key, the worst first: by kind, then the larger error of t (unknown counts as largest), then the index of
+    /// the ray.
     pub(super) fn rank(&self) -> impl Ord + use<> {
         (self.kind, Reverse(self.t_ulps.unwrap_or(u64::MAX)), self.ray)
     }
 }
 
-/// Three numbers in parentheses; -0 shows its sign, and every f32 enough digits to be read back.
+/// Vector displayed in parentheses; -0 shows its sign, and every f32 has enough digits to be read back.
 pub(super) struct ShownVector(pub(super) [f32; 3]);
 
 impl fmt::Display for ShownVector {
@@ -246,7 +247,7 @@ impl fmt::Display for ShownVector {
     }
 }
 
-/// The shortest text that is read back to the same f32: plain near one, with an exponent far from it.
+/// Shortest text that reads back to the same f32: plain near one, with an exponent far from it.
 pub(super) fn short(x: f32) -> String {
     let plain = x == 0.0 || !x.is_finite() || (1e-4..1e9).contains(&x.abs());
     if plain { format!("{x}") } else { format!("{x:e}") }

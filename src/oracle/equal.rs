@@ -1,4 +1,4 @@
-//! Numbers and hits that must be equal, or nearly.
+//! Comparison of numbers and hits that must be equal, or nearly.
 
 use std::fmt;
 
@@ -6,14 +6,14 @@ use super::disagreement::short;
 use crate::compare::f32_ulps as ulps;
 use crate::geom::Hit;
 
-/// Two lists that differ: how often, where first, where most.
+/// Error: two lists differ. Counts the differences and gives the first and the largest.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unequal {
     what: &'static str,
-    /// How: `in their bits`, `by more than 1 ULP`.
+    /// Criterion: `in their bits`, `by more than 1 ULP`.
     beyond: String,
     lengths: [usize; 2],
-    /// Entries that differ; 0 where the lengths do.
+    /// Number of entries that differ; 0 if the lengths do.
     pub different: usize,
     first: String,
     worst: String,
@@ -33,13 +33,13 @@ impl fmt::Display for Unequal {
 
 impl std::error::Error for Unequal {}
 
-/// What is compared, and beyond what two differ.
+/// Description of a comparison: the compared items and the allowed difference.
 pub(super) struct Asked {
     pub(super) what: &'static str,
     pub(super) beyond: String,
 }
 
-/// Goes through two lists. `apart` says how far two entries are apart if that is too far, `text` describes a place.
+/// Compares two lists. `apart` returns the distance of two entries if it is too large, `text` describes an entry.
 pub(super) fn compare<T: Copy>(
     asked: Asked,
     [left, right]: [&[T]; 2],
@@ -74,7 +74,7 @@ pub(super) fn compare<T: Copy>(
     Err(Unequal { what: asked.what, beyond: asked.beyond, lengths, different, first, worst })
 }
 
-/// A number with its bits.
+/// Formats a number with its bits.
 fn number(x: f32) -> String {
     format!("{} (0x{:08x})", short(x), x.to_bits())
 }
@@ -88,7 +88,7 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
     format!("[{at}] {} and {}: {far}", number(left), number(right))
 }
 
-/// Whether two lists of numbers are the same bits; +0 and -0 differ, and so do two NaN of different bits.
+/// Checks that two lists of numbers have the same bits; +0 and -0 differ, and so do two NaN of different bits.
 ///
 /// ```
 /// use crossbar::oracle::bits_equal;
@@ -98,18 +98,18 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
 /// ```
 ///
 /// # Errors
-/// [`Unequal`] says where first, and where most.
+/// [`Unequal`] names the first and the largest difference.
 pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
     let asked = Asked { what: "numbers", beyond: "in their bits".to_owned() };
     let apart = |l: f32, r: f32| (l.to_bits() != r.to_bits()).then(|| ulps(l, r).unwrap_or(u64::MAX));
     compare(asked, [left, right], apart, numbers)
 }
 
-/// Whether two lists of numbers are at most `most` steps of f32 apart, each from its partner. +0 and -0 are no step
-/// apart, NaN is none from NaN; an infinity, or NaN, is too far from everything else.
+/// Checks that corresponding numbers of two lists are at most `most` steps of f32 apart. +0 and -0 are 0 steps apart,
+/// and so are two NaN; an infinity, or NaN, is too far from everything else.
 ///
 /// # Errors
-/// [`Unequal`] says where first, and where most.
+/// [`Unequal`] names the first and the largest difference.
 pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal> {
     let unit = if most == 1 { "ULP" } else { "ULPs" };
     let asked = Asked { what: "numbers", beyond: format!("by more than {most} {unit}") };
@@ -120,10 +120,10 @@ pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal
     compare(asked, [left, right], apart, numbers)
 }
 
-/// Whether two lists of answers are the same: triangles, and t to the bit.
+/// Checks that two lists of hits are equal: triangles, and t to the bit.
 ///
 /// # Errors
-/// [`Unequal`] says where first, and where most: another triangle is farther than another t.
+/// [`Unequal`] names the first and the largest difference: a different triangle counts as larger than a different t.
 pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Unequal> {
     let asked = Asked { what: "hits", beyond: "in their bits".to_owned() };
     let apart = |l: Option<Hit>, r: Option<Hit>| match (l, r) {
@@ -140,10 +140,10 @@ pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Une
     compare(asked, [left, right], apart, |at, l, r| format!("[{at}] {} and {}", words(l), words(r)))
 }
 
-/// As [`bits_equal`], for tests.
+/// Asserts [`bits_equal`].
 ///
 /// # Panics
-/// Where it is called, if they differ.
+/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_bits_eq(left: &[f32], right: &[f32]) {
     if let Err(unequal) = bits_equal(left, right) {
@@ -151,10 +151,10 @@ pub fn assert_bits_eq(left: &[f32], right: &[f32]) {
     }
 }
 
-/// As [`within_ulps`], for tests.
+/// Asserts [`within_ulps`].
 ///
 /// # Panics
-/// Where it is called, if they differ.
+/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_within_ulps(left: &[f32], right: &[f32], most: u32) {
     if let Err(unequal) = within_ulps(left, right, most) {
@@ -162,10 +162,10 @@ pub fn assert_within_ulps(left: &[f32], right: &[f32], most: u32) {
     }
 }
 
-/// As [`hits_equal`], for tests.
+/// Asserts [`hits_equal`].
 ///
 /// # Panics
-/// Where it is called, if they differ.
+/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_hits_eq(left: &[Option<Hit>], right: &[Option<Hit>]) {
     if let Err(unequal) = hits_equal(left, right) {

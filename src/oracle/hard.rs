@@ -1,4 +1,4 @@
-//! Rays on which intersectors differ.
+//! Generation of rays on which intersectors differ.
 
 use std::fmt;
 
@@ -10,18 +10,18 @@ use crate::geom::random::CounterRng;
 use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 
-/// What makes a ray hard.
+/// Aim of a hard ray.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Aim {
-    /// Aimed from outside at a point of an edge that triangles share.
+    /// From outside at a point of a shared edge.
     Edge,
-    /// Aimed from outside at a vertex.
+    /// From outside at a vertex.
     Vertex,
     /// Along an axis through a vertex or the middle of a triangle; the other two components are +0 or -0.
     Axis,
-    /// In the plane of a triangle, up to the rounding of f32: it misses that one and meets the others.
+    /// In the plane of a triangle, up to the rounding of f32: it misses that triangle and hits the others.
     Plane,
     /// From a point of a surface (a vertex, or inside up to rounding) into any direction.
     Surface,
@@ -30,10 +30,10 @@ pub enum Aim {
 }
 
 impl Aim {
-    /// All of them.
+    /// All aims.
     pub const ALL: [Self; 6] = [Self::Edge, Self::Vertex, Self::Axis, Self::Plane, Self::Surface, Self::Far];
 
-    /// What to call it: `edge`.
+    /// Name: `edge`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Edge => "edge",
@@ -45,7 +45,7 @@ impl Aim {
         }
     }
 
-    /// How reports say it: `aimed at a vertex`.
+    /// Phrase for reports: `aimed at a vertex`.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Edge => "aimed at an edge",
@@ -64,12 +64,12 @@ impl fmt::Display for Aim {
     }
 }
 
-/// A hard ray.
+/// Hard ray with its aim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HardRay {
     /// The ray.
     pub ray: Ray,
-    /// Why it is hard.
+    /// Aim of the ray.
     pub aim: Aim,
 }
 
@@ -79,9 +79,9 @@ impl AsRef<Ray> for HardRay {
     }
 }
 
-/// A ray that an oracle judges: a [`Ray`], a [`HardRay`], or one of your own that knows what it was aimed at.
+/// Ray that an oracle can judge: a [`Ray`], a [`HardRay`], or a type of your own with an aim.
 pub trait JudgedRay: AsRef<Ray> {
-    /// What it was aimed at, if that is known.
+    /// Returns the aim, if known.
     fn aim(&self) -> Option<Aim> {
         None
     }
@@ -101,8 +101,8 @@ impl<R: JudgedRay> JudgedRay for &R {
     }
 }
 
-/// At most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same rays; an
-/// empty mesh has none.
+/// Generates at most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same
+/// rays; an empty mesh gives none.
 ///
 /// ```
 /// use crossbar::geom::teapot::teapot;
@@ -142,21 +142,21 @@ pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     rays
 }
 
-/// Eyes that rays of one aim are shared out to.
+/// Number of eyes that the rays of one aim are distributed over.
 const EYES: usize = 8;
 
-/// At most `each` rays from some eyes, as evenly as whole numbers go.
+/// Distributes at most `each` rays over several eyes, as evenly as possible.
 fn spread(each: usize, rays: impl Fn(u64, usize) -> Vec<Ray>) -> Vec<Ray> {
     (0..EYES).flat_map(|eye| rays(eye as u64, (each + eye) / EYES)).collect()
 }
 
-/// At most `most` of them, at even distances.
+/// Selects at most `most` rays, at even distances.
 fn some(aimed: Vec<Aimed>, most: usize) -> Vec<Ray> {
     let step = aimed.len().div_ceil(most.max(1)).max(1);
     aimed.into_iter().step_by(step).take(most).map(|aimed| aimed.ray).collect()
 }
 
-/// Where a mesh is, and how large.
+/// Center and size of a mesh.
 struct MeshExtent {
     middle: DVec3,
     size: f64,
@@ -169,30 +169,30 @@ impl MeshExtent {
         Some(Self { middle: (low + high) / 2.0, size: if size > 0.0 { size } else { 1.0 } })
     }
 
-    /// A point about `sizes` sizes of the mesh from its middle, kept within f32.
+    /// Point about `sizes` sizes of the mesh from its center, kept within f32.
     fn eye(&self, dice: CounterRng, index: u64, sizes: f64) -> [f32; 3] {
         let side = |axis: usize| {
             let step = 2.0 * dice.unit(index, 0, axis as u64) - 1.0;
-            // Never near the middle on the axis that the eye's number names.
+            // Away from the center along the axis chosen by the eye's index.
             if axis == index as usize % 3 { 1.0f64.copysign(step) } else { step }
         };
         in_f32(self.middle + sizes * self.size * DVec3::from([0, 1, 2].map(side)))
     }
 }
 
-/// The nearest finite f32 coordinates.
+/// Rounds to the nearest finite f32 coordinates.
 fn in_f32(point: DVec3) -> [f32; 3] {
     narrow(point.clamp(DVec3::splat(f32::MIN.into()), DVec3::splat(f32::MAX.into())))
 }
 
-/// A triangle, and a point of it.
+/// Triangle with a point on it.
 struct AimedTriangle {
     corners: [DVec3; 3],
     point: [f32; 3],
 }
 
 impl AimedTriangle {
-    /// A triangle by dice, with one of its corners, or a point inside it.
+    /// Chooses a random triangle, with one of its corners, or a point inside it.
     fn choose(mesh: &Mesh, dice: CounterRng, key: u64, index: u64) -> Option<Self> {
         let id = dice.bits(index, key, 100) % mesh.len().max(1) as u64;
         let exact = mesh.corners(id as u32)?;
@@ -210,7 +210,7 @@ impl AimedTriangle {
         Some(Self { corners, point })
     }
 
-    /// All six ways along the axes, all four pairs of signs of the zeros, in turn.
+    /// Ray along an axis: cycles through all six directions and all four pairs of signs of the zeros.
     fn axis_ray(&self, place: &MeshExtent, index: u64) -> Option<Ray> {
         let axis = (index % 3) as usize;
         let sign = |bit: u64| if (index / 3) >> bit & 1 == 1 { -1.0f32 } else { 1.0 };
@@ -222,7 +222,7 @@ impl AimedTriangle {
         Ray::new(in_f32(origin), direction).ok()
     }
 
-    /// From outside the triangle, beyond the corner a, towards the side bc.
+    /// Ray in the plane of the triangle, from outside, beyond the corner a, towards the side bc.
     fn plane_ray(&self, dice: CounterRng, index: u64) -> Option<Ray> {
         let [a, b, c] = self.corners;
         // Every other ray along an edge.

@@ -1,4 +1,4 @@
-//! Answers held against the truth.
+//! Judgement of hits against exact arithmetic.
 
 use rayon::prelude::*;
 use thiserror::Error;
@@ -12,21 +12,21 @@ use crate::geom::classify::{Candidate, HitVerdict, classify};
 use crate::geom::exact::{self, NearestHit, Sides, Tracer};
 use crate::geom::{ExactT, Hit, Mesh, Ray};
 
-/// Why answers cannot be judged.
+/// Error: hits cannot be judged.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum OracleError {
-    /// There is not one answer a ray.
+    /// The number of hits is not that of the rays.
     #[error("expected an answer for each of {rays} rays (`None` for no hit), found {hits}")]
     Count {
         /// Number of rays.
         rays: usize,
-        /// Number of answers.
+        /// Number of hits.
         hits: usize,
     },
 }
 
-/// Knows what every ray hits first, exactly.
+/// Judge of first hits by exact arithmetic.
 #[derive(Debug)]
 pub struct Oracle<'a> {
     mesh: &'a Mesh,
@@ -36,30 +36,30 @@ pub struct Oracle<'a> {
     nearby_ulps: u32,
 }
 
-/// How far away a ray is still nearby, unless [`Oracle::with_nearby_ulps`] says otherwise. A single-precision test that
-/// subtracts the origin from a vertex, shears and scales it is off by at most five roundings.
+/// Default of [`Oracle::with_nearby_ulps`]. A single-precision test that subtracts the origin from a vertex, shears and
+/// scales it is off by at most five roundings.
 const NEARBY_ULPS: u32 = 8;
 
 impl<'a> Oracle<'a> {
-    /// An oracle over a mesh. `sides` says whether backs can be hit, `tolerance` how far a t may be off.
+    /// Creates an oracle over a mesh. `sides` determines whether backs can be hit, `tolerance` the allowed error of t.
     #[must_use]
     pub fn new(mesh: &'a Mesh, sides: Sides, tolerance: Tolerance) -> Self {
         Self { mesh, tracer: Tracer::new(mesh), sides, tolerance, nearby_ulps: NEARBY_ULPS }
     }
 
-    /// How many ULPs away a ray is still nearby: 8, unless changed here. A surface that is missed is a
-    /// [`DisagreementKind::Silhouette`] if the miss is right for a nearby ray, and a leak otherwise. With 0 there are
-    /// no nearby rays: every surface missed is a leak, also beside an outline.
+    /// Sets the maximum distance of nearby rays in ULPs; the default is 8. A missed surface is a
+    /// [`DisagreementKind::Silhouette`] if the miss is correct for a nearby ray, otherwise a leak. With 0 there are no
+    /// nearby rays: every missed surface is a leak, also beside a silhouette.
     #[must_use]
     pub fn with_nearby_ulps(mut self, ulps: u32) -> Self {
         self.nearby_ulps = ulps;
         self
     }
 
-    /// Judges one answer a ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
+    /// Judges one hit per ray, in the order of the rays. A t counts in multiples of its ray's direction as given.
     ///
     /// # Errors
-    /// [`OracleError::Count`] unless there are as many answers as rays.
+    /// [`OracleError::Count`] unless there are as many hits as rays.
     pub fn judge<R: JudgedRay>(&self, rays: &[R], hits: &[Option<Hit>]) -> Result<Report, OracleError> {
         if rays.len() != hits.len() {
             return Err(OracleError::Count { rays: rays.len(), hits: hits.len() });
@@ -67,13 +67,13 @@ impl<'a> Oracle<'a> {
         Ok(self.report(rays, hits))
     }
 
-    /// Asks an intersector for every ray, one after the other, and judges its answers.
+    /// Runs an intersector on every ray, one after the other, and judges its hits.
     pub fn examine<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) -> Report {
         let hits: Vec<_> = rays.iter().map(AsRef::as_ref).map(intersector).collect();
         self.report(rays, &hits)
     }
 
-    /// As [`Oracle::examine`].
+    /// Checks by [`Oracle::examine`] that every result is exact.
     ///
     /// # Errors
     /// The report, if anything disagrees.
@@ -86,10 +86,10 @@ impl<'a> Oracle<'a> {
         if report.agrees() { Ok(()) } else { Err(Box::new(report)) }
     }
 
-    /// As [`Oracle::examine`]: whether the surface has no hole.
+    /// Checks by [`Oracle::examine`] that the surface has no holes.
     ///
     /// # Errors
-    /// The report of the leaks alone, if there is one: surfaces missed by this ray and by every ray nearby. Everything
+    /// The report of the leaks alone, if there are any: surfaces missed by this ray and by every nearby ray. Everything
     /// else passes.
     pub fn watertight<R: JudgedRay>(
         &self,
@@ -100,13 +100,13 @@ impl<'a> Oracle<'a> {
         if leaks.agrees() { Ok(()) } else { Err(Box::new(leaks)) }
     }
 
-    /// As [`Oracle::examine`]: whether every answer is the exact one of a ray within a few ULPs of the ray asked, up to
-    /// which of the triangles that it passes there comes first. So nothing is missed, and nothing is hit that is not
-    /// there, for which rounding is no reason: [`Disagreement::is_rounding`]. A t beyond the tolerance does not pass
+    /// Checks by [`Oracle::examine`] that every result is exact for a ray within a few ULPs of the given one, up to the
+    /// order of the triangles that it passes there: no surface is missed, and none is hit that does not exist, unless
+    /// rounding explains it ([`Disagreement::is_rounding`]). A t beyond the tolerance does not pass
     /// ([`Tolerance::ANY_T`] judges triangles alone).
     ///
     /// # Errors
-    /// The report of what rounding does not explain, if there is anything.
+    /// The report of the errors that rounding does not explain, if there are any.
     pub fn faithful<R: JudgedRay>(
         &self,
         rays: &[R],
@@ -116,7 +116,7 @@ impl<'a> Oracle<'a> {
         if wrong.agrees() { Ok(()) } else { Err(Box::new(wrong)) }
     }
 
-    /// As [`Oracle::agrees`], for tests.
+    /// Asserts [`Oracle::agrees`].
     ///
     /// # Panics
     /// With the report, if anything disagrees.
@@ -127,10 +127,10 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// As [`Oracle::watertight`], for tests.
+    /// Asserts [`Oracle::watertight`].
     ///
     /// # Panics
-    /// With the report of the leaks, if there is one.
+    /// With the report of the leaks, if there are any.
     #[track_caller]
     pub fn assert_watertight<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.watertight(rays, intersector) {
@@ -138,10 +138,10 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// As [`Oracle::faithful`], for tests: no leaks and no false hits.
+    /// Asserts [`Oracle::faithful`]: no leaks and no false hits.
     ///
     /// # Panics
-    /// With the report of what rounding does not explain, if there is anything.
+    /// With the report of the errors that rounding does not explain, if there are any.
     #[track_caller]
     pub fn assert_faithful<R: JudgedRay>(&self, rays: &[R], intersector: impl FnMut(&Ray) -> Option<Hit>) {
         if let Err(report) = self.faithful(rays, intersector) {
@@ -178,7 +178,7 @@ impl<'a> Oracle<'a> {
         let verdict = classify(self.mesh, truth.as_ref(), candidate).verdict;
         let t_ulps = found.zip(truth.as_ref()).and_then(|(hit, truth)| ulps(truth.t.to_f32(), hit.t));
         let right_t = |truth: &NearestHit, hit: Hit| self.tolerance.allows(hit.t, &truth.t, t_ulps);
-        // A triangle met behind the first, but so little that t's of this tolerance cannot tell.
+        // Behind the first by less than the tolerance of t.
         let near = |met: &ExactT, truth: &NearestHit| {
             let met = met.to_f32();
             self.tolerance.allows(met, &truth.t, ulps(truth.t.to_f32(), met))
@@ -199,7 +199,7 @@ impl<'a> Oracle<'a> {
                 (Some(met), Some(truth)) if self.tolerance != Tolerance::ANY_T && near(met, truth) => {
                     DisagreementKind::NearTie
                 }
-                // One that the ray meets far from what the two have in common is what a hole shows.
+                // A triangle hit far from the common edge or vertex is seen through a hole.
                 (Some(_), Some(truth)) if adjacent && self.passes_contact(ray, truth, hit) => {
                     DisagreementKind::WrongNeighbour
                 }
@@ -240,10 +240,10 @@ impl<'a> Oracle<'a> {
         })
     }
 
-    /// A ray, this one or one nearby, that passes what the triangle found has in common with the first that it hits, or
-    /// a corner of it as far away; and what the answer is called then. Where a surface ends in a vertex, a triangle
-    /// that faces away ties with those in front of it at this one point, and no ray of f32 may meet it first; from
-    /// far away whole surfaces are such a point.
+    /// Searches for a ray, this one or one nearby, that passes the common edge or vertex of the triangle found and the
+    /// first that it hits, or a corner of it as far away; returns the kind of error then. Where a surface ends in a
+    /// vertex, a triangle that faces away ties with those in front of it at this one point, and no ray of f32 may hit
+    /// it first; from far away whole surfaces are such a point.
     fn touched_nearby(
         &self,
         ray: &Ray,
@@ -271,7 +271,7 @@ impl<'a> Oracle<'a> {
         pairs.into_iter().any(|pair| passes_contact(self.mesh, ray, pair, self.nearby_ulps))
     }
 
-    /// A nearby ray for which an answer is right, and what the answer is called then.
+    /// Searches for a nearby ray for which a hit is correct; returns the kind of error then.
     fn right_nearby(
         &self,
         ray: &Ray,
@@ -281,7 +281,7 @@ impl<'a> Oracle<'a> {
     ) -> (DisagreementKind, Option<Ray>) {
         use DisagreementKind::{FalseHit, Leak, LeakThrough, Silhouette, Start, WrongTriangle};
         let excused = matches!(kind, Leak | LeakThrough | FalseHit | WrongTriangle);
-        // Half-way between what was missed and what was seen behind it.
+        // Half-way between the missed surface and the one seen behind it.
         let behind = truth.zip(met_at).filter(|_| kind == LeakThrough);
         let middle = behind.map(|(truth, met)| (truth.t.to_f64() + met.to_f64()) / 2.0);
         let mut passed = false;

@@ -1,14 +1,14 @@
 //! The oracle for other people's tests: your mesh, your rays and your hits in; every disagreement with exact arithmetic
 //! out.
 //!
-//! An [`Oracle`] decides first hits on the f32 figures as given ([`crate::geom::exact`]) and sorts each answer that
-//! departs from them into a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the right triangle, a t
-//! too far off. Ties are judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right.
-//! Rounding is judged fairly too: beside an outline, where the two triangles of an edge face opposite ways, a miss is
-//! right for a ray a few ULPs away ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] lets it pass;
-//! where they face the same way, a miss is a hole for every ray nearby. [`hard_rays`] makes the rays on which
-//! intersectors differ. The `assert_*` functions panic where they are called, with the report; the functions without
-//! `assert_` give it back as a [`Result`].
+//! An [`Oracle`] decides first hits on the f32 values as given ([`crate::geom::exact`]) and classifies each result that
+//! differs as a [`DisagreementKind`]: a leak, a false hit, a neighbour in place of the correct triangle, a t too far
+//! off. Ties are judged fairly: of several triangles at exactly the same t, as on a shared edge, any is right. Rounding
+//! is judged fairly too: beside an outline, where the two triangles of an edge face opposite ways, a miss is right for
+//! a ray a few ULPs away ([`DisagreementKind::Silhouette`]), and [`Oracle::assert_watertight`] lets it pass; where they
+//! face the same way, a miss is a hole for every ray nearby. [`hard_rays`] generates rays on which intersectors differ.
+//! The `assert_*` functions panic where they are called, with the report; the functions without `assert_` give it back
+//! as a [`Result`].
 //!
 //! Three assertions, each stronger than the one before:
 //!

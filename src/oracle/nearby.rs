@@ -1,37 +1,37 @@
-//! Rays next to a given one, and what a ray passes within their reach.
+//! Rays within a few ULPs of a given one, and the vertices and edges that such rays pass.
 //!
-//! Intersectors round. The test of Woop, Benthin and Wald, for one, answers exactly for a scene whose vertices, seen
-//! from the ray's origin, are each off by at most five roundings of f32. So its answer beside an outline is right for a
-//! ray next to the one it was asked about, and nothing is wrong with it. **Nearby** is a ray from the same origin whose
-//! direction is off in each of its two smaller components, by some ULPs of the largest; or, for a hit where the ray
-//! starts, one of the same direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays
-//! are tried one by one, in exact arithmetic, so the ray that is found proves what is said of the answer.
+//! Intersectors round. The test of Woop, Benthin and Wald, for one, is exact for a scene whose vertices, relative to
+//! the ray's origin, are each off by at most five roundings of f32. So its result beside a silhouette is correct for a
+//! ray close to the given one, and is no error. **Nearby** is a ray from the same origin whose direction is off in each
+//! of its two smaller components, by some ULPs of the largest; or, for a hit where the ray starts, one of the same
+//! direction whose origin is off along it, by some ULPs of the largest coordinate. Such rays are tried one by one, in
+//! exact arithmetic, so the ray that is found proves the verdict.
 
 use glam::{DVec2, DVec3};
 
 use crate::geom::vector::{narrow, wide};
 use crate::geom::{Contact, Mesh, Ray};
 
-/// The step from the f32 of this magnitude to the next smaller one, or the next larger where that is a longer step.
+/// Step from the f32 of this magnitude to the next smaller or larger one, whichever is longer.
 fn ulp(magnitude: f32) -> f64 {
     let up = magnitude.next_up();
     let (low, high) = if up.is_finite() { (magnitude, up) } else { (magnitude.next_down(), magnitude) };
     f64::from(high) - f64::from(low)
 }
 
-/// Half the sides of the squares that nearby rays lie on: 1, 2, 4 and so on, and `ulps` itself.
+/// Half sides of the squares that nearby rays lie on: 1, 2, 4 and so on, and `ulps` itself.
 fn rings(ulps: u32) -> impl Iterator<Item = u32> {
     let powers = std::iter::successors(Some(1_u32), |ring| ring.checked_mul(2));
     powers.take_while(move |&ring| ring < ulps).chain((ulps > 0).then_some(ulps))
 }
 
-/// A ray's image plane: the plane across the axis along which its direction is longest.
+/// Image plane of a ray, perpendicular to the axis of its largest direction component.
 struct ImagePlane {
     origin: DVec3,
     direction: DVec3,
-    /// The axis of the largest component.
+    /// Axis of the largest component.
     depth: usize,
-    /// The other two.
+    /// The other two axes.
     across: [usize; 2],
     /// One ULP of the largest component.
     unit: f64,
@@ -46,7 +46,8 @@ impl ImagePlane {
         Self { origin, direction, depth, across, unit }
     }
 
-    /// By how many units the direction towards a point is off; `None` for a point that is not in front.
+    /// Difference between the ray's direction and that towards a point, in units; `None` for a point that is not in
+    /// front.
     fn offset(&self, point: [f32; 3]) -> Option<DVec2> {
         let to = wide(point) - self.origin;
         let scale = self.direction[self.depth] / to[self.depth];
@@ -55,8 +56,8 @@ impl ImagePlane {
     }
 }
 
-/// Rays of other directions from the same origin, nearest first: on each ring the corners, the middles of the sides,
-/// and the points between.
+/// Iterates over rays of other directions from the same origin, nearest first: on each ring the corners, the middles of
+/// the sides, and the points between.
 pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
     let (plane, origin) = (ImagePlane::of(ray), ray.origin());
     rings(ulps)
@@ -77,8 +78,8 @@ pub(super) fn turned(ray: &Ray, ulps: u32) -> impl Iterator<Item = Ray> {
         })
 }
 
-/// Rays of the same direction from other origins along it, nearest first, if a hit at `t` is within their reach. The
-/// unit is that of the largest coordinate among the origin and some points.
+/// Iterates over rays of the same direction from other origins along it, nearest first, if a hit at `t` is within their
+/// reach. The unit is that of the largest coordinate among the origin and some points.
 pub(super) fn moved(
     ray: &Ray,
     points: impl IntoIterator<Item = [f32; 3]>,
@@ -95,7 +96,7 @@ pub(super) fn moved(
     steps.filter_map(move |step| Ray::new(narrow(origin + step * along), direction).ok())
 }
 
-/// Whether a ray passes within some ULPs of what two triangles have in common: a corner, or an edge.
+/// Returns `true` if a ray passes within `ulps` ULPs of the common corner or edge of two triangles.
 pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32) -> bool {
     let (Some(of_a), Some(of_b)) = (mesh.corners(a), mesh.corners(b)) else { return false };
     let shared: Vec<_> = of_a.into_iter().filter(|corner| of_b.contains(corner)).collect();
@@ -103,14 +104,15 @@ pub(super) fn passes_contact(mesh: &Mesh, ray: &Ray, [a, b]: [u32; 2], ulps: u32
     let reach = f64::from(ulps) * std::f64::consts::SQRT_2;
     let near = |from: [f32; 3], to: [f32; 3]| match (plane.offset(from), plane.offset(to)) {
         (Some(from), Some(to)) => distance_to_segment(from, to) <= reach,
-        // The edge runs past the ray's origin.
+        // The edge crosses the plane of the ray's origin.
         (Some(_), None) | (None, Some(_)) => true,
         (None, None) => false,
     };
     mesh.contact(a, b) != Contact::None && shared.iter().any(|&from| shared.iter().any(|&to| near(from, to)))
 }
 
-/// Whether a ray passes within some ULPs of a corner of a triangle that is as far away as `t`, up to as many ULPs.
+/// Returns `true` if a ray passes within `ulps` ULPs of a corner of a triangle that is as far away as `t`, up to as
+/// many ULPs.
 pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ulps: u32) -> bool {
     let plane = ImagePlane::of(ray);
     let (reach, step) = (f64::from(ulps) * std::f64::consts::SQRT_2, f64::from(ulps) * ulp(t.abs() as f32));
@@ -120,7 +122,7 @@ pub(super) fn passes_corner_at(mesh: &Mesh, ray: &Ray, triangle: u32, t: f64, ul
     mesh.corners(triangle).into_iter().flatten().any(|corner| near(corner) && (distance(corner) - t).abs() <= step)
 }
 
-/// How far zero is from a segment.
+/// Distance of the origin of coordinates from a segment.
 fn distance_to_segment(from: DVec2, to: DVec2) -> f64 {
     let along = to - from;
     let length = along.length_squared();

@@ -1,4 +1,4 @@
-//! Pictures that must be equal, or nearly.
+//! Comparison of pictures that must be equal, or nearly.
 
 use super::disagreement::short;
 use super::equal::{Asked, Unequal, compare};
@@ -12,12 +12,12 @@ mod sealed {
     impl Sealed for f32 {}
 }
 
-/// One channel of a pixel: a stored number with a next one. u8, u16 and f32 are all there are.
+/// Channel value of a pixel: a number type with a successor. Implemented for u8, u16 and f32 only.
 pub trait Sample: Copy + sealed::Sealed {
-    /// Steps from this number to the other; `None` where one is not finite and they differ.
+    /// Number of steps from this number to the other; `None` where one is not finite and they differ.
     fn steps(self, other: Self) -> Option<u64>;
 
-    /// The number in decimal.
+    /// Formats the number in decimal.
     fn text(self) -> String;
 }
 
@@ -51,8 +51,8 @@ impl Sample for f32 {
     }
 }
 
-/// Whether two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from its
-/// partner (0: equal; of f32, steps are ULPs).
+/// Checks that two pictures are equal: rows of `width` pixels of `N` channels, each channel at most `most` steps from
+/// its counterpart (0: equal; for f32, steps are ULPs).
 ///
 /// ```
 /// use crossbar::oracle::images_equal;
@@ -64,7 +64,7 @@ impl Sample for f32 {
 /// ```
 ///
 /// # Errors
-/// [`Unequal`] says at which column and row first, and where most.
+/// [`Unequal`] names the pixels of the first and the largest difference.
 pub fn images_equal<S: Sample, const N: usize>(
     width: usize,
     left: &[[S; N]],
@@ -85,10 +85,10 @@ pub fn images_equal<S: Sample, const N: usize>(
     compare(asked, [left, right], apart, text)
 }
 
-/// As [`images_equal`], for tests.
+/// Asserts [`images_equal`].
 ///
 /// # Panics
-/// Where it is called, if they differ.
+/// If they differ, with the caller's location.
 #[track_caller]
 pub fn assert_images_equal<S: Sample, const N: usize>(width: usize, left: &[[S; N]], right: &[[S; N]], most: u32) {
     if let Err(unequal) = images_equal(width, left, right, most) {

@@ -1,4 +1,4 @@
-//! All disagreements, to be read.
+//! Report of all disagreements.
 
 use std::fmt;
 
@@ -9,12 +9,12 @@ use super::Tolerance;
 use super::disagreement::{Disagreement, DisagreementKind};
 use crate::geom::Sides;
 
-/// Disagreements that a text lists.
+/// Maximum number of disagreements listed in text.
 const LISTED: usize = 10;
-/// Disagreements that JSON lists.
+/// Maximum number of disagreements listed in JSON.
 const LISTED_IN_JSON: usize = 1000;
 
-/// What the oracle found. As text at most ten disagreements are listed, as JSON at most 1000, the worst first;
+/// Result of an oracle. At most ten disagreements are listed as text, and 1000 as JSON, the worst first;
 /// [`Report::disagreements`] has them all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -27,7 +27,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// `[rays, rays that truly hit, hits found]`, and what is wrong in any order.
+    /// Creates a report from `[rays, rays that hit exactly, hits found]`, and the disagreements in any order.
     pub(super) fn new(
         [rays, surface, hits]: [usize; 3],
         sides: Sides,
@@ -38,60 +38,60 @@ impl Report {
         Self { rays, surface, hits, sides, tolerance, disagreements }
     }
 
-    /// Rays judged.
+    /// Number of rays judged.
     #[must_use]
     pub fn rays(&self) -> usize {
         self.rays
     }
 
-    /// Rays that truly hit something.
+    /// Number of rays that hit something in exact arithmetic.
     #[must_use]
     pub fn surface(&self) -> usize {
         self.surface
     }
 
-    /// Rays for which a hit was found.
+    /// Number of rays for which a hit was found.
     #[must_use]
     pub fn hits(&self) -> usize {
         self.hits
     }
 
-    /// Whether every answer is right.
+    /// Returns `true` if every result is correct.
     #[must_use]
     pub fn agrees(&self) -> bool {
         self.disagreements.is_empty()
     }
 
-    /// Every wrong answer, the worst first: by [`DisagreementKind`], then by the error of t, then by place.
+    /// Wrong results, the worst first: by [`DisagreementKind`], then by the error of t, then by index.
     #[must_use]
     pub fn disagreements(&self) -> &[Disagreement] {
         &self.disagreements
     }
 
-    /// Number of wrong answers of one kind.
+    /// Number of wrong results of one kind.
     #[must_use]
     pub fn count(&self, kind: DisagreementKind) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind == kind).count()
     }
 
-    /// Number of holes seen: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
+    /// Number of holes: [`DisagreementKind::Leak`] and [`DisagreementKind::LeakThrough`].
     #[must_use]
     pub fn leaks(&self) -> usize {
         self.disagreements.iter().filter(|wrong| wrong.kind.is_leak()).count()
     }
 
-    /// The kinds that occur and how often, the worst first.
+    /// Kinds that occur and their numbers, the worst first.
     pub fn counts(&self) -> impl Iterator<Item = (DisagreementKind, usize)> + '_ {
         DisagreementKind::ALL.into_iter().map(|kind| (kind, self.count(kind))).filter(|&(_, count)| count > 0)
     }
 
-    /// The report of some kinds alone.
+    /// Returns the report of some kinds alone.
     #[must_use]
     pub fn only(self, wanted: impl Fn(DisagreementKind) -> bool) -> Self {
         self.retain(|wrong| wanted(wrong.kind))
     }
 
-    /// The report of some disagreements alone.
+    /// Returns the report of some disagreements alone.
     #[must_use]
     pub fn retain(mut self, wanted: impl Fn(&Disagreement) -> bool) -> Self {
         self.disagreements.retain(wanted);

@@ -1,11 +1,11 @@
-//! How far a t may be off.
+//! Tolerance of t.
 
 use std::fmt;
 
 use crate::geom::ExactT;
 use crate::geom::classify::t_error;
 
-/// How far a t may be from the exact one: it is right if one of the two figures allows it.
+/// Tolerance of t with respect to the exact one: either criterion suffices.
 ///
 /// ```
 /// use crossbar::oracle::Tolerance;
@@ -15,23 +15,24 @@ use crate::geom::classify::t_error;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Tolerance {
-    /// Steps of f32 from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: t does not matter.
+    /// Maximum number of f32 steps from the exact t rounded to f32. 0: correctly rounded; `u32::MAX`: any t.
     pub ulps: u32,
-    /// Distance from the exact t, in multiples of the ray's direction. For t near 0, where steps of f32 are tiny.
+    /// Maximum distance from the exact t, in multiples of the ray's direction. For t near 0, where steps of f32 are
+    /// tiny.
     pub absolute: f64,
 }
 
 impl Tolerance {
-    /// Only triangles are judged.
+    /// Accepts any t: only triangles are judged.
     pub const ANY_T: Self = Self::ulps(u32::MAX);
 
-    /// So many steps of f32.
+    /// Accepts t within this many steps of f32.
     #[must_use]
     pub const fn ulps(ulps: u32) -> Self {
         Self { ulps, absolute: 0.0 }
     }
 
-    /// Or so near, in multiples of the ray's direction.
+    /// Accepts also t within this distance, in multiples of the ray's direction.
     #[must_use]
     pub const fn or_absolute(self, absolute: f64) -> Self {
         Self { absolute, ..self }

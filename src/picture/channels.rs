@@ -6,39 +6,39 @@ use super::display;
 use super::error::PictureError;
 use super::png::rgb8;
 
-/// What the samples of a channel are.
+/// Meaning of a channel's samples.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ChannelUnit {
     /// Linear light: radiance, or proportional to it.
     Linear,
-    /// A value of the sRGB curve, 0 to 1.
+    /// Value of the sRGB curve, 0 to 1.
     Srgb,
     /// Multiples of the length of a pixel's ray.
     RayLength,
-    /// Numbers that name something, a triangle for example.
+    /// Identifiers, of triangles for example.
     Id,
-    /// Nobody said.
+    /// Not specified.
     #[default]
     Unknown,
 }
 
-/// The samples of a channel, rows from the top.
+/// Samples of a channel, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Samples {
-    /// IEEE singles; NaN and infinity are kept.
+    /// Single-precision floats; NaN and infinity are kept.
     Float(Vec<f32>),
-    /// Whole numbers: ids, counts, bit patterns.
+    /// Unsigned integers: ids, counts, bit patterns.
     Uint(Vec<u32>),
 }
 
-/// One channel of a picture.
+/// Channel of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureChannel {
-    /// Its name, `R` for example.
+    /// Name, `R` for example.
     pub name: String,
-    /// What its samples are.
+    /// Meaning of its samples.
     pub unit: ChannelUnit,
-    /// The samples, as many as the picture has pixels.
+    /// Samples, one per pixel.
     pub samples: Samples,
 }
 
@@ -51,7 +51,7 @@ pub struct Picture {
 }
 
 impl Samples {
-    /// How many there are.
+    /// Number of channels.
     pub const fn len(&self) -> usize {
         match self {
             Self::Float(samples) => samples.len(),
@@ -59,19 +59,19 @@ impl Samples {
         }
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no channels.
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
 impl Picture {
-    /// A picture without channels.
+    /// Creates a picture without channels.
     pub const fn new(width: u32, height: u32) -> Self {
         Self { width, height, channels: Vec::new() }
     }
 
-    /// Linear red, green and blue, rows from the top; pixels that are not given are black.
+    /// Creates a picture of linear red, green and blue, rows from the top; missing pixels are black.
     pub fn rgb(width: u32, height: u32, pixels: &[[f32; 3]]) -> Self {
         let channel = |(channel, name): (usize, &str)| {
             let mut samples: Vec<f32> = pixels.iter().map(|pixel| pixel[channel]).collect();
@@ -95,22 +95,22 @@ impl Picture {
         Ok(self)
     }
 
-    /// Pixels per row.
+    /// Width in pixels.
     pub const fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Height in pixels.
     pub const fn height(&self) -> u32 {
         self.height
     }
 
-    /// The channels, in the order in which they were added or stand in the file.
+    /// Channels, in the order in which they were added or stand in the file.
     pub fn channels(&self) -> &[PictureChannel] {
         &self.channels
     }
 
-    /// The channel of a name, if its samples are floats.
+    /// Returns the channel with this name, if its samples are floats.
     pub fn floats(&self, name: &str) -> Option<(ChannelUnit, &[f32])> {
         self.channels.iter().find(|channel| channel.name == name).and_then(|channel| match &channel.samples {
             Samples::Float(samples) => Some((channel.unit, samples.as_slice())),
@@ -118,7 +118,7 @@ impl Picture {
         })
     }
 
-    /// Linear red, green and blue per pixel; of a picture with the one channel `Y` three times that.
+    /// Returns linear red, green and blue per pixel; for a picture with only the channel `Y`, three times that.
     ///
     /// # Errors
     /// [`PictureError::NoColor`] if it has neither.
@@ -135,7 +135,7 @@ impl Picture {
         Ok((0..pixels).map(|pixel| channels.map(|channel| linear(channel, pixel))).collect())
     }
 
-    /// What a screen shows: linear light times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
+    /// Tone-maps to 8 bits: linear light times `exposure` through the sRGB curve, clipped at 1.
     ///
     /// # Errors
     /// As [`Picture::linear`].

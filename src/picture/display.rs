@@ -1,21 +1,21 @@
-//! The curve of a display: sRGB (IEC 61966-2-1), piecewise as the standard has it.
+//! Transfer function of a display: sRGB (IEC 61966-2-1), piecewise as in the standard.
 
-/// The byte of a linear value, clipped to [0, 1]; NaN becomes black.
+/// Encodes a linear value, clipped to [0, 1], as a byte; NaN becomes black.
 pub fn encode(value: f64) -> u8 {
     (curve(clip(value)) * 255.0 + 0.5) as u8
 }
 
-/// A linear value as a screen can show it: within [0, 1]; NaN becomes black.
+/// Clips a linear value to [0, 1]; NaN becomes black.
 pub fn clip(value: f64) -> f64 {
     if value > 0.0 { value.min(1.0) } else { 0.0 }
 }
 
-/// The value of the curve, in [0, 1], at a linear value in [0, 1].
+/// sRGB encoding of a linear value in [0, 1], in [0, 1].
 pub fn curve(linear: f64) -> f64 {
     if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * crate::elementary::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-/// The linear value that the curve takes to `value`, both in [0, 1].
+/// Inverse of [`curve`]: linear value of an encoded one, both in [0, 1].
 pub fn decode(value: f64) -> f64 {
     if value <= 0.040_45 { value / 12.92 } else { crate::elementary::pow((value + 0.055) / 1.055, 2.4) }
 }

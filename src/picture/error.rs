@@ -1,53 +1,53 @@
 //! Errors of pictures, with the formats and limits that they name.
 
-/// Longest side of a picture that is read, in pixels.
+/// Maximum side of a picture that is read, in pixels.
 pub const MAX_SIDE: u32 = 16384;
-/// Memory that a decoded picture may take, in bytes (1 GiB).
+/// Maximum memory of a decoded picture, in bytes (1 GiB).
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 
-/// A file format of pictures.
+/// File format of pictures.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 pub enum PictureFormat {
     /// Portable Network Graphics: sRGB values of 8 or 16 bits.
     #[strum(to_string = "PNG")]
     Png,
-    /// Radiance's RGBE: linear light.
+    /// Radiance's RGBE: linear light with a shared exponent.
     #[strum(to_string = "Radiance HDR")]
     Hdr,
-    /// OpenEXR: named channels of halves, singles and whole numbers.
+    /// OpenEXR: named channels of half floats, single floats and integers.
     #[strum(to_string = "EXR")]
     Exr,
 }
 
-/// A picture that cannot be made, written or read.
+/// Error of creating, writing or reading a picture.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PictureError {
-    /// The number of samples does not fit the picture's size.
+    /// The number of samples does not match the picture's size.
     #[error("expected {expected} samples for a picture of {width}x{height}, found {found}")]
     #[diagnostic(code(crossbar::picture::samples))]
     Samples { width: u32, height: u32, expected: u64, found: u64 },
-    /// The encoder refused.
+    /// The encoder failed.
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::picture::encode))]
     Encode { format: PictureFormat, reason: String },
-    /// The first bytes, in hexadecimal, are those of no format that is read.
+    /// The first bytes, given in hexadecimal, belong to no supported format.
     #[error("expected a PNG, Radiance HDR or OpenEXR picture, found a file that begins with {found}")]
     #[diagnostic(code(crossbar::picture::format))]
     Unrecognized { found: String },
-    /// The picture is larger than any that is read.
+    /// The picture is too large to be read.
     #[error(
         "expected a picture of at most {MAX_SIDE} pixels a side and {MAX_DECODED_BYTES} bytes decoded, found {width}x{height} with {channels} channels"
     )]
     #[diagnostic(code(crossbar::picture::size))]
     TooLarge { width: u64, height: u64, channels: usize },
-    /// The file is broken, or of a kind that is not read, of the format that its first bytes promise.
+    /// The file is damaged, or a variant of its format that is not supported.
     #[error("expected {format} data, found something else: {reason}")]
     #[diagnostic(code(crossbar::picture::decode))]
     Decode { format: PictureFormat, reason: String },
-    /// There is no color to show.
+    /// The picture has no color channels.
     #[error("expected channels R, G and B, or Y; found {}", if found.is_empty() { "none" } else { found })]
     #[diagnostic(code(crossbar::picture::color))]
     NoColor { found: String },

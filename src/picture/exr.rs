@@ -1,4 +1,4 @@
-//! OpenEXR files: floats and whole numbers kept to the bit.
+//! OpenEXR files: floats and integers are kept to the bit.
 
 use std::io::Cursor;
 
@@ -13,15 +13,16 @@ use super::error::{PictureError, PictureFormat};
 use super::limits::require_size;
 use super::notes::PictureNotes;
 
-/// A picture as an EXR file with its channels by their names. Losslessly packed; the same picture gives the same bytes.
+/// Encodes a picture as an EXR file with its named channels, losslessly compressed. The same picture gives the same
+/// bytes.
 ///
 /// # Errors
-/// [`PictureError::Encode`] if it has no channels, or a name cannot be written.
+/// [`PictureError::Encode`] if it has no channels, or a name cannot be represented.
 pub fn exr(picture: &Picture) -> Result<Vec<u8>, PictureError> {
     exr_with_notes(picture, &PictureNotes::default())
 }
 
-/// The same with notes as attributes; characters beyond Latin-1 are escaped.
+/// Like [`exr()`], with notes as attributes; characters beyond Latin-1 are escaped.
 ///
 /// # Errors
 /// As [`exr()`].
@@ -58,17 +59,17 @@ pub fn exr_with_notes(picture: &Picture, notes: &PictureNotes) -> Result<Vec<u8>
     Ok(file.into_inner())
 }
 
-/// Text that the format can hold; `None` if it is empty.
+/// Converts text to the format's; `None` if it is empty.
 fn text(text: &str) -> Option<Text> {
     let escaped = |c: char| if u8::try_from(c).is_ok() { c.to_string() } else { c.escape_unicode().to_string() };
     Text::new_or_none(text.chars().map(escaped).collect::<String>()).filter(|_| !text.is_empty())
 }
 
-/// The first layer of an EXR file, in its largest resolution. Halves become singles.
+/// Decodes the first layer of an EXR file, in its largest resolution. Half floats become singles.
 pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     let broken =
         |error: exr::error::Error| PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() };
-    // The size first: the reader takes memory for what the header says.
+    // The size is checked first: the reader allocates the size in the header.
     let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
     for header in &meta.headers {
         let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);

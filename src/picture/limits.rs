@@ -1,10 +1,10 @@
-//! Sizes of pictures that are read.
+//! Limits on the size of pictures that are read.
 
 use image::Limits;
 
 use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError};
 
-/// What a decoder of the `image` library may take.
+/// Limits for decoders of the `image` library.
 pub fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -13,7 +13,7 @@ pub fn limits() -> Limits {
     limits
 }
 
-/// Refuses a size that would take too much memory.
+/// Rejects a size that would take too much memory.
 pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_bytes: u64) -> Result<(), PictureError> {
     let bytes = width.saturating_mul(height).saturating_mul(channels as u64).saturating_mul(sample_bytes);
     if width.max(height) > u64::from(MAX_SIDE) || bytes > MAX_DECODED_BYTES {

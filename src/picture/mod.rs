@@ -1,9 +1,9 @@
 //! Pictures as numbers and as files: named channels of samples, read from OpenEXR, Radiance HDR and PNG and written as
 //! these.
 //!
-//! A [`Picture`] keeps what was measured or read, in single precision. [`RgbImage`] is what a screen shows: 8 bits per
-//! channel, made from linear light by the one curve in [`display`]. Everything here is bytes in memory; `io::picture`
-//! reads files.
+//! A [`Picture`] holds measured or read values in single precision. An [`RgbImage`] is for display: 8 bits per channel,
+//! encoded from linear light by the curve in [`display`]. All functions work on bytes in memory; `io::picture` reads
+//! files.
 
 mod channels;
 pub mod display;

@@ -1,4 +1,4 @@
-//! PNG files, and images of whole samples.
+//! PNG files, and images from lists of samples.
 
 use std::io::Cursor;
 use std::ops::Deref;
@@ -8,10 +8,10 @@ use image::{EncodableLayout, ImageBuffer, ImageFormat, Pixel, PixelWithColorType
 use super::error::{PictureError, PictureFormat};
 use super::notes::PictureNotes;
 
-/// An image from its samples, pixel by pixel, rows from the top.
+/// Creates an image from its samples, pixel by pixel, rows from the top.
 ///
 /// # Errors
-/// [`PictureError::Samples`] if they do not fill the pixels, or there are none.
+/// [`PictureError::Samples`] if their number does not match the size, or there are none.
 pub fn buffer<P: Pixel>(
     width: u32,
     height: u32,
@@ -27,14 +27,14 @@ pub fn buffer<P: Pixel>(
     }
 }
 
-/// An image of red, green and blue bytes, rows from the top; pixels that are not given are black.
+/// Creates an image of red, green and blue bytes, rows from the top; missing pixels are black.
 pub fn rgb8(width: u32, height: u32, pixels: impl IntoIterator<Item = [u8; 3]>) -> RgbImage {
     let mut image = RgbImage::new(width, height);
     image.pixels_mut().zip(pixels).for_each(|(pixel, color)| *pixel = Rgb(color));
     image
 }
 
-/// An image as a PNG file.
+/// Encodes an image as a PNG file.
 ///
 /// # Errors
 /// [`PictureError::Encode`] if it has no pixels.
@@ -51,7 +51,7 @@ where
     Ok(file.into_inner())
 }
 
-/// An image as a PNG file with notes in it, as international text.
+/// Encodes an image as a PNG file with notes as international text.
 ///
 /// # Errors
 /// [`PictureError::Encode`] if it has no pixels.

@@ -1,4 +1,4 @@
-//! Pictures from files, by their first bytes.
+//! Decoding of picture files, by their first bytes.
 
 use std::io::Cursor;
 
@@ -10,13 +10,13 @@ use super::error::{PictureError, PictureFormat};
 use super::exr;
 use super::limits::{limits, require_size};
 
-/// How Radiance HDR files begin, and how others write them.
+/// First bytes of Radiance HDR files, and the variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
 const RGBE: &[u8] = b"#?RGBE";
-/// Bytes of a sample of a [`Picture`].
+/// Bytes per sample of a [`Picture`].
 const SAMPLE_BYTES: u64 = 4;
 
-/// The format of a file that begins with these bytes.
+/// Detects the format of a file by its first bytes.
 fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
     const SIGNATURES: [(&[u8], PictureFormat); 4] = [
         (b"\x89PNG\r\n\x1a\n", PictureFormat::Png),
@@ -28,15 +28,15 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 }
 
 impl Picture {
-    /// A picture from the bytes of a PNG, Radiance HDR or EXR file, told apart by their first bytes. PNG gives sRGB
-    /// values `R`, `G`, `B` (and `A`, which is linear), Radiance HDR linear ones, divided by
-    /// what its EXPOSURE and COLORCORR lines say that they were multiplied by; of an EXR file the first layer is read.
+    /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives sRGB values `R`, `G`, `B` (and
+    /// `A`, which is linear), Radiance HDR linear ones, divided by the factors of its EXPOSURE and COLORCORR lines; of
+    /// an EXR file the first layer is read.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         match format_of(bytes) {
             Some(PictureFormat::Exr) => exr::decode(bytes),
             Some(PictureFormat::Png) => from_png(&decoded(bytes, PictureFormat::Png, ImageFormat::Png)?),
             Some(PictureFormat::Hdr) => {
-                // The decoder knows one of the two first lines.
+                // The decoder accepts only one of the two first lines.
                 let renamed = bytes.strip_prefix(RGBE).map(|rest| [RADIANCE, rest].concat());
                 let bytes = renamed.as_deref().unwrap_or(bytes);
                 let image = decoded(bytes, PictureFormat::Hdr, ImageFormat::Hdr)?.into_rgb32f();
@@ -54,8 +54,8 @@ impl Picture {
     }
 }
 
-/// What radiance was multiplied by, by channel, before it was written: the products of all EXPOSURE and COLORCORR lines
-/// of a Radiance HDR file.
+/// Factors by which radiance was multiplied, per channel, before it was written: the products of all EXPOSURE and
+/// COLORCORR lines of a Radiance HDR file.
 fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
     let refused = |reason: String| PictureError::Decode { format: PictureFormat::Hdr, reason };
     let header = HdrDecoder::new(Cursor::new(bytes)).map_err(|error| refused(error.to_string()))?.metadata();
@@ -69,7 +69,7 @@ fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
 
 fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<DynamicImage, PictureError> {
     let refused = |error: image::ImageError| PictureError::Decode { format, reason: error.to_string() };
-    // The header first: a decoder may work long before it finds out, and does not say by what the size is too large.
+    // The header is checked first: a decoder may work long before it fails, and does not report the size.
     let header = ImageReader::with_format(Cursor::new(bytes), decoder).into_decoder().map_err(refused)?;
     let ((width, height), color) = (header.dimensions(), header.color_type());
     require_size(width.into(), height.into(), color.channel_count().into(), SAMPLE_BYTES)?;
@@ -78,7 +78,7 @@ fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<
     reader.decode().map_err(refused)
 }
 
-/// Codes k of n bits as k / (2^n - 1).
+/// Converts codes k of n bits to k / (2^n - 1).
 fn from_png(image: &DynamicImage) -> Result<Picture, PictureError> {
     // k / 255 is 257 k / 65535, to the bit.
     let (alpha, image) = (image.color().has_alpha(), image.to_rgba16());

@@ -34,15 +34,15 @@ pub fn contraction(matrix: &Matrix) -> f64 {
 /// A bound on the error of a channel in the infinity norm, updated step by step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorBound {
-    /// The contraction factor g.
+    /// The contraction factor g, at least 0.
     pub contraction: f64,
     /// The bound so far.
     pub error: f64,
 }
 
 impl ErrorBound {
-    /// For an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`, the largest
-    /// element of `diag(M)^-1 E`.
+    /// The initial bound for an iteration that starts from 0: x* is at most `|e| / (1 - g)` away. `largest` is `|e|`,
+    /// the largest element of `diag(M)^-1 E`.
     pub fn from_zero(contraction: f64, largest: f64) -> Self {
         Self { contraction, error: largest / (1.0 - contraction) }
     }

@@ -14,24 +14,24 @@ use super::packing::{self, Packing, TooLarge};
 use crate::card::Texels;
 use crate::linalg::Matrix;
 
-/// Rows of a parallel task, at least.
+/// Minimum number of rows of a parallel task.
 const ROWS: usize = 16;
 
 /// A system in the layout of the card's textures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardSystem {
     packing: Packing,
-    /// Patches.
+    /// Number of patches.
     size: usize,
-    /// Texels of a block.
+    /// Texels per block.
     block: usize,
     matrix: Texels,
     emittance: Texels,
 }
 
 impl CardSystem {
-    /// All three channels of a system, one texel per element. `block` texels per pass, at least 1; textures of at
-    /// most `limit` texels per side.
+    /// Lays out all three channels of a system, one texel per element, in blocks of `block` texels per pass (at least
+    /// 1). Textures have at most `limit` texels per side.
     pub fn rgb(system: &System, block: usize, limit: usize) -> Result<Self, TooLarge> {
         let size = system.factors().len();
         let mut right: Vec<[f64; 3]> = system.emittance().to_vec();
@@ -45,7 +45,7 @@ impl CardSystem {
         Ok(Self { packing: Packing::Rgb, size, block: block.max(1), matrix, emittance })
     }
 
-    /// One channel, given as matrix and right-hand side, four elements per texel.
+    /// Lays out one channel, given as matrix and right-hand side, four elements per texel.
     pub fn luminance(matrix: Matrix, right: &[f64], block: usize, limit: usize) -> Result<Self, TooLarge> {
         let size = matrix.row_count();
         let (matrix, diagonal) = divided(matrix);
@@ -55,7 +55,7 @@ impl CardSystem {
         Ok(Self { packing: Packing::Luminance, size, block: block.max(1), matrix, emittance })
     }
 
-    /// A system of zeros, for measuring time, which does not depend on values.
+    /// Creates a system of zeros, for measuring time, which does not depend on values.
     pub fn zeros(packing: Packing, size: usize, block: usize, limit: usize) -> Result<Self, TooLarge> {
         let [width, rows] = match packing {
             Packing::Rgb => [size; 2],
@@ -71,27 +71,27 @@ impl CardSystem {
         self.packing
     }
 
-    /// How many patches.
+    /// Number of patches.
     pub fn len(&self) -> usize {
         self.size
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no patches.
     pub fn is_empty(&self) -> bool {
         self.size == 0
     }
 
-    /// Texels of a block.
+    /// Texels per block.
     pub fn block(&self) -> usize {
         self.block
     }
 
-    /// A's texture.
+    /// Texture of A.
     pub fn matrix(&self) -> &Texels {
         &self.matrix
     }
 
-    /// e's texture.
+    /// Texture of e.
     pub fn emittance(&self) -> &Texels {
         &self.emittance
     }
@@ -101,13 +101,13 @@ impl CardSystem {
         self.matrix.width.div_ceil(self.block)
     }
 
-    /// A texture of zeros, where an iteration begins.
+    /// Returns a texture of zeros, the initial state of an iteration.
     pub fn zero(&self) -> Texels {
         Texels::vector(vec![[0.0; 4]; self.emittance.width])
     }
 
-    /// One pass. `radiosity` is that of the last iteration, `partial` the result of the pass before, which pass 0
-    /// does not read.
+    /// Computes one pass. `radiosity` is the result of the last iteration, `partial` that of the pass before, which
+    /// pass 0 does not read.
     ///
     /// # Panics
     /// If a texture is too small, or there is no such pass.
@@ -115,12 +115,12 @@ impl CardSystem {
         self.observed(radiosity, partial, pass, |_| ()).0
     }
 
-    /// One iteration: all passes.
+    /// Computes one iteration: all passes.
     pub fn step(&self, radiosity: &Texels) -> Texels {
         (0..self.passes()).fold(self.zero(), |partial, pass| self.pass(radiosity, &partial, pass))
     }
 
-    /// A pass, with an observer of the operations of each row.
+    /// Computes a pass with an observer of the operations of each row.
     pub(super) fn observed<W: RoundingObserver>(
         &self,
         radiosity: &Texels,
@@ -164,9 +164,9 @@ impl CardSystem {
 
 /// Receives the result of every rounded operation of a row, for the four channels at once.
 pub(super) trait RoundingObserver: Send {
-    /// After a product.
+    /// Called after a product.
     fn product(&mut self, value: [f32; 4]);
-    /// After a sum or difference.
+    /// Called after a sum or difference.
     fn sum(&mut self, value: [f32; 4]);
 }
 

@@ -13,18 +13,18 @@ use crate::scene::Camera;
 /// An eye within this distance of a patch's plane, relative to the patch's radius, sees neither side.
 const EDGE_ON: f64 = 1e-9;
 
-/// Patches cannot be drawn.
+/// Error of drawing patches.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DrawError {
-    /// The card refused.
+    /// The card refuses a resource or a draw.
     #[error(transparent)]
     Machine(#[from] MachineError),
     /// The device refuses a program.
     #[error("{0}\nuse a device with fragment programs (`!!FP1.0`), such as nv35")]
     Kernel(#[from] KernelError),
-    /// Not one radiosity per patch.
+    /// The number of radiosities is not that of the patches.
     #[error("expected {patches} radiosities, one per patch, found {found}")]
     Count { patches: usize, found: usize },
 }
@@ -33,18 +33,18 @@ pub enum DrawError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
     pub(super) eye: DVec3,
-    /// Clip space's w is the component along this; its length is 1.
+    /// Axis of clip space's w; of unit length.
     pub(super) forward: DVec3,
-    /// Clip space's x is the component along this.
+    /// Axis of clip space's x.
     pub(super) across: DVec3,
-    /// Clip space's y, upwards, is the component along this.
+    /// Axis of clip space's y, upwards.
     pub(super) upwards: DVec3,
-    /// A bound on the distance of anything, measured along `forward`.
+    /// Bound on the distance of any vertex, measured along `forward`.
     pub(super) far: f64,
 }
 
 impl Projection {
-    /// The projection of a camera, for a scene within `extent` of the point `within`.
+    /// Creates the projection of a camera, for a scene within `extent` of the point `within`.
     pub(super) fn of(camera: &Camera, within: DVec3, extent: f64) -> Self {
         let eye = wide(camera.eye());
         let per_square = |v: DVec3| 1.0 / v.dot(v) * v;
@@ -57,13 +57,13 @@ impl Projection {
         }
     }
 
-    /// x, y and w in clip space.
+    /// Returns x, y and w in clip space.
     fn clip(&self, point: DVec3) -> [f64; 3] {
         let to = point - self.eye;
         [self.across, self.upwards, self.forward].map(|axis| axis.dot(to))
     }
 
-    /// Whether all of a patch lies outside one plane of the view frustum.
+    /// Returns `true` if all of a patch lies outside one plane of the view frustum.
     pub(super) fn misses(&self, patch: &Patch) -> bool {
         let mut outside = [true; 5];
         for &corner in patch.corners() {
@@ -74,7 +74,7 @@ impl Projection {
         outside.contains(&true)
     }
 
-    /// Which side of a patch the eye sees, if any.
+    /// Returns the side of a patch that the eye sees; `None` if it sees the patch edge-on.
     pub(super) fn side(&self, patch: &Patch) -> Option<Side> {
         let (height, least) = (patch.height(self.eye), EDGE_ON * patch.radius());
         if height > least { Some(Side::Front) } else { (height < -least).then_some(Side::Back) }
@@ -82,8 +82,8 @@ impl Projection {
 
     /// A corner with its coordinates in the patch, `TEX0` of the programs: u, v, depth, 1 in front and 0 behind.
     ///
-    /// Depth is the distance along the view as a share of the farthest, which the program writes: as fine far away as
-    /// near by, and the eye may touch what it sees. Clip space's z cuts nothing.
+    /// Depth, which the program writes, is the distance along the view as a fraction of the farthest. Its precision is
+    /// the same at all distances, and there is no near plane. Clip space's z clips nothing.
     pub(super) fn vertex(&self, corner: DVec3, [u, v]: [f64; 2], side: Side) -> Vertex {
         let [x, y, w] = self.clip(shared(corner));
         let mut vertex = Vertex { position: bits([x, y, 0.5 * w, w]), ..Vertex::default() };
@@ -95,31 +95,31 @@ impl Projection {
 /// A side of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// The one that receives and emits light.
+    /// The front, which receives and emits light.
     Front,
-    /// The black one.
+    /// The back, which is black.
     Back,
 }
 
 impl Side {
-    /// A patch's number as a color: from 1, negative for the back; 0 is no patch.
+    /// Encodes a patch's number as a color: from 1, negative for the back; 0 is no patch.
     pub(super) fn code(self, patch: usize) -> f64 {
         let number = (patch + 1) as f64;
         if self == Self::Front { number } else { -number }
     }
 }
 
-/// The patch whose front was seen in a pixel, by the pixel's color.
+/// Decodes the patch whose front is seen in a pixel; `None` for a back or no patch.
 pub(super) fn patch_of(code: f32) -> Option<u32> {
     (code >= 1.0).then(|| code as u32 - 1)
 }
 
-/// A corner rounded to f32, in which neighbours in other faces agree to the bit.
+/// Rounds a corner to f32, in which neighbours in other faces agree to the bit.
 fn shared(corner: DVec3) -> DVec3 {
     wide(narrow(corner))
 }
 
-/// A vector for the card, each component rounded once.
+/// Converts a vector for the card, each component rounded once.
 pub(super) fn bits(vector: [f64; 4]) -> [u32; 4] {
     vector.map(|x| (x as f32).to_bits())
 }

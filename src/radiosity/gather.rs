@@ -6,7 +6,7 @@ use super::form_factor::{FormFactorError, VisibilityParameters, point_share};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// The irradiance at a point with a normal of length 1: the sum over the patches of radiosity, form factor from the
+/// Computes the irradiance at a point with a unit normal: the sum over the patches of radiosity, form factor from the
 /// point in closed form, and the fraction of sample rays that are unoccluded. `caster` traces [`Patches::mesh`] from
 /// both sides.
 ///

@@ -1,15 +1,15 @@
 //! The paper's counts (sections 3 and 3.1): instructions, passes, floating-point operations.
 
-/// Instructions of a GeForce FX fragment program, at most.
+/// Maximum number of instructions of a GeForce FX fragment program.
 pub const MAX_INSTRUCTIONS: u32 = 1024;
 /// Instructions per texel: fetch the matrix, fetch the vector, multiply and subtract, step the texture coordinates.
 pub const PER_TEXEL: u32 = 4;
-/// The other instructions of a pass: 1024 = 254 x 4 + 8.
+/// Instructions of a pass outside of its texels: 1024 = 254 x 4 + 8.
 pub const OVERHEAD: u32 = 8;
 /// Texels of a block on a card of [`MAX_INSTRUCTIONS`]: the paper's 254.
 pub const BLOCK: u32 = block(MAX_INSTRUCTIONS);
 
-/// Texels of a block that a program of so many instructions can take, at least 1.
+/// Texels of a block that a program of this many instructions can process, at least 1.
 pub const fn block(instructions: u32) -> u32 {
     let fits = instructions.saturating_sub(OVERHEAD) / PER_TEXEL;
     if fits == 0 { 1 } else { fits }
@@ -25,7 +25,7 @@ pub fn operations(patches: u32) -> f64 {
     2.0 * f64::from(patches) * f64::from(patches)
 }
 
-/// MFLOP/s of so many iterations per second.
+/// Converts iterations per second to MFLOP/s.
 pub fn mflops(patches: u32, iterations_per_s: f64) -> f64 {
     operations(patches) * iterations_per_s / 1e6
 }

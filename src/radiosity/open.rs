@@ -24,11 +24,11 @@ use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::offset::scene_clearance;
 
-/// Cuts nearer than this to a cell's border, and shorter ones, are not made, in multiples of the lift.
+/// Minimum length of a cut, and of its distance from a cell's border, in multiples of the lift.
 const FINEST: f64 = 4.0;
-/// Cells per patch. Beyond, cells are not cut further.
+/// Maximum number of cells per patch; beyond it, cells are not cut further.
 const MAX_CELLS: usize = 4096;
-/// Test points between a cell's centre and its corners lie this far out.
+/// Position of test points between a cell's centre (0) and its corners (1).
 const OUTWARDS: f64 = 0.75;
 /// Tangents of the tested directions, along two axes of the plane: the normal first.
 const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
@@ -36,7 +36,8 @@ const TANGENTS: [f64; 5] = [0.0, -2.0, -1.0, 1.0, 2.0];
 /// A line segment in a raised plane.
 type PlaneSegment = [DVec3; 2];
 
-/// The open parts of the patches that are not wholly open, by patch; none for a patch that is covered altogether.
+/// Returns the open parts of the patches that are not wholly open, by patch; an empty list for a patch that is covered
+/// altogether.
 pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f64) -> BTreeMap<u32, Vec<Patch>> {
     let triangles: Vec<[DVec3; 3]> = mesh.iter_corners().map(|t| t.map(wide)).collect();
     let lift = scene_clearance(extent);
@@ -62,7 +63,7 @@ pub(super) fn open_parts(list: &[Patch], mesh: &Mesh, face_of: &[u32], extent: f
 /// A convex polygon in the patch's plane, counter-clockwise from its front.
 type ConvexCell = Vec<DVec3>;
 
-/// Where a triangle crosses a patch's plane raised by `lift`.
+/// Returns the segment in which a triangle crosses a patch's plane raised by `lift`.
 fn crossing_segment(patch: &Patch, lift: f64, triangle: &[DVec3; 3]) -> Option<PlaneSegment> {
     let heights = triangle.map(|corner| patch.height(corner) - lift);
     let crossing = |k: usize| {
@@ -112,7 +113,8 @@ fn inside(cell: &[DVec3], normal: DVec3, [start, along]: [DVec3; 2], length: f64
     to - from
 }
 
-/// Whether the first hit of every test ray of a cell is the back of a surface. For most cells the first ray decides.
+/// Returns `true` if the first hit of every test ray of a cell is the back of a surface. For most cells the first ray
+/// decides.
 fn is_covered(cell: &[DVec3], patch: &Patch, lift: f64, (mesh, tracer): (&Mesh, &Tracer<'_>)) -> bool {
     let normal = patch.normal();
     let along = unit(patch.center() - patch.corners()[0]).unwrap_or(normal);
@@ -135,19 +137,19 @@ fn sees_a_back(ray: &Ray, mesh: &Mesh, tracer: &Tracer<'_>) -> bool {
     })
 }
 
-/// The mean of a cell's corners.
+/// Mean of a cell's corners.
 fn middle(cell: &[DVec3]) -> DVec3 {
     1.0 / cell.len() as f64 * cell.iter().sum::<DVec3>()
 }
 
-/// The center of a cell, and a point towards each corner.
+/// The centre of a cell, and a point towards each corner.
 fn test_points(cell: &[DVec3]) -> Vec<DVec3> {
     let middle = middle(cell);
     let towards = |&corner: &DVec3| middle + OUTWARDS * (corner - middle);
     std::iter::once(middle).chain(cell.iter().map(towards)).collect()
 }
 
-/// A cell as patches of three or four corners.
+/// Splits a cell into patches of three or four corners.
 fn pieces(cell: &[DVec3], patch: &Patch) -> Vec<Patch> {
     let rest = &cell[1..];
     (0..rest.len().saturating_sub(1))

@@ -17,14 +17,14 @@ use crate::linalg::Matrix;
 /// The layout of elements in texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
-    /// One texel per element, three systems at once.
+    /// One texel per element, three systems at once: the red, green and blue channels.
     Rgb,
     /// Four elements per texel, one system.
     Luminance,
 }
 
 impl Packing {
-    /// Elements of a matrix's row that a texel holds.
+    /// Number of elements of a matrix's row in a texel.
     pub const fn elements(self) -> u32 {
         match self {
             Self::Rgb => 1,
@@ -32,7 +32,7 @@ impl Packing {
         }
     }
 
-    /// Texels across and down of a matrix of so many patches.
+    /// Texels across and down of the matrix of a system of `patches` patches.
     pub const fn matrix_texels(self, patches: usize) -> [usize; 2] {
         match self {
             Self::Rgb => [patches; 2],
@@ -41,7 +41,7 @@ impl Packing {
     }
 }
 
-/// A texture larger than the card allows.
+/// Error: a texture is larger than the card allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
     "expected {what} that fits a texture of {limit} x {limit} texels, the card's largest, found {width} x {height}; use fewer patches"
@@ -49,7 +49,7 @@ impl Packing {
 pub struct TooLarge {
     /// `a matrix` or `a vector`.
     pub what: &'static str,
-    /// The most texels per side.
+    /// Maximum number of texels per side.
     pub limit: usize,
     /// Texels across.
     pub width: usize,
@@ -57,7 +57,7 @@ pub struct TooLarge {
     pub height: usize,
 }
 
-/// A texture whose texels a function gives, by column and row.
+/// Creates a texture from a function of column and row.
 pub(super) fn filled(
     what: &'static str,
     [width, height]: [usize; 2],
@@ -70,7 +70,7 @@ pub(super) fn filled(
     Ok(Texels::from_fn([width, height], texel))
 }
 
-/// An element; 0 outside of the matrix.
+/// Returns an element; 0 outside of the matrix.
 fn element(matrix: &Matrix, row: usize, column: usize) -> f32 {
     if row < matrix.row_count() && column < matrix.column_count() { matrix.row(row)[column] as f32 } else { 0.0 }
 }

@@ -13,9 +13,9 @@ pub struct Patch {
     center: DVec3,
     normal: DVec3,
     radius: f64,
-    /// The face that it is a part of: patches of one face lie in one plane and never see each other.
+    /// Index of the face that it is a part of: patches of one face lie in one plane and never see each other.
     pub face: u32,
-    /// The place of its material in the scene.
+    /// Index of its material in the scene.
     pub material: u32,
 }
 
@@ -24,12 +24,12 @@ pub struct Patch {
 pub struct PatchPoint {
     /// Its position.
     pub at: DVec3,
-    /// Area per area of the unit square.
+    /// Area of the patch per unit area of the parameter square.
     pub density: f64,
 }
 
 impl Patch {
-    /// A patch of three or four corners; `None` for any other number, or if it has no area.
+    /// Creates a patch of three or four corners; `None` for any other number, or if it has no area.
     pub fn new(outline: &[DVec3], face: u32, material: u32) -> Option<Self> {
         let sides = outline.len();
         let corners = match *outline {
@@ -41,7 +41,7 @@ impl Patch {
         let normal = if sides == 3 { (corners[1] - corners[0]).cross(corners[2] - corners[0]) } else { doubled };
         let area = 0.5 * normal.length();
         let longest = (0..sides).map(|i| (corners[(i + 1) % sides] - corners[i]).length()).fold(0.0, f64::max);
-        // Corners come from f32: a height of 2^-40 of the longest side is rounding, not area.
+        // Corners come from f32: a height of 2^-40 of the longest side is a rounding error, not area.
         let least = longest * longest * f64::EPSILON * 4096.0;
         if area.is_nan() || area <= least {
             return None;
@@ -76,13 +76,13 @@ impl Patch {
         self.radius
     }
 
-    /// How far a point lies in front of its plane (behind it: below 0).
+    /// Signed distance of a point from its plane, positive in front.
     pub fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.center)
     }
 
-    /// A parametrisation over the unit square: bilinear for four corners; for three, one side of the square is one
-    /// corner. Integrals over the patch are integrals over the square of value times density.
+    /// Evaluates a parametrisation over the unit square: bilinear for four corners; for three, one side of the square
+    /// collapses to a corner. Integrals over the patch are integrals over the square of value times density.
     pub fn at(&self, u: f64, v: f64) -> PatchPoint {
         let [a, b, c, d] = self.corners;
         if self.sides == 3 {

@@ -10,13 +10,13 @@ use crate::geom::Mesh;
 use crate::geom::vector::wide;
 use crate::scene::{Scene, Surface};
 
-/// How finely faces are cut.
+/// Fineness of the subdivision of faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Subdivision {
-    /// Every side of every face into this many parts, at least 1: n^2 patches per face.
+    /// Number of parts of every side of every face, at least 1: n^2 patches per face.
     PerSide(u32),
-    /// Into parts as equal in length as whole numbers allow, as many patches as fit within this number. At least one
-    /// per face.
+    /// Maximum number of patches, at least one per face: sides are cut into parts as equal in length as whole numbers
+    /// allow.
     AtMost(usize),
 }
 
@@ -29,7 +29,7 @@ pub struct Patches {
     mesh: Mesh,
     face_of: Vec<u32>,
     extent: f64,
-    /// Of each material: reflectance and radiance.
+    /// Reflectance and radiance of each material.
     materials: Vec<([f64; 3], [f64; 3])>,
 }
 
@@ -70,7 +70,7 @@ impl Patches {
         &self.mesh
     }
 
-    /// The face that a triangle of [`Patches::mesh`] is a part of.
+    /// Returns the face that a triangle of [`Patches::mesh`] is a part of.
     ///
     /// # Panics
     /// If there is no such triangle.
@@ -83,7 +83,7 @@ impl Patches {
         self.extent
     }
 
-    /// The parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is covered
+    /// Returns the parts of a patch that no solid covers: the patch itself if nothing covers it, none if it is covered
     /// altogether. Radiosities and form factors are means over them. The rule is in `open.rs`.
     ///
     /// # Panics
@@ -93,7 +93,7 @@ impl Patches {
         self.open.get(&(patch as u32)).map_or(whole, Vec::as_slice)
     }
 
-    /// The area of what is open of a patch.
+    /// Area of the open parts of a patch.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -101,7 +101,7 @@ impl Patches {
         self.open_parts(patch).iter().map(Patch::area).sum()
     }
 
-    /// The patches that something covers in part, and those that are covered altogether.
+    /// Number of patches that are covered in part, and of those that are covered altogether.
     pub fn covered(&self) -> [usize; 2] {
         let altogether = self.open.values().filter(|parts| parts.is_empty()).count();
         [self.open.len() - altogether, altogether]
@@ -127,8 +127,8 @@ impl Patches {
         PatchPoint { density: point.density * (area / part.area()), ..point }
     }
 
-    /// The area of each patch, as form factors count it: that of its open parts, since nothing else takes part in the
-    /// exchange of light. A patch that is covered altogether exchanges nothing, and has its whole area.
+    /// Area of each patch as form factors count it: that of its open parts, since nothing else takes part in the
+    /// exchange of light. A patch that is covered altogether exchanges nothing, and is given its whole area.
     pub fn areas(&self) -> Vec<f64> {
         let area = |i| if self.open_parts(i).is_empty() { self.list[i].area() } else { self.open_area(i) };
         (0..self.list.len()).map(area).collect()
@@ -158,7 +158,7 @@ fn diffuse(material: &crate::scene::Material) -> Result<([f64; 3], [f64; 3]), Pa
 }
 
 impl Face {
-    /// The number of its patches.
+    /// Number of patches of the face.
     fn count(&self, [u, v]: [u32; 2]) -> usize {
         u as usize * v as usize
     }

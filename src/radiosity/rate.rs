@@ -14,7 +14,7 @@ use super::model;
 use super::on_card::{CardError, CardSolver, Fit, Storage};
 use super::packing::Packing;
 
-/// An iteration cannot be timed.
+/// Error of timing an iteration.
 #[non_exhaustive]
 #[derive(Debug, Error)]
 pub enum RateError {
@@ -26,50 +26,50 @@ pub enum RateError {
     Timing(#[from] TimingError),
 }
 
-/// The iteration that is timed.
+/// Parameters of the timed iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timing {
-    /// Patches.
+    /// Number of patches.
     pub patches: usize,
-    /// With luminance packing one channel is timed, as in the paper.
+    /// Layout of elements in texels. With luminance packing one channel is timed, as in the paper.
     pub packing: Packing,
-    /// Single or half floats.
+    /// Number format: single or half floats.
     pub storage: Storage,
-    /// Whether the texture cache is simulated texel by texel, which takes some thousand times as long, or the least
-    /// traffic is assumed.
+    /// `true` to simulate the texture cache texel by texel, which takes some thousand times as long; otherwise the
+    /// minimum of traffic is assumed.
     pub cache: bool,
 }
 
-/// The time of an iteration.
+/// Time of an iteration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimedIteration {
-    /// Passes.
+    /// Number of passes.
     pub passes: usize,
-    /// Draws: a pass with luminance packing takes four, one per channel of its target.
+    /// Number of draws: a pass with luminance packing takes four, one per channel of its target.
     pub draws: usize,
-    /// The whole iteration: draws and changes of state, one after the other, since each reads what the last wrote.
+    /// Time of the whole iteration: draws and changes of state in sequence, since each reads the results of the last.
     pub time: Picoseconds,
-    /// Clocks of the texture units, which work at the same time as the other units.
+    /// Clocks of the texture units, which work concurrently with the other units.
     pub textures: u64,
     /// Clocks of arithmetic.
     pub arithmetic: u64,
     /// Clocks of memory.
     pub memory: u64,
-    /// What the longest draw waits for.
+    /// Bottleneck of the longest draw.
     pub bottleneck: Bottleneck,
-    /// Bytes between the card and its memory.
+    /// Bytes transferred between the card and its memory.
     pub bytes: u64,
-    /// Those bytes relative to the bandwidth of the memory, in [0, 1].
+    /// Fraction of the memory's bandwidth used, in [0, 1].
     pub bandwidth: f64,
-    /// The fraction of shaded fragments that lie in the target; the others complete quads of 2 x 2.
+    /// Fraction of shaded fragments that lie in the target, in [0, 1]; the others complete quads of 2 x 2.
     pub filled: f64,
     /// Iterations per second.
     pub per_s: f64,
-    /// Million operations per second, at 2 N^2 per iteration and system.
+    /// Millions of floating-point operations per second, at 2 N^2 per iteration and system.
     pub mflops: f64,
 }
 
-/// Times an iteration of a system of so many patches.
+/// Times an iteration of a system of `timing.patches` patches.
 ///
 /// # Errors
 /// [`RateError`]: the card has no such programs or textures, or its rates are not known.
@@ -111,7 +111,7 @@ pub fn timed_iteration(profile: &Profile, timing: &Timing) -> Result<TimedIterat
     })
 }
 
-/// The log of an iteration that follows another one.
+/// Records the log of an iteration that follows another one.
 fn iteration_log(profile: &Profile, timing: &Timing) -> Result<Vec<Event>, RateError> {
     let fit = Fit::of(profile, timing.packing)?;
     let zeros = CardSystem::zeros(timing.packing, timing.patches, fit.block, fit.limit)

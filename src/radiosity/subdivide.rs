@@ -6,21 +6,21 @@ use crate::geom::vector::wide;
 use crate::scene::Scene;
 use glam::DVec3;
 
-/// How far out of its plane the fourth corner of a face may be, relative to the longest diagonal: the precision of
+/// Maximum distance of the fourth corner of a face from its plane, relative to the longest diagonal: the precision of
 /// f32 corners.
 const FLAT: f64 = 1e-6;
 
 /// A flat convex part of the scene: a triangle, or two that make a quadrilateral.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Face {
-    /// Three corners or four, counter-clockwise from the front.
+    /// Its three or four corners, counter-clockwise from the front.
     pub(super) corners: Vec<DVec3>,
-    /// The (first) triangle of the mesh.
+    /// Index of its (first) triangle in the mesh.
     pub(super) triangle: u32,
     material: u32,
 }
 
-/// The faces of a scene, and the face of each triangle.
+/// Returns the faces of a scene, and the face of each triangle.
 pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchError> {
     let triangles: Vec<[DVec3; 3]> = scene.mesh().iter_corners().map(|t| t.map(wide)).collect();
     if let Some(flat) = triangles.iter().position(|t| Patch::new(t, 0, 0).is_none()) {
@@ -41,7 +41,7 @@ pub(super) fn faces_of(scene: &Scene) -> Result<(Vec<Face>, Vec<u32>), PatchErro
     Ok((faces, face_of))
 }
 
-/// The flat convex quadrilateral that two triangles with a common side make, if they do.
+/// Merges two triangles with a common side into a quadrilateral; `None` if it is not flat and convex.
 fn quadrilateral(one: &[DVec3; 3], other: &[DVec3; 3]) -> Option<[DVec3; 4]> {
     for i in 0..3 {
         let [a, b, c] = [one[i], one[(i + 1) % 3], one[(i + 2) % 3]];
@@ -67,11 +67,11 @@ fn is_flat_and_convex(quad: &[DVec3; 4]) -> bool {
     lift <= FLAT * longest * normal.length() && turns
 }
 
-/// Parts per side of each face, as short as at most `most` patches in all allow.
+/// Chooses the parts per side of each face, as short as at most `most` patches in all allow.
 pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
     let longest = faces.iter().flat_map(Face::sides).fold(0.0, f64::max);
     let count = |part: f64| faces.iter().map(|f| f.steps(part)).map(|[u, v]| f64::from(u) * f64::from(v)).sum::<f64>();
-    // The count falls as parts get longer: halve the interval until both ends are neighbours for all that counts.
+    // The count decreases with the length of parts: bisect until the interval is negligible.
     let (mut short, mut long) = (longest / 4096.0, longest);
     for _ in 0..60 {
         let middle = 0.5 * (short + long);
@@ -85,20 +85,20 @@ pub(super) fn steps_for_at_most(faces: &[Face], most: usize) -> Vec<[u32; 2]> {
 }
 
 impl Face {
-    /// Lengths across and along: of opposite sides the longer one.
+    /// Lengths across and along, of opposite sides the longer one.
     fn sides(&self) -> [f64; 2] {
         let n = self.corners.len();
         let side = |i: usize| (self.corners[(i + 1) % n] - self.corners[i]).length();
         if n == 3 { [side(0).max(side(1)).max(side(2)); 2] } else { [side(0).max(side(2)), side(1).max(side(3))] }
     }
 
-    /// The number of parts of at most this length, across and along.
+    /// Number of parts of at most this length, across and along.
     fn steps(&self, part: f64) -> [u32; 2] {
-        // A hair less, so that what should come out whole does.
+        // Slightly less, so that rounding does not add a part where the quotient should be an integer.
         self.sides().map(|side| ((side / part - 1e-9).ceil() as u32).max(1))
     }
 
-    /// Adds its patches; `None` if one of them has no area. Corners of neighbours are the same to the bit.
+    /// Adds the patches of the face; `None` if one of them has no area. Corners of neighbours are the same to the bit.
     pub(super) fn cut(&self, id: u32, [across, along]: [u32; 2], into: &mut Vec<Patch>) -> Option<()> {
         let part = |i: u32, n: u32| f64::from(i) / f64::from(n);
         if let [a, b, c, d] = self.corners[..] {

@@ -1,4 +1,4 @@
-//! The linear system of equations 1 and 2, and what may change in it while the form factors stay.
+//! The linear system of equations 1 and 2, and its updates while the form factors stay.
 
 use thiserror::Error;
 
@@ -6,24 +6,24 @@ use super::FormFactors;
 use super::solve::{self, Options, Solution, SolveError, Solver};
 use crate::linalg::Matrix;
 
-/// Why there is no system.
+/// Error of a system's input.
 #[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SystemError {
-    /// No patches.
+    /// There are no patches.
     #[error("expected patches, found none")]
     Empty,
-    /// Not one reflectance, emittance or the like per patch.
+    /// The number of reflectances, emittances or the like is not that of the patches.
     #[error("expected {patches} {what}, one per patch, found {found}")]
     Count { what: &'static str, patches: usize, found: usize },
-    /// A reflectance of 1 or more, or below 0.
+    /// A reflectance is 1 or more, or below 0.
     #[error(
         "expected reflectances of at least 0 and below 1, found {value} for patch {patch} (counted from 0); \
          a surface that absorbs nothing has no solution"
     )]
     Reflectance { patch: usize, value: f64 },
-    /// An emittance below 0, or none at all.
+    /// An emittance is below 0, or none is above 0.
     #[error("expected finite emittances of at least 0, found {value} for patch {patch} (counted from 0)")]
     Emittance { patch: usize, value: f64 },
 }
@@ -31,7 +31,7 @@ pub enum SystemError {
 /// Red, green and blue per patch.
 type PerPatch = Vec<[f64; 3]>;
 
-/// Form factors with the reflectances and emittances of the patches, which may change.
+/// Form factors with the reflectances and emittances of the patches, which can be replaced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
     factors: FormFactors,
@@ -39,7 +39,7 @@ pub struct System {
     emittance: PerPatch,
 }
 
-/// The three channels' solutions.
+/// Solutions of the three channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RgbSolution {
     /// Red, green, blue.
@@ -47,7 +47,7 @@ pub struct RgbSolution {
 }
 
 impl RgbSolution {
-    /// The radiosity of each patch.
+    /// Radiosity of each patch: red, green, blue.
     pub fn radiosity(&self) -> PerPatch {
         let [red, green, blue] = &self.channels;
         (0..red.radiosity.len()).map(|i| [red, green, blue].map(|channel| channel.radiosity[i])).collect()
@@ -55,7 +55,7 @@ impl RgbSolution {
 }
 
 impl System {
-    /// A system of as many patches as there are form factors. Reflectances lie in [0, 1).
+    /// Creates a system with one reflectance, in [0, 1), and one emittance per patch.
     pub fn new(factors: FormFactors, reflectance: PerPatch, emittance: PerPatch) -> Result<Self, SystemError> {
         if factors.is_empty() {
             return Err(SystemError::Empty);
@@ -112,7 +112,7 @@ impl System {
         &self.emittance
     }
 
-    /// The right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue).
+    /// Returns the right-hand side of equation 2 in a channel (0 red, 1 green, 2 blue).
     ///
     /// # Panics
     /// For another channel.
@@ -120,7 +120,7 @@ impl System {
         self.emittance.iter().map(|e| e[channel]).collect()
     }
 
-    /// The matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor.
+    /// Computes the matrix of equation 2 in a channel: 1 on the diagonal, less reflectance times form factor.
     ///
     /// # Panics
     /// For a channel above 2.
@@ -167,7 +167,8 @@ impl System {
         Ok(RgbSolution { channels: [channel(0)?, channel(1)?, channel(2)?] })
     }
 
-    /// The mean square of the residual of equation 2, E - M B, in each channel: Figure 3's error. M is not formed.
+    /// Computes the mean square of the residual of equation 2, E - M B, in each channel: Figure 3's error. M is not
+    /// formed.
     ///
     /// # Panics
     /// If there is not one radiosity per patch.
@@ -181,8 +182,8 @@ impl System {
         })
     }
 
-    /// The energy-balance error in each channel: power emitted, less power absorbed and power that leaves the room.
-    /// It is 0 for reciprocal form factors and an exact solution.
+    /// Computes the energy-balance error in each channel: power emitted, less power absorbed and power that leaves the
+    /// room. It is 0 for reciprocal form factors and an exact solution.
     pub fn energy_balance_error(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
         [0, 1, 2].map(|c| {
             let b: Vec<f64> = radiosity.iter().map(|b| b[c]).collect();
@@ -198,7 +199,7 @@ impl System {
     }
 }
 
-/// The first value that is `wrong`, with its patch.
+/// Returns the first value for which `wrong` holds, with its patch.
 fn first(values: &PerPatch, wrong: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
     let mut all = values.iter().enumerate().flat_map(|(patch, color)| color.map(|value| (patch, value)));
     all.find(|&(_, value)| wrong(value))

@@ -1,4 +1,4 @@
-//! What comes of a batch: its hits, or why there are none.
+//! Results and errors of a batch of rays.
 
 use refsim::event::{DrawEvents, Event};
 use refsim::machine::MachineError;
@@ -7,15 +7,15 @@ use super::RayBatchError;
 use crate::card::KernelError;
 use crate::geom::Hit;
 
-/// Triangle ids are 24-bit colors.
+/// Maximum number of triangles: ids are 24-bit colors.
 pub(super) const MAX_TRIANGLES: usize = 1 << 24;
 
-/// A card cannot intersect rays with triangles.
+/// Error of an intersection on a card.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum EngineError {
-    /// The card's shader versions have no intersection program.
+    /// The device runs none of the shader versions that the intersection programs are written in.
     #[error("device `{device}` runs no intersection program: expected ps_1_4 or ps_2_0")]
     #[diagnostic(code(ray_engine::no_kernel), help("take r200, r300, r350, nv30, nv35 or ideal-<format>"))]
     NoKernel { device: String },
@@ -23,11 +23,11 @@ pub enum EngineError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Kernel(#[from] KernelError),
-    /// More triangles than ids.
+    /// The mesh has more triangles than there are ids.
     #[error("expected at most {MAX_TRIANGLES} triangles (ids are 24-bit colors), found {found}")]
     #[diagnostic(code(ray_engine::too_many_triangles), help("split the mesh"))]
     TooManyTriangles { found: usize },
-    /// Rays that fill no rectangle.
+    /// The number of rays does not match the rectangle.
     #[error(transparent)]
     #[diagnostic(code(ray_engine::batch))]
     Batch(#[from] RayBatchError),
@@ -37,15 +37,15 @@ pub enum EngineError {
     Machine(#[from] MachineError),
 }
 
-/// The result of a batch.
+/// Result of a batch.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// The hit of each ray.
+    /// First hit of each ray, in the order of the rays; `None` for a miss.
     pub hits: Vec<Option<Hit>>,
-    /// What happened on the card.
+    /// Events counted by the card.
     pub events: DrawEvents,
-    /// The pixel program that ran.
+    /// File name of the pixel program that ran.
     pub kernel: &'static str,
-    /// The log of the card; empty unless it was recorded.
+    /// Event log of the card; empty unless it was recorded.
     pub log: Vec<Event>,
 }

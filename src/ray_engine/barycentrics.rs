@@ -1,21 +1,22 @@
-//! What the host computes of a hit whose triangle it knows: `float_uvw*.psa` in f32, operation by operation.
+//! Host evaluation of a hit on a known triangle: `float_uvw*.psa` in f32, operation by operation.
 //!
-//! Written for being the same as the card, not for speed: it is asked once a hit.
+//! Written for bit equality with the card, not for speed: it runs once per hit.
 
 use crate::geom::exact::Sides;
 use crate::geom::{Mesh, Ray};
 use crate::tracer::triangle_test::{HostRay, scaled_corners};
 
-/// A point of a triangle's plane.
+/// Intersection of a ray with the plane of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlanePoint {
-    /// In multiples of the ray's direction, not yet rounded to single precision.
+    /// Ray parameter in multiples of the ray's direction, not yet rounded to single precision.
     pub(super) t: f64,
-    /// u, v, w by -n.d, or by |n.d| for either side.
+    /// u, v, w divided by -n.d, or by |n.d| if both sides count.
     pub(super) uvw: [f32; 3],
 }
 
-/// Where a ray meets the plane of a triangle, computed at a scale; `None` for a triangle that is not there.
+/// Intersects a ray with the plane of a triangle, in coordinates multiplied by `scale`. `None` if the mesh has no such
+/// triangle.
 pub(super) fn plane_point(mesh: &Mesh, scale: f64, triangle: u32, ray: &Ray, sides: Sides) -> Option<PlanePoint> {
     let [a, b, c] = scaled_corners(mesh.corners(triangle)?, scale);
     let HostRay { origin, direction: d, power } = HostRay::new(ray, scale);

@@ -1,23 +1,23 @@
-//! What a card's number format leaves of a scene.
+//! Loss of triangle normals to the precision of a card's number format.
 
 use super::units::Units;
 use crate::geom::Mesh;
 
-/// Triangles whose normal the format cannot hold: the card gets each in its own units, n = (b - a) x (c - a) times
-/// their scale, and rounds. Of a triangle whose n is below one step of fixed point in every component n.d is no more
-/// than noise: it is missed, or hit at a t of no meaning.
+/// Number of triangles whose normal the format cannot represent. The card receives each triangle in scaled units, n =
+/// (b - a) x (c - a) times the scale, and rounds. If every component of n is below one step of fixed point, n.d is only
+/// noise: the triangle is missed, or hit at a meaningless t.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct BitsLeft {
-    /// Triangles with an area.
+    /// Number of triangles with non-zero area.
     pub triangles: u64,
-    /// Of these, those whose n is below one step. None in a float format.
+    /// Number of these whose normal is below one step in every component; 0 for a float format.
     pub below_step: u64,
-    /// Whether the format has a step: fixed point.
+    /// `true` if the format is fixed-point, and so has a step.
     pub fixed_point: bool,
 }
 
 impl BitsLeft {
-    /// Of a mesh in the units of some rays.
+    /// Counts the triangles of a mesh in the units chosen for some rays.
     pub(super) fn of(mesh: &Mesh, units: &Units) -> Self {
         let mut found = Self::default();
         for corners in mesh.iter_corners() {
@@ -29,7 +29,7 @@ impl BitsLeft {
         found
     }
 
-    /// [`BitsLeft::below_step`] as a share of all; 0 without a triangle.
+    /// [`BitsLeft::below_step`] as a fraction of [`BitsLeft::triangles`], in [0, 1]; 0 if there are none.
     pub fn share(&self) -> f64 {
         if self.triangles == 0 { 0.0 } else { self.below_step as f64 / self.triangles as f64 }
     }

@@ -1,4 +1,4 @@
-//! Buckets: which triangles can rays of one origin and nearly one direction meet?
+//! Buckets: finds the triangles that rays of one origin and nearly one direction can hit.
 //!
 //! Section 5.3 keeps triangles outside the bucket of rays away from the card. The test here is conservative by a margin
 //! that is much wider than the card's errors, in f64: a triangle is left out only if it lies wholly to one side of all
@@ -11,12 +11,12 @@ use super::RayBatch;
 use crate::geom::Mesh;
 use crate::geom::vector::{unit, wide};
 
-/// By how much a bucket grows on each side, as a share of its extent...
+/// Margin added on each side of a bucket, as a fraction of its extent...
 const MARGIN_SHARE: f64 = 0.25;
-/// ... and in units of the picture plane at distance 1 besides: an error of 2^-8 in a direction.
+/// ... plus this, in units of the picture plane at distance 1: a direction error of 2^-8.
 const MARGIN: f64 = 1.0 / 256.0;
 
-/// The squares of a batch, row by row, cut off at its edges.
+/// Splits a batch into squares of `side` pixels, row by row, clipped at its edges.
 pub(super) fn regions(rays: &RayBatch, side: u32) -> Vec<Region> {
     let (width, height) = (rays.width(), rays.height());
     let rows = (0..height).step_by(side as usize);
@@ -25,7 +25,7 @@ pub(super) fn regions(rays: &RayBatch, side: u32) -> Vec<Region> {
         .collect()
 }
 
-/// A bundle of rays of one origin, as a rectangle on a plane at distance 1 across its middle.
+/// Bundle of rays with a common origin: a rectangle on a plane at distance 1 perpendicular to its middle ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bundle {
     origin: DVec3,
@@ -36,7 +36,8 @@ pub(super) struct Bundle {
 }
 
 impl Bundle {
-    /// The bundle of a region's rays, which all start at `origin`; `None` if they have no common side to look to.
+    /// Builds the bundle of a region's rays, which all start at `origin`; `None` if no half-space holds all of their
+    /// directions.
     pub(super) fn of(rays: &RayBatch, region: Region, origin: [f32; 3]) -> Option<Self> {
         let origin = wide(origin);
         let rows = region.y..region.y + region.height;
@@ -64,13 +65,13 @@ impl Bundle {
         Some(bundle)
     }
 
-    /// Where a vector from the origin meets the plane; `None` behind it or nearly so.
+    /// Projects a vector from the origin to the plane; `None` if it lies behind the origin or nearly so.
     fn project(&self, v: DVec3) -> Option<[f64; 2]> {
         let depth = v.dot(self.forward);
         (depth > 1e-3 * v.length()).then(|| self.axes.map(|axis| v.dot(axis) / depth))
     }
 
-    /// The triangles that the bundle may meet, in rising order.
+    /// Returns the triangles that the bundle may hit, in ascending order.
     pub(super) fn near(&self, mesh: &Mesh) -> Vec<u32> {
         let corners = mesh.iter_corners().map(|corners| corners.map(wide));
         (0..).zip(corners).filter(|(_, corners)| self.may_meet(corners)).map(|(id, _)| id).collect()

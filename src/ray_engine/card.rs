@@ -1,4 +1,4 @@
-//! A card at work for the crossbar: rays in textures, triangles in streams, ids and depths in targets.
+//! The crossbar's resources on a card: rays in textures, triangles in vertex streams, ids and depths in targets.
 
 use std::sync::Arc;
 
@@ -19,59 +19,60 @@ use super::{EngineError, Form, Kernel, RayBatch};
 use crate::card::NearestTarget;
 use crate::geom::{Hit, Mesh, Ray};
 
-/// The resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
+/// Resources of a bucket of rays: textures with the rays, a color target for ids and a depth buffer for t.
 #[derive(Debug)]
 pub(super) struct RayTextures {
-    /// All ray textures made so far: sampler, size, texture. Origins take one texel or one a ray.
+    /// All ray textures made so far: sampler, size, texture. Origins take one texel for all rays or one per ray.
     made: Vec<(usize, Region, TextureId)>,
-    /// Those with the rays that were loaded last.
+    /// Samplers and textures of the rays loaded last.
     textures: Vec<(usize, TextureId)>,
     code: TargetEncoding,
-    /// Ids, and t as depth.
+    /// Render target: ids in color, t in depth.
     target: NearestTarget,
 }
 
-/// What a draw needs beside the triangles.
+/// Inputs of a draw beside the triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PassInputs<'a> {
     pub(super) kernel: &'a Kernel,
     pub(super) units: &'a Units,
-    /// Constants from c3 on that describe the rays to a vertex program that culls.
+    /// Vertex constants from c3 on, which describe the rays to a culling vertex program.
     pub(super) bucket: &'a [[u32; 4]],
 }
 
-/// A hit as the card reports it.
+/// Hit as the card reports it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CardHit {
     pub(super) triangle: u32,
-    /// In multiples of the ray's direction, not yet rounded to single precision, if the t-buffer was read back.
+    /// Ray parameter in multiples of the ray's direction, not yet rounded to single precision; `None` if the t-buffer
+    /// was not read back.
     pub(super) t: Option<f64>,
-    /// If the card computed it.
+    /// u, v, w; `None` if the card did not compute them.
     pub(super) uvw: Option<[f32; 3]>,
 }
 
 impl CardHit {
-    /// Triangle and t, if the t-buffer was read back.
+    /// Returns triangle and t; `None` if the t-buffer was not read back.
     pub(super) fn hit(self) -> Option<Hit> {
         Some(Hit { triangle: self.triangle, t: self.t? as f32 })
     }
 }
 
-/// A read-back of a bucket.
+/// Parameters of a bucket's read-back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReadBack<'a> {
     pub(super) rays: &'a RayBatch,
     pub(super) units: &'a Units,
-    /// The triangles drawn, in their order.
+    /// Triangles drawn, in drawing order.
     pub(super) triangles: &'a [u32],
-    /// Whether the t-buffer comes too.
+    /// `true` to read the t-buffer too.
     pub(super) t: bool,
-    /// Whether the host waits.
+    /// `true` if the host waits for the data.
     pub(super) wait: bool,
 }
 
 impl RayTextures {
-    /// Uploads rays, and makes targets of their size.
+    /// Uploads rays and creates targets of their size.
     pub(super) fn new(
         machine: &mut Machine,
         kernel: &Kernel,
@@ -86,7 +87,7 @@ impl RayTextures {
         Ok(Self { made, textures, code, target })
     }
 
-    /// Replaces the rays by as many others.
+    /// Replaces the rays by the same number of others.
     pub(super) fn load(
         &mut self,
         machine: &mut Machine,
@@ -98,12 +99,13 @@ impl RayTextures {
         Ok(())
     }
 
-    /// No ids, and the depth of no hit.
+    /// Clears the target to no ids and the depth of a miss.
     pub(super) fn clear(&self, machine: &mut Machine) -> Result<(), EngineError> {
         Ok(self.target.clear(machine)?)
     }
 
-    /// One screen-filling quad per triangle, all in one call. The depth buffer starts at 1 and keeps the nearest t.
+    /// Draws one screen-filling quad per triangle, all in one call. The depth buffer starts at 1 and keeps the nearest
+    /// t.
     pub(super) fn draw(
         &self,
         machine: &mut Machine,
@@ -127,13 +129,14 @@ impl RayTextures {
         Ok(machine.draw(&call)?)
     }
 
-    /// The hit of each ray. If the host does not wait, the fence is passed when all data has arrived.
+    /// Reads the hit of each ray back. If the host does not wait, the returned fence is passed when all data has
+    /// arrived.
     pub(super) fn read_back(
         &self,
         machine: &Machine,
         reading: &ReadBack<'_>,
     ) -> Result<(Vec<Option<CardHit>>, Option<FenceId>), EngineError> {
-        // The fence of the last transfer stands behind the others too.
+        // The fence of the last transfer is also behind the others.
         let (mut fence, image) = match reading.wait {
             true => (None, machine.read_back(self.target.color)?),
             false => machine.read_back_async(self.target.color).map(|(fence, image)| (Some(fence), image))?,
@@ -152,7 +155,7 @@ impl RayTextures {
 }
 
 impl ReadBack<'_> {
-    /// Hits from colors and depths.
+    /// Decodes hits from colors and depths.
     fn hits(&self, code: TargetEncoding, image: &Image, depth: Option<&DepthSurface>) -> Vec<Option<CardHit>> {
         let width = self.rays.width();
         let t = |i: usize, ray: &Ray| {
@@ -193,7 +196,7 @@ fn upload(
     Ok(bound)
 }
 
-/// A machine with one bucket of rays.
+/// Machine with one bucket of rays.
 #[derive(Debug)]
 pub(super) struct Card {
     machine: Machine,
@@ -203,7 +206,7 @@ pub(super) struct Card {
 }
 
 impl Card {
-    /// Uploads the rays, and makes targets of their size.
+    /// Uploads the rays and creates targets of their size.
     pub(super) fn set_up(
         mut machine: Machine,
         kernel: Arc<Kernel>,
@@ -214,23 +217,23 @@ impl Card {
         Ok(Self { machine, kernel, units, sheet })
     }
 
-    /// No ids, and the depth of no hit.
+    /// Clears the target to no ids and the depth of a miss.
     pub(super) fn clear(&mut self) -> Result<(), EngineError> {
         self.sheet.clear(&mut self.machine)
     }
 
-    /// The log since the last call, if the machine records.
+    /// Takes the log since the last call; empty if the machine does not record.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 
-    /// One screen-filling quad per triangle.
+    /// Draws one screen-filling quad per triangle.
     pub(super) fn draw(&mut self, streams: &Streams) -> Result<DrawEvents, EngineError> {
         let pass = PassInputs { kernel: &self.kernel, units: &self.units, bucket: &[] };
         self.sheet.draw(&mut self.machine, pass, streams)
     }
 
-    /// The hit of each ray.
+    /// Reads back the hit of each ray.
     pub(super) fn read_back(&self, rays: &RayBatch) -> Result<Vec<Option<Hit>>, EngineError> {
         let reading = ReadBack { rays, units: &self.units, triangles: &[], t: true, wait: true };
         let (hits, _) = self.sheet.read_back(&self.machine, &reading)?;
@@ -238,13 +241,14 @@ impl Card {
     }
 }
 
-/// A float depth buffer where the program computes in float and the card has one; else 24 bits, as the cards had.
+/// Depth format for a program: float where the program computes in float and the card has a float depth buffer; else 24
+/// bits, as on the cards of the time.
 fn depth_format(profile: &Profile, form: Form) -> DepthFormat {
     let float = form == Form::Float && profile.limits.depth_formats.iter().any(|f| f == DepthFormat::Float32.name());
     if float { DepthFormat::Float32 } else { DepthFormat::Unorm24 }
 }
 
-/// The vertex attributes of the crossbar, fp32 patterns.
+/// Vertex attributes of the crossbar, as fp32 bit patterns.
 #[derive(Debug)]
 pub(super) struct Streams {
     corners: [[u32; 4]; 4],
@@ -252,8 +256,8 @@ pub(super) struct Streams {
 }
 
 impl Streams {
-    /// Triangles in their order, colored by the target's encoding. The fourth component of a is the place in the pass,
-    /// that of b the edge scale, that of c nothing.
+    /// Builds the streams of triangles in the order of `ids`, colored by the target's encoding. The fourth component of
+    /// a holds the position in the pass, that of b the edge scale; that of c is unused.
     pub(super) fn new(mesh: &Mesh, units: &Units, ids: &[u32], code: TargetEncoding) -> Self {
         // xy: clip space, +y up. zw: coordinates of the ray textures, row 0 on top.
         let corners = [[-1.0, 1.0, 0.0, 0.0], [1.0, 1.0, 1.0, 0.0], [1.0, -1.0, 1.0, 1.0], [-1.0, -1.0, 0.0, 1.0]];
@@ -273,7 +277,8 @@ impl Streams {
     }
 }
 
-/// Corners that step by vertex in register 0; what belongs to a triangle steps by instance in the registers after it.
+/// Binds the streams: corners step per vertex in register 0; per-triangle attributes step per instance in the registers
+/// after it.
 pub(super) fn bind<'a>(corners: &'a [[u32; 4]], triangles: &'a [Vec<[u32; 4]>]) -> VertexStreams<'a> {
     let each =
         (1..).zip(triangles).map(|(register, data)| AttributeStream { register, step: StepRate::Instance, data });

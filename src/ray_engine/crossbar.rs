@@ -22,17 +22,17 @@ use super::{Kernel, RayBatch};
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
 
-/// Sides of the buckets of a batch of eye rays, in pixels.
+/// Side of a bucket of eye rays, in pixels.
 const BUCKET: u32 = 32;
-/// Sides of the buckets of a list: the squares that it is laid out in.
+/// Side of a bucket of a list of rays, in pixels: the square that lists are laid out in.
 const LIST_BUCKET: u32 = 16;
-/// Rays of a list in one batch.
+/// Maximum number of rays of a list in one batch.
 const LIST_BATCH: usize = 65_536;
 
 /// Creates a `TexelObserver` per bucket.
 pub type MakeWatcher<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
 
-/// Whether the log is recorded, and the observer of texel reads.
+/// Recording options: event log and observer of texel reads.
 #[derive(Clone, Copy, Default)]
 struct Recording<'a> {
     on: bool,
@@ -45,31 +45,32 @@ pub struct Crossbar {
     profile: Arc<Profile>,
     executor: Executor,
     all_pairs: bool,
-    /// Programs that have been assembled and checked, by what they were chosen for.
+    /// Cache of assembled and checked programs, by use.
     kernels: Arc<Mutex<Vec<ChosenKernel>>>,
 }
 
-/// Whether the rays have one origin, and the sides that count.
+/// Use of a program: `true` if all rays share one origin, and the sides that can be hit.
 type KernelUse = (bool, Sides);
 
-/// A program with what it was chosen for.
+/// Cached program with its use.
 type ChosenKernel = (KernelUse, Arc<Kernel>);
 
 impl Crossbar {
-    /// A card of this profile.
+    /// Creates a crossbar on a card with this profile.
     pub fn new(profile: impl Into<Arc<Profile>>, executor: impl Into<Executor>) -> Self {
         Self { profile: profile.into(), executor: executor.into(), all_pairs: false, kernels: Arc::default() }
     }
 
-    /// Whether rays of one origin are cut into buckets, each of which meets only the triangles near it (section 5.3),
-    /// or every ray meets every triangle. Buckets are the default.
+    /// Disables or enables buckets. With `all_pairs`, every ray is tested against every triangle; otherwise rays of one
+    /// origin are split into buckets, each tested only against the triangles near it (section 5.3). Buckets are the
+    /// default.
     #[must_use]
     pub fn all_pairs(mut self, all_pairs: bool) -> Self {
         self.all_pairs = all_pairs;
         self
     }
 
-    /// The rays against the triangles: section 3.3 of the paper.
+    /// Intersects all rays with all triangles: section 3.3 of the paper.
     ///
     /// # Errors
     /// [`EngineError`] if the card has no program for it, or refuses the work.
@@ -77,8 +78,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording::default())
     }
 
-    /// [`Crossbar::intersect`] with the log of the card: one bucket after the other, as on a card with one set of
-    /// textures and targets. The answer is that of [`Crossbar::intersect`], and the log the same for every executor
+    /// Runs [`Crossbar::intersect`] and records the card's log, one bucket after the other, as on a card with one set
+    /// of textures and targets. The hits are those of [`Crossbar::intersect`]; the log is the same for every executor
     /// and number of threads.
     ///
     /// # Errors
@@ -87,7 +88,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: None })
     }
 
-    /// [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. The scalar executor draws, slowly.
+    /// Runs [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. Draws on the scalar executor,
+    /// which is slow.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -101,8 +103,8 @@ impl Crossbar {
         self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
     }
 
-    /// One pass of rays of any origin against some triangles, given in rising order, with or without culling in the
-    /// vertex program: the hits are the same to the bit. Quads that were culled make no fragments.
+    /// Runs one pass of rays of any origin against some triangles, given in ascending order, with or without culling in
+    /// the vertex program. Hits are bit-identical either way; culled quads produce no fragments.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -122,7 +124,7 @@ impl Crossbar {
         Ok(Answer { hits, events: drawn.events, kernel: card.kernel_name(), log: Vec::new() })
     }
 
-    /// A card for passes of rays of any origin against some triangles of a mesh at a time.
+    /// Creates a card for passes of rays of any origin against subsets of a mesh's triangles.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -134,8 +136,8 @@ impl Crossbar {
         Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
     }
 
-    /// A card that keeps these rays in its textures and these triangles in its vertex memory, to be drawn as often as
-    /// wanted: every ray against every triangle, whatever [`Crossbar::all_pairs`] says.
+    /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated
+    /// draws of every ray against every triangle, regardless of [`Crossbar::all_pairs`].
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -152,7 +154,7 @@ impl Crossbar {
         Ok(ResidentCrossbar::new(card, Streams::new(mesh, &units, &ids, TargetEncoding::Id), rays.clone(), name))
     }
 
-    /// The program for a use, from the cache.
+    /// Returns the program for a use, from the cache if it is there.
     fn kernel(&self, wanted: KernelUse) -> Result<Arc<Kernel>, EngineError> {
         let mut known = self.kernels.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, kernel)) = known.iter().find(|(held, _)| *held == wanted) {
@@ -184,7 +186,7 @@ impl Crossbar {
             machine.record(recording.on);
             machine.observe_textures(recording.watcher.map(|make| make()));
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
-            // New targets hold just that; a card that keeps them from bucket to bucket has to be told.
+            // New targets have these contents already; targets kept from bucket to bucket must be cleared.
             card.clear()?;
             let events = card.draw(&Streams::new(mesh, &units, &triangles, TargetEncoding::Id))?;
             Ok((region, card.read_back(&bucket)?, events, card.take_log()))
@@ -207,7 +209,7 @@ impl Crossbar {
         Ok(answer)
     }
 
-    /// [`Crossbar::intersect`] for rays in any order and number, in batches of at most 65,536.
+    /// Runs [`Crossbar::intersect`] on rays in any order and number, in batches of at most 65,536.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -221,7 +223,8 @@ impl Crossbar {
         Ok(hits)
     }
 
-    /// What the format leaves of a mesh for these rays, taken as one batch: their extent decides the units.
+    /// Counts the triangles whose normal the card's format cannot represent, with these rays as one batch: their extent
+    /// determines the units.
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
@@ -234,8 +237,8 @@ impl Crossbar {
         Ok(BitsLeft::of(mesh, &Units::choose(kernel.form, Range::of_pixels(&self.profile.rules), mesh, &batch)))
     }
 
-    /// Buckets of the batch, each of which has textures and targets of its own (section 5.3), with the triangles that
-    /// its rays are to meet in rising order.
+    /// Splits a batch into buckets, each with its own textures and targets (section 5.3), and lists the triangles to
+    /// test against each in ascending order.
     fn buckets(&self, mesh: &Mesh, rays: &RayBatch, side: u32) -> Vec<(Region, Vec<u32>)> {
         let everything = || (0..mesh.len() as u32).collect();
         let Some(origin) = rays.common_origin().filter(|_| !self.all_pairs) else {
@@ -257,7 +260,7 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
     Ok(())
 }
 
-/// Whether a float format holds the whole numbers up to this one.
+/// Returns `true` if a float format represents every integer from 0 to `most`.
 fn tells_apart(format: &Format, most: usize) -> bool {
     match format.kind {
         FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),

@@ -1,4 +1,4 @@
-//! Culling in the vertex program for rays of any origin (section 5.3): what a pass tells it of its bucket of rays.
+//! Culling in the vertex program for rays of any origin (section 5.3): constants of a bucket of rays.
 //!
 //! The pixel program draws a hit where u, v, w >= 0, n.ao >= 0 and n.d < 0 (for back faces: all signs turned). Each of
 //! these is linear in the origin and in the direction. So with origins oc + x and directions dc + y, for an edge e (ac
@@ -27,21 +27,22 @@ use crate::geom::exact::Sides;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::scale::normalize_range;
 
-/// Constants of a bucket: c3 to c10.
+/// Number of constants of a bucket: c3 to c10.
 const COUNT: usize = 8;
 
-/// How far a format is from the real numbers.
+/// Error bounds of a format's arithmetic.
 #[derive(Clone, Copy, Debug)]
 struct Errors {
-    /// Of an operation, as a share of the magnitudes that go in; with room for all operations of a program.
+    /// Relative error of an operation with respect to the magnitudes of its operands, with room for all operations of a
+    /// program.
     share: f64,
-    /// Of an operation, beside that.
+    /// Absolute error of an operation, in addition.
     step: f64,
-    /// Of a number as a texture holds it.
+    /// Absolute error of a number stored in a texture.
     texel: f64,
-    /// What every intermediate has to stay under, if factors of up to three of the largest numbers are multiplied.
+    /// Bound on every intermediate that is a product of up to three of the largest numbers.
     largest: f64,
-    /// Whether that is the end of a fixed range, which single numbers have to keep too.
+    /// `true` if the bound is the end of a fixed-point range, which single numbers have to keep too.
     fixed: bool,
 }
 
@@ -75,19 +76,19 @@ impl Errors {
     }
 }
 
-/// 2^`exponent`, for exponents between -1022 and 1023.
+/// Returns 2^`exponent`, for exponents from -1022 to 1023.
 fn power(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
-/// Constants that cull nothing: no triangle is so small that |ab| + |ac| <= -1.
+/// Constants that cull nothing: no triangle satisfies |ab| + |ac| <= -1.
 pub(super) fn nothing() -> Vec<[u32; 4]> {
     let mut out = vec![[0.0_f32; 4]; COUNT];
     out[COUNT - 1][2] = -1.0;
     out.into_iter().map(|c| c.map(f32::to_bits)).collect()
 }
 
-/// The constants of a bucket that meets some triangles: c3 to c10 of `*_bucket.vsa`.
+/// Computes the constants of a bucket that is tested against some triangles: c3 to c10 of `*_bucket.vsa`.
 pub(super) fn bucket(
     rules: &Rules,
     units: &Units,
@@ -106,7 +107,7 @@ pub(super) fn bucket(
     Bounds::new(&origins, &directions, &places, errors).constants(&origins, &directions, sides)
 }
 
-/// Vectors that lie in a box: its middle, a single-precision number, half its extent, and the largest magnitudes.
+/// Box of vectors: its center (a single-precision number), half its extent, and the largest magnitudes.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
     middle: DVec3,
@@ -132,17 +133,17 @@ impl Extent {
     }
 }
 
-/// The reaches of the tests, rounding included.
+/// Tolerances of the culling tests, rounding included.
 struct Bounds {
-    /// Of n.ao, by |n|.
+    /// Tolerance of n.ao, relative to |n|.
     n_ao: DVec3,
-    /// Of n.d, by |n|.
+    /// Tolerance of n.d, relative to |n|.
     n_d: DVec3,
-    /// Of u, v and w by their edge, beside what is known of a triangle itself.
+    /// Tolerance of u, v and w, relative to their edge, besides the terms known per triangle.
     edge: DVec3,
-    /// Of n.ao, n.d and of u, v, w, whatever the triangle.
+    /// Absolute tolerance of n.ao, n.d and of u, v, w for every triangle.
     alone: [f64; 3],
-    /// Of |ab| + |ac|.
+    /// Largest |ab| + |ac| of a triangle that may be culled.
     most_edges: f64,
 }
 
@@ -188,7 +189,8 @@ impl Bounds {
     }
 }
 
-/// The largest |ab| + |ac| at which nothing leaves the range of the format; negative if other things do.
+/// Returns the largest |ab| + |ac| at which no intermediate leaves the range of the format; negative if some
+/// intermediate leaves it regardless of the triangle.
 fn most_edges(a: DVec3, d: DVec3, products: DVec3, errors: Errors) -> f64 {
     let (range, largest) = (0.5 * errors.largest, a.max(d).max(products).max_element());
     let limit = if errors.fixed { 0.9 * errors.largest } else { errors.largest };
@@ -203,7 +205,7 @@ fn most_edges(a: DVec3, d: DVec3, products: DVec3, errors: Errors) -> f64 {
     range.min(normal).min(range / products.max_element().max(1.0))
 }
 
-/// The next larger number or the one after: what is computed from f64 is not too small afterwards.
+/// Rounds up by one or two ULPs, so that a bound computed in f64 is not too small.
 fn upward(x: f32) -> f32 {
     if x > 0.0 && x.is_finite() { (x * (1.0 + 4.0 * f32::EPSILON)).max(f32::MIN_POSITIVE) } else { x }
 }

@@ -10,10 +10,10 @@ use super::kernels;
 use crate::card::KernelText;
 use crate::geom::exact::Sides;
 
-/// The rays that a program handles, which decides its textures and constants.
+/// Kind of rays that a program handles; determines its textures and constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// `ps_1_4`, rays of one origin: the vertex program knows `ao`.
+    /// `ps_1_4`, rays of one origin: the vertex program computes `ao`.
     OneOrigin,
     /// `ps_1_4`, rays of any origin, in [-1, 1].
     AnyOrigin,
@@ -21,28 +21,29 @@ pub enum Form {
     Float,
 }
 
-/// An intersection program that its device accepts.
+/// Intersection program that its device accepts.
 #[derive(Clone, Debug)]
 pub struct Kernel {
-    /// The rays that it handles.
+    /// Kind of rays that it handles.
     pub form: Form,
-    /// The pixel program's file.
+    /// File name of the pixel program.
     pub name: &'static str,
-    /// Triangle set-up.
+    /// Vertex program: triangle set-up.
     pub vertex: CheckedProgram,
-    /// Intersection.
+    /// Pixel program: intersection.
     pub pixel: CheckedProgram,
-    /// Whether ray textures hold signed codes; else a component x is stored as (x + 1) / 2. Of `ps_1_4` forms only.
+    /// `true` if ray textures hold signed codes; otherwise a component x is stored as (x + 1) / 2. Used by `ps_1_4`
+    /// forms only.
     pub signed_rays: bool,
-    /// Whether the vertex program culls by the bucket of rays.
+    /// `true` if the vertex program culls by the bucket of rays.
     pub culls: bool,
-    /// Whether color is (u, v, w, place) and not an id.
+    /// `true` if the color output is (u, v, w, position in the pass) instead of an id.
     pub weights: bool,
 }
 
 impl Kernel {
-    /// The program for a device: `ps_2_0` where it is to be had, else `ps_1_4`. A device without limits runs `ps_1_4`
-    /// in fixed-point formats, as the cards did.
+    /// Chooses the program for a device: `ps_2_0` if supported, otherwise `ps_1_4`. A device without limits runs
+    /// `ps_1_4` in fixed-point formats, as the cards of the time did.
     ///
     /// # Errors
     /// [`EngineError::NoKernel`] if the device runs neither.
@@ -72,8 +73,8 @@ impl Kernel {
         Self::load(profile, Form::AnyOrigin, kernels::ANY_ORIGIN_SETUP, pixel, signed)
     }
 
-    /// The program for passes of rays of any origin: one that culls by the bucket, one that gives barycentric
-    /// coordinates, or both. A card without float programs and targets gives ids.
+    /// Chooses the program for passes of rays of any origin: with culling by the bucket, with barycentric coordinates,
+    /// or both. A card without float programs and targets outputs ids.
     ///
     /// # Errors
     /// As [`Kernel::choose`].
@@ -96,7 +97,7 @@ impl Kernel {
         Ok(Self { vertex, pixel: pixel.checked(profile)?, name: pixel.name, culls: cull, weights, ..plain })
     }
 
-    /// Whether the vertex program wants the constants of a bucket.
+    /// Returns `true` if the vertex program takes the constants of a bucket.
     pub(super) fn takes_bucket(&self) -> bool {
         self.culls || self.weights
     }

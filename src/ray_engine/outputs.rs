@@ -3,34 +3,34 @@
 use refsim::device::Profile;
 use refsim::texture::{Image, TexelFormat};
 
-/// What is read back of each ray of a pass (sections 4.2 and 6.1).
+/// Data read back per ray of a pass (sections 4.2 and 6.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Outputs {
-    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host, which has to compare
-    /// the hits of several cells, computes t of the one triangle again.
+    /// The triangle: 4 bytes, the paper's gamma of 4. The t-buffer stays on the card; the host recomputes t of the one
+    /// triangle, since it has to compare the hits of several cells.
     Id,
     /// The triangle and the t-buffer: 8 bytes.
     #[default]
     IdAndT,
-    /// The triangle and three barycentric coordinates, single floats: 16 bytes, the paper's gamma of 16; t as with
+    /// The triangle and three barycentric coordinates as single floats: 16 bytes, the paper's gamma of 16; t as with
     /// [`Outputs::Id`]. Cards without float targets return the triangle alone, and the host computes the rest.
     IdAndBarycentrics,
 }
 
-/// The encoding of hits in the color target of a pass.
+/// Encoding of hits in the color target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TargetEncoding {
-    /// Ids of the mesh, 24 bits and a hit mask.
+    /// Triangle ids of the mesh: 24 bits and a hit mask.
     Id,
-    /// Places in the pass's list from 1, 5, 6 and 5 bits.
+    /// Positions in the pass's list of triangles, counted from 1, in 5 + 6 + 5 bits.
     Place16,
-    /// Places from 1 to 255.
+    /// Positions in the pass's list, from 1 to 255, in 8 bits.
     Place8,
-    /// u, v, w and the place, as floats.
+    /// u, v, w and the position in the pass's list, as floats.
     Weights,
 }
 
-/// A pixel decoded.
+/// Decoded pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PixelResult {
     pub(super) triangle: u32,
@@ -38,8 +38,8 @@ pub(super) struct PixelResult {
 }
 
 impl TargetEncoding {
-    /// The code of a pass over so many triangles: with `small`, the smallest target that the card has and that tells
-    /// them apart.
+    /// Chooses the encoding for a pass over `triangles` triangles; with `small`, the smallest target of the card that
+    /// can distinguish them.
     pub(super) fn choose(profile: &Profile, weights: bool, small: bool, triangles: usize) -> Self {
         let has = |code: Self| profile.limits.target_formats.iter().any(|name| name == code.format().name());
         if weights {
@@ -50,7 +50,7 @@ impl TargetEncoding {
         found.map_or(Self::Id, |(code, _)| code)
     }
 
-    /// The target's format.
+    /// Format of the target.
     pub(super) const fn format(self) -> TexelFormat {
         match self {
             Self::Id => TexelFormat::Bgra8,
@@ -60,7 +60,7 @@ impl TargetEncoding {
         }
     }
 
-    /// The color that a triangle's quad has.
+    /// Color of a triangle's quad.
     pub(super) fn color(self, place: usize, id: u32) -> [u32; 4] {
         let part = |bits: u32, most: u32| ((bits & most) as f32 / most as f32).to_bits();
         let place = (place + 1) as u32;
@@ -75,7 +75,7 @@ impl TargetEncoding {
         }
     }
 
-    /// Decodes a pixel of a target; `None` if nothing was hit.
+    /// Decodes a pixel of a target; `None` for a miss.
     pub(super) fn read(self, image: &Image, x: u32, y: u32, triangles: &[u32]) -> Option<PixelResult> {
         let at =
             |place: u32| Some(PixelResult { triangle: *triangles.get(place.checked_sub(1)? as usize)?, uvw: None });
@@ -93,13 +93,13 @@ impl TargetEncoding {
     }
 }
 
-/// An id as a color: red is its lowest byte, alpha 1.
+/// Encodes an id as a color: the lowest byte in red, alpha 1.
 pub(super) fn color_of_id(id: u32) -> [u32; 4] {
     let part = |shift: u32| ((id >> shift & 0xff) as f32 / 255.0).to_bits();
     [part(0), part(8), part(16), 1.0_f32.to_bits()]
 }
 
-/// The id in an `A8R8G8B8` pixel.
+/// Decodes the id of an `A8R8G8B8` pixel.
 pub(super) const fn id_of_color(raw: u32) -> u32 {
     (raw >> 16 & 0xff) | (raw & 0xff00) | (raw & 0xff) << 16
 }

@@ -1,4 +1,4 @@
-//! One pass after another on one card: some rays of any origin against some triangles.
+//! Passes on one card: rays of any origin against subsets of a mesh's triangles.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -21,43 +21,43 @@ pub(super) struct PassRequirements {
     pub(super) outputs: Outputs,
     pub(super) small_ids: bool,
     pub(super) cull: bool,
-    /// Triangles of a pass, at most.
+    /// Maximum number of triangles of a pass.
     pub(super) triangles: usize,
 }
 
-/// A card with several sets of textures and targets, so that one pass can be prepared while others are on their way.
+/// Card with several sets of textures and targets, so that one pass can be prepared while others are in flight.
 #[derive(Debug)]
 pub(super) struct PassCard {
     machine: Machine,
     kernel: Kernel,
     sides: Sides,
     wish: PassRequirements,
-    /// Of the mesh that all passes are about.
+    /// Lowest and highest coordinates of the mesh that all passes test against.
     bounds: [[f32; 3]; 2],
     sheets: BTreeMap<(usize, u32, u32, Format), RayTextures>,
 }
 
-/// The name of a target's format, to tell sheets apart.
+/// Name of a target's format, the key of its set of resources.
 type Format = &'static str;
 
-/// A draw that can be read back.
+/// Draw whose results can be read back.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DrawnPass {
     units: Units,
     code: TargetEncoding,
     sheet: usize,
-    /// What happened.
+    /// Events of the draw.
     pub(super) events: DrawEvents,
 }
 
 impl PassCard {
-    /// A card for passes over triangles of one mesh.
+    /// Creates a card for passes over triangles of one mesh.
     pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
         Self { machine, kernel, sides, wish, bounds, sheets: BTreeMap::new() }
     }
 
-    /// The pixel program.
+    /// Returns the file name of the pixel program.
     pub(super) fn kernel_name(&self) -> &'static str {
         self.kernel.name
     }
@@ -67,12 +67,12 @@ impl PassCard {
         self.machine.record(on);
     }
 
-    /// The log recorded since the last call.
+    /// Takes the log recorded since the last call.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.machine.take_log()
     }
 
-    /// Draws some triangles, given in rising order, over rays, in the textures and targets of number `sheet`.
+    /// Draws some triangles, given in ascending order, over rays, using the textures and targets of set `sheet`.
     pub(super) fn draw(
         &mut self,
         sheet: usize,
@@ -102,7 +102,8 @@ impl PassCard {
         Ok(DrawnPass { units, code, sheet, events })
     }
 
-    /// The hit of each ray of a draw. If the host does not wait, the fence is passed when all data has arrived.
+    /// Reads back the hit of each ray of a draw. If the host does not wait, the returned fence is passed when all data
+    /// has arrived.
     pub(super) fn read_back(
         &self,
         drawn: &DrawnPass,
@@ -118,7 +119,7 @@ impl PassCard {
         sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, triangles, t, wait })
     }
 
-    /// The host waits for a fence.
+    /// Makes the host wait for a fence.
     pub(super) fn finish(&self, fence: FenceId) {
         self.machine.finish_fence(fence);
     }

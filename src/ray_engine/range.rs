@@ -1,4 +1,4 @@
-//! What the pixel format of a card holds, and up to where the intersection programs may use it.
+//! Numeric range of a card's pixel format, and the part of it that the intersection programs may use.
 //!
 //! The scene scale S and the edge scale k of a triangle are the two powers of two that keep every intermediate of
 //! every program inside the format. With card units A for offsets (origin minus corner), e for edges and D <= 1 for
@@ -22,31 +22,31 @@ use refsim::num::{Format, FormatKind, power_of_two};
 
 use crate::tracer::scale::ceil_power_of_two;
 
-/// A number format, as far as intersection programs ask.
+/// Properties of a number format that the intersection programs depend on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
-    /// What magnitudes have to stay below. Fixed point: the end of the range, 2^I. Float: a power of two below the
-    /// largest number.
+    /// Exclusive bound on magnitudes. Fixed point: the end of the range, 2^I. Float: a power of two below the largest
+    /// number.
     pub(super) end: f64,
-    /// The step of fixed point; 0 for floats, whose errors are shares.
+    /// Step of fixed point; 0 for floats, whose errors are relative.
     pub(super) step: f64,
-    /// What n.d has to stay below.
+    /// Exclusive bound on n.d, the divisor.
     divisor: f64,
     kind: RangeKind,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RangeKind {
-    /// Precision is absolute: nothing is gained by small numbers.
+    /// Fixed point, with absolute precision: small numbers are no more precise.
     Fixed,
-    /// Fewer exponents than single precision: products of small edges leave the range downwards.
+    /// Float with fewer exponents than single precision: products of small edges underflow.
     Narrow,
-    /// The exponents of single precision. The host's test, which is single precision, has no edge scale.
+    /// Float with the exponents of single precision. The host's test, which uses single precision, has no edge scale.
     Wide,
 }
 
 impl Range {
-    /// The range of a pixel program: that of its format, and of the divisor of `texdepth`.
+    /// Range of a pixel program: that of its format, limited by the divisor of `texdepth`.
     pub(super) fn of_pixels(rules: &Rules) -> Self {
         let range = Self::of(&rules.format);
         match rules.texdepth_denominator {
@@ -55,7 +55,7 @@ impl Range {
         }
     }
 
-    /// The range of a format.
+    /// Range of a format.
     pub(super) fn of(format: &Format) -> Self {
         let (end, step, kind) = match format.kind {
             FormatKind::Fixed { int_bits, frac_bits } => {
@@ -74,55 +74,55 @@ impl Range {
         Self { end, step, divisor: end, kind }
     }
 
-    /// Up to where numbers may go that the card rounds once or twice: coordinates, offsets, edges, normals.
+    /// Bound on numbers that the card rounds once or twice: coordinates, offsets, edges, normals.
     pub(super) fn of_vectors(&self) -> f64 {
         match self.kind {
-            // No edge scale brings the normal back, which the vertex program makes in single precision too.
+            // An edge scale cannot help: the vertex program computes the normal in single precision too.
             RangeKind::Wide => 4.0,
             _ => self.room(4.0 * self.step),
         }
     }
 
-    /// Up to where ao x d may go, before rounding.
+    /// Bound on ao x d before rounding.
     pub(super) fn of_cross_products(&self) -> f64 {
         self.room(self.cross_product_error())
     }
 
-    /// Up to where sums of three products with an edge or a normal may go, each factor with its error.
+    /// Bound on sums of three products with an edge or a normal, each factor with its error.
     pub(super) fn of_sums(&self) -> f64 {
         self.room(self.step * (3.0 * self.end + 24.0))
     }
 
-    /// Up to where numbers in ray textures may go: 1, or a little less where registers end there.
+    /// Bound on numbers in ray textures: 1, or slightly less where the register range ends there.
     pub(super) fn of_texels(&self) -> f64 {
         (self.end - 2.0 * self.step).min(1.0)
     }
 
-    /// Corners and offsets of a scene on a float card: where the squares of its lengths are in the middle of the
-    /// exponents.
+    /// Bounds on corners and offsets of a scene on a float card that keep squared lengths in the middle of the exponent
+    /// range.
     pub(super) fn of_float_scenes(&self) -> [f64; 2] {
         let offsets = self.end / 4.0;
         [offsets.min(4.0), offsets]
     }
 
-    /// The error of a component that comes from a ray texture: half a 16-bit code, the register's rounding, doubled by
+    /// Error of a component read from a ray texture: half a 16-bit code plus the register's rounding, doubled by
     /// `_bx2`.
     pub(super) fn texel_error(&self) -> f64 {
         if self.step == 0.0 { 0.0 } else { power_of_two(-15) + 2.0 * self.step }
     }
 
-    /// The error of a component of ao x d: that of d times ao, twice, and of ao and the roundings.
+    /// Error of a component of ao x d: that of d times ao, twice, plus that of ao and the roundings.
     pub(super) fn cross_product_error(&self) -> f64 {
         2.0 * self.end * self.texel_error() + 8.0 * self.step
     }
 
-    /// What a sum that becomes the divisor of `texdepth` counts for among the others.
+    /// Weight of a sum that becomes the divisor of `texdepth`, relative to the other sums.
     pub(super) fn of_divisors(&self) -> f64 {
         self.end / self.divisor
     }
 
-    /// The edge scale of a triangle whose largest sum is `sum` at k = 1, and whose normal's largest component is
-    /// `normal`.
+    /// Chooses the edge scale of a triangle whose largest sum is `sum` at k = 1, and whose normal's largest component
+    /// is `normal`.
     ///
     /// Fixed point: 1, as in the paper, or less where that does not fit. Floats of few exponents: enough to bring the
     /// normal near 1, so that neither its products nor the quotient by n.d leave the range. A power of two changes
@@ -137,12 +137,12 @@ impl Range {
         }
     }
 
-    /// Whether magnitudes have to be looked at triangle by triangle.
+    /// Returns `true` if each triangle needs its own edge scale.
     pub(super) fn has_edge_scale(&self) -> bool {
         self.kind != RangeKind::Wide
     }
 
-    /// The end less what errors take; formats of very few bits keep half of it.
+    /// Range less the errors; formats of very few bits keep half of it.
     fn room(&self, errors: f64) -> f64 {
         (self.end - errors).max(self.end / 2.0)
     }

@@ -1,16 +1,13 @@
-//! Rays and triangles in the units of the card.
-//!
-//! A card's registers have a range, its ray textures another, its depth buffer a third. The host brings rays and
-//! scene into them by powers of two alone, so that no bit of the input is lost before the card rounds it.
+//! Batches of rays as rectangles of pixels.
 
 use refsim::texture::Region;
 
 use crate::geom::Ray;
 
-/// Side of the squares that lists are laid out in: a tile of the card, and the paper's bucket of 256 rays (section
-/// 5.3).
+/// Side of the squares that lists are laid out in, in pixels: a tile of the card, and the paper's bucket of 256 rays
+/// (section 5.3).
 const SQUARE: usize = 16;
-/// Squares in a row of a list's batch.
+/// Squares per row of a list's batch.
 const SQUARES_A_ROW: usize = 16;
 
 /// Rays as a rectangle of pixels, row by row from the top.
@@ -21,20 +18,20 @@ pub struct RayBatch {
     rays: Vec<Ray>,
 }
 
-/// The rays fill no such rectangle.
+/// The number of rays is not width times height.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected {width} x {height} rays for a batch of that size, found {found}")]
 pub struct RayBatchError {
-    /// Columns.
+    /// Number of columns.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// The rays given.
+    /// Number of rays given.
     pub found: usize,
 }
 
 impl RayBatch {
-    /// `width * height` rays, row by row.
+    /// Creates a batch of `width * height` rays, row by row.
     ///
     /// # Errors
     /// [`RayBatchError`] if there are more or fewer.
@@ -46,16 +43,16 @@ impl RayBatch {
         }
     }
 
-    /// As many whole rows of `width` rays as there are; what is left over is dropped.
+    /// Creates a batch of as many full rows of `width` rays as there are; drops the rest.
     pub fn rows(width: u32, mut rays: Vec<Ray>) -> Self {
         let height = rays.len() / (width as usize).max(1);
         rays.truncate(width as usize * height);
         Self { width, height: u32::try_from(height).unwrap_or(u32::MAX), rays }
     }
 
-    /// A list of rays, 256 after 256 in squares of 16 x 16 pixels, 16 squares per row: neighbours in the list are
-    /// neighbours on the screen. The last square is padded by repeating the last ray; [`Self::pixel_of`] finds the
-    /// answers again. An empty list gives a batch of no rows.
+    /// Lays out a list of rays in squares of 16 x 16 pixels, 256 rays each, 16 squares per row: neighbours in the list
+    /// are neighbours on the screen. The last square is padded with the last ray; [`Self::pixel_of`] maps rays of the
+    /// list to pixels. An empty list gives a batch of no rows.
     pub fn from_list(rays: &[Ray]) -> Self {
         let squares = rays.len().div_ceil(SQUARE * SQUARE);
         let columns = squares.clamp(1, SQUARES_A_ROW);
@@ -68,7 +65,7 @@ impl RayBatch {
         Self { width: side(width), height: side(height), rays: pixels }
     }
 
-    /// The pixel, counted row by row, that holds ray `ray` of the list that [`Self::from_list`] was given.
+    /// Returns the pixel, counted row by row, of ray `ray` of the list given to [`Self::from_list`].
     pub const fn pixel_of(&self, ray: usize) -> usize {
         Self::pixel_in(self.width as usize, ray)
     }
@@ -80,22 +77,22 @@ impl RayBatch {
         y * width + x
     }
 
-    /// Rays in a row.
+    /// Number of columns.
     pub const fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Number of rows.
     pub const fn height(&self) -> u32 {
         self.height
     }
 
-    /// The rays, row by row.
+    /// Rays, row by row.
     pub fn rays(&self) -> &[Ray] {
         &self.rays
     }
 
-    /// The rays of a region as a batch of their own; what of the region lies outside is left out.
+    /// Returns the rays of a region as a batch; the part of the region outside the batch is clipped.
     pub(super) fn part(&self, region: Region) -> Self {
         let whole = Region { x: 0, y: 0, width: self.width, height: self.height };
         let Region { x, y, width, height } = region.intersect(whole);
@@ -104,7 +101,7 @@ impl RayBatch {
         Self { width, height, rays }
     }
 
-    /// The point at which all rays start, if there is one: eye rays, or rays from a point light.
+    /// Returns the common origin of all rays, if there is one: eye rays, or rays from a point light.
     pub fn common_origin(&self) -> Option<[f32; 3]> {
         let first = self.rays.first()?.origin();
         self.rays.iter().all(|r| r.origin() == first).then_some(first)

@@ -1,4 +1,4 @@
-//! How large the numbers of a batch can become: intervals over all its rays, in f64.
+//! Interval bounds of the intermediates of a batch, over all its rays, in f64.
 
 use glam::{DVec3, Vec3Swizzles};
 
@@ -6,20 +6,20 @@ use super::RayBatch;
 use crate::geom::vector::wide;
 use crate::tracer::scale::normalize_range;
 
-/// Depth 1 means no hit, so that the largest t must stay below it, rounded as it may be.
+/// Margin between the largest t and depth 1, which means no hit, including rounding.
 const ROOM: f64 = 1.0 + 1.0 / 32.0;
 
-/// Vectors between two corners of a box: the lowest and the highest components.
+/// Box of vectors: the lowest and the highest components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct VectorRange([DVec3; 2]);
 
 impl VectorRange {
-    /// All times a positive number.
+    /// Scales the box by a positive factor.
     pub(super) fn times(self, factor: f64) -> Self {
         Self(self.0.map(|v| v * factor))
     }
 
-    /// All minus a point.
+    /// Translates the box by -p.
     pub(super) fn minus(self, p: DVec3) -> Self {
         Self(self.0.map(|v| v - p))
     }
@@ -29,23 +29,23 @@ impl VectorRange {
         self.0 = [low.min(v), high.max(v)];
     }
 
-    /// The largest magnitude of each component.
+    /// Largest magnitude of each component.
     pub(super) fn magnitudes(self) -> DVec3 {
         self.0[0].abs().max(self.0[1].abs())
     }
 
-    /// One component: from, to.
+    /// Lowest and highest value of one component.
     fn axis(&self, axis: usize) -> [f64; 2] {
         [self.0[0][axis], self.0[1][axis]]
     }
 
-    /// The largest magnitude of the inner product with a vector.
+    /// Largest magnitude of the inner product with a vector.
     pub(super) fn dot(&self, v: DVec3) -> f64 {
         let terms = [0, 1, 2].map(|axis| scaled(v[axis], self.axis(axis)));
         magnitude(added(added(terms[0], terms[1]), terms[2]))
     }
 
-    /// The largest magnitude of e . (v x d) = d . (e x v), for v of this box and d of another.
+    /// Largest magnitude of e . (v x d) = d . (e x v), for v in this box and d in another.
     pub(super) fn triple(&self, e: DVec3, d: Self) -> f64 {
         let term = |q: usize| {
             let (j, k) = ((q + 1) % 3, (q + 2) % 3);
@@ -55,7 +55,7 @@ impl VectorRange {
     }
 }
 
-/// An interval times a number.
+/// Scales an interval.
 fn scaled(by: f64, [low, high]: [f64; 2]) -> [f64; 2] {
     if by < 0.0 { [by * high, by * low] } else { [by * low, by * high] }
 }
@@ -73,48 +73,48 @@ fn magnitude([low, high]: [f64; 2]) -> f64 {
     low.abs().max(high.abs())
 }
 
-/// The largest of an inner product with a vector and of the sums on the way to it: each term, the first two, all three.
+/// Largest magnitude of the partial sums of an inner product with a vector: each term, the first two, all three.
 pub(super) fn most_of_partial_sums(v: DVec3, most: impl Fn(DVec3) -> f64) -> f64 {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| v * axis);
     let sums = [x, y, z, x + y, v];
     sums.into_iter().map(most).fold(0.0, f64::max)
 }
 
-/// The components of a cross product of vectors with these magnitudes, at most.
+/// Bounds on the components of a cross product of vectors with these magnitudes.
 pub(super) fn mixed(a: DVec3, d: DVec3) -> DVec3 {
     DVec3::new(a.y * d.z + a.z * d.y, a.z * d.x + a.x * d.z, a.x * d.y + a.y * d.x)
 }
 
-/// The largest magnitude of a component.
+/// Largest magnitude of a component.
 pub(super) fn largest(v: DVec3) -> f64 {
     v.abs().max_element()
 }
 
-/// The sum of the magnitudes of an inner product's terms.
+/// Sum of the magnitudes of an inner product's terms.
 pub(super) fn inner(v: DVec3, most: DVec3) -> f64 {
     v.abs().dot(most)
 }
 
-/// The largest magnitudes of a scene.
+/// Largest magnitudes of a scene and a batch of rays.
 pub(super) struct Reach {
-    /// Of a component of a corner.
+    /// Bound on a component of a corner.
     pub(super) position: f64,
-    /// Of a component of an origin.
+    /// Bound on a component of an origin.
     pub(super) origin: f64,
-    /// Of a component of origin minus corner.
+    /// Bound on a component of origin minus corner.
     pub(super) offset: f64,
-    /// Of a component of that times the direction in range, and of the two products in it.
+    /// Bound on a component of (origin minus corner) x direction in range, and on the two products in it.
     pub(super) cross: f64,
-    /// Of t, for directions brought into range, with room below depth 1.
+    /// Bound on t for directions brought into range, with a margin below depth 1.
     pub(super) t: f64,
-    /// The origins.
+    /// Box of the origins.
     pub(super) origins: VectorRange,
-    /// The directions in range.
+    /// Box of the directions in range.
     pub(super) directions: VectorRange,
 }
 
 impl Reach {
-    /// Of rays and a mesh of which these are the lowest and the highest coordinates.
+    /// Computes the bounds for rays and a mesh with these lowest and highest coordinates.
     pub(super) fn of(bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let [low, high] = bounds.map(wide);
         let mut all = rays.rays().iter().map(|r| (wide(r.origin()), normalize_range(r.direction()).0)).peekable();

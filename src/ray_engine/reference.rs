@@ -1,11 +1,11 @@
-//! Equations (1) to (8) in f64, without the card: what a kernel computes, up to its rounding.
+//! Equations (1) to (8) in f64, without the card: the exact values that a kernel approximates.
 //!
 //! For reading beside the paper, and as the independent answer in `tests/papers`. Whether a ray *truly* hits is
 //! decided by [`crate::geom::exact`], not here.
 
 use glam::DVec3;
 
-/// What equations (3) and (6) to (8) give for one ray and one triangle.
+/// Result of equations (3) and (6) to (8) for one ray and one triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
     /// Equation (3): the ray parameter; infinite or NaN for a ray in the plane.

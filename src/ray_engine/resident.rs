@@ -8,7 +8,7 @@ use super::{Answer, EngineError, RayBatch};
 /// A card with rays in its textures and triangles in its vertex memory. [`super::Crossbar::make_resident`] makes one.
 #[derive(Debug)]
 pub struct ResidentCrossbar {
-    /// Nothing where there are no rays or no triangles.
+    /// `None` if there are no rays or no triangles.
     work: Option<(Card, Streams)>,
     rays: RayBatch,
     kernel: &'static str,
@@ -19,12 +19,12 @@ impl ResidentCrossbar {
         Self { work: Some((card, streams)), rays, kernel }
     }
 
-    /// A card with nothing to do.
+    /// Creates a resident crossbar without work.
     pub(super) fn idle(rays: RayBatch, kernel: &'static str) -> Self {
         Self { work: None, rays, kernel }
     }
 
-    /// Clears the targets, draws every triangle over every ray, and reads back: the answer of
+    /// Clears the targets, draws every triangle over every ray, and reads back: the result of
     /// [`super::Crossbar::intersect`] with all pairs.
     ///
     /// # Errors

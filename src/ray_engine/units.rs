@@ -1,4 +1,7 @@
-//! The scene in the units of a card, by powers of two; and rays as textures.
+//! Scale of a scene in card units, by powers of two, and upload of rays as textures.
+//!
+//! Registers, ray textures and depth buffer of a card each have a range of their own. Powers of two bring rays and
+//! scene into them without losing a bit of the input before the card rounds it.
 
 use glam::DVec3;
 use refsim::texture::{Image, TexelFormat, TextureError, TextureKind};
@@ -10,33 +13,33 @@ use crate::geom::vector::{narrow, wide};
 use crate::geom::{Mesh, Ray};
 use crate::tracer::scale::{ceil_power_of_two, in_single_precision, normalize_range, scale_into};
 
-/// What positions are multiplied by on the way to the card, and what depth 1 means there.
+/// Scale of positions on the card, and the t that depth 1 stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Units {
     form: Form,
     range: Range,
-    /// Card units in a scene unit; a power of two.
+    /// Card units per scene unit; a power of two.
     scale: f64,
     /// The t of depth 1, in card units and for directions brought into range; a power of two.
     t_max: f64,
-    /// The origins, in card units.
+    /// Box of the origins, in card units.
     origins: VectorRange,
-    /// The directions, brought into range.
+    /// Box of the directions, brought into range.
     directions: VectorRange,
-    /// The common origin, in card units.
+    /// Common origin, in card units.
     origin: [f32; 3],
 }
 
-/// What `any_origin_*.psa` divides t by.
+/// Divisor of t in `any_origin_*.psa`.
 const ANY_ORIGIN_T_MAX: f64 = 4.0;
 
 impl Units {
-    /// The largest scale at which everything fits the registers, textures and depth range of a program.
+    /// Chooses the largest scale at which all values fit the registers, textures and depth range of a program.
     pub(super) fn choose(form: Form, range: Range, mesh: &Mesh, rays: &RayBatch) -> Self {
         Self::within(form, range, mesh.bounds().unwrap_or_default(), rays)
     }
 
-    /// The same for a mesh of which these are the lowest and the highest coordinates.
+    /// Like [`Self::choose`], for a mesh with these lowest and highest coordinates.
     pub(super) fn within(form: Form, range: Range, bounds: [[f32; 3]; 2], rays: &RayBatch) -> Self {
         let reach = Reach::of(bounds, rays);
         // Registers hold o - a and its product with d.
@@ -64,7 +67,7 @@ impl Units {
         Self { form, range, scale, t_max, origins, directions: reach.directions, origin }
     }
 
-    /// Card units in a scene unit; a power of two.
+    /// Card units per scene unit; a power of two.
     pub(super) const fn scale(&self) -> f64 {
         self.scale
     }
@@ -74,8 +77,8 @@ impl Units {
         self.t_max
     }
 
-    /// What the vertex program multiplies the edges and the normal of a triangle by: a power of two that brings u, v,
-    /// w, n.d and n.ao, each multiplied by it, into the range of the format for every ray of the batch.
+    /// Edge scale of a triangle, by which the vertex program multiplies its edges and normal: a power of two that
+    /// brings u, v, w, n.d and n.ao, each multiplied by it, into the range of the format for every ray of the batch.
     pub(super) fn edge_scale(&self, corners: [[f32; 3]; 3]) -> f64 {
         if !self.range.has_edge_scale() {
             return 1.0;
@@ -88,7 +91,7 @@ impl Units {
         let components = [ab, ac, bc, n].map(largest).into_iter().fold(0.0, f64::max);
         let scale = |sum: f64| self.range.edge_scale(sum.max(components), largest(n));
 
-        // Most triangles are small: the magnitudes of all terms together, which no sum exceeds, settle it for them.
+        // The sum of all terms' magnitudes bounds every partial sum, and suffices for most triangles, which are small.
         let [ao_most, bo_most, d_most] = [ao, bo, d].map(VectorRange::magnitudes);
         let [aod, bod] = [ao_most, bo_most].map(|v| mixed(v, d_most) + error);
         let n_d = inner(n, d_most + texel) * self.range.of_divisors();
@@ -117,20 +120,21 @@ impl Units {
         scale(sums.into_iter().fold(0.0, f64::max))
     }
 
-    /// The largest component of a triangle's normal as the card gets it, and the step of its format.
+    /// Largest component of a triangle's normal in card units, and the step of the card's format.
     pub(super) fn largest_normal(&self, corners: [[f32; 3]; 3]) -> (f64, f64) {
         let [a, b, c] = corners.map(|corner| wide(corner) * self.scale);
         (largest((b - a).cross(c - a)) * self.edge_scale(corners), self.range.step)
     }
 
-    /// `c0` is the program's own; `c1` scene scale, unused, 1 / t_max; `c2` the common origin.
+    /// Vertex constants: `c0` belongs to the program; `c1` is scene scale, unused, 1 / t_max; `c2` is the common
+    /// origin.
     pub(super) fn vertex_constants(&self) -> Vec<[u32; 4]> {
         let [x, y, z] = self.origin;
         let c1 = [self.scale as f32, 0.0, (1.0 / self.t_max) as f32, 0.0];
         [[0.0; 4], c1, [x, y, z, 0.0]].map(|c| c.map(f32::to_bits)).to_vec()
     }
 
-    /// `c0.x` is 1 / t_max for `ps_2_0`; `ps_1_4` programs bring their own constant.
+    /// Pixel constants: `c0.x` is 1 / t_max for `ps_2_0`; `ps_1_4` programs define their own constant.
     pub(super) fn pixel_constants(&self) -> Vec<[u32; 4]> {
         match self.form {
             Form::Float => vec![[((1.0 / self.t_max) as f32).to_bits(), 0, 0, 0]],
@@ -138,14 +142,14 @@ impl Units {
         }
     }
 
-    /// t in multiples of the ray's own direction, from a depth: exact.
+    /// Converts a depth to t in multiples of the ray's own direction, exactly.
     pub(super) fn t(&self, depth: f32, ray: &Ray) -> f64 {
         let (_, power) = normalize_range(ray.direction());
         f64::from(depth) * self.t_max / self.scale * power
     }
 }
 
-/// The textures of a program's head comment, with the samplers that they belong to.
+/// Builds the textures listed in a program's head comment, with their samplers.
 pub(super) fn ray_textures(
     kernel: &Kernel,
     rays: &RayBatch,
@@ -182,7 +186,7 @@ fn extents(rays: &RayBatch) -> [u32; 3] {
     [rays.width(), rays.height(), 1]
 }
 
-/// Four fp32 channels: x, y, z, 1.
+/// Builds a texture of four fp32 channels: x, y, z, 1.
 fn float_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureError> {
     let mut bytes = Vec::with_capacity(16 * vectors.len());
     for value in vectors.iter().flat_map(|v| [v.x as f32, v.y as f32, v.z as f32, 1.0]) {
@@ -191,7 +195,8 @@ fn float_texture(extents: [u32; 3], vectors: &[DVec3]) -> Result<Image, TextureE
     Image::from_bytes(TexelFormat::Rgba32f, TextureKind::D2, extents, 1, bytes)
 }
 
-/// Two 16-bit channels, each component rounded to the nearest code of those whose magnitude is at most `most`.
+/// Builds a texture of two 16-bit channels, each component rounded to the nearest code with a magnitude of at most
+/// `most`.
 fn pair_texture(
     signed: bool,
     most: f64,

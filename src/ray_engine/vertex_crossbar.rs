@@ -34,12 +34,12 @@ pub struct VertexCrossbar {
 }
 
 impl VertexCrossbar {
-    /// A card of this profile.
+    /// Creates a crossbar on a card with this profile.
     pub fn new(profile: Profile, executor: impl Into<Executor>) -> Self {
         Self { profile, executor: executor.into() }
     }
 
-    /// Every ray against the front of every triangle.
+    /// Intersects every ray with the front of every triangle.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses a program or the work.
@@ -48,7 +48,7 @@ impl VertexCrossbar {
         self.intersect_on(&mut machine, mesh, rays)
     }
 
-    /// [`VertexCrossbar::intersect`] on the caller's machine, which may be recording.
+    /// Runs [`VertexCrossbar::intersect`] on the caller's machine, which may be recording.
     ///
     /// # Errors
     /// As [`VertexCrossbar::intersect`].
@@ -101,7 +101,7 @@ fn read_back(
     Ok(rays.rays().iter().enumerate().map(hit).collect())
 }
 
-/// Vertex attributes: the pixel's triangle, and what the program needs of each triangle of the mesh.
+/// Vertex attributes: the pixel's triangle, and the attributes of each triangle of the mesh.
 struct Streams {
     corners: [[u32; 4]; 3],
     triangles: [Vec<[u32; 4]>; 5],

@@ -1,53 +1,53 @@
-//! A caster that counts rays by kind and reports progress.
+//! Ray caster that counts rays by kind and reports progress.
 
 use std::ops::AddAssign;
 
 use crate::geom::{Hit, Ray};
 use crate::tracer::{CastError, Caster};
 
-/// What a ray is for.
+/// Purpose of a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RayKind {
     /// From the eye through a pixel.
     Eye,
-    /// To a light: is anything between?
+    /// Towards a light, to test for occlusion.
     Shadow,
-    /// Into the mirror direction, or about it.
+    /// Into the mirror direction, or a glossy lobe around it.
     Reflection,
-    /// Through a boundary.
+    /// Through a dielectric boundary.
     Refraction,
-    /// From a diffuse surface into a random direction, for light that comes by other surfaces.
+    /// From a diffuse surface into a random direction, for indirect light.
     Gather,
     /// From a light.
     Photon,
 }
 
-/// Rays cast, per kind.
+/// Number of rays cast, per kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCounts {
-    /// From the eye.
+    /// Eye rays.
     pub eye: u64,
-    /// To lights.
+    /// Shadow rays.
     pub shadow: u64,
-    /// Into mirror directions and glossy lobes.
+    /// Reflection rays, of mirrors and glossy lobes.
     pub reflection: u64,
-    /// Through boundaries.
+    /// Refraction rays.
     pub refraction: u64,
-    /// From diffuse surfaces.
+    /// Gather rays.
     pub gather: u64,
-    /// From lights.
+    /// Photon rays.
     pub photon: u64,
-    /// Bundles in which they were cast.
+    /// Bundles in which the rays were cast.
     pub bundles: u64,
 }
 
 impl RayCounts {
-    /// Rays of all kinds.
+    /// Total number of rays.
     pub fn rays(&self) -> u64 {
         self.eye + self.shadow + self.reflection + self.refraction + self.gather + self.photon
     }
 
-    /// Counts of each kind, by name, in the order of [`RayKind`].
+    /// Count of each kind with its name, in the order of [`RayKind`].
     pub fn kinds(&self) -> [(&'static str, u64); 6] {
         [
             ("eye", self.eye),
@@ -83,14 +83,14 @@ impl AddAssign for RayCounts {
     }
 }
 
-/// How far a rendering is.
+/// Progress of a rendering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenderProgress {
-    /// What is being made: `photons` or `samples`.
+    /// Current stage: `photons` or `samples`.
     pub what: &'static str,
     /// Samples or photons done.
     pub done: u64,
-    /// Of how many.
+    /// Samples or photons in total.
     pub total: u64,
     /// Rays cast since the beginning, of any kind.
     pub rays: u64,
@@ -113,18 +113,18 @@ impl<'a> CountingCaster<'a> {
         Self { caster, watch, counts: RayCounts::default(), progress }
     }
 
-    /// A new piece of work begins.
+    /// Begins a stage.
     pub(super) fn begin(&mut self, what: &'static str, total: u64) {
         self.progress = RenderProgress { what, done: 0, total, rays: self.counts.rays() };
     }
 
-    /// A part of it is done.
+    /// Advances the current stage.
     pub(super) fn advance(&mut self, done: u64) {
         self.progress.done += done;
         (self.watch)(self.progress);
     }
 
-    /// First hits of a bundle; `kind` says what the ray of an index is for.
+    /// Casts a bundle and returns its first hits; `kind` gives the purpose of the ray with an index.
     pub(super) fn cast(
         &mut self,
         rays: &[Ray],
@@ -133,7 +133,7 @@ impl<'a> CountingCaster<'a> {
         self.bundle(rays, kind, |caster| caster.cast(rays))
     }
 
-    /// Whether each shadow ray of a bundle meets anything before t = 1.
+    /// Returns per shadow ray of a bundle whether it hits anything before t = 1.
     pub(super) fn occluded(&mut self, rays: &[Ray]) -> Result<Vec<bool>, CastError> {
         self.bundle(rays, |_| RayKind::Shadow, |caster| caster.occluded(rays))
     }

@@ -1,4 +1,4 @@
-//! Distributed ray tracing: what Whitted's rays did sharply, spread at random (Cook, Porter and Carpenter 1984).
+//! Distributed ray tracing: Whitted's rays distributed at random (Cook, Porter and Carpenter 1984).
 
 use super::counting::{CountingCaster, RayKind, WatchProgress};
 use super::film::{RenderedPicture, expose};
@@ -14,12 +14,13 @@ use crate::tracer::Caster;
 use glam::DVec3;
 
 /// Renders soft shadows, gloss and depth of field. A diffuse part is lit by one random point of the emitters (by the
-/// point lights if the scene has no emitters); a glossy lobe sends one ray into a direction drawn from it, which sees
-/// emitters and other surfaces; a mirror sends one ray, glass both of its rays where the eye sees it first, else one by
-/// chance. At most `settings.depth` such rays follow each other. Light between diffuse surfaces is left out.
+/// point lights if the scene has no emitters); a glossy lobe sends one ray into a sampled direction, for light from
+/// emitters and other surfaces; a mirror sends one ray; glass sends both of its rays at the first hit of an eye ray,
+/// otherwise one chosen at random. `settings.depth` is the maximum number of such rays in sequence. Diffuse
+/// interreflection is omitted.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense or the caster fails.
+/// [`RenderError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -60,8 +61,8 @@ impl Shade for Distributed<'_> {
     }
 }
 
-/// The diffuse part, by one point of the emitters; and both parts by the point lights, which no ray from a lobe could
-/// find.
+/// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which no ray from a
+/// lobe could hit.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
     let area = lights.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
     let points = (0..lights.points()).filter_map(|light| Some((lights.point(surfel, light)?, *lobes)));
@@ -74,7 +75,7 @@ pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>,
     }
 }
 
-/// The glossy lobe, by one ray.
+/// Samples the glossy lobe with one ray.
 pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
     let shiny = Lobes { albedo: DVec3::ZERO, ..lobes };
     let Some(chosen) = shiny.choose(surfel, 0.0, flight.dice.pair(flight.depth, 4)) else { return };
@@ -82,8 +83,8 @@ pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
-/// A mirror's ray, or those of glass: both where the eye sees it first, since a choice there is seen as grain,
-/// afterwards one.
+/// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
+/// there is visible as noise, afterwards with one.
 pub(super) fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
     let chosen =
         if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };
@@ -91,7 +92,7 @@ pub(super) fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter
         let weight = flight.weight * way.weight;
         if weight.max_element() > 0.0 {
             let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
-            // A gather ray stays one.
+            // A gather ray keeps its density, which marks it as one.
             scatter.next.extend(next.map(|next| PathRay { density: flight.density, ..next }));
         }
     }

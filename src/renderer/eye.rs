@@ -1,4 +1,4 @@
-//! Eye rays alone: what is seen where, in the light of a light at the eye.
+//! Eye rays alone: visible surfaces, lit by a light at the eye.
 
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
@@ -10,12 +10,12 @@ use crate::geom::vector::wide;
 use crate::scene::{Camera, Scene, Surface};
 use crate::tracer::Caster;
 
-/// Casts eye rays. A surface shows its own colour (of mirrors and glass what they let pass) times the cosine to the
-/// eye, and what it emits on top; a back face shows half of it, so that holes and turned triangles are seen. No other
-/// rays are cast.
+/// Renders with eye rays only. A pixel is the surface's albedo (of mirrors and glass their reflectance or
+/// transmittance) times the cosine to the eye, plus its emission; a back face shows half of that, so that holes and
+/// flipped triangles are visible.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense or the caster fails.
+/// [`RenderError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

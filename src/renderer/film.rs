@@ -1,4 +1,4 @@
-//! From samples to a picture.
+//! Accumulation of samples to a picture.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -11,28 +11,28 @@ use crate::geom::{Hit, Ray};
 use crate::picture::{self, RgbImage};
 use crate::scene::Camera;
 
-/// Linear radiance of each pixel, rows from the top, with what was first hit through its middle.
+/// Linear radiance of each pixel, rows from the top, with the first hit of the ray through its centre.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderedPicture {
-    /// Pixels across.
+    /// Width in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height in pixels.
     pub height: u32,
     /// Mean of the samples.
     pub color: Vec<[f64; 3]>,
-    /// Estimated variance of that mean: of the samples, over their number; 0 of one sample.
+    /// Estimated variance of that mean: that of the samples over their number; 0 for one sample.
     pub variance: Vec<[f64; 3]>,
-    /// What the ray through the middle of the pixel meets first. Its t is in multiples of the camera's ray, so it is
+    /// First hit of the ray through the centre of the pixel. Its t is in multiples of the camera's ray, so that it is
     /// the depth along the view.
     pub first: Vec<Option<Hit>>,
-    /// Samples that were not finite and count as black: none, unless a scene's figures are beyond reason.
+    /// Samples that were not finite and count as black: 0 for scenes with reasonable parameters.
     pub not_finite: u64,
-    /// Rays cast.
+    /// Number of rays cast, per kind.
     pub counts: RayCounts,
 }
 
 impl RenderedPicture {
-    /// What a screen shows: color times `exposure`, through the sRGB curve. What is brighter than 1 is clipped.
+    /// Tone-maps to 8 bits: color times `exposure` through the sRGB curve, clipped at 1.
     pub fn display(&self, exposure: f64) -> RgbImage {
         let byte = |channel: f64| picture::display::encode(channel * exposure);
         let shown = self.color.iter().map(|color| color.map(byte));
@@ -40,7 +40,7 @@ impl RenderedPicture {
     }
 }
 
-/// Sums of samples.
+/// Sums of samples per pixel.
 struct Film {
     sum: Vec<DVec3>,
     squares: Vec<DVec3>,
@@ -58,7 +58,7 @@ impl Film {
     }
 }
 
-/// Renders by a shader. `fan` says how many rays one ray from the eye may become at a time, about.
+/// Renders with a shader. `fan` is the approximate number of rays that one eye ray may become at a time.
 pub(super) fn expose(
     tracer: &mut CountingCaster<'_>,
     camera: &Camera,
@@ -99,7 +99,7 @@ pub(super) fn expose(
     Ok(RenderedPicture { width, height, color, variance, first, not_finite: film.not_finite, counts })
 }
 
-/// Means, and the variances of the means.
+/// Returns the means, and the variances of the means.
 fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let n = f64::from(samples);
     let of = |(sum, squares): (&DVec3, &DVec3)| {
@@ -111,7 +111,7 @@ fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     film.sum.iter().zip(&film.squares).map(of).unzip()
 }
 
-/// What the rays through the middles of the pixels meet.
+/// Returns the first hits of the rays through the centres of the pixels.
 fn through_middles(
     tracer: &mut CountingCaster<'_>,
     camera: &Camera,
@@ -126,7 +126,7 @@ fn through_middles(
         let rays: Vec<Ray> = (start..end).map(|pixel| middle(camera, pixel)).collect();
         hits.extend(tracer.cast(&rays, |_| RayKind::Eye)?);
         if (hits.len() as u64) < end {
-            // A caster that answers too little; the rest is taken as missed.
+            // If the caster returns too few hits, the rest count as misses.
             hits.resize(end as usize, None);
         }
         tracer.advance(end - start);
@@ -139,7 +139,7 @@ fn middle(camera: &Camera, pixel: u64) -> Ray {
     camera.ray((pixel % width) as u32, (pixel / width) as u32)
 }
 
-/// The ray of a sample.
+/// Generates the eye ray of a sample.
 fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, dice: Dice) -> Ray {
     let centre = middle(camera, pixel);
     if settings.samples == 1 && settings.lens.is_none() {
@@ -152,11 +152,11 @@ fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, dice: Dice) -> Ray 
         None => Ray::new(camera.eye(), narrow(direction)),
         Some(lens) => through_lens(camera, lens, direction, [dice.before(2), dice.before(3)]),
     };
-    // Only a direction beyond f32 has no ray.
+    // Fails only for a direction beyond f32.
     ray.unwrap_or(centre)
 }
 
-/// From a point of the lens to where the pinhole's ray is at the distance of focus.
+/// Generates a ray from a point of the lens to the point where the pinhole's ray reaches the focal distance.
 fn through_lens(camera: &Camera, lens: Lens, direction: DVec3, u: [f64; 2]) -> Result<Ray, crate::geom::RayError> {
     let [x, y] = super::sampling::disk(u);
     let [right, up] = [camera.right(), camera.up()].map(|axis| unit(axis).unwrap_or(axis));

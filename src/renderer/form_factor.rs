@@ -1,9 +1,9 @@
-//! Form factors between triangles, by rays (Goral et al. 1984 have the integral; Cohen and Wallace 1993, section 4.11,
-//! the estimate).
+//! Form factors between triangles, by rays (integral: Goral et al. 1984; estimator: Cohen and Wallace 1993, section
+//! 4.11).
 //!
-//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the share of what leaves a by its
-//! front that arrives at b's front. One sample takes a uniform point on each: `A_b cos cos' / (pi r^2) V`, whose mean
-//! is F.
+//! `F(a, b) = 1 / A_a` times the integral over both areas of `cos cos' / (pi r^2) V`: the fraction of the light leaving
+//! the front of a that arrives at the front of b. A sample is a uniform point on each: `A_b cos cos' / (pi r^2) V`,
+//! whose mean is F.
 
 use std::f64::consts::PI;
 
@@ -16,18 +16,18 @@ use crate::scene::Scene;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 use crate::tracer::{CastError, Caster};
 
-/// An estimate.
+/// Estimated form factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FormFactor {
-    /// Its value, dimensionless.
+    /// Estimate, dimensionless.
     pub value: f64,
-    /// Estimated variance of the value; 0 of one sample.
+    /// Estimated variance of the estimate; 0 for one sample.
     pub variance: f64,
 }
 
-/// The form factor from patch `a` to patch `b`, each a list of triangles (fronts count): so much of what leaves `a`
-/// arrives at `b`. `samples` pairs of points decide; pairs that cannot see each other by their cosines alone cost no
-/// ray. 0 if either has no area.
+/// Estimates the form factor from patch `a` to patch `b`, each a list of triangles of which the fronts count: the
+/// fraction of the light leaving `a` that arrives at `b`. Takes `samples` pairs of points; pairs that face away from
+/// each other cost no ray. 0 if either has no area.
 ///
 /// # Errors
 /// [`CastError`] if the caster fails.
@@ -58,7 +58,7 @@ pub fn form_factor(
     Ok(FormFactor { value, variance })
 }
 
-/// Two points that face each other, the integrand without V, and the ray between them.
+/// Samples two points that face each other: the integrand without V, and the ray between them.
 fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Option<(f64, Ray)> {
     let number = |dimension| random.unit(0, sample, dimension);
     let p = from.place(number(0), [number(1), number(2)])?;
@@ -72,7 +72,7 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Op
     Some((to.area * cosines[0] * cosines[1] / (PI * square * square), p.ray_to(&q)?))
 }
 
-/// Triangles from which points are drawn, uniformly over their area.
+/// Triangles whose points are sampled uniformly by area.
 struct Patch<'a> {
     scene: &'a Scene,
     triangles: &'a [u32],

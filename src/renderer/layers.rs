@@ -1,4 +1,4 @@
-//! A picture's numbers by the channel names that viewers of EXR files group.
+//! Picture layers with the channel names that viewers of EXR files group.
 
 use super::film::RenderedPicture;
 use super::surfel::Surfel;
@@ -7,9 +7,9 @@ use crate::picture::{ChannelUnit, Picture, PictureError, Samples};
 use crate::scene::{Camera, Color, Material, Scene, Surface};
 use crate::tracer::offset::SINGLE;
 
-/// Color in single precision (`R`, `G`, `B`), and of what the ray through the middle of each pixel meets first: depth
-/// along the view (`Z`, infinite for nothing), the normal that it is shaded with (`N.X`, `N.Y`, `N.Z`), what it
-/// reflects or lets pass in all (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for nothing).
+/// Converts to a picture with color in single precision (`R`, `G`, `B`), and for the first hit through the centre of
+/// each pixel: depth along the view (`Z`, infinite for a miss), shading normal (`N.X`, `N.Y`, `N.Z`), total reflectance
+/// or transmittance (`albedo.R`, `albedo.G`, `albedo.B`), and `triangle` (`u32::MAX` for a miss).
 ///
 /// # Errors
 /// If the picture has no pixels, or more or less than the camera.

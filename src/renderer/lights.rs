@@ -1,4 +1,4 @@
-//! Lights: the triangles that shine, and the points.
+//! Light sampling: emitting triangles and point lights.
 
 use std::f64::consts::PI;
 
@@ -12,46 +12,46 @@ use crate::scene::Scene;
 use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
-/// What may shine on a point, not knowing what is between.
+/// Light sample at a point, before the visibility test.
 pub(super) struct Arriving {
-    /// The ray to the light, reached at t = 1.
+    /// Ray to the light, which it reaches at t = 1.
     pub(super) ray: Ray,
     /// Unit vector to the light.
     pub(super) towards: DVec3,
-    /// Radiance over the density of the choice (area lights), or irradiance across the direction (points).
+    /// Radiance over the probability density (area lights), or irradiance perpendicular to the direction (points).
     pub(super) light: DVec3,
-    /// Density of the choice over solid angle; infinite for points, which no other way of choosing ever finds.
+    /// Probability density over solid angle; infinite for points, which no other sampling strategy can hit.
     pub(super) density: f64,
 }
 
-/// Light that leaves a light.
+/// Emitted light sample.
 pub(super) struct Leaving {
-    /// Where it starts and where it goes.
+    /// Ray from the light.
     pub(super) ray: Ray,
-    /// Flux over the density of the choice: the mean over all choices is the flux of all lights.
+    /// Flux over the probability density: its mean over all samples is the flux of all lights.
     pub(super) power: DVec3,
 }
 
-/// The lights of a scene: its emitters, or its points. Scenes give the points of Whitted's model beside the emitters
-/// that they stand for; a renderer that used both would light everything twice.
+/// Lights of a scene: its emitters, or its point lights. Scenes contain the point lights of Whitted's model in addition
+/// to the emitters that they stand for; a renderer that used both would count all light twice.
 pub(super) struct Lights<'a> {
     scene: &'a Scene,
     rounding: f64,
     emitters: Vec<u32>,
-    /// By power.
+    /// Distribution of the emitters by power.
     table: DiscreteDistribution,
-    /// Density over area with which points of each emitter are chosen.
+    /// Probability density over area of the points of each emitter.
     densities: Vec<f64>,
     points: Vec<(DVec3, DVec3)>,
 }
 
 impl<'a> Lights<'a> {
-    /// The points alone.
+    /// The point lights alone.
     pub(super) fn points_of(scene: &'a Scene, rounding: f64) -> Self {
         Self::new(scene, rounding, Vec::new())
     }
 
-    /// The emitters; the points only if there are no emitters.
+    /// The emitters, or the point lights if there are no emitters.
     pub(super) fn areas_of(scene: &'a Scene, rounding: f64) -> Self {
         let emitters = scene.emitters();
         let points = if emitters.is_empty() { Self::new(scene, rounding, Vec::new()).points } else { Vec::new() };
@@ -68,13 +68,13 @@ impl<'a> Lights<'a> {
         Self { scene, rounding, emitters, table, densities, points }
     }
 
-    /// Point lights.
+    /// Number of point lights.
     pub(super) fn points(&self) -> usize {
         self.points.len()
     }
 
-    /// Light that leaves a light: from an emitter by the cosine to its front, from a point in all directions. Takes six
-    /// numbers in [0, 1).
+    /// Samples emitted light: from an emitter with a cosine distribution about its front, from a point in all
+    /// directions. Takes six numbers in [0, 1).
     pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<Leaving> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
@@ -88,12 +88,12 @@ impl<'a> Lights<'a> {
         Some(Leaving { ray, power: 4.0 * PI / chance * intensity })
     }
 
-    /// Radiance that a surfel sends towards the viewer: its material's, from front faces alone.
+    /// Radiance that a surfel emits towards the viewer: its material's emission, on front faces only.
     pub(super) fn seen(surfel: &Surfel<'_>) -> DVec3 {
         if surfel.front { wide(surfel.material.emission) } else { DVec3::ZERO }
     }
 
-    /// A place on an emitter, by three numbers in [0, 1): where, its radiance, and the density over area.
+    /// Samples a point on an emitter by three numbers in [0, 1): the point, its radiance, and the density over area.
     pub(super) fn place(&self, which: f64, u: [f64; 2]) -> Option<(SurfacePoint, DVec3, f64)> {
         let (entry, _) = self.table.draw(which)?;
         let id = self.emitters[entry];
@@ -102,7 +102,7 @@ impl<'a> Lights<'a> {
         Some((place, radiance, self.densities[entry]))
     }
 
-    /// A place of an emitter that may light a surfel. `None` where the place shows its back or cannot be reached.
+    /// Samples a point of an emitter to light a surfel. `None` if the point is on a back face or cannot be reached.
     pub(super) fn area(&self, surfel: &Surfel<'_>, dice: Dice, depth: u32) -> Option<Arriving> {
         let (place, radiance, density) = self.place(dice.at(depth, 0), dice.pair(depth, 1))?;
         let way = place.at - surfel.place.at;
@@ -117,8 +117,7 @@ impl<'a> Lights<'a> {
         Some(Arriving { ray, towards, light: 1.0 / density * radiance, density })
     }
 
-    /// The density over solid angle with which [`Lights::area`] would have chosen the place of an emitter that a ray
-    /// found.
+    /// Density over solid angle with which [`Lights::area`] would have sampled an emitter's point that a ray hit.
     pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
         let way = found.place.at - from;
@@ -126,7 +125,7 @@ impl<'a> Lights<'a> {
         if cosine > 0.0 { self.densities[entry] * way.dot(way) / cosine } else { 0.0 }
     }
 
-    /// A point light as it shines on a surfel.
+    /// Light from a point light at a surfel.
     pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<Arriving> {
         let (position, intensity) = self.points[light];
         let way = position - surfel.place.at;

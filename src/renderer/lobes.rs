@@ -1,4 +1,4 @@
-//! How surfaces scatter: what can be evaluated (diffuse, glossy) and what cannot (mirror, glass).
+//! Scattering at surfaces: lobes that can be evaluated (diffuse, glossy) and specular ones (mirror, glass).
 
 use std::f64::consts::PI;
 
@@ -12,8 +12,8 @@ use crate::geom::vector::wide;
 use crate::scene::Surface;
 use glam::DVec3;
 
-/// A diffuse part and Phong's lobe about the mirror direction, normalised after Lafortune and Willems (1994):
-/// `f = albedo / pi + specular (n + 2) / (2 pi) cos^n`.
+/// Diffuse part and Phong lobe about the mirror direction, normalised after Lafortune and Willems (1994): `f = albedo /
+/// pi + specular (n + 2) / (2 pi) cos^n`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lobes {
     pub(super) albedo: DVec3,
@@ -21,18 +21,18 @@ pub(super) struct Lobes {
     pub(super) exponent: f64,
 }
 
-/// A direction that a surface chose.
+/// Sampled direction of a surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LobeSample {
     pub(super) towards: DVec3,
     /// `f cos / density`.
     pub(super) weight: DVec3,
-    /// Over solid angle, of both lobes together.
+    /// Density over solid angle, of both lobes together.
     pub(super) density: f64,
 }
 
 impl Lobes {
-    /// The lobes of a surface; `None` of mirrors and glass, which send light one way only.
+    /// Returns the lobes of a surface; `None` for mirrors and glass, which are specular.
     pub(super) fn of(surface: &Surface) -> Option<Self> {
         match *surface {
             Surface::Diffuse { albedo } => Some(Self { albedo: wide(albedo), specular: DVec3::ZERO, exponent: 1.0 }),
@@ -44,19 +44,19 @@ impl Lobes {
         }
     }
 
-    /// The diffuse part alone.
+    /// Returns the diffuse part alone.
     pub(super) fn diffuse(self) -> Self {
         Self { specular: DVec3::ZERO, ..self }
     }
 
-    /// The chance of the glossy lobe when a direction is chosen.
+    /// Probability of sampling the glossy lobe.
     fn chance_of_gloss(&self) -> f64 {
         let (matt, gloss) = (mean(self.albedo), mean(self.specular));
         if gloss > 0.0 { gloss / (matt + gloss) } else { 0.0 }
     }
 
-    /// `f cos`, and the density with which [`Lobes::choose`] takes the direction. Both are zero where the direction
-    /// leaves by the other side of the triangle, or is below the shading normal's horizon.
+    /// Returns `f cos`, and the density with which [`Lobes::choose`] samples the direction. Both are zero where the
+    /// direction leaves on the other side of the triangle, or is below the shading normal's horizon.
     pub(super) fn evaluate(&self, surfel: &Surfel<'_>, towards: DVec3) -> (DVec3, f64) {
         let cos = towards.dot(surfel.shading);
         if cos <= 0.0 || towards.dot(surfel.normal) <= 0.0 {
@@ -76,7 +76,7 @@ impl Lobes {
         (value, density)
     }
 
-    /// A direction, from three numbers in [0, 1); `None` if the surface swallows the light.
+    /// Samples a direction by three numbers in [0, 1); `None` if the light is absorbed.
     pub(super) fn choose(&self, surfel: &Surfel<'_>, which: f64, u: [f64; 2]) -> Option<LobeSample> {
         let towards = if which < self.chance_of_gloss() {
             lobe(reflected(surfel.view, surfel.shading), self.exponent, u)
@@ -88,23 +88,24 @@ impl Lobes {
     }
 }
 
-/// A way on from a mirror or glass, with the share of the light.
+/// Specular ray from a mirror or glass, with its weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpecularRay {
     pub(super) towards: DVec3,
     pub(super) weight: DVec3,
     pub(super) kind: RayKind,
-    /// The chance with which it is taken where one of several is.
+    /// Probability with which it is chosen where one of several rays is.
     pub(super) chance: f64,
-    /// What a photon's flux is multiplied by, beside `weight`, so that what it lands as is irradiance over the square
-    /// of the index too: the square of the ratio of indices at a boundary that it passes, else 1.
+    /// Additional factor of a photon's flux, beside `weight`, which makes its irradiance relative to the square of the
+    /// index too: the square of the ratio of indices at a boundary that it passes, otherwise 1.
     pub(super) squeeze: f64,
 }
 
-/// The ways on from a mirror (one) or glass (one under total internal reflection, else two); none from other surfaces.
+/// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); none
+/// from other surfaces.
 ///
-/// Rays carry radiance over the square of the index of refraction, which a boundary leaves as it is (Nicodemus 1963):
-/// so there is no factor here, and what shines or scatters inside glass does so as in air.
+/// Rays carry radiance over the square of the index of refraction, which is invariant at a boundary (Nicodemus 1963):
+/// so there is no factor here, and emission and scattering inside glass are as in air.
 pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
     let mirrored = |weight, chance| SpecularRay {
         towards: mirror_direction(surfel),
@@ -130,7 +131,7 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
     }
 }
 
-/// One of the ways, by a number in [0, 1), its weight divided by its chance.
+/// Chooses one of the specular rays by a number in [0, 1), its weight divided by its probability.
 pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
     let [first, second] = ways(surfel);
     let first = first?;
@@ -141,7 +142,8 @@ pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
     Some(SpecularRay { weight: 1.0 / way.chance * way.weight, ..way })
 }
 
-/// By the shading normal, unless that leads through the triangle.
+/// Mirror direction about the shading normal, or about the triangle's normal if that direction leads through the
+/// triangle.
 fn mirror_direction(surfel: &Surfel<'_>) -> DVec3 {
     let smooth = reflected(surfel.view, surfel.shading);
     if smooth.dot(surfel.normal) > 0.0 { smooth } else { reflected(surfel.view, surfel.normal) }

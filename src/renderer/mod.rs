@@ -1,4 +1,5 @@
-//! Host renderers: what a ray engine is for (Ray Engine, section 5.2). docs/renderers.md says what each one estimates.
+//! Renderers on the host, the applications of a ray engine (Ray Engine, section 5.2). docs/renderers.md states what
+//! each one estimates.
 //!
 //! - [`eye`]: eye rays alone, shaded by a light at the eye;
 //! - [`whitted`]: point lights with hard shadows, mirrors, glass (Whitted 1980);
@@ -7,10 +8,10 @@
 //! - [`photon`]: photon maps with final gather (Jensen 1996), biased and smooth;
 //! - [`visibility`] and [`form_factor`]: rays as questions, without a picture.
 //!
-//! All work breadth first: they make a bundle of rays, have it cast by whoever is behind [`crate::tracer::Caster`],
-//! shade, and make the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the
-//! order of samples: the picture does not depend on the size of bundles, on threads, or on the order in which rays are
-//! traced. It depends on the caster only where casters differ in the first triangle of a ray.
+//! All work breadth first: they generate a bundle of rays, cast it through [`crate::tracer::Caster`], shade, and
+//! generate the next bundle. Random numbers are keyed by pixel, sample and dimension, and all sums run in the order of
+//! samples: the picture does not depend on the size of bundles, on threads, or on the order in which rays are traced.
+//! It depends on the caster only where casters differ in the first triangle of a ray.
 
 mod counting;
 pub mod distributed;

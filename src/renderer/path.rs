@@ -13,29 +13,29 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// Hits before Russian roulette begins.
+/// Number of hits before Russian roulette begins.
 const SAFE: u32 = 3;
-/// The least chance to live on, so that weights grow by no more than 20 at once.
+/// Minimum survival probability, so that weights grow by a factor of at most 20 at once.
 const LEAST_CHANCE: f64 = 0.05;
 
-/// How light straight from emitters is found. All three have the same mean.
+/// Sampling strategy for direct light from emitters. All three have the same mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direct {
-    /// Only by rays that happen to meet an emitter.
+    /// Only by rays that happen to hit an emitter.
     Walk,
-    /// Only by points chosen on the emitters (next-event estimation), wherever the surface is not a mirror or glass.
+    /// Only by points sampled on the emitters (next-event estimation), except at mirrors and glass.
     Emitters,
-    /// By both, each weighted by its density over the sum of the two (the balance heuristic, Veach and Guibas 1995).
+    /// By both, with multiple importance sampling: each weighted by its density over the sum of the two (the balance
+    /// heuristic, Veach and Guibas 1995).
     #[default]
     Both,
 }
 
-/// Renders by path tracing. `settings.depth` is the most surfaces that a path meets between eye and light: 0 shows
-/// emitters alone, 1 light that comes straight from emitters too. After three hits a path lives on by chance (Russian
-/// roulette), which leaves the mean as it is.
+/// Renders by path tracing. `settings.depth` is the maximum number of surfaces between eye and light: 0 shows emitters
+/// alone, 1 adds direct light. After three hits paths are subject to Russian roulette, which does not change the mean.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense or the caster fails.
+/// [`RenderError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -62,7 +62,7 @@ impl Shade for Paths<'_> {
         let found = hit
             .and_then(|hit| Some((Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)?, hit.triangle)));
         let Some((surfel, triangle)) = found else {
-            // Only rays find the background, so it needs no weighing.
+            // Only rays hit the background, so it needs no MIS weight.
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
         let share = self.share_of_walk(flight, &surfel, triangle);
@@ -78,10 +78,10 @@ impl Shade for Paths<'_> {
 }
 
 impl Paths<'_> {
-    /// How much an emitter counts that the walk has found.
+    /// Weight of an emitter that the random walk has hit.
     fn share_of_walk(&self, flight: &PathRay, surfel: &Surfel<'_>, triangle: u32) -> f64 {
         match (flight.density, self.direct) {
-            // From the eye, a mirror or glass there is no other way to find it.
+            // After the eye, a mirror or glass no other strategy finds the emitter.
             (None, _) | (_, Direct::Walk) => 1.0,
             (Some(_), Direct::Emitters) => 0.0,
             (Some(walk), Direct::Both) => {
@@ -104,7 +104,7 @@ impl Paths<'_> {
             }
         }
         let Some(chosen) = lobes.choose(surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4)) else { return };
-        // A ray after the last surface only serves to find emitters.
+        // The ray after the last surface can only contribute emission.
         if flight.depth + 1 == self.settings.depth && self.direct == Direct::Emitters && !self.sees_background() {
             return;
         }
@@ -121,7 +121,7 @@ impl Paths<'_> {
 
     fn lit(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &Arriving, scatter: &mut Scatter) {
         let (value, walk) = lobes.evaluate(surfel, arriving.towards);
-        // Points have an infinite density: nothing else finds them, and they count in full.
+        // Points have an infinite density: no other strategy finds them, and their MIS weight is 1.
         let share = match self.direct {
             Direct::Both if arriving.density.is_finite() => arriving.density / (arriving.density + walk),
             _ => 1.0,
@@ -138,7 +138,7 @@ impl Paths<'_> {
         scatter.next.extend(self.go_on(flight, surfel, way.towards, way.kind, weight));
     }
 
-    /// The ray on, if roulette lets it live.
+    /// Returns the next ray of the path, if it survives Russian roulette.
     fn go_on(
         &self,
         flight: &PathRay,

@@ -1,4 +1,4 @@
-//! Photons where they landed, and how dense they lie: a balanced kd-tree in one array (Jensen 1996; Bentley 1975).
+//! Photon map with density estimation: a balanced kd-tree in one array (Jensen 1996; Bentley 1975).
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -6,23 +6,23 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-/// Photons count for a surface only if they landed on one that looks about the same way: within 45 degrees.
+/// Minimum cosine between the normals of a surface and of the photons that count for it: 45 degrees.
 const SAME_WAY: f64 = 0.707;
 
-/// Light that has landed.
+/// Stored photon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Photon {
-    /// Where.
+    /// Position.
     pub(super) at: DVec3,
-    /// The normal of the triangle there, on the side that was hit.
+    /// Normal of the triangle, on the side that was hit.
     pub(super) normal: DVec3,
-    /// Back to where it came from, length 1.
+    /// Unit vector back along the photon's ray.
     pub(super) from: DVec3,
-    /// Flux.
+    /// Flux: red, green, blue.
     pub(super) power: DVec3,
 }
 
-/// A photon and the square of its distance; ordered by distance, then by place in the map, so that sums have one order.
+/// Photon with its squared distance; ordered by distance, then by index in the map, so that the order of sums is fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Near {
     square: f64,
@@ -43,7 +43,7 @@ impl PartialOrd for Near {
     }
 }
 
-/// A kd-tree: the middle of each range is its node, on the axis in `axes`.
+/// Kd-tree: the middle element of each range is its node, split along the axis in `axes`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PhotonMap {
     photons: Vec<Photon>,
@@ -51,17 +51,17 @@ pub(super) struct PhotonMap {
 }
 
 impl PhotonMap {
-    /// A map of photons; the same photons in the same order make the same map.
+    /// Builds a map; the same photons in the same order give the same map.
     pub(super) fn new(mut photons: Vec<Photon>) -> Self {
         let mut axes = vec![0; photons.len()];
         build(&mut photons, &mut axes);
         Self { photons, axes }
     }
 
-    /// The sum of `value` over the photons around a point, per area: the `nearest` photons within `radius` that landed
-    /// on a surface that looks the same way. Of k photons found the k-th gives the area, pi r^2, and the k - 1 others
-    /// the sum, whose mean is right where photons are spread evenly. Where fewer than `nearest` lie within the radius,
-    /// all of them count, over the area of the radius.
+    /// Returns the sum of `value` over the photons around a point per unit area: of the `nearest` photons within
+    /// `radius` that landed on a surface with a similar normal. Of k photons found, the k-th determines the area, pi
+    /// r^2, and the k - 1 others the sum, which is unbiased where photons are spread evenly. If fewer than `nearest`
+    /// lie within the radius, all of them count, over the area of the radius.
     pub(super) fn density(
         &self,
         at: DVec3,
@@ -90,7 +90,7 @@ impl PhotonMap {
     }
 }
 
-/// Puts the median of the widest axis in the middle, and does the same to both halves.
+/// Puts the median along the widest axis in the middle, and recurses on both halves.
 fn build(photons: &mut [Photon], axes: &mut [u8]) {
     if photons.len() < 2 {
         return;
@@ -122,7 +122,7 @@ struct NearestSearch<'a> {
     at: DVec3,
     normal: DVec3,
     nearest: usize,
-    /// Square of the distance within which photons are looked for; shrinks once enough are found.
+    /// Squared search radius; shrinks once enough photons are found.
     square: f64,
     found: BinaryHeap<Near>,
 }
@@ -181,7 +181,7 @@ mod tests {
         (0..count).map(photon).collect()
     }
 
-    /// The same by looking at all photons.
+    /// The same estimate by testing all photons.
     fn slowly(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
         let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
         let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();

@@ -1,4 +1,4 @@
-//! Settings that all renderers share.
+//! Settings shared by all renderers.
 
 use thiserror::Error;
 
@@ -6,36 +6,36 @@ use crate::scene::Color;
 use crate::tracer::CastError;
 use crate::tracer::offset::SINGLE;
 
-/// A thin lens in place of the pinhole.
+/// Thin lens in place of the pinhole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
-    /// Radius of the aperture, in units of the scene.
+    /// Radius of the aperture, in scene units.
     pub radius: f64,
-    /// Distance along the view at which everything is sharp.
+    /// Focal distance along the view, in scene units.
     pub focus: f64,
 }
 
-/// Settings that all renderers share; each documents what it makes of `depth`.
+/// Settings shared by all renderers; each documents its meaning of `depth`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples per pixel, at least 1. One goes through the middle of the pixel, several anywhere in it with the same
-    /// chance.
+    /// Samples per pixel, at least 1. A single sample goes through the centre of the pixel, several are distributed
+    /// uniformly over it.
     pub samples: u32,
-    /// The longest path.
+    /// Maximum path length.
     pub depth: u32,
     /// Random seed.
     pub seed: u64,
     /// Approximate number of rays per bundle: bounds the memory, never changes the picture.
     pub bundle: usize,
-    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: says how far off a surface rays start. A card of a
-    /// shorter format, told that it has a longer one, sees its surfaces lie in their own shadow.
+    /// Unit roundoff of the caster's arithmetic, 2^-24 by default: determines the offset of rays from surfaces. With a
+    /// value below that of the card's format, surfaces shadow themselves.
     pub rounding: f64,
-    /// A lens; else a pinhole.
+    /// Thin lens; `None` for a pinhole.
     pub lens: Option<Lens>,
-    /// Radiance from where nothing is.
+    /// Radiance of rays that hit nothing.
     pub background: Color,
-    /// Radiance that Whitted's model adds to what diffuse surfaces scatter, times their albedo (his constant term);
-    /// others ignore it.
+    /// Ambient radiance of Whitted's model, which diffuse surfaces scatter times their albedo (his constant term);
+    /// other renderers ignore it.
     pub ambient: Color,
 }
 
@@ -56,7 +56,7 @@ impl Default for Settings {
 
 impl Settings {
     /// # Errors
-    /// [`RenderError::Settings`] names the first figure that makes no sense.
+    /// [`RenderError::Settings`] names the first setting out of range.
     pub(super) fn checked(&self) -> Result<(), RenderError> {
         let refuse = |what, found: String, expected| Err(RenderError::Settings { what, expected, found });
         if self.samples == 0 {
@@ -85,7 +85,7 @@ impl Settings {
     }
 }
 
-/// Why there is no picture.
+/// Error of rendering.
 #[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -93,7 +93,7 @@ pub enum RenderError {
     /// The ray caster failed.
     #[error(transparent)]
     Cast(#[from] CastError),
-    /// A figure that makes no sense.
+    /// A setting is out of range.
     #[error("expected {expected} for {what}, found {found}")]
     Settings { what: &'static str, expected: &'static str, found: String },
 }

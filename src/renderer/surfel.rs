@@ -1,7 +1,7 @@
-//! A hit, worked out: where it is, how the surface lies there, and how far off it the next ray must start.
+//! Surface point of a hit: position, normals, material, and the offset of the next ray.
 //!
-//! The place is found anew in f64, on the triangle itself: t in f32 says only which triangle. So what a caster's
-//! arithmetic did to t is not seen in the picture, only what it did to the choice of triangle.
+//! The position is recomputed in f64, on the triangle itself, instead of from t in f32. So a caster's rounding of t
+//! does not show in the picture, only its choice of triangle.
 
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
@@ -9,29 +9,28 @@ use crate::scene::{Material, Scene};
 use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
-/// The least cosine between a shading normal and the view, to which normals that look away are bent.
+/// Minimum cosine between the shading normal and the view; normals that face away are bent to it.
 const LEAST_COSINE: f64 = 1e-3;
 
-/// A hit seen from where its ray came.
+/// Surface point of a hit, as seen from the origin of its ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surfel<'a> {
-    /// The point, and its triangle's front.
+    /// Position, and the triangle's front normal.
     pub(super) place: SurfacePoint,
-    /// The triangle's normal on the side that was hit.
+    /// Normal of the triangle on the side that was hit.
     pub(super) normal: DVec3,
-    /// The normal to shade with: interpolated, on the side that was hit, and turned no further from the viewer than
-    /// that it is seen.
+    /// Shading normal: interpolated, on the side that was hit, and bent so that it faces the viewer.
     pub(super) shading: DVec3,
-    /// Back along the ray, length 1.
+    /// Unit vector back along the ray.
     pub(super) view: DVec3,
-    /// Whether the front face was hit.
+    /// `true` if the front face was hit.
     pub(super) front: bool,
-    /// What the surface does with light.
+    /// Material of the triangle.
     pub(super) material: &'a Material,
 }
 
 impl<'a> Surfel<'a> {
-    /// What a ray met; `None` for a triangle without area.
+    /// Computes the surface point of a hit; `None` for a triangle without area.
     pub(super) fn new(scene: &'a Scene, rounding: f64, ray: &Ray, hit: Hit) -> Option<Self> {
         let corners = scene.mesh().corners(hit.triangle)?.map(wide);
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
@@ -48,30 +47,31 @@ impl<'a> Surfel<'a> {
         Some(Self { place, normal, shading, view, front, material: scene.material(hit.triangle) })
     }
 
-    /// Where a ray into `towards` starts.
+    /// Returns the origin of a ray into direction `towards`.
     pub(super) fn start(&self, towards: DVec3) -> [f32; 3] {
         self.place.lifted(towards, 0.0)
     }
 
-    /// The ray on from here, if it has a direction.
+    /// Returns a ray from the surface, if the direction is not zero.
     pub(super) fn ray(&self, towards: DVec3) -> Option<Ray> {
         Ray::new(self.start(towards), narrow(towards)).ok()
     }
 
-    /// A ray to a place on another triangle, which meets something at t < 1 if and only if something is between. `None`
-    /// if they coincide.
+    /// Returns a ray to a point on another triangle, which hits something at t < 1 if and only if something is between.
+    /// `None` if the points coincide.
     pub(super) fn ray_to(&self, other: &SurfacePoint) -> Option<Ray> {
         self.place.ray_to(other)
     }
 
-    /// A ray to a point in space, that is reached at t = 1.
+    /// Returns a ray to a point in space, which it reaches at t = 1.
     pub(super) fn ray_to_point(&self, point: DVec3) -> Option<Ray> {
         let start = self.start(point - self.place.at);
         Ray::new(start, narrow(point - wide(start))).ok()
     }
 }
 
-/// Where the ray passes the triangle's plane, pulled onto the triangle; at `t` where the plane is seen edge on.
+/// Barycentric coordinates at which the ray crosses the triangle's plane, clamped to the triangle; at `t` where the
+/// plane is seen edge-on.
 fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3, t: f64) -> DVec3 {
     let (ab, ac) = (b - a, c - a);
     let normal = ab.cross(ac);
@@ -92,8 +92,8 @@ fn interpolated(corners: [[f32; 3]; 3], weights: DVec3) -> Option<DVec3> {
     unit(weights[0] * a + weights[1] * b + weights[2] * c)
 }
 
-/// A shading normal that faces the viewer: one that does not is bent towards the viewer until it just does. One that
-/// faces away from the triangle's own altogether is not believed.
+/// Returns a shading normal that faces the viewer: one that does not is bent towards the viewer until it just does. One
+/// that faces away from the triangle's own normal is replaced by that.
 fn seen(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
     if smooth.dot(normal) <= 0.0 {
         return normal;

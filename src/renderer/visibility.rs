@@ -1,13 +1,13 @@
-//! Do two points see each other?
+//! Mutual visibility of points.
 
 use super::counting::{CountingCaster, RayCounts};
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::{CastError, Caster};
 
-/// For each pair of points: whether the open segment between them meets no triangle. Points on surfaces must be lifted
-/// off them by the caller, to the side that is meant; [`super::form_factor`] does so by itself. Two points at one place
-/// see each other, and so do points that f32 has no segment for.
+/// Returns for each pair of points whether the open segment between them meets no triangle. The caller must offset
+/// points on surfaces to the intended side; [`super::form_factor`] does so itself. Coincident points see each other,
+/// and so do points whose direction f32 cannot represent.
 ///
 /// # Errors
 /// [`CastError`] if the caster fails.
@@ -17,7 +17,7 @@ pub fn visibility(pairs: &[[[f32; 3]; 2]], caster: &mut dyn Caster) -> Result<Ve
     visible(&rays, &mut CountingCaster::new(caster, &mut ignore)).map(|(seen, _)| seen)
 }
 
-/// The same for rays that end at t = 1; no ray sees everything.
+/// Like [`visibility`], for rays that end at t = 1; `None` counts as visible.
 pub(super) fn visible(
     rays: &[Option<Ray>],
     tracer: &mut CountingCaster<'_>,

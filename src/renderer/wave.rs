@@ -1,4 +1,4 @@
-//! Breadth first: all rays of a bundle, then all that they give rise to, until none is left.
+//! Breadth-first evaluation: all rays of a bundle, then all rays that they cause, until none is left.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -18,9 +18,9 @@ pub(super) struct Dice {
     branch: u64,
 }
 
-/// Numbers that a sample needs before its first hit: place in the pixel and on the lens.
+/// Random numbers per sample before its first hit: position in the pixel and on the lens.
 const BEFORE: u64 = 8;
-/// Numbers that one hit may need.
+/// Random numbers per hit.
 const A_HIT: u64 = 16;
 
 impl Dice {
@@ -28,17 +28,17 @@ impl Dice {
         Self { stream: CounterRng::new(seed), pixel, sample, branch: 0 }
     }
 
-    /// The dice of one of several rays that leave a hit.
+    /// Returns the random numbers of one of several rays that leave a hit.
     pub(super) const fn branch(self, branch: u64) -> Self {
         Self { branch, ..self }
     }
 
-    /// The n-th number before the first hit.
+    /// Returns the n-th number before the first hit.
     pub(super) fn before(self, n: u64) -> f64 {
         self.stream.unit(self.pixel, self.sample, n)
     }
 
-    /// The n-th number, below 16, at a hit after so many others.
+    /// Returns the n-th number (below 16) at a hit after `depth` others.
     pub(super) fn at(self, depth: u32, n: u64) -> f64 {
         self.stream.unit(self.pixel, self.sample, (self.branch << 24) + BEFORE + A_HIT * u64::from(depth) + n)
     }
@@ -48,45 +48,45 @@ impl Dice {
     }
 }
 
-/// A ray on its way.
+/// Ray in flight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PathRay {
     /// The ray.
     pub(super) ray: Ray,
-    /// What it is for.
+    /// Its purpose.
     pub(super) kind: RayKind,
-    /// Whose radiance it adds to: the place in the chunk.
+    /// Index in the chunk of the sample that its radiance is added to.
     pub(super) slot: u32,
-    /// What light along it counts.
+    /// Throughput: factor of the radiance along the ray.
     pub(super) weight: DVec3,
-    /// Hits before this one.
+    /// Number of hits before this one.
     pub(super) depth: u32,
-    /// Density of the choice of its direction over solid angle, if there was a choice.
+    /// Probability density of its direction over solid angle; `None` if the direction was not sampled.
     pub(super) density: Option<f64>,
     /// Its random numbers.
     pub(super) dice: Dice,
 }
 
 impl PathRay {
-    /// The ray of a sample from the eye.
+    /// Creates the eye ray of a sample.
     pub(super) fn eye(ray: Ray, slot: u32, dice: Dice) -> Self {
         Self { ray, kind: RayKind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, dice }
     }
 
-    /// The ray that goes on from its hit; without choice of direction unless the caller says otherwise.
+    /// Creates a ray that continues from the hit; its direction counts as not sampled unless the caller sets a density.
     pub(super) fn on(&self, ray: Ray, kind: RayKind, weight: DVec3) -> Self {
         Self { ray, kind, weight, depth: self.depth + 1, density: None, ..*self }
     }
 }
 
-/// What a hit gives rise to.
+/// Result of shading a hit.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scatter {
     /// Light that goes to the eye at once, weighted.
     pub(super) light: DVec3,
-    /// Rays to lights, with what arrives if nothing is before t = 1.
+    /// Shadow rays, with the light that arrives if nothing is hit before t = 1.
     pub(super) shadows: Vec<(Ray, DVec3)>,
-    /// Rays that go on.
+    /// Rays that continue.
     pub(super) next: Vec<PathRay>,
 }
 
@@ -96,19 +96,18 @@ impl Scatter {
     }
 }
 
-/// What a renderer is: a hit (or none), and what comes of it.
+/// Shader of a renderer: computes the light and the further rays of a hit or a miss.
 pub(super) trait Shade: Sync {
     fn shade(&self, flight: &PathRay, hit: Option<Hit>) -> Scatter;
 }
 
-/// A chunk's light, by slot, and the hits of its first rays.
+/// Light of a chunk, by slot, and the hits of its first rays.
 pub(super) struct Wave {
     pub(super) light: Vec<DVec3>,
     pub(super) first: Vec<Option<Hit>>,
 }
 
-/// Follows rays from the eye, one a slot, to their ends. Every sum runs in an order that the chunk's size does not
-/// change.
+/// Traces eye rays, one per slot, to their ends. The order of every sum is independent of the chunk's size.
 pub(super) fn follow(
     tracer: &mut CountingCaster<'_>,
     mut flights: Vec<PathRay>,

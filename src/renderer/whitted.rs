@@ -14,16 +14,15 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// Branches that count less than this for the pixel are not followed (Hall's adaptive depth): half a step of an 8-bit
-/// display.
+/// Minimum weight of a branch for its pixel (Hall's adaptive depth): half a step of an 8-bit display.
 const LEAST_WEIGHT: f64 = 1.0 / 512.0;
 
 /// Renders after Whitted. Diffuse and glossy surfaces are lit by the scene's point lights, each with a shadow ray, and
-/// by `settings.ambient`; mirrors and glass send rays on, at most `settings.depth` after each other. Emitters are seen,
-/// directly and in mirrors, but do not light.
+/// by `settings.ambient`; mirrors and glass send further rays, at most `settings.depth` in sequence. Emitters are
+/// visible, directly and in mirrors, but do not illuminate.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense or the caster fails.
+/// [`RenderError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,

@@ -1,42 +1,42 @@
-//! Entries of tables.
+//! Table cells.
 
 use serde_json::Value;
 
 use super::digits::{self, Quantity};
 use super::fold::Folded;
 
-/// One entry of a table.
+/// Cell of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Words.
+    /// Text.
     Text(String),
-    /// A number of things.
+    /// Unsigned count.
     Count(u64),
-    /// A whole number with a sign.
+    /// Signed integer.
     Int(i64),
-    /// A measured or computed number.
+    /// Measured or computed number.
     Real(Figure),
-    /// Yes or no.
+    /// Boolean, shown as yes or no.
     Flag(bool),
-    /// Rows that are left out because they found the same as one above.
+    /// Summary of rows that were omitted because they found the same as a row above.
     Folded(Folded),
-    /// Nothing to say.
+    /// Empty cell.
     Empty,
 }
 
-/// A number with what it is.
+/// Number with its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figure {
-    /// The number.
+    /// Value.
     pub value: f64,
-    /// What it is: decides the digits that people are shown.
+    /// Kind of quantity: determines the digits shown to people.
     pub quantity: Quantity,
-    /// What stands behind the number, `*` for example; often nothing.
+    /// Mark behind the number, `*` for example; usually empty.
     pub mark: &'static str,
 }
 
 impl Cell {
-    /// A number of this kind.
+    /// Creates a number of this kind.
     pub const fn real(value: f64, quantity: Quantity) -> Self {
         Self::Real(Figure { value, quantity, mark: "" })
     }
@@ -56,7 +56,7 @@ impl Cell {
         Self::real(value, Quantity::Ratio)
     }
 
-    /// [`Quantity::Percent`]; `value` is in per cent already.
+    /// [`Quantity::Percent`]; `value` is already in per cent.
     pub const fn percent(value: f64) -> Self {
         Self::real(value, Quantity::Percent)
     }
@@ -66,7 +66,7 @@ impl Cell {
         Self::real(value, Quantity::Error)
     }
 
-    /// The number with a mark behind it; what is no number stays as it is.
+    /// Adds a mark to a number; other cells are unchanged.
     #[must_use]
     pub fn marked(self, mark: &'static str) -> Self {
         match self {
@@ -75,7 +75,7 @@ impl Cell {
         }
     }
 
-    /// The entry as a reader sees it; empty for [`Cell::Empty`].
+    /// Formats the cell for people; empty for [`Cell::Empty`].
     pub fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -89,7 +89,7 @@ impl Cell {
         }
     }
 
-    /// The entry for programs: numbers with every digit, no commas and no mark.
+    /// Formats the cell for programs: numbers with all digits, no commas and no mark.
     pub fn machine_text(&self) -> String {
         match self {
             Self::Count(count) => count.to_string(),
@@ -99,7 +99,7 @@ impl Cell {
         }
     }
 
-    /// The entry in a JSON document, without its mark. JSON has no infinity and no NaN: they are written as text.
+    /// Converts the cell to JSON, without its mark. JSON has no infinity and no NaN: they are written as strings.
     pub(super) fn json(&self) -> Value {
         match self {
             Self::Empty => Value::Null,
@@ -112,7 +112,7 @@ impl Cell {
         }
     }
 
-    /// The mark behind a number, if it has one.
+    /// Returns the mark of a number, if it has one.
     pub(super) const fn mark(&self) -> Option<&'static str> {
         match self {
             Self::Real(figure) if !figure.mark.is_empty() => Some(figure.mark),
@@ -120,7 +120,7 @@ impl Cell {
         }
     }
 
-    /// Whether the entry is set flush right.
+    /// Returns `true` if the cell is right-aligned.
     pub const fn is_number(&self) -> bool {
         matches!(self, Self::Count(_) | Self::Int(_) | Self::Real(_))
     }
@@ -142,14 +142,14 @@ macro_rules! cell_from {
 cell_from!(&str => Text, String => Text, u8 => Count, u16 => Count, u32 => Count, u64 => Count, i32 => Int, i64 => Int,
     bool => Flag);
 
-/// Every digit: [`Quantity::Exact`].
+/// Creates a [`Quantity::Exact`] number, with all digits.
 impl From<f64> for Cell {
     fn from(value: f64) -> Self {
         Self::real(value, Quantity::Exact)
     }
 }
 
-/// Every digit: [`Quantity::Exact`].
+/// Creates a [`Quantity::Exact`] number, with all digits.
 impl From<f32> for Cell {
     fn from(value: f32) -> Self {
         f64::from(value).into()

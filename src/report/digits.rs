@@ -1,30 +1,30 @@
-//! How many digits of a number people are shown: decided here, by what the number is, for terminal and page alike.
-//! Machines get every digit.
+//! Number formatting for people: the digits depend on the kind of quantity, on terminal and page alike. Programs get
+//! all digits.
 
-/// What a number is.
+/// Kind of quantity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quantity {
-    /// A setting, or a value that must be seen whole: the shortest text that reads back to the same number.
+    /// Setting, or value that is shown in full: the shortest text that reads back to the same number.
     #[default]
     Exact,
-    /// A figure of a paper, or ours beside it: so many digits after the point.
+    /// Printed value of a paper, or ours beside it: this many digits after the point.
     Decimals(u8),
-    /// Measured or worked out, a time, rate or size: four significant digits, and never fewer than the whole part.
+    /// Measured or computed time, rate or size: four significant digits, and at least the integer part.
     Measured,
-    /// A quotient of two quantities: three significant digits.
+    /// Quotient of two quantities: three significant digits.
     Ratio,
-    /// In per cent: one digit after the point; below 1 %, two significant digits.
+    /// Percentage: one digit after the point; below 1 %, two significant digits.
     Percent,
-    /// How far something is from what it should be: three significant digits.
+    /// Error or deviation: three significant digits.
     Error,
 }
 
-/// Numbers from here on are written with an exponent, and those below [`SMALL`].
+/// Power of ten from which numbers are written with an exponent, as are those below [`SMALL`].
 const LARGE: i32 = 15;
-/// The power of ten below which numbers are written with an exponent.
+/// Power of ten below which numbers are written with an exponent.
 const SMALL: i32 = -4;
 
-/// A number as people are shown it: thousands parted by commas, digits by what it is.
+/// Formats a number for people: thousands separated by commas, digits by quantity.
 pub fn shown(value: f64, quantity: Quantity) -> String {
     if value == 0.0 || !value.is_finite() {
         return exact(value);
@@ -34,7 +34,7 @@ pub fn shown(value: f64, quantity: Quantity) -> String {
         Quantity::Decimals(decimals) => fixed(value, usize::from(decimals)),
         Quantity::Percent if value.abs() >= 1.0 => fixed(value, 1),
         Quantity::Percent => significant(value, 2),
-        // What is whole is a count or was set so.
+        // An integer is a count or was set to that value.
         _ if value.fract() == 0.0 && value.abs() < 1e15 => fixed(value, 0),
         Quantity::Measured => significant(value, 4),
         Quantity::Ratio | Quantity::Error => significant(value, 3),
@@ -42,12 +42,12 @@ pub fn shown(value: f64, quantity: Quantity) -> String {
     grouped(&text)
 }
 
-/// A count as people are shown it: `177,694`.
+/// Formats a count for people: `177,694`.
 pub fn count(count: u64) -> String {
     grouped(&count.to_string())
 }
 
-/// The shortest text that reads back to the same number: plain near one, with an exponent far from it.
+/// Formats as the shortest text that reads back to the same number: plain near one, with an exponent far from it.
 pub(super) fn exact(value: f64) -> String {
     let magnitude = value.abs();
     if value == 0.0 {
@@ -59,7 +59,7 @@ pub(super) fn exact(value: f64) -> String {
     }
 }
 
-/// The text with the thousands of its whole part parted by commas.
+/// Separates the thousands of the integer part by commas.
 pub(super) fn grouped(text: &str) -> String {
     let (sign, rest) = text.split_at(usize::from(text.starts_with('-')));
     let whole = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
@@ -74,7 +74,7 @@ pub(super) fn grouped(text: &str) -> String {
     out + rest
 }
 
-/// So many digits after the point; nothing reads -0.
+/// Formats with a fixed number of digits after the point; never as -0.
 fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -83,7 +83,7 @@ fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// So many significant digits, and never fewer than the whole part has.
+/// Formats with a number of significant digits, and at least the integer part.
 fn significant(value: f64, digits: i32) -> String {
     let places = usize::try_from(digits - 1).unwrap_or(0);
     let scientific = format!("{value:.places$e}");

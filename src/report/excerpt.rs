@@ -1,4 +1,4 @@
-//! What a message shows of a text: the lines around its labels, long ones cut, hidden characters escaped.
+//! Excerpts of a text for error messages: the lines around labels, long ones truncated, hidden characters escaped.
 
 use std::ops::Range;
 use std::slice;
@@ -10,29 +10,29 @@ use unicode_width::UnicodeWidthChar as _;
 use super::SourceText;
 use super::visible::{is_hidden, visible_line};
 
-/// Most columns of a line that are shown, escapes counted as they are written, the marks of a cut not counted.
+/// Maximum columns of a line, with escapes as written and without the marks of truncation.
 const WIDTH: usize = 80;
-/// Characters in front of a label that are shown at least, where a long line is cut.
+/// Minimum number of characters in front of a label where a long line is truncated.
 const BEFORE: usize = 20;
-/// What stands where something was cut.
+/// Mark of truncation.
 const CUT: &str = "...";
-/// Most lines of one label; of one that goes over more, its first line is shown.
+/// Maximum number of lines of a label; of a longer one, the first line is shown.
 const LINES: usize = 8;
 
-/// A piece of a text that a renderer of diagnostics can take for the whole: it knows its place in it.
+/// Excerpt of a text in the form that a renderer of diagnostics takes, with its position in the text.
 #[derive(Clone, Debug)]
 pub struct Excerpt {
     piece: SourceText,
     named: bool,
-    /// Lines of the whole text in front of this piece.
+    /// Number of lines of the whole text before the excerpt.
     first_line: usize,
-    /// For each label its place in the piece, and its column in the whole text, from 0, in characters.
+    /// For each label its position in the excerpt, and its column in the whole text, from 0, in characters.
     columns: Vec<(usize, usize)>,
 }
 
 impl Excerpt {
-    /// The piece of `source` around `labels`, and the labels as they lie in the piece. `None` without labels, or if one
-    /// lies outside.
+    /// Extracts the lines of `source` around `labels`; returns also the labels' positions in the excerpt. `None`
+    /// without labels, or if one lies outside.
     pub fn new(source: &dyn SourceCode, labels: &[LabeledSpan]) -> Option<(Self, Vec<LabeledSpan>)> {
         let low = labels.iter().map(LabeledSpan::offset).min()?;
         let high = labels.iter().map(|label| label.offset().saturating_add(label.len())).max()?;
@@ -46,7 +46,7 @@ impl Excerpt {
                 clip(start..start + label.len(), &lines)
             })
             .collect();
-        // Behind the last line end there is a line only for a label that stands there.
+        // After the last line end there is a line only if a label is there.
         let end = whole.data().len();
         if lines.len() > 1 && lines.last() == Some(&(end..end)) && spans.iter().all(|span| span.start < end) {
             lines.pop();
@@ -93,15 +93,15 @@ impl SourceCode for Excerpt {
     }
 }
 
-/// A line without its end as a table quotes it: blanks around it left out, tabs made blanks, cut around the byte
-/// `focus` if it is long.
+/// Formats a line for quotation in a table: trimmed, tabs replaced by blanks, truncated around the byte `focus` if it
+/// is long.
 pub fn quoted_line(line: &str, focus: usize) -> String {
     let mut text = String::new();
     push_line(&mut text, line.as_bytes(), 0, slice::from_ref(&(focus..focus)), slice::from_mut(&mut (0..0)));
     text.replace('\t', " ").trim().to_owned()
 }
 
-/// The lines of a text without their ends.
+/// Returns the byte ranges of the lines of a text without their ends.
 fn line_ranges(text: &[u8]) -> Vec<Range<usize>> {
     let mut lines = Vec::new();
     let mut start = 0;
@@ -111,19 +111,19 @@ fn line_ranges(text: &[u8]) -> Vec<Range<usize>> {
         lines.push(start..start + bare.len());
         start += line.len();
     }
-    // A label may stand behind the last line end.
+    // A label may be after the last line end.
     if text.last().is_none_or(|&b| b == b'\n') {
         lines.push(start..start);
     }
     lines
 }
 
-/// Whether a span has a place on a line; the end of a line belongs to it.
+/// Returns `true` if a span overlaps a line; the end of a line belongs to it.
 fn meets(span: &Range<usize>, line: &Range<usize>) -> bool {
     span.start <= line.end && (line.start < span.end || line.start <= span.start)
 }
 
-/// A span of many lines is cut to the first of them.
+/// Clips a span of too many lines to the first of them.
 fn clip(span: Range<usize>, lines: &[Range<usize>]) -> Range<usize> {
     let first = lines.partition_point(|line| line.end < span.start);
     let last = lines.partition_point(|line| line.start < span.end);
@@ -133,7 +133,7 @@ fn clip(span: Range<usize>, lines: &[Range<usize>]) -> Range<usize> {
     }
 }
 
-/// Writes a line as it is shown, and where the spans that start or end on it lie in `text`.
+/// Writes a line in displayed form, and records the positions in `text` of the spans that start or end on it.
 fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>], placed: &mut [Range<usize>]) {
     let begins: Vec<usize> =
         spans.iter().filter(|s| (start..=start + line.len()).contains(&s.start)).map(|s| s.start - start).collect();
@@ -141,7 +141,7 @@ fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>
     if window.start > 0 {
         text.push_str(CUT);
     }
-    // Where each byte of the line's window went.
+    // Output position of each byte of the line's window.
     let mut places = vec![text.len(); window.len() + 1];
     let mut at = window.start;
     for piece in characters(&line[window.clone()]) {
@@ -156,7 +156,7 @@ fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>
         let on_line = |byte: usize| (start..=start + line.len()).contains(&byte);
         if on_line(span.start) {
             *placed = place(span.start - start)..placed.end;
-            // A span that ends in a cut or on another line ends no earlier than it starts.
+            // A span that ends in a truncated part or on another line must not end before its start.
             placed.end = placed.start;
         }
         if on_line(span.end) && span.end >= span.start {
@@ -170,7 +170,7 @@ fn push_line(text: &mut String, line: &[u8], start: usize, spans: &[Range<usize>
     }
 }
 
-/// The bytes of a line that are shown: all of a short line, else those around `focus`.
+/// Range of a line's bytes that is shown: all of a short line, otherwise those around `focus`.
 fn window(line: &[u8], focus: Option<usize>) -> Range<usize> {
     let fits = line.len() <= 4 * WIDTH && width(line) <= WIDTH;
     if fits {
@@ -190,7 +190,7 @@ fn window(line: &[u8], focus: Option<usize>) -> Range<usize> {
     start..end
 }
 
-/// Where the character in front of `at` starts.
+/// Start of the character before `at`.
 fn previous(line: &[u8], at: usize) -> usize {
     let mut start = at.saturating_sub(1);
     while start > 0 && at - start < 4 && line[start] & 0xc0 == 0x80 {
@@ -199,7 +199,7 @@ fn previous(line: &[u8], at: usize) -> usize {
     start
 }
 
-/// A character of a line, or a byte that is part of none.
+/// Character of a line, or a byte that is part of none.
 enum Piece {
     Character(char),
     Byte(u8),
@@ -213,7 +213,7 @@ impl Piece {
         }
     }
 
-    /// Columns of a terminal that it takes. What takes none of its own counts as one, so that no line is endless.
+    /// Width in terminal columns. Zero-width characters count as one, so that every line has an end.
     fn width(&self) -> usize {
         match self {
             // Renderers write a tab as blanks, four at most.

@@ -1,20 +1,21 @@
-//! Numbers as colors that people with any color vision can tell apart, with a bar that shows the scale.
+//! False-color pictures in colormaps that are suitable for all kinds of color vision, with a color bar.
 
 use colorous::{Gradient, MAGMA, RED_BLUE};
 
 use crate::picture::{RgbImage, rgb8};
 
-/// Where there is no number.
+/// Color of values that are not finite.
 const NOT_FINITE: [u8; 3] = [0, 0, 0];
 
-/// Signed numbers, rows from the top: from blue at `-scale` or below over white at 0 to red at `scale` or above; black
-/// where they are not finite. Below the picture a bar runs from `-scale` on the left to `scale` on the right.
+/// Maps signed numbers to colors, rows from the top: from blue at `-scale` or below over white at 0 to red at `scale`
+/// or above; black where they are not finite. Below the picture a color bar runs from `-scale` on the left to `scale`
+/// on the right.
 pub fn signed(width: u32, values: &[f64], scale: f64) -> RgbImage {
     with_bar(width, values, RED_BLUE, |value| 0.5 - 0.5 * value / scale)
 }
 
-/// Numbers of [0, 1], rows from the top: from black over purple and orange to a pale yellow. Below the picture a bar
-/// runs from 0 on the left to 1 on the right.
+/// Maps numbers in [0, 1] to colors, rows from the top: from black over purple and orange to a pale yellow. Below the
+/// picture a color bar runs from 0 on the left to 1 on the right.
 pub fn magnitude(width: u32, values: &[f64]) -> RgbImage {
     with_bar(width, values, MAGMA, |value| value)
 }

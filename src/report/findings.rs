@@ -1,4 +1,4 @@
-//! What a study found: text, tables, charts, pictures, files and a verdict.
+//! Findings of a study: text, tables, charts, pictures, files and a verdict.
 
 use std::ops::Range;
 
@@ -8,27 +8,27 @@ use super::palette::Color;
 use super::{Chart, Provenance, Table};
 use crate::picture::{Picture, RgbImage};
 
-/// A file of an output folder: its name and its contents.
+/// File of an output folder: its name and its contents.
 pub type NamedFile = (String, Vec<u8>);
 
-/// How a study, or a command that checks something, ended.
+/// Outcome of a study, or of a command that checks something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Verdict {
-    /// Done; where something was checked, it held.
+    /// Done; every check passed.
     #[default]
     Done,
-    /// Something was checked and did not hold.
+    /// A check failed.
     Failed,
 }
 
 impl Verdict {
-    /// [`Verdict::Done`] if the check held.
+    /// [`Verdict::Done`] if the check passed, otherwise [`Verdict::Failed`].
     pub const fn held(held: bool) -> Self {
         if held { Self::Done } else { Self::Failed }
     }
 }
 
-/// A piece of a page; tables, charts and pictures by their places in the findings.
+/// Part of a page; tables, charts and pictures are given by their indices in the findings.
 #[derive(Clone, Debug)]
 pub(super) enum Passage {
     Heading(String),
@@ -40,36 +40,36 @@ pub(super) enum Passage {
     Legend(Legend),
 }
 
-/// Colours of a false-colour picture, with what each stands for.
+/// Colors of a false-color picture with their meanings.
 pub type Legend = Vec<(Color, String)>;
 
-/// Whether a count of a tally is what one hopes for.
+/// Evaluation of a tally's count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tone {
-    /// It is.
+    /// Desirable.
     Good,
-    /// It says nothing either way.
+    /// Neutral.
     Neutral,
-    /// It is not.
+    /// Undesirable.
     Bad,
 }
 
-/// So many of the things that a study counts came out alike.
+/// Number of the things counted by a study that have the same outcome.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TallyEntry {
-    /// How many.
+    /// The number.
     pub count: u64,
-    /// What they are, in the number of the count: `row missed`, `rows missed`.
+    /// Name of the things, in the number of the count: `row missed`, `rows missed`.
     pub what: String,
-    /// Whether that is good.
+    /// Evaluation of the outcome.
     pub tone: Tone,
 }
 
-/// A table with the places where it is written besides the page.
+/// Table with its destinations besides the page.
 #[derive(Clone, Debug)]
 pub struct FoundTable {
     pub(super) table: Table,
-    /// The table for programs, where it has more rows.
+    /// Complete table for programs, if it has more rows.
     whole: Option<Table>,
     pub(super) csv: Option<&'static str>,
     field: Option<&'static str>,
@@ -77,7 +77,7 @@ pub struct FoundTable {
 }
 
 impl From<Table> for FoundTable {
-    /// A table that is printed by the command, and written nowhere.
+    /// Creates a table that the command prints, and that is written to no file.
     fn from(table: Table) -> Self {
         Self { table, whole: None, csv: None, field: None, printed: true }
     }
@@ -96,8 +96,8 @@ impl FoundTable {
         Self { field: Some(name), ..self }
     }
 
-    /// Lets one row stand for those that found the same as a row above ([`Table::folded`]) on the page and in print;
-    /// CSV and document keep all.
+    /// Folds rows that found the same as a row above ([`Table::folded`]) on the page and in print; CSV and document
+    /// keep all.
     #[must_use]
     pub fn folded(
         self,
@@ -109,60 +109,60 @@ impl FoundTable {
         Self { whole: Some(self.table), table, ..self }
     }
 
-    /// The table with all its rows.
+    /// Returns the table with all its rows.
     pub(super) fn whole(&self) -> &Table {
         self.whole.as_ref().unwrap_or(&self.table)
     }
 
-    /// Does not print the table.
+    /// Excludes the table from printing.
     #[must_use]
     pub fn unprinted(self) -> Self {
         Self { printed: false, ..self }
     }
 }
 
-/// A chart, the name of its file, and what stands under it.
+/// Chart with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedChart {
-    /// File name without folder and ending.
+    /// File name without folder and extension.
     pub name: String,
     /// The chart.
     pub chart: Chart,
-    /// What stands under it.
+    /// Caption.
     pub caption: String,
 }
 
-/// A picture, the name of its file, and what stands under it.
+/// Picture with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedPicture {
-    /// File name without folder and ending.
+    /// File name without folder and extension.
     pub name: String,
-    /// The picture as a screen shows it.
+    /// Picture in display encoding.
     pub image: RgbImage,
-    /// What stands under it; read aloud to those who cannot see it.
+    /// Caption, also the text alternative.
     pub caption: String,
-    /// How much each pixel matters where the picture is shown smaller; 0 and what is missing: not more than others.
+    /// Rank of each pixel in downscaling, higher ranks win; missing ranks count as 0.
     pub(super) ranks: Vec<u8>,
 }
 
 impl NamedPicture {
-    /// A picture with its name and caption.
+    /// Creates a picture with its name and caption.
     pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
         Self { name: name.into(), image, caption: caption.into(), ranks: Vec::new() }
     }
 
-    /// Marks pixels that must not get lost where the picture is shown smaller: a rank per pixel, 0 for those that may.
+    /// Marks pixels that must survive downscaling: a rank per pixel, 0 for those that need not.
     #[must_use]
     pub fn marked(self, ranks: Vec<u8>) -> Self {
         Self { ranks, ..self }
     }
 }
 
-/// What a study found. [`Findings::heading`] and the like append to the page, from top to bottom; `keep_*` adds what is
-/// only written to a file. Every picture and chart is encoded once, for its file and the page.
+/// Findings of a study. [`Findings::heading`] and similar methods append to the page, from top to bottom; `keep_*`
+/// methods add what is only written to a file. Every picture and chart is encoded once, for its file and the page.
 ///
-/// The page begins with conclusion and tally. What is appended before the first heading follows them, and then the
-/// table of contents: a study shows its most telling picture or chart there.
+/// The page begins with conclusion and tally, followed by everything appended before the first heading, and then the
+/// table of contents: a study shows its most important picture or chart there.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     pub(super) title: String,
@@ -181,18 +181,19 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Nothing yet, under the title of the page.
+    /// Creates empty findings with the title of the page.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
     }
 
-    /// Appends a sentence to the conclusion, which the page begins with. It is computed from the rows, never written by
+    /// Appends a sentence to the conclusion at the top of the page. It is computed from the rows, never written by
     /// hand.
     pub fn conclusion(&mut self, sentence: impl Into<String>) {
         self.conclusion.push(sentence.into());
     }
 
-    /// Appends a count to the tally under the conclusion, with what is counted in the singular and the plural.
+    /// Appends a count to the tally under the conclusion, with the name of the counted things in the singular and the
+    /// plural.
     pub fn tally(&mut self, count: u64, [one, many]: [&str; 2], tone: Tone) {
         let what = if count == 1 { one } else { many };
         self.tally.push(TallyEntry { count, what: what.to_owned(), tone });
@@ -208,7 +209,7 @@ impl Findings {
         self.text.push(Passage::Paragraph(text.into()));
     }
 
-    /// Appends a table to the page, if it has rows, and which rows were folded in it.
+    /// Appends a table to the page, if it has rows, and a note on the rows folded in it.
     pub fn table(&mut self, table: impl Into<FoundTable>) {
         let table = table.into();
         if !table.table.rows().is_empty() {
@@ -218,7 +219,7 @@ impl Findings {
         self.tables.push(table);
     }
 
-    /// Appends a table and a paragraph on it to the page, if the table has rows.
+    /// Appends a table and an explanatory paragraph to the page, if the table has rows.
     pub fn explained_table(&mut self, table: FoundTable, text: &str) {
         let rows = !table.table.rows().is_empty();
         self.table(table);
@@ -240,77 +241,77 @@ impl Findings {
         self.text.push(Passage::Pictures(first..self.pictures.len()));
     }
 
-    /// Appends the legend of a false-colour picture to the page.
+    /// Appends the legend of a false-color picture to the page.
     pub fn legend(&mut self, legend: Legend) {
         self.text.push(Passage::Legend(legend));
     }
 
-    /// A table that does not stand on the page.
+    /// Adds a table that is not on the page.
     pub fn keep_table(&mut self, table: impl Into<FoundTable>) {
         self.tables.push(table.into().unprinted());
     }
 
-    /// A picture that does not stand on the page.
+    /// Adds a picture that is not on the page.
     pub fn keep_picture(&mut self, name: impl Into<String>, image: RgbImage) {
         self.pictures.push(NamedPicture::new(name, image, ""));
     }
 
-    /// A picture as numbers, written to `NAME.exr`.
+    /// Adds a picture of numbers, written to `NAME.exr`.
     pub fn keep_layers(&mut self, name: impl Into<String>, picture: Picture) {
         self.layers.push((name.into(), picture));
     }
 
-    /// The camera of all pictures, for the files of numbers: see [`crate::picture::PictureNotes`].
+    /// Sets the camera of all pictures for the files of numbers: see [`crate::picture::PictureNotes`].
     pub const fn taken_from(&mut self, world_to_camera: [f32; 16]) {
         self.world_to_camera = Some(world_to_camera);
     }
 
-    /// A file of its own.
+    /// Adds an output file.
     pub fn keep_file(&mut self, name: impl Into<String>, bytes: Vec<u8>) {
         self.files.push((name.into(), bytes));
     }
 
-    /// A field of the document that is no table.
+    /// Adds a field to the document.
     pub fn field(&mut self, name: &str, value: Value) {
         self.fields.insert(name.to_owned(), value);
     }
 
-    /// A line that the command prints after the tables.
+    /// Adds a line that the command prints after the tables.
     pub fn print(&mut self, line: String) {
         self.printed.push(line);
     }
 
-    /// What the exit code says.
+    /// Sets the verdict, which determines the exit code.
     pub const fn conclude(&mut self, verdict: Verdict) {
         self.verdict = verdict;
     }
 
-    /// What the exit code says.
+    /// Verdict, which determines the exit code.
     pub const fn verdict(&self) -> Verdict {
         self.verdict
     }
 
-    /// The sentences of the conclusion.
+    /// Sentences of the conclusion.
     pub fn conclusions(&self) -> &[String] {
         &self.conclusion
     }
 
-    /// The counts of the tally.
+    /// Counts of the tally.
     pub fn tallied(&self) -> &[TallyEntry] {
         &self.tally
     }
 
-    /// The tables that the command prints, those without rows left out.
+    /// Tables that the command prints, except those without rows.
     pub fn printed_tables(&self) -> impl Iterator<Item = &Table> {
         self.tables.iter().filter(|found| found.printed && !found.table.rows().is_empty()).map(|found| &found.table)
     }
 
-    /// The lines that the command prints after them.
+    /// Lines that the command prints after the tables.
     pub fn printed_lines(&self) -> &[String] {
         &self.printed
     }
 
-    /// Everything for machines: provenance, conclusion, tables, fields.
+    /// Builds the document for programs: provenance, conclusion, tables, fields.
     pub fn document(&self, provenance: &Provenance) -> Value {
         let mut document = self.fields.clone();
         document.insert("provenance".to_owned(), json!(provenance));

@@ -1,26 +1,26 @@
-//! Rows that found the same as one above: one row stands for them.
+//! Folding of rows that found the same as a row above into one.
 
-/// What stands in place of rows that found the same as one above.
+/// Cell that replaces folded rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folded {
-    /// What the rows are, one and several of them: `switch`, `switches`.
+    /// Noun for the rows, singular and plural: `switch`, `switches`.
     pub rows: [&'static str; 2],
-    /// What they have in common with the row above: `the same bits`.
+    /// Common property with the row above: `the same bits`.
     pub same: &'static str,
-    /// The name of the row above.
+    /// Name of the row above.
     pub first: String,
-    /// Their names.
+    /// Names of the folded rows.
     pub names: Vec<String>,
 }
 
 impl Folded {
-    /// How many there are and what they have in common: `17 switches: the same bits`.
+    /// Number of folded rows and their common property: `17 switches: the same bits`.
     pub fn text(&self) -> String {
         let rows = self.rows[usize::from(self.names.len() != 1)];
         format!("{} {rows}: {}", self.names.len(), self.same)
     }
 
-    /// A sentence with their names, for under a table.
+    /// Sentence with the names of the rows, for below a table.
     pub fn note(&self) -> String {
         let mut same = self.same.chars();
         let capital = same.next().map(|first| first.to_ascii_uppercase()).into_iter();
@@ -29,11 +29,11 @@ impl Folded {
     }
 }
 
-/// The fewest rows that are worth a row that stands for them.
+/// Minimum number of rows that are folded.
 const FEWEST: usize = 2;
 
-/// Rows by what they found, in the order of their first: each with the rows after it that found the same, if those are
-/// enough to be folded. `first[i]` is the first row that found what row i did.
+/// Groups rows by their results, in the order of the first of each group: each with the later rows that found the same,
+/// if they are enough to be folded. `first[i]` is the first row with the result of row i.
 pub(super) fn groups(first: &[usize]) -> Vec<(usize, Vec<usize>)> {
     let same = |row: usize| -> Vec<usize> { (row + 1..first.len()).filter(|other| first[*other] == row).collect() };
     let folds = |row: &usize| same(first[*row]).len() >= FEWEST;

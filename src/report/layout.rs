@@ -1,37 +1,37 @@
-//! Tables as text within a width: words and numbers stay whole.
+//! Layout of tables as text within a width: words and numbers are not broken.
 //!
-//! Columns share the width; where it is too narrow for all of them, the table is cut into several, each with the
-//! columns that tell rows apart, or the first alone where these leave no room; where it is too narrow even for one
-//! column beside the first, every row becomes a list of its entries. Only there a word that is longer than a line goes
-//! over two; numbers never do, in [`MIN_WIDTH`] columns or more.
+//! Columns share the width; where it is too narrow for all of them, the table is split into several, each with the key
+//! columns, or the first alone where these leave no room; where it is too narrow even for one column beside the first,
+//! every row becomes a list of its cells. Only there a word that is longer than a line is broken; numbers never are, in
+//! [`MIN_WIDTH`] columns or more.
 
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use textwrap::core::{Word, display_width};
 use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
 
-/// Narrower terminals are treated as this wide.
+/// Minimum width; narrower terminals are treated as this wide.
 pub const MIN_WIDTH: usize = 40;
-/// A column of words takes at least as much, if it has as much to say.
+/// Minimum width of a text column, if its text is as long.
 const ROOM_FOR_WORDS: usize = 12;
-/// Words longer than this, addresses for example, may go to the next line behind a slash.
+/// Length from which words, for example addresses, may be broken after a slash.
 const LONG_WORD: usize = 24;
-/// Columns of paper between two tables' columns: a rule and a blank on each side.
+/// Width between two columns: a rule and a blank on each side.
 const RULE: usize = 3;
 
-/// A column of a table, as text.
+/// Column of a table, as text.
 pub(super) struct Column {
     heading: String,
-    /// Its entries, and which of them are numbers: those are set flush right, points below each other.
+    /// Cells, each with `true` if it is a number: numbers are right-aligned at their points.
     cells: Vec<(String, bool)>,
-    /// The longest piece that must not be broken, the least that it should have, and what it can use.
+    /// Length of the longest unbreakable piece, minimum width, and useful width.
     widths: [usize; 3],
 }
 
 impl Column {
-    /// A column of entries, of which those that are numbers are marked.
+    /// Creates a column of cells, of which numbers are marked.
     pub(super) fn new(heading: String, cells: Vec<(String, bool)>) -> Self {
         let cells = aligned(cells);
-        // Blanks that hold a number's point in place belong to it.
+        // Blanks that align a number's point belong to the number.
         let piece = |(text, number): &(String, bool)| if *number { display_width(text) } else { longest_piece(text) };
         let longest = cells.iter().map(piece).fold(longest_piece(&heading), usize::max);
         let most = cells.iter().map(|(text, _)| display_width(text)).fold(display_width(&heading), usize::max);
@@ -39,14 +39,14 @@ impl Column {
         Self { heading, cells, widths: [longest, longest.max(words.min(ROOM_FOR_WORDS)), most] }
     }
 
-    /// Whether most entries are numbers, so that the heading is set as they are.
+    /// Returns `true` if most cells are numbers, so that the heading is right-aligned too.
     fn is_of_numbers(&self) -> bool {
         let numbers = self.cells.iter().filter(|(_, number)| *number).count();
         2 * numbers > self.cells.iter().filter(|(text, _)| !text.is_empty()).count()
     }
 }
 
-/// Numbers brought to one length, so that their points are below each other.
+/// Pads numbers to one length, so that their points are aligned.
 fn aligned(cells: Vec<(String, bool)>) -> Vec<(String, bool)> {
     let numbers = || cells.iter().filter(|(_, number)| *number).map(|(text, _)| halves(text));
     let left = numbers().map(|(whole, _)| display_width(whole)).max().unwrap_or(0);
@@ -58,12 +58,12 @@ fn aligned(cells: Vec<(String, bool)>) -> Vec<(String, bool)> {
     cells.into_iter().map(align).collect()
 }
 
-/// A number before its point, and from there on.
+/// Splits a number before its point.
 fn halves(number: &str) -> (&str, &str) {
     number.split_at(number.find(['.', 'e', ' ']).unwrap_or(number.len()))
 }
 
-/// Words, and pieces of long ones that end with a slash.
+/// Splits a line into words, and long words after slashes.
 fn pieces(line: &str) -> Box<dyn Iterator<Item = Word<'_>> + '_> {
     Box::new(WordSeparator::AsciiSpace.find_words(line).flat_map(|word| {
         if word.word.len() <= LONG_WORD || !word.word.contains('/') {
@@ -81,7 +81,7 @@ fn longest_piece(text: &str) -> usize {
     pieces(text).map(|word| display_width(word.word)).max().unwrap_or(0)
 }
 
-/// Text on lines of at most `width` columns, broken between words, and within a word only if that alone is longer.
+/// Wraps text to lines of at most `width` columns, between words, and within a word only if that alone is longer.
 pub fn wrapped(text: &str, width: usize, indent: &str) -> Vec<String> {
     let options = Options::new(width)
         .subsequent_indent(indent)
@@ -91,13 +91,13 @@ pub fn wrapped(text: &str, width: usize, indent: &str) -> Vec<String> {
     textwrap::wrap(text, options).into_iter().map(std::borrow::Cow::into_owned).collect()
 }
 
-/// Columns side by side within a width; the first `keys` of them tell rows apart.
+/// Lays out columns side by side within a width; the first `keys` of them are the key columns.
 pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     let width = width.max(MIN_WIDTH);
     let parts = |keys: usize| cut(columns, keys, width).map(|parts| (keys, parts));
     match parts(keys).or_else(|| parts(1)) {
         Some((keys, parts)) => {
-            // As few parts in less room are parts of more equal widths.
+            // The same number of parts in less width balances the parts.
             let narrower = (MIN_WIDTH..width).filter_map(|less| cut(columns, keys, less));
             let even = { narrower }.find(|even| even.len() == parts.len());
             let parts: Vec<String> = even.unwrap_or(parts).iter().map(|part| side_by_side(part, width)).collect();
@@ -107,8 +107,8 @@ pub(super) fn within(columns: &[Column], keys: usize, width: usize) -> String {
     }
 }
 
-/// The columns in as few groups as fit, each with the first `keys` columns; `None` if one column does not fit beside
-/// these.
+/// Splits the columns into as few groups as fit, each with the first `keys` columns; `None` if one column does not fit
+/// beside these.
 fn cut(columns: &[Column], keys: usize, width: usize) -> Option<Vec<Vec<&Column>>> {
     let fits = |group: &[&Column], least: usize| taken(group.iter().map(|column| column.widths[least])) <= width;
     let (keys, others) = columns.split_at_checked(keys.min(columns.len()))?;
@@ -126,12 +126,12 @@ fn cut(columns: &[Column], keys: usize, width: usize) -> Option<Vec<Vec<&Column>
     groups.iter().all(|group| fits(group, 0)).then_some(groups)
 }
 
-/// What columns of some widths take with the rules between and around them.
+/// Total width of columns with the rules between and around them.
 fn taken(widths: impl Iterator<Item = usize>) -> usize {
     widths.map(|width| width + RULE).sum::<usize>() + 1
 }
 
-/// Shares the width: every column gets what it can use, but for the widest, which get equally much.
+/// Distributes the width: every column gets its useful width, except for the widest, which get equal shares.
 fn shares(columns: &[&Column], width: usize) -> Vec<usize> {
     let at = |level: usize| -> Vec<usize> {
         columns.iter().map(|column| level.clamp(column.widths[0], column.widths[2])).collect()
@@ -161,7 +161,7 @@ fn side_by_side(columns: &[&Column], width: usize) -> String {
     table.set_header(columns.iter().zip(&widths).map(heading));
     for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
         table.add_row(columns.iter().zip(&widths).map(|(column, width)| {
-            // Blanks around a number hold its point in place.
+            // Blanks around a number align its point.
             let (text, number) = &column.cells[row];
             entry(if *number { text.clone() } else { lines(text, *width) }, *number)
         }));
@@ -169,7 +169,7 @@ fn side_by_side(columns: &[&Column], width: usize) -> String {
     table.trim_fmt()
 }
 
-/// Each row as a list: its first entry, and below it the others by their headings.
+/// Formats each row as a list: its first cell, and below it the others by their headings.
 fn lists(columns: &[Column], width: usize) -> String {
     let Some((first, others)) = columns.split_first() else { return String::new() };
     let list = |row: usize| {

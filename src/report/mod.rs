@@ -1,8 +1,8 @@
-//! What a study found, in the forms that people and programs read.
+//! Findings of a study, in the forms that people and programs read.
 //!
-//! [`Findings`] are text, tables, charts, pictures, files and a verdict; they know how to write themselves: a page (one
-//! HTML file with everything inside it), CSV, a JSON document, SVG, PNG, EXR. Everything here makes bytes: who calls it
-//! writes them, whole files at a time, through `io::atomic`.
+//! [`Findings`] are text, tables, charts, pictures, files and a verdict; they are encoded as a page (one self-contained
+//! HTML file), CSV, a JSON document, SVG, PNG and EXR. All functions return bytes; the caller writes whole files
+//! through `io::atomic`.
 
 mod cell;
 mod chart;
@@ -36,16 +36,16 @@ pub use table::Table;
 
 use crate::picture::PictureError;
 
-/// A table, chart or picture that cannot be encoded.
+/// Error of encoding a table, chart or picture.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReportError {
-    /// A picture.
+    /// A picture cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
-    /// The encoder of `CSV`, `JSON` or `SVG` refused.
+    /// The encoder of `CSV`, `JSON` or `SVG` failed.
     #[error("the {format} file cannot be encoded: {reason}")]
     #[diagnostic(code(crossbar::report::encode))]
     Encode { format: &'static str, reason: String },

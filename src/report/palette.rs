@@ -1,9 +1,9 @@
-//! Colours of pages, charts and false-colour pictures.
+//! Colors of pages, charts and false-color pictures.
 
 /// Red, green, blue in sRGB.
 pub type Color = [u8; 3];
 
-/// The colours of a page; [`LIGHT`] and [`DARK`] follow the reader's setting.
+/// Color scheme of a page; [`LIGHT`] and [`DARK`] follow the reader's setting.
 pub(super) struct Theme {
     pub(super) paper: Color,
     pub(super) ink: Color,
@@ -27,7 +27,7 @@ pub(super) const DARK: Theme = Theme {
     soft: [0x20, 0x23, 0x29],
 };
 
-/// Colours of Okabe and Ito (2008), which stay apart for readers with any of the three colour vision deficiencies.
+/// Colors of Okabe and Ito (2008), which readers with any of the three color vision deficiencies can distinguish.
 pub mod okabe_ito {
     use super::Color;
 
@@ -44,14 +44,14 @@ pub mod okabe_ito {
 #[cfg(test)]
 pub(crate) use vision::{contrast, least_distance};
 
-/// How colours are seen: contrast by WCAG 2, and distances under colour vision deficiencies.
+/// Perception of colors: contrast by WCAG 2, and distances under color vision deficiencies.
 #[cfg(test)]
 mod vision {
     use super::Color;
     use crate::elementary::pow;
 
-    /// Matrices of Machado, Oliveira and Fernandes (2009) on linear RGB, at full severity: all three cones, without
-    /// the long, the middle and the short ones.
+    /// Matrices of Machado, Oliveira and Fernandes (2009) on linear RGB, at full severity: normal vision, protanopia,
+    /// deuteranopia and tritanopia.
     const VISIONS: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
@@ -73,21 +73,21 @@ mod vision {
         matrix.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
     }
 
-    /// The contrast ratio, from 1 to 21.
+    /// WCAG contrast ratio, from 1 to 21.
     pub(crate) fn contrast(a: Color, b: Color) -> f64 {
         let luminance = |color| times(&TO_XYZ, linear(color))[1];
         let (a, b) = (luminance(a), luminance(b));
         (a.max(b) + 0.05) / (a.min(b) + 0.05)
     }
 
-    /// CIELAB.
+    /// Converts linear sRGB to CIELAB.
     fn lab(linear: [f64; 3]) -> [f64; 3] {
         let f = |t: f64| if t > 0.008856 { pow(t, 1.0 / 3.0) } else { 7.787 * t + 16.0 / 116.0 };
         let [x, y, z] = times(&TO_XYZ, linear.map(|x| x.clamp(0.0, 1.0))).map(f);
         [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
     }
 
-    /// The least CIELAB distance between two of the colours, over all kinds of vision.
+    /// Smallest CIELAB distance between two of the colors, over all kinds of vision.
     pub(crate) fn least_distance(colors: &[Color]) -> f64 {
         let mut least = f64::INFINITY;
         for vision in &VISIONS {
@@ -113,7 +113,7 @@ mod vision {
 mod tests {
     use super::*;
 
-    /// Text needs 4.5 to 1 (WCAG 2, AA).
+    /// Text needs a contrast of 4.5 to 1 (WCAG 2, AA).
     #[test]
     fn text_can_be_read_on_both_pages() {
         for theme in [LIGHT, DARK] {

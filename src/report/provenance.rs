@@ -1,4 +1,4 @@
-//! Where a result comes from.
+//! Provenance of results.
 
 use std::io::{self, Read};
 
@@ -7,25 +7,25 @@ use sha2::{Digest as _, Sha256};
 
 use crate::picture::PictureNotes;
 
-/// Everything that it takes to make a result again. No clock and no machine name: the same run writes the same bytes.
+/// Everything required to reproduce a result. No time and no machine name: the same run writes the same bytes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Provenance {
-    /// The version of the program.
+    /// Version of the program.
     pub version: String,
-    /// The command line that was obeyed, defaults filled in.
+    /// Command line, with defaults filled in.
     pub command: String,
-    /// The device profiles, in the order of use.
+    /// Device profiles, in the order of use.
     pub profiles: Vec<String>,
-    /// The switches that were set away from or explicitly to their default, as name and value.
+    /// Switches that were set explicitly or differ from their defaults, as name and value.
     pub switches: Vec<(String, String)>,
-    /// The seed of random choices, where any were made.
+    /// Seed of random choices, if there were any.
     pub seed: Option<u64>,
-    /// The files that were named on the command line, each with the SHA-256 of its contents.
+    /// Input files on the command line, each with the SHA-256 of its contents.
     pub inputs: Vec<(String, String)>,
 }
 
 impl Provenance {
-    /// A result of this version of the program.
+    /// Creates the provenance of a result of this version of the program.
     pub fn new(command: impl Into<String>) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -37,7 +37,7 @@ impl Provenance {
         }
     }
 
-    /// The provenance as a picture's file says it.
+    /// Converts to the notes of a picture file.
     pub fn notes(&self) -> PictureNotes {
         let rows = self.rows().into_iter().filter(|(name, _)| *name != "version");
         let lines: Vec<String> = rows.map(|(name, value)| format!("{name}: {value}")).collect();
@@ -45,7 +45,7 @@ impl Provenance {
         PictureNotes { software, comments: lines.join("\n"), ..PictureNotes::default() }
     }
 
-    /// The block as rows of name and value.
+    /// Returns rows of name and value.
     pub fn rows(&self) -> Vec<(&'static str, String)> {
         let switches: Vec<String> = self.switches.iter().map(|(name, value)| format!("{name}={value}")).collect();
         let or = |text: String, none: &str| if text.is_empty() { none.to_owned() } else { text };
@@ -61,7 +61,7 @@ impl Provenance {
     }
 }
 
-/// The SHA-256 of everything that a reader gives, in hexadecimal.
+/// Computes the SHA-256 of a reader's contents, in hexadecimal.
 ///
 /// # Errors
 /// Those of the reader.

@@ -1,5 +1,4 @@
-//! Pictures in the sizes that a page shows: never smoothed, smaller by whole factors only, and with every wrong pixel
-//! still there.
+//! Downscaling of pictures for a page: by whole factors, without smoothing, and keeping marked pixels.
 
 use std::borrow::Cow;
 
@@ -7,12 +6,12 @@ use super::NamedPicture;
 use crate::picture::RgbImage;
 
 impl NamedPicture {
-    /// The whole factor by which the picture is reduced to be at most this wide; 1 if it fits.
+    /// Smallest whole factor by which the picture is at most this wide; 1 if it fits.
     pub fn reduction(&self, width: u32) -> u32 {
         self.image.width().div_ceil(width.max(1)).max(1)
     }
 
-    /// The picture reduced by a whole factor: of each block of pixels the one of the highest rank, the first of these
+    /// Downscales by a whole factor: of each block of pixels, takes the one of the highest rank, the first of these
     /// from the top left. A block without marked pixels shows its middle one.
     pub fn reduced(&self, factor: u32) -> Cow<'_, RgbImage> {
         if factor <= 1 {
@@ -35,7 +34,7 @@ impl NamedPicture {
         }))
     }
 
-    /// How much a pixel matters, 0 if it is not marked.
+    /// Rank of a pixel; 0 if it is not marked.
     fn rank(&self, (x, y): (u32, u32)) -> u8 {
         let place = y as usize * self.image.width() as usize + x as usize;
         self.ranks.get(place).copied().unwrap_or(0)
@@ -49,7 +48,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Every marked pixel stays: its block shows a marked pixel of its own rank or a higher one.
+        /// Every marked pixel survives: its block shows a marked pixel of its own rank or a higher one.
         #[test]
         fn no_marked_pixel_is_lost(
             (width, height) in (1..40_u32, 1..40_u32),

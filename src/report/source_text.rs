@@ -1,29 +1,29 @@
-//! A text with its name, as messages quote it: any line is found at once, however many messages there are.
+//! Named text for error messages, with an index of its lines, so that many messages find their lines fast.
 
 use std::ops::Range;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
-/// A text with its name and an index of its lines. Lines end with a line feed; columns count characters.
+/// Text with its name and an index of its lines. Lines end with a line feed; columns count characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
     name: String,
     text: String,
-    /// Where each line starts, in bytes.
+    /// Start of each line, in bytes.
     starts: Vec<usize>,
-    /// Columns are bytes.
+    /// `true` if the text is ASCII, so that columns are bytes.
     ascii: bool,
 }
 
 impl SourceText {
-    /// A text, and what to call it in messages.
+    /// Creates a text with its name in messages.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(end, _)| end + 1)).collect();
         Self { name: name.into(), ascii: text.is_ascii(), starts, text }
     }
 
-    /// What the text is called.
+    /// Name in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -33,18 +33,18 @@ impl SourceText {
         &self.text
     }
 
-    /// The line, from 0, that holds a byte; the byte behind the text belongs to the last.
+    /// Index, from 0, of the line that contains a byte; the byte behind the text belongs to the last.
     pub fn line_of(&self, byte: usize) -> usize {
         self.starts.partition_point(|&start| start <= byte).saturating_sub(1)
     }
 
-    /// The bytes of a line, from 0, with its end.
+    /// Byte range of a line, from 0, including its end.
     pub fn line_range(&self, line: usize) -> Range<usize> {
         let place = |line: usize| self.starts.get(line).copied().unwrap_or(self.text.len());
         place(line)..place(line + 1)
     }
 
-    /// The column, from 0, of a byte in its line.
+    /// Column, from 0, of a byte in its line.
     pub fn column_of(&self, byte: usize) -> usize {
         let start = self.line_range(self.line_of(byte)).start;
         let end = self.text.floor_char_boundary(byte);

@@ -10,7 +10,7 @@ use super::fold::{self, Folded};
 use super::layout::{Column, within};
 use super::visible::visible_line;
 
-/// Rows under headings.
+/// Table of rows under headings.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     title: String,
@@ -19,46 +19,46 @@ pub struct Table {
 }
 
 impl Table {
-    /// An empty table. CSV and JSON name its columns by [`Table::keys`].
+    /// Creates an empty table. CSV and JSON name its columns by [`Table::keys`].
     pub fn new(title: impl Into<String>, headings: &[impl AsRef<str>]) -> Self {
         let headings = headings.iter().map(|heading| heading.as_ref().to_owned()).collect();
         Self { title: title.into(), headings, rows: Vec::new() }
     }
 
-    /// An empty table whose columns are named by the words of a text.
+    /// Creates an empty table whose columns are named by the words of a text.
     pub fn of(title: impl Into<String>, columns: &str) -> Self {
         Self::new(title, &columns.split_whitespace().collect::<Vec<_>>())
     }
 
-    /// Adds a row; what it lacks is left empty, what it has too much is dropped.
+    /// Adds a row; missing cells are empty, surplus ones are dropped.
     pub fn push(&mut self, row: impl IntoIterator<Item = Cell>) {
         let mut row: Vec<Cell> = row.into_iter().collect();
         row.resize(self.headings.len(), Cell::Empty);
         self.rows.push(row);
     }
 
-    /// What the table shows.
+    /// Title.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// The headings of the columns.
+    /// Headings of the columns.
     pub fn headings(&self) -> &[String] {
         &self.headings
     }
 
-    /// The rows, each as long as there are headings.
+    /// Rows, each with as many cells as there are headings.
     pub fn rows(&self) -> &[Vec<Cell>] {
         &self.rows
     }
 
-    /// The headings as people read them: words in place of names of fields.
+    /// Headings for people: words in place of field names.
     pub fn shown_headings(&self) -> Vec<String> {
         self.headings.iter().map(|heading| visible_line(&heading.replace('_', " ")).trim().to_owned()).collect()
     }
 
-    /// The names of the columns for programs: the words of each heading in letters, digits and single underscores, with
-    /// `%` as `percent`.
+    /// Column names for programs: the words of each heading in letters, digits and single underscores, with `%` as
+    /// `percent`.
     pub fn keys(&self) -> Vec<String> {
         let word = |word: &str| word.replace('%', "percent");
         let words = |heading: &String| {
@@ -69,8 +69,8 @@ impl Table {
         self.headings.iter().map(words).collect()
     }
 
-    /// The table for people, without the title, in lines of at most `width` columns (of at least
-    /// [`super::layout::MIN_WIDTH`]): words and numbers stay whole.
+    /// Formats the table for people, without the title, in lines of at most `width` columns (at least
+    /// [`super::layout::MIN_WIDTH`]): words and numbers are not broken.
     pub fn text_within(&self, width: usize) -> String {
         let column = |(i, heading): (usize, String)| {
             let cell = |row: &Vec<Cell>| (visible_line(&row[i].text()).into_owned(), row[i].is_number());
@@ -80,7 +80,7 @@ impl Table {
         within(&columns, self.key_columns(), width)
     }
 
-    /// How many of the first columns tell the rows apart, if they hold words; else one.
+    /// Number of leading key columns, which distinguish the rows, if they hold words; otherwise one.
     fn key_columns(&self) -> usize {
         let words = |column: usize| self.rows.iter().all(|row| matches!(row[column], Cell::Text(_) | Cell::Empty));
         let rows: Vec<&Vec<Cell>> =
@@ -94,9 +94,9 @@ impl Table {
         (1..=leading).find(apart).unwrap_or(1)
     }
 
-    /// The table with one row in place of those that found the same as a row above: `first[i]` is the first row that
-    /// found what row i did. `called` names a row; `rows` and `same` are those of [`Folded`]. A table of another number
-    /// of rows, none for example, stays as it is.
+    /// Replaces rows that found the same as a row above by one row: `first[i]` is the first row with the result of row
+    /// i. `called` names a row; `rows` and `same` are those of [`Folded`]. A table with another number of rows, for
+    /// example none, is unchanged.
     #[must_use]
     pub fn folded(
         &self,
@@ -119,22 +119,22 @@ impl Table {
         table
     }
 
-    /// A sentence for each row that stands for others: which they are.
+    /// Sentence for each folded row that lists the rows it replaces.
     pub fn notes(&self) -> Vec<String> {
         let folded = |cell: &Cell| if let Cell::Folded(folded) = cell { Some(folded.note()) } else { None };
         self.rows.iter().flatten().filter_map(folded).collect()
     }
 
-    /// The names of the columns whose numbers have a mark in this row.
+    /// Names of the columns whose numbers have a mark in this row.
     fn marked<'a>(keys: &'a [String], row: &'a [Cell]) -> impl Iterator<Item = &'a str> {
         keys.iter().zip(row).filter(|(_, cell)| cell.mark().is_some()).map(|(key, _)| key.as_str())
     }
 
-    /// The table as CSV with a line of [`Table::keys`]; where any number has a mark, a last column `marked` names the
-    /// columns of such numbers, with semicolons between them.
+    /// Encodes the table as CSV with a header line of [`Table::keys`]; if any number has a mark, a last column `marked`
+    /// names the columns of such numbers, with semicolons between them.
     ///
     /// # Errors
-    /// If the encoder refuses.
+    /// If the encoder fails.
     pub fn csv(&self) -> Result<String, ReportError> {
         let fail = |error: csv::Error| ReportError::encode("CSV")(&error);
         let mut writer = csv::Writer::from_writer(Vec::new());
@@ -151,8 +151,8 @@ impl Table {
         String::from_utf8(bytes).map_err(|error| ReportError::encode("CSV")(&error))
     }
 
-    /// The rows as a JSON array of objects by [`Table::keys`]; `marked` lists the columns whose numbers have a mark,
-    /// where any has.
+    /// Converts the rows to a JSON array of objects by [`Table::keys`]; `marked` lists the columns whose numbers have a
+    /// mark, if any has.
     pub fn json(&self) -> Value {
         let keys = self.keys();
         let row = |row: &Vec<Cell>| {

@@ -2,58 +2,58 @@
 //!
 //! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata
 //! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds and written in microseconds, as the format
-//! wants.
+//! requires.
 
 use std::io::{self, Write};
 
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-/// The number of the one process.
+/// Process id of the single process.
 const PROCESS: u32 = 1;
 
-/// Something that lasts.
+/// Event with a duration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slice {
-    /// The lane, by its place in [`Trace::lanes`].
+    /// Index of the lane in [`Trace::lanes`].
     pub lane: usize,
-    /// What it shows.
+    /// Name.
     pub name: String,
-    /// What viewers filter by.
+    /// Category, which viewers filter by.
     pub category: String,
-    /// From when, in picoseconds.
+    /// Start, in picoseconds.
     pub start: u64,
-    /// How long, in picoseconds.
+    /// Duration, in picoseconds.
     pub duration: u64,
-    /// What a viewer shows beside it.
+    /// Details shown by viewers.
     pub details: Map<String, Value>,
 }
 
-/// An arrow from a moment of one slice to a moment of another.
+/// Arrow from a moment of one slice to a moment of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrow {
-    /// Lane and picosecond at which it starts; inside a slice or at one of its ends.
+    /// Lane and picosecond of its start; inside a slice or at one of its ends.
     pub from: (usize, u64),
-    /// Lane and picosecond at which it ends.
+    /// Lane and picosecond of its end.
     pub to: (usize, u64),
 }
 
-/// What happened when, on lanes side by side.
+/// Timeline on parallel lanes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
-    /// What the whole is called.
+    /// Title.
     pub title: String,
-    /// The names of the lanes, from the top.
+    /// Names of the lanes, from the top.
     pub lanes: Vec<String>,
-    /// Slices; those of one lane lie beside each other or within each other.
+    /// Slices; those of one lane are disjoint or nested.
     pub slices: Vec<Slice>,
     /// Arrows.
     pub arrows: Vec<Arrow>,
-    /// What else to know, for people who open the file.
+    /// Additional metadata for people who open the file.
     pub about: Map<String, Value>,
 }
 
-/// An event of the format.
+/// Event of the format.
 #[derive(Serialize)]
 #[serde(tag = "ph")]
 enum Event<'a> {
@@ -80,7 +80,7 @@ impl Trace {
     /// Writes the file: slices in the order of time, one event per line.
     ///
     /// # Errors
-    /// What `out` says.
+    /// Those of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "{{\"displayTimeUnit\":\"ns\",\"otherData\":{},", Value::Object(self.about.clone()))?;
         write!(out, "\"traceEvents\":[")?;
@@ -100,7 +100,7 @@ impl Trace {
             write(named("thread_sort_index", tid(lane), json!({ "sort_index": tid(lane) })))?;
         }
         let mut slices: Vec<&Slice> = self.slices.iter().collect();
-        // Of those that start together, the longest holds the others.
+        // At equal starts, the longest slice comes first, since it contains the others.
         slices.sort_by_key(|slice| (slice.start, slice.lane, std::cmp::Reverse(slice.duration)));
         for Slice { lane, name, category, start, duration, details } in slices {
             let (ts, dur) = (microseconds(*start), microseconds(*duration));
@@ -117,7 +117,7 @@ impl Trace {
     }
 }
 
-/// The thread of a lane; 0 is the process itself.
+/// Thread id of a lane; 0 is the process itself.
 fn tid(lane: usize) -> u32 {
     u32::try_from(lane).unwrap_or(u32::MAX - 1).saturating_add(1)
 }

@@ -1,4 +1,4 @@
-//! Text from outside, made safe to look at: nothing in it moves a cursor, changes a colour or reorders letters.
+//! Sanitising of external text for display: nothing in it moves a cursor, changes a color or reorders letters.
 //!
 //! Every renderer goes through here: messages, tables, pages, and what commands print. A message that arrives escaped
 //! stays as it is.
@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Whether a character acts on what is shown around it instead of being shown: controls (C0, DEL, C1), Unicode's
+/// Returns `true` for characters that affect the display instead of being visible: controls (C0, DEL, C1), Unicode's
 /// formatting characters (general category Cf: bidirectional overrides, joiners, tags) and its line and paragraph
 /// separators.
 pub const fn is_hidden(c: char) -> bool {
@@ -20,18 +20,18 @@ pub const fn is_hidden(c: char) -> bool {
     )
 }
 
-/// Text of several lines: line ends stay, everything else that [`is_hidden`] is escaped as in `\u{1b}`.
+/// Escapes text of several lines: line ends are kept, all other [`is_hidden`] characters are escaped as in `\u{1b}`.
 pub fn visible(text: &str) -> Cow<'_, str> {
     escaped(text, |c| c != '\n' && is_hidden(c))
 }
 
-/// Text that must stay on one line: line ends are escaped too.
+/// Escapes text for a single line: line ends are escaped too.
 pub fn visible_line(text: &str) -> Cow<'_, str> {
     escaped(text, is_hidden)
 }
 
-/// A JSON document in which every hidden character is written as JSON's own escape, `\u001b`. Readers get the same
-/// text: a finished document has hidden characters, apart from the line ends between its parts, only inside strings.
+/// Escapes the hidden characters of a JSON document by JSON's own escapes, `\u001b`. Readers get the same text: a
+/// finished document has hidden characters, apart from the line ends between its parts, only inside strings.
 pub fn visible_json(document: &str) -> Cow<'_, str> {
     let hidden = |c: char| c != '\n' && is_hidden(c);
     if !document.contains(hidden) {

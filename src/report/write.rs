@@ -1,15 +1,15 @@
-//! The one writer of findings: tables, pictures, charts, document and page as files.
+//! Encoding of findings as files: tables, pictures, charts, document and page.
 
 use super::findings::{Findings, NamedFile, NamedPicture};
 use super::{Provenance, ReportError, page};
 use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
 impl Findings {
-    /// Encodes everything that goes into the output folder, `study.json` and `index.html` last, and hands over the
-    /// files of its own.
+    /// Encodes all files of the output folder, `study.json` and `index.html` last, and takes the additional files out
+    /// of the findings.
     ///
     /// # Errors
-    /// If an encoder refuses.
+    /// If an encoder fails.
     pub fn take_files(&mut self, provenance: &Provenance) -> Result<Vec<NamedFile>, ReportError> {
         let notes = PictureNotes { world_to_camera: self.world_to_camera, ..provenance.notes() };
         let encoded = |found: &NamedPicture| png_with_notes(&found.image, &notes);

@@ -1,4 +1,4 @@
-//! A pinhole camera.
+//! Pinhole camera.
 
 use glam::{DMat3, DVec3};
 use thiserror::Error;
@@ -6,16 +6,16 @@ use thiserror::Error;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Ray, UnitFrame};
 
-/// Widest field of view, as the tangent of its half.
+/// Maximum field of view, as the tangent of its half.
 const MAX_TANGENT: f32 = 1e6;
 
-/// Sine of the least angle between `up` and the view.
+/// Sine of the smallest angle between `up` and the view.
 const MIN_SINE: f64 = 1e-6;
 
-/// The nearest that a body is drawn, in units of its frame.
+/// Near distance for bodies drawn in a frame, in units of the frame.
 const NEAREST: f64 = 1e-3;
 
-/// A pinhole camera: one ray through the centre of each pixel, pixel (0, 0) at the upper left.
+/// Pinhole camera: one ray through the centre of each pixel, pixel (0, 0) at the upper left.
 ///
 /// All arithmetic is f64 additions, multiplications, divisions and square roots in a fixed order, rounded to f32 once
 /// at the end: the same bits everywhere.
@@ -24,20 +24,20 @@ pub struct Camera {
     eye: [f32; 3],
     width: u32,
     height: u32,
-    /// To the target, length 1.
+    /// Unit vector to the target.
     forward: DVec3,
-    /// To the right edge of the picture from its centre, at distance 1.
+    /// Vector to the right edge of the picture from its centre, at distance 1.
     right: DVec3,
-    /// To the upper edge of the picture from its centre, at distance 1.
+    /// Vector to the upper edge of the picture from its centre, at distance 1.
     up: DVec3,
 }
 
-/// Why there is no such camera.
+/// Error of a camera's parameters.
 #[non_exhaustive]
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CameraError {
-    /// A figure of `eye`, `target` or `up` is not finite.
+    /// A component of `eye`, `target` or `up` is not finite.
     #[error("expected finite figures for {what}, found {found:?}")]
     NotFinite { what: &'static str, found: [f32; 3] },
     /// Eye and target are one point, or `up` is zero or runs along the view.
@@ -52,11 +52,11 @@ pub enum CameraError {
 }
 
 impl Camera {
-    /// A camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the tangent of
-    /// half the vertical field of view; pixels are square.
+    /// Creates a camera at `eye` that looks at `target`, with `up` upwards in the picture. `tan_half_height` is the
+    /// tangent of half the vertical field of view; pixels are square.
     ///
     /// # Errors
-    /// [`CameraError`] for figures that make no picture.
+    /// [`CameraError`] for parameters out of range.
     pub fn new(
         eye: [f32; 3],
         target: [f32; 3],
@@ -65,7 +65,7 @@ impl Camera {
         width: u32,
         height: u32,
     ) -> Result<Self, CameraError> {
-        // First, because callers derive the eye from it.
+        // Checked first, because callers derive the eye from it.
         if !(tan_half_height > 0.0 && tan_half_height <= MAX_TANGENT) {
             return Err(CameraError::FieldOfView { found: tan_half_height });
         }
@@ -90,8 +90,8 @@ impl Camera {
         Ok(Self { eye, width, height, forward, right: right * half_width, up: up * half_height })
     }
 
-    /// The camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout to the
-    /// right. The teapot fills a square picture.
+    /// Creates the camera of the studies: a three-quarter view of the teapot from the front, a little from above, spout
+    /// to the right. The teapot fills a square picture.
     ///
     /// # Errors
     /// [`CameraError::Size`] for a picture without pixels or beyond 2^30.
@@ -99,7 +99,7 @@ impl Camera {
         Self::new([2.125, -5.625, 3.875], [0.625, 0.0, 1.3125], [0.0, 0.0, 1.0], 0.5625, width, height)
     }
 
-    /// The camera carried round a point by a rotation, and turned with it.
+    /// Returns the camera rotated around a point.
     #[must_use]
     pub fn carried(&self, about: DVec3, turn: &DMat3) -> Self {
         let eye = narrow(about + *turn * (wide(self.eye) - about));
@@ -107,39 +107,39 @@ impl Camera {
         Self { eye, forward, right, up, ..*self }
     }
 
-    /// Where all rays start.
+    /// Origin of all rays.
     pub fn eye(&self) -> [f32; 3] {
         self.eye
     }
 
-    /// Pixels across.
+    /// Width in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Pixels down.
+    /// Height in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// The unit vector along the middle of the view, which also is the direction's component all pixels share.
+    /// Unit vector along the middle of the view; the direction of every pixel has component 1 along it.
     pub fn forward(&self) -> DVec3 {
         self.forward
     }
 
-    /// Direction through the centre of a pixel, unnormalised: its component along the view is 1. Pixels outside the
-    /// picture continue its plane.
+    /// Returns the direction through the centre of a pixel, unnormalised: its component along the view is 1. Pixels
+    /// outside the picture continue its plane.
     pub fn direction(&self, x: u32, y: u32) -> [f32; 3] {
         narrow(self.exact_direction(x, y))
     }
 
-    /// The same direction at length 1, within one rounding of f32 per component.
+    /// Returns [`Self::direction`] at length 1, within one rounding of f32 per component.
     pub fn unit_direction(&self, x: u32, y: u32) -> [f32; 3] {
         let direction = self.exact_direction(x, y);
         narrow(unit(direction).unwrap_or(direction))
     }
 
-    /// The ray through the centre of a pixel, unnormalised.
+    /// Returns the ray through the centre of a pixel, unnormalised.
     ///
     /// # Panics
     /// Never for pixels of the picture: their direction is finite and not zero.
@@ -147,23 +147,22 @@ impl Camera {
         Ray::new(self.eye, self.direction(x, y)).expect("a pixel's direction is finite and not zero")
     }
 
-    /// The rays of all pixels, row by row from the upper left.
+    /// Returns the rays of all pixels, row by row from the upper left.
     pub fn rays(&self) -> Vec<Ray> {
         (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.ray(x, y))).collect()
     }
 
-    /// To the right edge of the picture from its centre, at distance 1.
+    /// Vector to the right edge of the picture from its centre, at distance 1.
     pub fn right(&self) -> DVec3 {
         self.right
     }
 
-    /// To the upper edge of the picture from its centre, at distance 1.
+    /// Vector to the upper edge of the picture from its centre, at distance 1.
     pub fn up(&self) -> DVec3 {
         self.up
     }
 
-    /// The matrix that takes points of the scene, as row vectors, to those seen from the camera: x to the right, y up,
-    /// z along the view.
+    /// Matrix from scene to camera coordinates for row vectors: x to the right, y up, z along the view.
     pub fn world_to_camera(&self) -> [f32; 16] {
         let [right, up] = [self.right, self.up].map(|axis| unit(axis).unwrap_or(axis));
         let (axes, eye) = ([right, up, self.forward], wide(self.eye));
@@ -173,9 +172,9 @@ impl Camera {
         [a, b, c, 0.0, d, e, f, 0.0, g, h, i, 0.0, moved_x, moved_y, moved_z, 1.0]
     }
 
-    /// Rows that take points in a body's frame, with w = 1, to clip space: x to the right, y up, z from 0 at the body's
-    /// near side to w at its far one, w the distance along the view. A body that the camera stands in is cut
-    /// 0.001 units in front of the eye.
+    /// Rows of the matrix from a body's frame, with w = 1, to clip space: x to the right, y up, z from 0 at the body's
+    /// near side to w at its far one, w the distance along the view. A body around the eye is clipped 0.001 units in
+    /// front of it.
     pub fn clip_rows(&self, frame: &UnitFrame) -> [[f32; 4]; 4] {
         let eye = frame.of_scene(wide(self.eye));
         let per_square = |v: DVec3| v / v.dot(v);
@@ -199,8 +198,8 @@ impl Camera {
         self.direction_at(f64::from(x) + 0.5, f64::from(y) + 0.5)
     }
 
-    /// Direction through any point of the picture, in pixels from its upper left corner, before it is rounded to f32;
-    /// the middle of pixel (0, 0) is at (0.5, 0.5).
+    /// Returns the direction through any point of the picture, in pixels from its upper left corner, before rounding to
+    /// f32; the centre of pixel (0, 0) is at (0.5, 0.5).
     pub fn direction_at(&self, x: f64, y: f64) -> DVec3 {
         let across = 2.0 * x / f64::from(self.width) - 1.0;
         let upwards = 1.0 - 2.0 * y / f64::from(self.height);

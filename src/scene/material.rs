@@ -1,9 +1,10 @@
-//! What surfaces do with light. Colours are linear red, green, blue; reflectances lie in [0, 1] a channel.
+//! Materials: scattering and emission of surfaces. Colours are linear red, green, blue; reflectances lie in [0, 1] per
+//! channel.
 
-/// A linear colour: red, green, blue.
+/// Linear colour: red, green, blue.
 pub type Color = [f32; 3];
 
-/// How a surface scatters.
+/// Scattering model of a surface.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
@@ -16,10 +17,10 @@ pub enum Surface {
     Glossy {
         /// Reflectance of the diffuse part.
         albedo: Color,
-        /// Reflectance of the lobe at normal incidence. Sum with `albedo` at most 1 per channel, so that no energy is
-        /// made.
+        /// Reflectance of the lobe at normal incidence. Its sum with `albedo` is at most 1 per channel, which conserves
+        /// energy.
         specular: Color,
-        /// Phong's exponent, above 0.
+        /// Phong exponent, above 0.
         exponent: f32,
     },
     /// A perfect mirror.
@@ -29,31 +30,31 @@ pub enum Surface {
     },
     /// A smooth dielectric boundary, air in front and glass behind: reflects and refracts by Fresnel's equations.
     Glass {
-        /// Index of refraction of what lies behind the front face, above 0.
+        /// Index of refraction behind the front face, above 0.
         index: f32,
-        /// What passes of the refracted light at each crossing.
+        /// Transmittance of refracted light at each crossing.
         transmittance: Color,
     },
 }
 
-/// A named surface, with the light that it sends out by itself.
+/// Named surface with its emission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// The name, without white space: that of the MTL file.
+    /// Name, without white space: that of the MTL file.
     pub name: String,
-    /// How it scatters.
+    /// Scattering model.
     pub surface: Surface,
-    /// Radiance sent out by front faces, the same in all directions; zero for what does not shine.
+    /// Radiance emitted by front faces, the same in all directions; zero for a surface that does not emit.
     pub emission: Color,
 }
 
 impl Material {
-    /// A Lambert surface that does not shine.
+    /// Creates a Lambert surface without emission.
     pub fn diffuse(name: impl Into<String>, albedo: Color) -> Self {
         Self { name: name.into(), surface: Surface::Diffuse { albedo }, emission: [0.0; 3] }
     }
 
-    /// Whether it sends out light.
+    /// Returns `true` if the material emits light.
     pub fn emits(&self) -> bool {
         self.emission.iter().any(|&channel| channel > 0.0)
     }

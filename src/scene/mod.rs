@@ -1,8 +1,8 @@
-//! What is looked at, and from where.
+//! Scenes and cameras.
 //!
-//! - [`built`]: the scenes that the project builds itself, by name;
+//! - [`built`]: scenes built by the project, by name;
 //! - [`camera`]: pinhole cameras, whose rays are the same bits everywhere;
-//! - [`material`]: what surfaces do with light;
+//! - [`material`]: scattering and emission of surfaces;
 //! - [`whole`]: triangles with materials, lights and views.
 
 pub mod built;

@@ -1,4 +1,4 @@
-//! A whole scene: triangles with materials and normals, lights, and named views.
+//! Scenes: triangles with materials and normals, lights, and named views.
 
 use thiserror::Error;
 
@@ -6,73 +6,74 @@ use super::{Camera, CameraError, Color, Material};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 
-/// A light without extent.
+/// Point light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
-    /// Where it is.
+    /// Position.
     pub position: [f32; 3],
-    /// Radiant intensity, the same in all directions: irradiance at distance r across the light is `intensity / r^2`.
+    /// Radiant intensity, the same in all directions: irradiance at distance r, perpendicular to the direction, is
+    /// `intensity / r^2`.
     pub intensity: Color,
 }
 
-/// From where a scene is looked at. [`View::camera`] makes a camera of it for a size of picture.
+/// Named view of a scene. [`View::camera`] makes a camera of it for a size of picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// What it is called on the command line.
+    /// Name on the command line.
     pub name: String,
-    /// Where rays start.
+    /// Origin of the rays.
     pub eye: [f32; 3],
-    /// The middle of the picture.
+    /// Point in the centre of the picture.
     pub target: [f32; 3],
-    /// What points up in the picture.
+    /// Upward direction in the picture.
     pub up: [f32; 3],
     /// Tangent of half the vertical field of view.
     pub tan_half_height: f32,
 }
 
 impl View {
-    /// The camera of this view for a picture of `width` x `height` pixels.
+    /// Creates the camera of this view for a picture of `width` x `height` pixels.
     ///
     /// # Errors
-    /// [`CameraError`] for figures that make no picture.
+    /// [`CameraError`] for parameters out of range.
     pub fn camera(&self, width: u32, height: u32) -> Result<Camera, CameraError> {
         Camera::new(self.eye, self.target, self.up, self.tan_half_height, width, height)
     }
 }
 
-/// Why parts make no scene.
+/// Error of a scene's parts.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SceneError {
-    /// Not one material and one set of normals per triangle.
+    /// The number of materials or normals is not that of the triangles.
     #[error("expected {triangles} {what}, one a triangle, found {found}")]
     Count { what: &'static str, triangles: usize, found: usize },
-    /// A triangle names a material that there is not.
+    /// A triangle's material index is out of range.
     #[error("triangle {triangle} has material {material}, expected one below {materials} (counted from 0)")]
     Material { triangle: usize, material: u32, materials: usize },
 }
 
-/// Triangles with what renderers need to know of them.
+/// Triangles with materials, normals, lights and views.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     mesh: Mesh,
     materials: Vec<Material>,
     material_of: Vec<u32>,
-    /// At the corners of each triangle; zero vectors where the triangle is flat.
+    /// Normals at the corners of each triangle; zero vectors where the triangle is flat.
     normals: Vec<[[f32; 3]; 3]>,
-    /// Lights without extent.
+    /// Point lights.
     pub point_lights: Vec<PointLight>,
     /// Views; the first is the default.
     pub views: Vec<View>,
 }
 
 impl Scene {
-    /// A scene of triangles, a material each. `normals` are those at each triangle's corners, of length 1 (or zero
-    /// where the triangle's own is meant); an empty list makes all triangles flat.
+    /// Creates a scene from triangles with one material each. `normals` are unit normals at each triangle's corners, or
+    /// zero for the triangle's own; an empty list makes all triangles flat.
     ///
     /// # Errors
-    /// [`SceneError`] if the lists do not fit.
+    /// [`SceneError`] if the lists are inconsistent.
     pub fn new(
         mesh: Mesh,
         materials: Vec<Material>,
@@ -90,7 +91,7 @@ impl Scene {
             let material = material_of[triangle];
             return Err(SceneError::Material { triangle, material, materials: materials.len() });
         }
-        // One spelling for scenes without anything round.
+        // One representation for scenes without smooth normals.
         let normals = if normals.iter().all(|corners| *corners == [[0.0; 3]; 3]) { Vec::new() } else { normals };
         Ok(Self { mesh, materials, material_of, normals, point_lights: Vec::new(), views: Vec::new() })
     }
@@ -105,7 +106,7 @@ impl Scene {
         &self.materials
     }
 
-    /// The material of a triangle.
+    /// Returns the material of a triangle.
     ///
     /// # Panics
     /// If there is no such triangle.
@@ -113,19 +114,19 @@ impl Scene {
         &self.materials[self.material_of[triangle as usize] as usize]
     }
 
-    /// The place in [`Scene::materials`] of each triangle's material.
+    /// Index into [`Scene::materials`] of each triangle's material.
     pub fn material_of(&self) -> &[u32] {
         &self.material_of
     }
 
-    /// The normals at a triangle's corners; `None` if it is flat.
+    /// Returns the normals at a triangle's corners; `None` if it is flat.
     pub fn corner_normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
         let normals = *self.normals.get(triangle as usize)?;
         (normals != [[0.0; 3]; 3]).then_some(normals)
     }
 
-    /// The triangles with their normals, one vertex per corner: those of a flat triangle are its own. The mesh as it is
-    /// if no triangle has normals.
+    /// Returns the triangles with their normals, one vertex per corner: those of a flat triangle are its own. The mesh
+    /// is unchanged if no triangle has normals.
     pub fn mesh_with_normals(&self) -> Mesh {
         if self.normals.is_empty() {
             return self.mesh.clone();
@@ -143,7 +144,7 @@ impl Scene {
         mesh.unwrap_or_else(|_| self.mesh.clone())
     }
 
-    /// The scene with its mesh and normals passed through a rotation; views and lights stay.
+    /// Rotates mesh and normals; views and lights stay.
     #[must_use]
     pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
         self.normals.iter_mut().flatten().for_each(|normal| *normal = rotation(*normal));
@@ -151,7 +152,7 @@ impl Scene {
         self
     }
 
-    /// The scene with some triangles turned round: their second and third corners change places, with their normals.
+    /// Flips triangles: exchanges their second and third corners, with the normals.
     #[must_use]
     pub fn turned_round(mut self, triangles: &[u32]) -> Self {
         for &triangle in triangles {
@@ -163,12 +164,12 @@ impl Scene {
         self
     }
 
-    /// The triangles that shine, in rising order.
+    /// Returns the emitting triangles, in ascending order.
     pub fn emitters(&self) -> Vec<u32> {
         (0..self.mesh.len() as u32).filter(|&triangle| self.material(triangle).emits()).collect()
     }
 
-    /// The view of a name.
+    /// Returns the view with this name.
     pub fn view(&self, name: &str) -> Option<&View> {
         self.views.iter().find(|view| view.name == name)
     }

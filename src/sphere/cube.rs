@@ -1,17 +1,17 @@
-//! Cube maps as Direct3D has them.
+//! Cube maps with Direct3D's conventions.
 
 use glam::DVec3;
 
 use super::texels::{TexelGrid, rectangle_solid_angle};
 
-/// A face of a cube around the origin, at distance 1: where it stands, and which ways its texels run.
+/// Face of a cube around the origin, at distance 1, with the directions of its texels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceAxes {
-    /// Its middle.
+    /// Center.
     pub center: DVec3,
-    /// The direction of growing columns.
+    /// Direction of increasing columns.
     pub right: DVec3,
-    /// The direction of growing rows.
+    /// Direction of increasing rows.
     pub down: DVec3,
 }
 
@@ -26,7 +26,7 @@ pub const CUBE_FACES: [FaceAxes; 6] = [
 ];
 
 impl FaceAxes {
-    /// The point of the face, and its density of solid angle, at the fractions of its width and height.
+    /// Returns the point of the face, and its density of solid angle, at fractions of its width and height.
     pub(super) fn at(&self, [u, v]: [f64; 2]) -> (DVec3, f64) {
         let point = self.center + (2.0 * u - 1.0) * self.right + (2.0 * v - 1.0) * self.down;
         let length = point.length();
@@ -34,14 +34,14 @@ impl FaceAxes {
     }
 }
 
-/// The texels of a cube map.
+/// Cube map with a number of texels per edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CubeMap {
     side: usize,
 }
 
 impl CubeMap {
-    /// Of so many texels along an edge.
+    /// Creates a cube map with `side` texels along an edge.
     ///
     /// # Panics
     /// If there are none.
@@ -55,17 +55,17 @@ impl CubeMap {
         self.side
     }
 
-    /// Texels of all six faces. Their order is face by face as in [`CUBE_FACES`], rows from the top.
+    /// Number of texels of all six faces. They are ordered face by face as in [`CUBE_FACES`], rows from the top.
     pub const fn len(self) -> usize {
         6 * self.side * self.side
     }
 
-    /// Always false.
+    /// Returns `false`: there is at least one texel.
     pub const fn is_empty(self) -> bool {
         self.side == 0
     }
 
-    /// The direction of a texel's center, of length 1.
+    /// Returns the unit direction of a texel's center.
     ///
     /// # Panics
     /// If there is no such face.
@@ -73,8 +73,8 @@ impl CubeMap {
         CUBE_FACES[face].at([column, row].map(|at| (at as f64 + 0.5) / self.side as f64)).0
     }
 
-    /// The face, column and row of the texel that a direction falls into; the lower face of two as near. The direction
-    /// has a length above 0.
+    /// Returns the face, column and row of the texel that a direction falls into, the lowest face of equals. The
+    /// direction must not be zero.
     pub fn texel_of(self, direction: DVec3) -> [usize; 3] {
         let along = |face: usize| direction.dot(CUBE_FACES[face].center);
         let face = (1..6).fold(0, |best, face| if along(face) > along(best) { face } else { best });
@@ -86,13 +86,13 @@ impl CubeMap {
         [face, column, row]
     }
 
-    /// The solid angle of a texel, the same on all faces.
+    /// Solid angle of a texel, the same on all faces, in steradians.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         face_solid_angle(self.side, column, row)
     }
 }
 
-/// The solid angle of a texel of a cube's face.
+/// Solid angle of a texel of a cube's face, in steradians.
 pub(super) fn face_solid_angle(side: usize, column: usize, row: usize) -> f64 {
     let edge = |at: usize| 2.0 * at as f64 / side as f64 - 1.0;
     rectangle_solid_angle([edge(column), edge(row)], [edge(column + 1), edge(row + 1)])

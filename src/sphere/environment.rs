@@ -1,4 +1,4 @@
-//! Light from pictures.
+//! Distant light from pictures of the whole sphere.
 
 use thiserror::Error;
 
@@ -8,7 +8,7 @@ use super::light::HarmonicLight;
 use super::texels::project;
 use crate::picture::{Picture, PictureError};
 
-/// Why a picture is no light.
+/// Error of reading a picture as light.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -19,29 +19,29 @@ pub enum EnvironmentError {
     )]
     #[diagnostic(code(crossbar::sphere::shape))]
     Shape { width: u32, height: u32 },
-    /// Another layout than the one asked for.
+    /// The layout differs from the required one.
     #[error("expected the shape of a {expected}, found {width}x{height}, that of a {found}")]
     #[diagnostic(code(crossbar::sphere::layout))]
     Layout { expected: EnvironmentLayout, found: EnvironmentLayout, width: u32, height: u32 },
-    /// A texel that is no radiance.
+    /// The radiance of a texel is not finite.
     #[error(
         "expected finite radiance, found {found} in channel {channel} of the pixel in column {column}, row {row} (counted from 0, the top left)"
     )]
     #[diagnostic(code(crossbar::sphere::texel))]
     NotFinite { channel: &'static str, column: usize, row: usize, found: f32 },
-    /// The number of texels of a cube map.
+    /// The number of texels is not that of the cube map.
     #[error("expected {expected} texels, six faces of {side}x{side}, found {found}")]
     #[diagnostic(code(crossbar::sphere::texels))]
     Texels { side: usize, expected: usize, found: usize },
-    /// No color.
+    /// The picture has no color channels.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Picture(#[from] PictureError),
 }
 
 impl HarmonicLight {
-    /// Of a picture of the whole sphere: the coefficients of the radiance that is constant over each pixel. Its layout
-    /// is that of its shape. Pixels that show no direction are not read.
+    /// Projects a picture of the whole sphere, with constant radiance over each pixel. Its shape determines its layout.
+    /// Pixels that show no direction are not read.
     ///
     /// # Errors
     /// [`EnvironmentError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
@@ -53,10 +53,10 @@ impl HarmonicLight {
         Ok(Self::projected(project(&grid, order, |at| pixels[at])))
     }
 
-    /// As [`Self::from_picture`], of a picture that must have a certain layout.
+    /// Like [`Self::from_picture`], for a picture that must have a given layout.
     ///
     /// # Errors
-    /// [`EnvironmentError`], which includes another layout.
+    /// [`EnvironmentError`], also for another layout.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -72,7 +72,7 @@ impl HarmonicLight {
         }
     }
 
-    /// Of a cube map's texels, face by face in Direct3D's order, rows from the top.
+    /// Projects a cube map's texels, face by face in Direct3D's order, rows from the top.
     ///
     /// # Errors
     /// [`EnvironmentError`] if their number is not that of the map, or one is NaN or infinite.
@@ -89,7 +89,7 @@ impl HarmonicLight {
     }
 }
 
-/// The pixels of a picture of the whole sphere, and where they lie on it.
+/// Reads the pixels of a picture of the whole sphere, and its layout.
 pub(super) fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), EnvironmentError> {
     let [width, height] = [picture.width(), picture.height()];
     let layout = EnvironmentLayout::of(width, height).ok_or(EnvironmentError::Shape { width, height })?;
@@ -99,7 +99,7 @@ pub(super) fn read(picture: &Picture) -> Result<(LayoutGrid, Vec<[f32; 3]>), Env
     Ok((grid, pixels))
 }
 
-/// Refuses texels that count and are not finite.
+/// Checks that all texels that show a direction are finite.
 fn check(pixels: &[[f32; 3]], columns: usize, shows: impl Fn(usize, usize) -> bool) -> Result<(), EnvironmentError> {
     for (at, pixel) in pixels.iter().enumerate() {
         let (column, row) = (at % columns, at / columns);

@@ -1,4 +1,4 @@
-//! The least and the largest value of a function given by coefficients: what ringing makes of light.
+//! Minimum and maximum of a function given by coefficients, to detect ringing.
 
 use std::f64::consts::PI;
 
@@ -7,34 +7,34 @@ use glam::DVec3;
 use super::harmonics::{evaluate, order_of};
 use super::rule::DirectionRule;
 
-/// Peaks of the samples from which the search starts.
+/// Number of samples from which the search starts.
 const STARTS: usize = 16;
-/// Steps of the search.
+/// Maximum number of steps of the search.
 const MAX_STEPS: usize = 100;
-/// The shortest step, in radians: far below where a smooth peak changes its value.
+/// Minimum step, in radians: far below the scale at which a smooth peak changes its value.
 const SHORTEST_STEP: f64 = 1e-10;
-/// The distance of differences, in radians: off by its square times third derivatives.
+/// Step of finite differences, in radians: the error is its square times third derivatives.
 const STENCIL: f64 = 1e-4;
 
-/// The least and the largest value of a function on the sphere, and where they are.
+/// Minimum and maximum of a function on the sphere, with their directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extremes {
-    /// The least value: negative where light rings.
+    /// Minimum: negative where light rings.
     pub least: f64,
-    /// Its direction.
+    /// Direction of the minimum.
     pub least_at: DVec3,
-    /// The largest value.
+    /// Maximum.
     pub largest: f64,
-    /// Its direction.
+    /// Direction of the maximum.
     pub largest_at: DVec3,
 }
 
 impl Extremes {
-    /// Of the function with these coefficients: the best of a grid of samples, a sixth of the shortest wave apart, each
-    /// followed to its peak.
+    /// Finds the extremes of the function with these coefficients, by local search from the best samples of a grid with
+    /// a spacing of a sixth of the shortest wavelength.
     ///
     /// # Panics
-    /// If the number of coefficients is no square of 1 to 10.
+    /// If the number of coefficients is not a square of 1 to 10.
     pub fn of(coefficients: &[f64]) -> Self {
         let order = order_of(coefficients);
         let grid = DirectionRule::sphere(6 * order);
@@ -50,7 +50,7 @@ impl Extremes {
     }
 }
 
-/// The best samples at least a distance apart.
+/// Returns the best samples at least a distance apart.
 fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVec3> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| (sign * values[b]).total_cmp(&(sign * values[a])).then(a.cmp(&b)));
@@ -63,8 +63,8 @@ fn peaks(directions: &[DVec3], values: &[f64], sign: f64, apart: f64) -> Vec<DVe
     starts
 }
 
-/// Newton's method in the tangent plane, by differences; along the gradient where the surface is no peak. A step that
-/// does not climb is halved.
+/// Climbs to a local maximum by Newton's method in the tangent plane, with finite differences; along the gradient where
+/// the surface is not concave. A step that does not climb is halved.
 fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f64, DVec3) {
     let (mut value, mut at) = (sign * evaluate(coefficients, start), start);
     for _ in 0..MAX_STEPS {

@@ -5,16 +5,16 @@ use std::sync::LazyLock;
 
 use glam::DVec3;
 
-/// The highest order: order n has n bands, l = 0 to n - 1, and n^2 functions.
+/// Maximum order: order n has n bands, l = 0 to n - 1, and n^2 functions.
 pub const MAX_ORDER: usize = 10;
 
 /// Factors of the recurrences, by l and m.
 struct Recurrence {
     /// y_mm without (x + iy)^m, by m.
     diagonal: [f64; MAX_ORDER],
-    /// What z times the band below is multiplied by.
+    /// Factor of z times the band below.
     rise: [[f64; MAX_ORDER]; MAX_ORDER],
-    /// What the band two below is multiplied by.
+    /// Factor of the band two below.
     fall: [[f64; MAX_ORDER]; MAX_ORDER],
 }
 
@@ -38,12 +38,12 @@ static RECURRENCE: LazyLock<Recurrence> = LazyLock::new(|| {
     table
 });
 
-/// The factor of y_(l-1)m in z y_lm, which is also that of y_lm in z y_(l-1)m: sqrt((l^2 - m^2) / (4 l^2 - 1)).
+/// Factor of y_(l-1)m in z y_lm, which is also that of y_lm in z y_(l-1)m: sqrt((l^2 - m^2) / (4 l^2 - 1)).
 pub(super) fn coupling(l: usize, m: usize) -> f64 {
     (((l * l - m * m) as f64) / (4.0 * (l * l) as f64 - 1.0)).sqrt()
 }
 
-/// The number of functions of an order.
+/// Number of functions of an order, n^2.
 ///
 /// # Panics
 /// If the order is not 1 to [`MAX_ORDER`].
@@ -61,7 +61,7 @@ pub fn function_index(l: usize, m: isize) -> usize {
     index.expect("|m| at most l")
 }
 
-/// Band and position in the band, l and m, of the function of an index.
+/// Band and position in the band, l and m, of the function with an index.
 pub fn function_band(index: usize) -> (usize, isize) {
     let l = index.isqrt();
     let distance = |from: usize, to: usize| isize::try_from(to - from).expect("an index of a harmonic is small");
@@ -69,7 +69,7 @@ pub fn function_band(index: usize) -> (usize, isize) {
     (l, if index < middle { -distance(index, middle) } else { distance(middle, index) })
 }
 
-/// The n^2 functions of an order at a direction of length 1, by index l (l + 1) + m. For m > 0, y_lm has the factor
+/// Evaluates the n^2 functions of an order at a unit direction, by index l (l + 1) + m. For m > 0, y_lm has the factor
 /// Re (x + iy)^m, y_l(-m) the factor Im (x + iy)^m.
 ///
 /// # Panics
@@ -93,10 +93,10 @@ pub fn harmonics(order: usize, direction: DVec3, into: &mut [f64]) {
     }
 }
 
-/// The value at a direction of the function with these coefficients.
+/// Evaluates the function with these coefficients at a direction.
 ///
 /// # Panics
-/// If the number of coefficients is no square of 1 to [`MAX_ORDER`].
+/// If the number of coefficients is not a square of 1 to [`MAX_ORDER`].
 pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
     let mut values = [0.0; MAX_ORDER * MAX_ORDER];
     let values = &mut values[..coefficients.len()];
@@ -104,20 +104,20 @@ pub fn evaluate(coefficients: &[f64], direction: DVec3) -> f64 {
     values.iter().zip(coefficients).map(|(y, c)| y * c).sum()
 }
 
-/// The order of which there are so many coefficients.
+/// Order of a set of coefficients.
 ///
 /// # Panics
-/// If their number is no square of 1 to [`MAX_ORDER`].
+/// If their number is not a square of 1 to [`MAX_ORDER`].
 pub fn order_of(coefficients: &[f64]) -> usize {
     order_with(coefficients.len()).expect("n^2 coefficients")
 }
 
-/// The order of so many functions; `None` if there is no such order of 1 to [`MAX_ORDER`].
+/// Order with this number of functions; `None` if there is none from 1 to [`MAX_ORDER`].
 pub fn order_with(functions: usize) -> Option<usize> {
     (1..=MAX_ORDER).find(|&order| function_count(order) == functions)
 }
 
-/// Coefficients for D3DX's functions instead of ours, or back: D3DX has the Condon-Shortley sign (-1)^m.
+/// Converts coefficients to D3DX's functions, or back: D3DX has the Condon-Shortley sign (-1)^m.
 pub fn swap_d3dx_signs(coefficients: &mut [f64]) {
     for (index, coefficient) in coefficients.iter_mut().enumerate() {
         if function_band(index).1 % 2 != 0 {

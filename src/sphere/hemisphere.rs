@@ -10,20 +10,20 @@ use super::singular::singular_values;
 use crate::linalg::{Matrix, SymmetricEigen, dot};
 use crate::quadrature;
 
-/// Why there is no Gram matrix of a set of functions.
+/// Error of building a Gram matrix.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum HemisphereError {
-    /// A dropped function that the order has not, or that was dropped before.
+    /// A dropped function does not exist, or was dropped twice.
     #[error("expected distinct functions below {functions} to drop, found {found}")]
     Dropped { functions: usize, found: usize },
-    /// Nothing is left.
+    /// No functions are left.
     #[error("expected functions that are kept, found all {functions} dropped")]
     Empty { functions: usize },
 }
 
-/// The Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
+/// Gram matrix A of harmonics over the hemisphere, A_ik the integral of y_i y_k, with its inverse and spectrum.
 ///
 /// Functions of different m are orthogonal there too, so A falls into blocks; within a block, products of functions
 /// whose bands differ by an even number integrate to half of their integral over the sphere, 1/2 or 0. Each block is
@@ -39,7 +39,7 @@ pub struct Hemisphere {
 }
 
 impl Hemisphere {
-    /// Of all n^2 functions of an order.
+    /// Builds the matrix of all n^2 functions of an order.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -47,7 +47,8 @@ impl Hemisphere {
         Self::without(order, &[]).expect("nothing is dropped")
     }
 
-    /// Of the functions of an order but for some, given by index: section 6.1 drops l = 1, m = 0, index 2, of order 5.
+    /// Builds the matrix of the functions of an order except for some, given by index: section 6.1 drops l = 1, m = 0,
+    /// index 2, of order 5.
     ///
     /// # Errors
     /// [`HemisphereError`] if a dropped function is unknown or named twice, or nothing is left.
@@ -101,23 +102,23 @@ impl Hemisphere {
         Self { order, functions, gram, inverse, spectrum: SymmetricEigen { values, vectors } }
     }
 
-    /// The order.
+    /// Order.
     pub const fn order(&self) -> usize {
         self.order
     }
 
-    /// Indices of the functions that rows and columns are about, in increasing order.
+    /// Indices of the functions of rows and columns, in ascending order.
     pub fn functions(&self) -> &[usize] {
         &self.functions
     }
 
-    /// A.
+    /// Gram matrix A.
     pub const fn gram(&self) -> &Matrix {
         &self.gram
     }
 
-    /// The inverse of A. Its elements grow to the condition of A, 10^5 at order 5 and 10^12 at order 10, and a product
-    /// with it is as many times 2^-53 off; [`Self::least_squares`] is not.
+    /// Inverse of A. Its elements grow with the condition number of A, 10^5 at order 5 and 10^12 at order 10, and so
+    /// does the relative error of products with it, in units of 2^-53; [`Self::least_squares`] avoids that.
     pub const fn inverse(&self) -> &Matrix {
         &self.inverse
     }
@@ -127,10 +128,11 @@ impl Hemisphere {
         &self.spectrum
     }
 
-    /// The coefficients A^-1 b nearest to a function f, of which b are the integrals of f y_k over the hemisphere.
+    /// Computes the least-squares coefficients A^-1 b of a function f, where b are the integrals of f y_k over the
+    /// hemisphere.
     ///
-    /// In the basis of A's eigenvectors, so that rounding grows along those alone that hardly change the function on
-    /// the hemisphere: its values there lose the root of the condition.
+    /// It works in the basis of A's eigenvectors, so that rounding errors are amplified only along those that hardly
+    /// change the function on the hemisphere: its values there lose only the square root of the condition number.
     ///
     /// # Panics
     /// If there is not one integral per function.
@@ -144,12 +146,12 @@ impl Hemisphere {
         coefficients
     }
 
-    /// For each function the squared error, over the hemisphere, of the best combination of all others in its place.
+    /// For each function the squared error, over the hemisphere, of its best approximation by the others.
     pub fn drop_costs(&self) -> Vec<f64> {
         self.inverse.diagonal().into_iter().map(f64::recip).collect()
     }
 
-    /// The squared norm over the hemisphere of the function with these coefficients, c^T A c.
+    /// Squared norm over the hemisphere of the function with these coefficients, c^T A c.
     ///
     /// # Panics
     /// If there is not one coefficient per function.
@@ -159,8 +161,8 @@ impl Hemisphere {
     }
 }
 
-/// Per Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z), where
-/// the azimuth's factor of m >= 0 is 1.
+/// For each Gauss point z in [0, 1] the root of its weight, and the functions of an order at (sqrt(1 - z^2), 0, z),
+/// where the azimuthal factor of m >= 0 is 1.
 fn radial(order: usize) -> Vec<(f64, Vec<f64>)> {
     let points = quadrature::gauss_legendre(order).into_iter();
     let values = points.map(|(z, weight)| {

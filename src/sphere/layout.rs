@@ -1,7 +1,7 @@
-//! How a picture shows the whole sphere: lat-long, angular probe, cube cross.
+//! Layouts of pictures of the whole sphere: lat-long, angular probe, cube cross.
 //!
-//! In all three the picture's middle looks along +y, its right is +x, up is +z, as a viewer sees it who stands in a
-//! scene with z up: what y-up conventions call -Z, +X and +Y.
+//! In all three the picture's middle is +y, its right +x, and up is +z, as seen by a viewer in a scene with z up: -Z,
+//! +X and +Y in y-up conventions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,25 +12,24 @@ use super::texels::TexelGrid;
 use crate::elementary::{atan2, hypot, on_circle, sin_cos};
 use crate::quadrature::{GaussPoint, gauss_legendre};
 
-/// How directions lie in a picture of the whole sphere.
+/// Layout of a picture of the whole sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumIter)]
 pub enum EnvironmentLayout {
     /// Width twice the height: rows are polar angles from +z, columns azimuths; -y is at both sides.
     #[strum(to_string = "lat-long")]
     LatLong,
     /// A square: the distance from the middle is proportional to the angle from +y; -y is the rim of the inscribed
-    /// circle. Pixels beyond it count for nothing.
+    /// circle. Pixels beyond it are ignored.
     #[strum(to_string = "angular probe")]
     AngularProbe,
     /// Six squares, 4 x 3 or 3 x 4: a cube unfolded, seen from inside. Around the middle lie right, left, up and down;
-    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest counts for
-    /// nothing.
+    /// the back is beyond the right one (4 x 3), or beyond the lower one, upside down (3 x 4). The rest is ignored.
     #[strum(to_string = "cube cross")]
     CubeCross,
 }
 
 impl EnvironmentLayout {
-    /// The layout of pictures of a shape, if there is one: shapes tell them apart.
+    /// Layout of pictures of a shape, if there is one: each layout has shapes of its own.
     pub fn of(width: u32, height: u32) -> Option<Self> {
         let [w, h] = [u64::from(width), u64::from(height)];
         let cross = (3 * w == 4 * h && h % 3 == 0) || (4 * w == 3 * h && w % 3 == 0);
@@ -44,12 +43,12 @@ impl EnvironmentLayout {
     }
 }
 
-/// The texels of a picture of a layout, whose shape fits.
+/// Texels of a picture in a layout that its shape fits.
 pub(super) struct LayoutGrid {
     layout: EnvironmentLayout,
     width: usize,
     height: usize,
-    /// For the edges of a probe's pixels.
+    /// Quadrature for the edges of a probe's pixels.
     edge_rule: Vec<GaussPoint>,
 }
 
@@ -58,12 +57,12 @@ impl LayoutGrid {
         Self { layout, width, height, edge_rule: gauss_legendre(if width < 32 { 16 } else { 6 }) }
     }
 
-    /// Whether a pixel shows a direction at all.
+    /// Returns `true` if a pixel shows a direction.
     pub(super) fn shows(&self, column: usize, row: usize) -> bool {
         self.solid_angle(column, row) > 0.0
     }
 
-    /// The pixel that shows a direction of length 1, by its place row by row. On the border of two it is either.
+    /// Index, row by row, of the pixel that shows a unit direction. On the border of two it is either.
     pub(super) fn pixel(&self, direction: DVec3) -> usize {
         let within = |at: f64, count: usize| (at.max(0.0) as usize).min(count - 1);
         let [width, height] = [self.width, self.height];
@@ -85,7 +84,7 @@ impl LayoutGrid {
         row * width + column
     }
 
-    /// The pixel of a cross: on the face that the direction points to most, the first of equals.
+    /// Pixel of a cross: on the face of the direction's largest component, the first of equals.
     fn cross_pixel(&self, direction: DVec3) -> usize {
         let side = self.cross_side();
         let tiles = (0..self.height / side).flat_map(|row| (0..self.width / side).map(move |column| [column, row]));
@@ -102,13 +101,13 @@ impl LayoutGrid {
         (row * side + place(axes.down)) * self.width + column * side + place(axes.right)
     }
 
-    /// The edges of a probe's pixel, in the square from -1 to 1 with y up: left, bottom, right, top.
+    /// Edges of a probe's pixel, in the square from -1 to 1 with y up: left, bottom, right, top.
     fn probe_pixel(&self, [column, row]: [usize; 2]) -> [f64; 4] {
         let edge = |at: usize| 2.0 * at as f64 / self.width as f64 - 1.0;
         [edge(column), -edge(row + 1), edge(column + 1), -edge(row)]
     }
 
-    /// The face of a cross that a pixel belongs to and its place in it.
+    /// Face of a cross that a pixel belongs to, and its column and row on it.
     fn cross_texel(&self, column: usize, row: usize) -> Option<(FaceAxes, usize, usize)> {
         let wide = self.width > self.height;
         let side = self.width / if wide { 4 } else { 3 };
@@ -175,7 +174,7 @@ impl TexelGrid for LayoutGrid {
     }
 }
 
-/// The direction at a point of an angular probe, and the density of solid angle there: pi sin(pi r) / r.
+/// Direction at a point of an angular probe, and the density of solid angle there: pi sin(pi r) / r.
 fn probe_direction(x: f64, y: f64) -> (DVec3, f64) {
     let r = hypot(x, y);
     if r >= 1.0 {
@@ -186,7 +185,7 @@ fn probe_direction(x: f64, y: f64) -> (DVec3, f64) {
     (DVec3::new(across * x, cos, across * y), PI * across)
 }
 
-/// The solid angle of a pixel within the unit circle of an angular probe.
+/// Solid angle of a pixel within the unit circle of an angular probe.
 ///
 /// It is the integral of (1 - cos(pi r)) dphi around the pixel's part of the disk, counter-clockwise. Along a straight
 /// edge that is F(r) (x dy - y dx) with F = (1 - cos(pi r)) / r^2, which is smooth everywhere, and 2 dphi along the
@@ -211,13 +210,13 @@ fn probe_solid_angle([left, bottom, right, top]: [f64; 4], rule: &[GaussPoint]) 
         let along = rule.iter().map(|&(t, weight)| weight * density(hypot(x0 + t * (x1 - x0), y0 + t * (y1 - y0))));
         sum += around * along.sum::<f64>();
         let [x2, y2] = within[(at + 1) % within.len()][0];
-        // To where the next edge begins along the rim; no way at all to a corner within the disk.
+        // Along the rim to the start of the next edge; a corner within the disk adds nothing.
         sum += 2.0 * atan2(x1 * y2 - y1 * x2, x1 * x2 + y1 * y2);
     }
     sum.max(0.0)
 }
 
-/// The part from a to b of the line at distance `offset` from the middle that lies in the unit circle.
+/// Part from a to b of the line at distance `offset` from the middle that lies in the unit circle.
 fn cut(offset: f64, a: f64, b: f64) -> Option<[f64; 2]> {
     let square = (1.0 - offset) * (1.0 + offset);
     let half = (square >= 0.0).then(|| square.sqrt())?;

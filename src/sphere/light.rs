@@ -11,29 +11,29 @@ use super::rotation::HarmonicRotation;
 use super::window::BandWindow;
 use crate::elementary::sin_cos;
 
-/// A light that cannot be made.
+/// Error of a light's parameters.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum LightError {
-    /// No direction.
+    /// The direction is zero or not finite.
     #[error("expected a direction of finite length above 0, found {found}")]
     Direction { found: DVec3 },
-    /// A disk's radius.
+    /// The radius of a disk is out of range.
     #[error("expected an angular radius above 0 and up to pi radians, found {found}")]
     Radius { found: f64 },
-    /// A color.
+    /// A color is not finite.
     #[error("expected finite red, green and blue, found {found:?}")]
     Color { found: [f64; 3] },
-    /// A sky without its sun.
+    /// The sun is not above the horizon.
     #[error("expected a sun above the horizon, z > 0, found {found}")]
     Sunset { found: DVec3 },
-    /// The number of coefficients.
+    /// The number of coefficients is not that of an order.
     #[error("expected n^2 coefficients in each of three channels, n from 1 to {MAX_ORDER}, found {found:?}")]
     Coefficients { found: [usize; 3] },
 }
 
-/// Radiance from infinitely far as coefficients of an order: red, green and blue.
+/// Distant radiance as coefficients of an order: red, green and blue.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HarmonicLight {
     channels: [Vec<f64>; 3],
@@ -43,12 +43,12 @@ impl HarmonicLight {
     /// Directions and radiances of the disks of [`Self::red_and_blue`].
     pub const RED_AND_BLUE_DISKS: [(DVec3, [f64; 3]); 2] =
         [(DVec3::new(0.8, 0.6, 0.0), [6.0, 0.3, 0.3]), (DVec3::new(-0.8, 0.6, 0.0), [0.3, 0.3, 6.0])];
-    /// Their angular radius in radians.
+    /// Their angular radius, in radians.
     pub const RED_AND_BLUE_RADIUS: f64 = PI / 6.0;
-    /// The radiance around them.
+    /// Radiance around them.
     pub const RED_AND_BLUE_SURROUNDING: [f64; 3] = [0.15; 3];
 
-    /// Of coefficients by channel.
+    /// Creates a light from coefficients by channel.
     ///
     /// # Errors
     /// [`LightError::Coefficients`] unless all channels have the n^2 of an order.
@@ -58,12 +58,12 @@ impl HarmonicLight {
         if fits { Ok(Self { channels }) } else { Err(LightError::Coefficients { found }) }
     }
 
-    /// Of coefficients that have the number of an order.
+    /// Creates a light from coefficients whose number is that of an order.
     pub(super) const fn projected(channels: [Vec<f64>; 3]) -> Self {
         Self { channels }
     }
 
-    /// A function times a color.
+    /// Creates a light from a function times a color.
     pub(super) fn colored(function: &[f64], color: [f64; 3]) -> Result<Self, LightError> {
         let found = color;
         if !color.iter().all(|channel| channel.is_finite()) {
@@ -72,7 +72,7 @@ impl HarmonicLight {
         Ok(Self { channels: color.map(|channel| function.iter().map(|value| channel * value).collect()) })
     }
 
-    /// The same radiance from everywhere.
+    /// Creates a light with constant radiance.
     ///
     /// # Errors
     /// [`LightError::Color`] if a channel is not finite.
@@ -85,12 +85,11 @@ impl HarmonicLight {
         Self::colored(&function, radiance)
     }
 
-    /// The same radiance from a disk around a direction of any length, `radius` radians wide from its center; black
-    /// elsewhere. In closed form.
+    /// Creates a light with constant radiance from a disk around a direction of any length, with an angular radius of
+    /// `radius` radians; black elsewhere. In closed form.
     ///
     /// # Errors
-    /// [`LightError`] if the direction has no length, the radius is not above 0 and up to pi, or a channel is not
-    /// finite.
+    /// [`LightError`] if the direction is zero, the radius is not above 0 and up to pi, or a channel is not finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -106,8 +105,8 @@ impl HarmonicLight {
         Self::colored(&function, radiance)
     }
 
-    /// A red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y, in a dim white
-    /// surrounding: the kind of light of Figure 7, whose own is not published.
+    /// Creates a light of a red disk from +x and a blue one from -x, both from somewhat behind an object seen along +y,
+    /// in a dim white surrounding: similar to the light of Figure 7, which is not published.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -118,17 +117,17 @@ impl HarmonicLight {
         parts.into_iter().flatten().reduce(|sum, part| sum.plus(&part)).expect("three lights with finite figures")
     }
 
-    /// The order.
+    /// Order.
     pub fn order(&self) -> usize {
         order_of(&self.channels[0])
     }
 
-    /// The coefficients of red, green and blue.
+    /// Coefficients of red, green and blue.
     pub const fn channels(&self) -> &[Vec<f64>; 3] {
         &self.channels
     }
 
-    /// The radiance from a direction of length 1: of the coefficients, so it rings.
+    /// Radiance from a unit direction, evaluated from the coefficients, so that it rings.
     pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
         let mut y = [0.0; MAX_ORDER * MAX_ORDER];
         let y = &mut y[..self.channels[0].len()];
@@ -136,7 +135,7 @@ impl HarmonicLight {
         self.channels.each_ref().map(|channel| channel.iter().zip(y.iter()).map(|(c, y)| c * y).sum())
     }
 
-    /// Both lights together, to the order of the lower one.
+    /// Sum of two lights, to the lower of the two orders.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let sum = |channel: usize| {
@@ -146,7 +145,7 @@ impl HarmonicLight {
         Self { channels: [0, 1, 2].map(sum) }
     }
 
-    /// The light turned around the scene.
+    /// Rotates the light around the scene.
     ///
     /// # Panics
     /// If the rotation is of another order.
@@ -160,7 +159,7 @@ impl HarmonicLight {
         Self { channels: self.channels.each_ref().map(turned) }
     }
 
-    /// The light with a window of a width, in bands.
+    /// Applies a window with a width in bands.
     ///
     /// # Panics
     /// If the width is not positive.
@@ -170,13 +169,13 @@ impl HarmonicLight {
         self
     }
 
-    /// The least and the largest radiance of each channel.
+    /// Minimum and maximum radiance of each channel.
     pub fn extremes(&self) -> [Extremes; 3] {
         self.channels.each_ref().map(|channel| Extremes::of(channel))
     }
 }
 
-/// A direction of length 1.
+/// Normalises a direction.
 pub(super) fn unit(direction: DVec3) -> Result<DVec3, LightError> {
     let length = direction.length();
     if length > 0.0 && length.is_finite() {
@@ -186,10 +185,9 @@ pub(super) fn unit(direction: DVec3) -> Result<DVec3, LightError> {
     }
 }
 
-/// The integrals of P_0 to P_(n-1) from cos(radius) to 1.
+/// Integrals of P_0 to P_(n-1) from cos(radius) to 1.
 ///
-/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): no difference of near values, however small
-/// the disk.
+/// For l > 0 that is (1 - x^2) P_l'(x) / (l (l + 1)) at x = cos(radius): without cancellation, however small the disk.
 fn cap_integrals(order: usize, radius: f64) -> Vec<f64> {
     let (sin, x) = sin_cos(radius);
     let (half, _) = sin_cos(radius / 2.0);

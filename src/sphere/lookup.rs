@@ -1,4 +1,4 @@
-//! The radiance that a picture shows in a direction.
+//! Lookup of a picture's radiance in a direction.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::environment::{EnvironmentError, read};
 use super::layout::LayoutGrid;
 use crate::picture::Picture;
 
-/// A picture of the whole sphere that can be asked for the radiance in a direction: constant over each pixel.
+/// Picture of the whole sphere for lookups of radiance by direction: constant over each pixel.
 pub struct EnvironmentPicture {
     grid: LayoutGrid,
     pixels: Vec<[f32; 3]>,
@@ -19,7 +19,7 @@ impl std::fmt::Debug for EnvironmentPicture {
 }
 
 impl EnvironmentPicture {
-    /// Of a picture, whose layout is that of its shape. Pixels that show no direction are not read.
+    /// Reads a picture, whose shape determines its layout. Pixels that show no direction are not read.
     ///
     /// # Errors
     /// [`EnvironmentError`] if no layout has the shape, there is no color, or a pixel is NaN or infinite.
@@ -28,7 +28,7 @@ impl EnvironmentPicture {
         Ok(Self { grid, pixels })
     }
 
-    /// Red, green and blue in a direction of length 1.
+    /// Radiance in a unit direction: red, green and blue.
     pub fn radiance(&self, direction: DVec3) -> [f64; 3] {
         self.pixels[self.grid.pixel(direction)].map(f64::from)
     }

@@ -1,7 +1,7 @@
 //! Functions on the sphere, in f64.
 //!
 //! - [`harmonics`], [`evaluate`]: real spherical harmonics, orthonormal over the sphere; [`HarmonicRotation`];
-//!   [`BandWindow`] and [`Extremes`] against ringing and to see it;
+//!   [`BandWindow`] to reduce ringing and [`Extremes`] to detect it;
 //! - [`Hemisphere`], [`HemisphereProjection`]: harmonics over z >= 0, where they are not orthogonal;
 //! - [`DirectionRule`]: directions and weights, exact for polynomials of a degree;
 //! - [`CubeMap`], [`ParabolicMap`], [`EnvironmentLayout`]: texels of maps of the sphere, and their solid angles;

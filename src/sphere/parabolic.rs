@@ -4,18 +4,18 @@ use glam::DVec3;
 
 use crate::elementary::atan2;
 
-/// The texels of a parabolic map around +z. With s = x / (1 + z) and t = y / (1 + z), texture coordinates are
-/// ((s + 1) / 2, (t + 1) / 2): columns run along x, rows along y.
+/// Texels of a parabolic map around +z. With s = x / (1 + z) and t = y / (1 + z), texture coordinates are ((s + 1) / 2,
+/// (t + 1) / 2): columns run along x, rows along y.
 ///
-/// The circle s^2 + t^2 = 1 is the horizon. Texels beyond it are filtered with those within, so they are no border:
-/// their directions lie below the horizon, and functions continue there. The corners look at z = -1/3.
+/// The circle s^2 + t^2 = 1 is the horizon. Texels beyond it take part in filtering, so their directions, which lie
+/// below the horizon, are evaluated too. The corners are at z = -1/3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ParabolicMap {
     side: usize,
 }
 
 impl ParabolicMap {
-    /// Of so many texels along an edge; the paper has 32.
+    /// Creates a map with `side` texels along an edge; the paper has 32.
     ///
     /// # Panics
     /// If there are none.
@@ -29,40 +29,39 @@ impl ParabolicMap {
         self.side
     }
 
-    /// The direction of a texel's center, of length 1.
+    /// Unit direction of a texel's center.
     pub fn direction(self, column: usize, row: usize) -> DVec3 {
         direction_of([column, row].map(|at| (2 * at + 1) as f64 / self.side as f64 - 1.0))
     }
 
-    /// The direction at texture coordinates, of length 1; beyond the horizon below it.
+    /// Unit direction at texture coordinates; below the horizon if they are beyond the circle.
     pub fn direction_at(coordinates: [f64; 2]) -> DVec3 {
         direction_of(coordinates.map(|at| 2.0 * at - 1.0))
     }
 
-    /// The texture coordinates of a direction of length 1: within [0, 1] above the horizon; at -z infinite or no
-    /// number.
+    /// Texture coordinates of a unit direction: within [0, 1] above the horizon; infinite or NaN at -z.
     pub fn coordinates(self, direction: DVec3) -> [f64; 2] {
         Self::coordinates_of(direction)
     }
 
-    /// The same, which is so for maps of any size.
+    /// Like [`Self::coordinates`], which do not depend on the size of the map.
     pub fn coordinates_of(direction: DVec3) -> [f64; 2] {
         [direction.x, direction.y].map(|along| 0.5 + 0.5 * along / (1.0 + direction.z))
     }
 
-    /// The number of texels.
+    /// Number of texels.
     pub const fn texels(self) -> usize {
         self.side * self.side
     }
 
-    /// The four texels around a direction of length 1, row times side plus column, with the weights of bilinear
-    /// interpolation between their centers: at least 0, and their sum is 1. Beyond the outermost centers the map is
-    /// clamped; -z, which has no coordinates, is put into the first texel.
+    /// Returns the four texels around a unit direction, as row times side plus column, with their bilinear weights,
+    /// which are non-negative and sum to 1. Beyond the outermost centers the map is clamped; -z, which has no
+    /// coordinates, maps to the first texel.
     pub fn taps(self, direction: DVec3) -> [(usize, f64); 4] {
         let [x, y] = self.coordinates(direction).map(|at| {
             let last = (self.side - 1) as f64;
             let at = at * self.side as f64 - 0.5;
-            // Of no number, 0.
+            // NaN is clamped to 0.
             let at = if at > 0.0 { at.min(last) } else { 0.0 };
             let first = (at as usize).min(self.side.saturating_sub(2));
             (first, (first + 1).min(self.side - 1), at - first as f64)
@@ -77,7 +76,7 @@ impl ParabolicMap {
         ]
     }
 
-    /// The solid angle of a texel: the integral of 4 / (1 + s^2 + t^2)^2.
+    /// Solid angle of a texel: the integral of 4 / (1 + s^2 + t^2)^2.
     pub fn solid_angle(self, column: usize, row: usize) -> f64 {
         let edge = |at: usize| 2.0 * at as f64 / self.side as f64 - 1.0;
         let [s0, s1, t0, t1] = [edge(column), edge(column + 1), edge(row), edge(row + 1)];
@@ -85,13 +84,13 @@ impl ParabolicMap {
     }
 }
 
-/// The direction at s and t.
+/// Unit direction at s and t.
 fn direction_of([s, t]: [f64; 2]) -> DVec3 {
     let square = s * s + t * t;
     DVec3::new(2.0 * s, 2.0 * t, 1.0 - square) / (1.0 + square)
 }
 
-/// The solid angle of the rectangle from (0, 0) to (s, t).
+/// Solid angle of the rectangle from (0, 0) to (s, t).
 fn corner(s: f64, t: f64) -> f64 {
     let [a, b] = [(1.0 + s * s).sqrt(), (1.0 + t * t).sqrt()];
     2.0 * (s / a * atan2(t, a) + t / b * atan2(s, b))

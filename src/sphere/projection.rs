@@ -1,4 +1,4 @@
-//! Ways to give a function on the hemisphere z >= 0 coefficients, and how wrong they are (section 9.2).
+//! Projections of functions on the hemisphere z >= 0 to coefficients, and their errors (section 9.2).
 
 use glam::DVec3;
 
@@ -7,33 +7,33 @@ use super::hemisphere::Hemisphere;
 use super::rule::DirectionRule;
 use crate::linalg::{FactorError, Matrix, SymmetricEigen};
 
-/// A projection of functions on the hemisphere z >= 0 onto harmonics.
+/// Projection of functions on the hemisphere z >= 0 to harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::EnumIter)]
 pub enum HemisphereProjection {
-    /// The least squared error over the hemisphere: A^-1 b.
+    /// Least squared error over the hemisphere: A^-1 b.
     LeastSquares,
-    /// The function is 0 below: b.
+    /// Zero below the horizon: b.
     ZeroHemisphere,
-    /// f(x, y, -z) = -f(x, y, z): 2b where l + m is odd, else 0.
+    /// Odd reflection, f(x, y, -z) = -f(x, y, z): 2b where l + m is odd, otherwise 0.
     OddReflection,
-    /// f(x, y, -z) = f(x, y, z): 2b where l + m is even, else 0.
+    /// Even reflection, f(x, y, -z) = f(x, y, z): 2b where l + m is even, otherwise 0.
     EvenReflection,
-    /// z f is reflected as in [`Self::OddReflection`], which leaves no step at the horizon, and its projection divided
-    /// by z: functions of order n - 1 with even l + m.
+    /// Odd reflection of z f, which is continuous at the horizon, with its projection divided by z: functions of order
+    /// n - 1 with even l + m.
     ScaledOddReflection,
 }
 
 /// Squared error over the hemisphere, relative to a squared norm of 1 over the whole sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProjectionErrors {
-    /// Of the worst function of the order: the largest eigenvalue of Q.
+    /// Error of the worst function of the order: the largest eigenvalue of Q.
     pub worst: f64,
-    /// On average over all functions of the order: the mean eigenvalue of Q.
+    /// Mean error over all functions of the order: the mean eigenvalue of Q.
     pub average: f64,
 }
 
 impl HemisphereProjection {
-    /// Whether the projection gives the function of this index a coefficient other than 0.
+    /// Returns `true` if the projection can give the function with this index a non-zero coefficient.
     pub fn uses(self, order: usize, index: usize) -> bool {
         let (l, m) = function_band(index);
         let odd = (l + m.unsigned_abs()) % 2 == 1;
@@ -45,7 +45,7 @@ impl HemisphereProjection {
         }
     }
 
-    /// The n^2 coefficients of a function, by a rule over the hemisphere.
+    /// Computes the n^2 coefficients of a function by a rule over the hemisphere.
     ///
     /// # Panics
     /// If the order is not 1 to 10.
@@ -66,13 +66,12 @@ impl HemisphereProjection {
         b
     }
 
-    /// The errors of projections onto `order` of all functions that are combinations of the harmonics of
-    /// `signal_order`.
+    /// Computes the errors of projections to `order` of the functions spanned by the harmonics of `signal_order`.
     ///
     /// With P the matrix of the projection, E_1 and E_2 of the paper are c^T Q c with Q = (P - I)^T A (P - I).
     ///
     /// # Errors
-    /// [`FactorError`] if an eigenvalue is not found.
+    /// [`FactorError`] if the eigenvalues do not converge.
     ///
     /// # Panics
     /// If an order is not 1 to 10.
@@ -100,7 +99,7 @@ impl HemisphereProjection {
 }
 
 /// Coefficients of g / z, where g is the part of odd l + m of the function with these coefficients: it is 0 at z = 0,
-/// so the quotient is a polynomial again, one degree lower.
+/// so that the quotient is again a polynomial, one degree lower.
 fn divided_by_z(order: usize, g: &[f64]) -> Vec<f64> {
     let mut quotient = vec![0.0; g.len()];
     for index in (0..g.len()).rev().filter(|&index| HemisphereProjection::ScaledOddReflection.uses(order, index)) {

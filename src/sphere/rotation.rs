@@ -10,34 +10,35 @@ use super::rule::DirectionRule;
 use crate::elementary::on_circle;
 use crate::linalg::dot;
 
-/// Largest distance of an element of R^T R from the identity's: frames made in f64 pass, those rounded to f32 do not.
+/// Maximum deviation of an element of R^T R from the identity: frames computed in f64 pass, those rounded to f32 do
+/// not.
 pub const MAX_SKEW: f64 = 1e-9;
 
-/// A matrix that turns nothing.
+/// Error: a matrix is not a rotation.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RotationError {
-    /// Columns that are not orthonormal, or not finite.
+    /// The columns are not orthonormal, or not finite.
     #[error(
         "expected a rotation matrix with orthonormal columns (to {MAX_SKEW}), found columns {columns:?} (counted from 0) with product {found}; orthonormalize them in double precision"
     )]
     NotOrthonormal { columns: [usize; 2], found: f64 },
-    /// A reflection: harmonics of a mirrored function are no rotated ones.
+    /// The matrix is a reflection, for which rotation of harmonics is not defined.
     #[error("expected a rotation matrix, found a reflection (determinant -1); exchange two columns, or negate one")]
     Reflection,
 }
 
-/// The directions of a rule for one order with weight times harmonics of each.
+/// Directions of a rule for one order, with weight times harmonics of each.
 struct RotationRule {
     directions: Vec<DVec3>,
     weighted: Vec<f64>,
 }
 
-/// One rule per order, made when first needed.
+/// One rule per order, initialised on first use.
 static RULES: [OnceLock<RotationRule>; MAX_ORDER] = [const { OnceLock::new() }; MAX_ORDER];
 
-/// What a rotation does to coefficients: one matrix per band.
+/// Rotation of coefficients: one matrix per band.
 ///
 /// Element (i, j) is the integral of y_i(R v) y_j(v), by a rule that is exact for it.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +49,7 @@ pub struct HarmonicRotation {
 }
 
 impl HarmonicRotation {
-    /// Of an order and a rotation R: (R f)(R v) = f(v).
+    /// Creates the rotation of an order from a matrix R: (R f)(R v) = f(v).
     ///
     /// # Errors
     /// [`RotationError`] if the columns are not orthonormal, or the matrix is a reflection.
@@ -76,12 +77,12 @@ impl HarmonicRotation {
         Ok(Self { order, bands })
     }
 
-    /// The order.
+    /// Order.
     pub const fn order(&self) -> usize {
         self.order
     }
 
-    /// The matrix of a band, 2 l + 1 rows and columns, row by row.
+    /// Matrix of a band, with 2 l + 1 rows and columns, row by row.
     ///
     /// # Panics
     /// If there is no such band.
@@ -90,10 +91,10 @@ impl HarmonicRotation {
         &self.bands[first_of_band(l)..first_of_band(l + 1)]
     }
 
-    /// The coefficients of the rotated function.
+    /// Computes the coefficients of the rotated function.
     ///
     /// # Panics
-    /// If there are not n^2 coefficients and places.
+    /// If a slice does not have n^2 elements.
     pub fn apply(&self, coefficients: &[f64], into: &mut [f64]) {
         let count = function_count(self.order);
         assert_eq!([coefficients.len(), into.len()], [count; 2], "coefficients of order {}", self.order);
@@ -105,7 +106,7 @@ impl HarmonicRotation {
         }
     }
 
-    /// The rotation back.
+    /// Inverse rotation.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let mut bands = Vec::with_capacity(self.bands.len());
@@ -117,12 +118,13 @@ impl HarmonicRotation {
     }
 }
 
-/// Elements of all bands below l.
+/// Number of elements of all bands below l.
 fn first_of_band(l: usize) -> usize {
     (0..l).map(|l| (2 * l + 1) * (2 * l + 1)).sum()
 }
 
-/// Products of two functions of a band are the same at opposite points, so rings above the equator count twice.
+/// Builds a rule with half of the directions: products of two functions of a band are the same at opposite points, so
+/// that rings above the equator count twice.
 fn rotation_rule(order: usize) -> RotationRule {
     let whole = DirectionRule::sphere(2 * order - 2);
     let mut rule = RotationRule { directions: Vec::new(), weighted: Vec::new() };
@@ -136,7 +138,7 @@ fn rotation_rule(order: usize) -> RotationRule {
     rule
 }
 
-/// Whether a matrix is a rotation.
+/// Checks that a matrix is a rotation.
 ///
 /// # Errors
 /// [`RotationError`] if the columns are not orthonormal to [`MAX_SKEW`], or the matrix is a reflection.
@@ -152,7 +154,7 @@ pub fn check_rotation(rotation: &DMat3) -> Result<(), RotationError> {
     if rotation.determinant() < 0.0 { Err(RotationError::Reflection) } else { Ok(()) }
 }
 
-/// The rotation around +z by so many turns, from x to y.
+/// Rotation around +z by a number of full turns, from x to y.
 pub fn turn_around_z(turns: f64) -> DMat3 {
     let [c, s] = on_circle(turns);
     DMat3::from_cols(DVec3::new(c, s, 0.0), DVec3::new(-s, c, 0.0), DVec3::Z)

@@ -7,14 +7,14 @@ use glam::DVec3;
 use super::harmonics::{function_count, harmonics};
 use crate::{elementary, quadrature};
 
-/// The highest degree of a rule.
+/// Maximum degree of a rule.
 pub const MAX_DEGREE: usize = 1023;
 
-/// Directions and weights over the sphere, or over the hemisphere z >= 0, which integrate polynomials in x, y, z of a
-/// degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
+/// Quadrature rule: directions and weights over the sphere, or over the hemisphere z >= 0, which integrate polynomials
+/// in x, y, z of a degree exactly. Weights sum to the solid angle, 4 pi or 2 pi.
 ///
 /// Gauss-Legendre points in z times equidistant azimuths: floor(d / 2) + 1 rings of d + 1 directions for degree d,
-/// rings from the least z up. Every second ring is turned by half a step.
+/// rings in ascending order of z. Every second ring is rotated by half a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectionRule {
     directions: Vec<DVec3>,
@@ -23,7 +23,7 @@ pub struct DirectionRule {
 }
 
 impl DirectionRule {
-    /// Over the sphere. Degree 2n - 2 integrates products of two functions of order n.
+    /// Creates a rule over the sphere. Degree 2n - 2 integrates products of two functions of order n.
     ///
     /// # Panics
     /// If the degree exceeds [`MAX_DEGREE`].
@@ -31,7 +31,7 @@ impl DirectionRule {
         Self::between(-1.0, degree)
     }
 
-    /// Over the hemisphere z >= 0.
+    /// Creates a rule over the hemisphere z >= 0.
     ///
     /// # Panics
     /// If the degree exceeds [`MAX_DEGREE`].
@@ -56,45 +56,45 @@ impl DirectionRule {
         rule
     }
 
-    /// The directions, of length 1.
+    /// Unit directions.
     pub fn directions(&self) -> &[DVec3] {
         &self.directions
     }
 
-    /// The weight of each direction, in steradians.
+    /// Weight of each direction, in steradians.
     pub fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// The degree up to which polynomials are integrated exactly.
+    /// Degree up to which polynomials are integrated exactly.
     pub const fn degree(&self) -> usize {
         self.degree
     }
 
-    /// The number of directions.
+    /// Number of directions.
     pub fn len(&self) -> usize {
         self.directions.len()
     }
 
-    /// Always false: a rule has at least one direction.
+    /// Returns `false`: a rule has at least one direction.
     pub fn is_empty(&self) -> bool {
         self.directions.is_empty()
     }
 
-    /// Each ring: its directions and their weights.
+    /// Iterates over the rings: their directions and weights.
     fn rings(&self) -> impl Iterator<Item = impl Iterator<Item = (DVec3, f64)>> {
         let rings = self.directions.chunks(self.degree + 1).zip(self.weights.chunks(self.degree + 1));
         rings.map(|(directions, weights)| directions.iter().copied().zip(weights.iter().copied()))
     }
 
-    /// The integral of a function: summed ring by ring.
+    /// Integrates a function, summed ring by ring.
     pub fn integral(&self, value: impl Fn(DVec3) -> f64) -> f64 {
         self.rings().map(|ring| ring.map(|(at, weight)| weight * value(at)).sum::<f64>()).sum()
     }
 
-    /// The integrals of a function times each of the n^2 harmonics of an order: over the sphere its coefficients, over
-    /// the hemisphere its zero-hemisphere projection. Exact for a polynomial f of degree d if the rule's degree is at
-    /// least d + n - 1.
+    /// Computes the integrals of a function times each of the n^2 harmonics of an order: over the sphere its
+    /// coefficients, over the hemisphere its zero-hemisphere projection. Exact for a polynomial f of degree d if the
+    /// rule's degree is at least d + n - 1.
     ///
     /// # Panics
     /// If the order is not 1 to 10.

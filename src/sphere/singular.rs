@@ -1,17 +1,18 @@
 //! Singular values by rotations of columns (one-sided Jacobi; Hestenes 1958).
 //!
-//! Of the small matrices of the hemisphere it finds the least singular value to all digits that the condition leaves,
-//! and singular vectors orthogonal to rounding; `linalg::Svd`, by bidiagonalisation, leaves residuals of 1e-11 there.
+//! For the small matrices of the hemisphere it finds the smallest singular value as accurately as the condition number
+//! allows, and singular vectors orthogonal to rounding; `linalg::Svd`, by bidiagonalisation, leaves residuals of 1e-11
+//! there.
 
 use crate::linalg::dot;
 
-/// Sweeps over all pairs of columns; 10 columns take 4 to 7.
+/// Maximum number of sweeps over all pairs of columns; 10 columns take 4 to 7.
 const MAX_SWEEPS: usize = 40;
 
-/// Columns count as orthogonal if their cosine is at most this.
+/// Cosine up to which columns count as orthogonal.
 const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
-/// Singular values of a matrix given by columns, each with its right singular vector, in no order.
+/// Singular values of a matrix given by columns, each with its right singular vector, unsorted.
 pub(super) fn singular_values(mut columns: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     let size = columns.len();
     let unit = |i: usize| (0..size).map(|k| if k == i { 1.0 } else { 0.0 }).collect();
@@ -37,7 +38,7 @@ pub(super) fn singular_values(mut columns: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)
     columns.iter().map(|column| dot(column, column).sqrt()).zip(vectors).collect()
 }
 
-/// Turns columns p < q in their plane.
+/// Rotates columns p < q in their plane.
 fn rotate(columns: &mut [Vec<f64>], [p, q]: [usize; 2], tangent: f64) {
     let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
     let sine = cosine * tangent;

@@ -1,4 +1,4 @@
-//! A clear sky with its sun.
+//! Clear sky with a sun.
 
 use glam::DVec3;
 
@@ -7,43 +7,42 @@ use super::light::{HarmonicLight, LightError, unit};
 use super::rule::DirectionRule;
 use crate::elementary::{acos, exp};
 
-/// The sun's mean angular radius in radians, 16 minutes of arc.
+/// Mean angular radius of the sun, in radians: 16 minutes of arc.
 pub const SUN_RADIUS: f64 = 0.004_654;
 
-/// The degree of the rule over the sky, by which 10 orders change less than 1e-5 of the first coefficient when it is
-/// doubled: the sky has a peak around the sun, of no finite degree.
+/// Degree of the rule over the sky: doubling it changes the coefficients of 10 orders by less than 1e-5 of the first.
+/// The sky has a peak around the sun, of no finite degree.
 const SKY_DEGREE: usize = 255;
 
-/// The CIE standard clear sky (Kittler 1967; CIE publication 22, 1973) over z >= 0, a sun, and a ground below.
+/// CIE standard clear sky (Kittler 1967; CIE publication 22, 1973) over z >= 0, a sun, and a ground below.
 ///
 /// Relative to the zenith the sky is f(gamma) phi(z) / (f(zenith angle of the sun) phi(1)), gamma the angle from the
 /// sun, f(gamma) = 0.91 + 10 e^(-3 gamma) + 0.45 cos^2 gamma and phi(z) = 1 - e^(-0.32 / z).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearSky {
-    /// Towards the sun, of any length, z > 0.
+    /// Direction of the sun, of any length, z > 0.
     pub sun: DVec3,
     /// Radiance of the sun's disk.
     pub sun_radiance: [f64; 3],
-    /// Radiance of the zenith.
+    /// Radiance at the zenith.
     pub zenith: [f64; 3],
     /// Radiance from below the horizon.
     pub ground: [f64; 3],
 }
 
 impl ClearSky {
-    /// The radiance of the sky relative to the zenith, without the sun's disk, in a direction of length 1 above the
-    /// horizon.
+    /// Radiance of the sky relative to the zenith, without the sun's disk, in a unit direction above the horizon.
     ///
     /// # Errors
-    /// [`LightError`] if the sun has no direction, or is not above the horizon.
+    /// [`LightError`] if the sun's direction is zero, or is not above the horizon.
     pub fn relative(&self, direction: DVec3) -> Result<f64, LightError> {
         Ok(relative(self.sun_direction()?, direction))
     }
 
-    /// The coefficients of sky, sun and ground. Sun and ground are in closed form.
+    /// Computes the coefficients of sky, sun and ground. Sun and ground are in closed form.
     ///
     /// # Errors
-    /// [`LightError`] if the sun has no direction or is not above the horizon, or a color is not finite.
+    /// [`LightError`] if the sun's direction is zero or is not above the horizon, or a color is not finite.
     ///
     /// # Panics
     /// If the order is not 1 to 10.

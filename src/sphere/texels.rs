@@ -7,21 +7,21 @@ use super::harmonics::{MAX_ORDER, function_count, harmonics};
 use crate::elementary::atan2;
 use crate::quadrature::{GaussPoint, gauss_legendre};
 
-/// A map of the sphere, or of a part of it, to a grid of texels.
+/// Map of the sphere, or of a part of it, to a grid of texels.
 pub(super) trait TexelGrid: Sync {
-    /// Columns and rows.
+    /// Number of columns and rows.
     fn size(&self) -> [usize; 2];
-    /// The solid angle that a texel covers, 0 if none.
+    /// Solid angle of a texel, 0 if it covers none.
     fn solid_angle(&self, column: usize, row: usize) -> f64;
-    /// The direction at u, v in [0, 1] of a texel that covers a solid angle, and a density proportional to solid angle
-    /// per du dv.
+    /// Returns the direction at u, v in [0, 1] of a texel that covers a solid angle, and a density proportional to
+    /// solid angle per du dv.
     fn at(&self, texel: [usize; 2], u: f64, v: f64) -> (DVec3, f64);
 }
 
-/// The coefficients of the function that is constant over each texel; texels row by row, of any number of channels.
+/// Projects the function that is constant over each texel; texels row by row, of any number of channels.
 ///
-/// The solid angle is exact; the mean of a harmonic over a texel is a Gauss rule's, with more points where texels are
-/// large. Rows are summed one by one, then added in order: threads change no bit.
+/// The solid angle is exact; the mean of a harmonic over a texel is computed by a Gauss rule, with more points where
+/// texels are large. Rows are summed one by one, then added in order: the bits do not depend on the number of threads.
 pub(super) fn project<const N: usize>(
     grid: &impl TexelGrid,
     order: usize,
@@ -49,7 +49,7 @@ pub(super) fn project<const N: usize>(
     std::array::from_fn(|channel| (0..count).map(|i| by_row.iter().map(|row| row[channel][i]).sum()).collect())
 }
 
-/// The means of all harmonics over a texel.
+/// Computes the means of all harmonics over a texel.
 fn texel(
     grid: &impl TexelGrid,
     texel: [usize; 2],
@@ -78,7 +78,7 @@ fn texel(
     }
 }
 
-/// A rule for a texel of a picture with the square of this number of texels.
+/// Gauss rule for a texel of a picture with the square of this number of texels.
 fn rule_for(side: usize) -> Vec<GaussPoint> {
     gauss_legendre(match side {
         0..24 => 8,
@@ -88,7 +88,7 @@ fn rule_for(side: usize) -> Vec<GaussPoint> {
     })
 }
 
-/// The solid angle of the rectangle from x0, y0 to x1, y1 in the plane at distance 1 from the eye, seen at (0, 0): two
+/// Solid angle of the rectangle from x0, y0 to x1, y1 in the plane at distance 1 from the eye, relative to (0, 0): two
 /// triangles (van Oosterom and Strackee, 1983), whose triple product is the rectangle's area, without cancellation.
 pub(super) fn rectangle_solid_angle([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
     let corner = |x, y| DVec3::new(x, y, 1.0);

@@ -1,11 +1,11 @@
-//! Windows: attenuating high bands against ringing.
+//! Window functions: attenuation of high bands to reduce ringing.
 
 use std::f64::consts::PI;
 
 use super::harmonics::function_band;
 use crate::elementary::sin_cos;
 
-/// How the factor of a band falls with l.
+/// Window function: falloff of a band's factor with l.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum BandWindow {
@@ -16,7 +16,7 @@ pub enum BandWindow {
 }
 
 impl BandWindow {
-    /// The factor of band l: 1 for l = 0, 0 from the width w on. A window as wide as the order is usual; a narrower one
+    /// Factor of band l: 1 for l = 0, 0 from the width w on. A window as wide as the order is usual; a narrower one
     /// rings less and blurs more.
     ///
     /// # Panics

@@ -1,24 +1,24 @@
-//! What a precision study compares: a device in a number format, with its switches.
+//! Configurations of a precision study: a device in a number format, with its switches.
 
 use refsim::device::{DeviceError, Profile};
 use refsim::num::Format;
 
-/// Switches that only generated mip levels ask. Studies whose cards generate none leave them out.
+/// Switches that only affect generated mip levels. Studies whose cards generate none omit them.
 const MIPMAP_SWITCHES: [&str; 1] = ["mipmap-rounding"];
 
-/// A device as one row of a study sees it.
+/// Device configuration of a study's row.
 #[derive(Clone, Debug)]
 pub struct Configuration {
-    /// The row's name, unique in a study and fit for a file name.
+    /// Name of the row, unique in a study and valid as a file name.
     pub label: String,
-    /// The device with format and switches set.
+    /// Device with format and switches set.
     pub profile: Profile,
-    /// The switch that was turned away from its default, with its value.
+    /// Switch that differs from its default, with its value.
     pub switch: Option<(String, String)>,
 }
 
 impl Configuration {
-    /// A device as its profile has it.
+    /// Creates the configuration of a device.
     ///
     /// # Errors
     /// If there is no such device.
@@ -26,7 +26,7 @@ impl Configuration {
         Ok(Self { label: file_name(name), ..Self::of(&Profile::named(name)?) })
     }
 
-    /// A device without limits that computes in `format`.
+    /// Creates the configuration of a device without limits that computes in `format`.
     ///
     /// # Errors
     /// If there is no such format.
@@ -36,7 +36,7 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// A device made to compute in `format`.
+    /// Creates the configuration of a device with its format replaced by `format`.
     ///
     /// # Errors
     /// If there is no such device.
@@ -47,8 +47,8 @@ impl Configuration {
         Ok(configuration)
     }
 
-    /// A device, and then the same device with each of its open switches turned to each other value, one at a time;
-    /// without those of generated mip levels.
+    /// Returns the configurations of a device, and of the device with each of its open switches set to each other
+    /// value, one at a time; without those of generated mip levels.
     ///
     /// # Errors
     /// If there is no such device.
@@ -56,16 +56,16 @@ impl Configuration {
         Self::device(name)?.under_each_switch()
     }
 
-    /// A profile as it is.
+    /// Creates the configuration of a profile.
     pub fn of(profile: &Profile) -> Self {
         Self { label: file_name(&profile.name), profile: profile.clone(), switch: None }
     }
 
-    /// This configuration, and then the same with each open switch of its device turned to each other value, one at a
+    /// Returns this configuration, and the same with each open switch of its device set to each other value, one at a
     /// time; without those of generated mip levels.
     ///
     /// # Errors
-    /// If a switch does not take one of its own values.
+    /// If a switch rejects one of its own values.
     pub fn under_each_switch(self) -> Result<Vec<Self>, DeviceError> {
         let mut all = vec![self.clone()];
         for switch in self.profile.switches().iter().filter(|s| !MIPMAP_SWITCHES.contains(&s.name.as_str())) {
@@ -81,7 +81,7 @@ impl Configuration {
     }
 }
 
-/// `text` with everything but letters, digits, dots and dashes replaced.
+/// Replaces everything but letters, digits, dots and dashes in `text`.
 fn file_name(text: &str) -> String {
     text.chars().map(|c| if c.is_ascii_alphanumeric() || matches!(c, '.' | '-') { c } else { '-' }).collect()
 }

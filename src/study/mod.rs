@@ -1,6 +1,6 @@
 //! Studies: one folder per question. Parameters go in, [`Findings`] come out; nothing is printed or written here.
 //!
-//! docs/command_line.md says what a new study needs.
+//! docs/command_line.md describes how to add a study.
 
 pub mod atlas;
 pub mod configuration;
@@ -15,15 +15,15 @@ pub mod timeline_trace;
 
 use crate::report::{Findings, Provenance};
 
-/// Called with the current step's name, how many units of it are done, and of how many.
+/// Called with the current step's name, the number of units done, and their total.
 pub type ProgressFn<'a> = dyn FnMut(&str, u64, u64) + 'a;
 
-/// A question with its parameters, ready to be answered.
+/// A question with its parameters.
 pub trait Study {
-    /// Why there is no answer.
+    /// Error of the study.
     type Error: miette::Diagnostic + Send + Sync + 'static;
 
-    /// Answers it.
+    /// Runs the study.
     ///
     /// # Errors
     /// [`Study::Error`].

@@ -1,4 +1,4 @@
-//! From first hits to a picture: smooth normals, two lights, a plain background.
+//! Shading of first hits: smooth normals, two lights, a plain background.
 //!
 //! A study's picture must show where hits are wrong and nothing else, so shading depends on the ray and the triangle
 //! reported for it, never on the reported t.
@@ -10,24 +10,24 @@ use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{RayBatch, reference};
 
-/// Color where no surface is: linear RGB.
+/// Background color: linear RGB.
 const BACKGROUND: DVec3 = DVec3::new(0.012, 0.016, 0.024);
-/// The clay of the surface: linear RGB.
+/// Albedo of the surface, a clay: linear RGB.
 const ALBEDO: DVec3 = DVec3::new(0.78, 0.60, 0.42);
 
-/// Normals of the corners, averaged over the triangles that meet there and weighted by their areas.
+/// Normals of the corners, averaged over the adjoining triangles and weighted by area.
 pub struct TeapotShader<'a> {
     mesh: &'a Mesh,
     normals: Vec<DVec3>,
 }
 
 impl<'a> TeapotShader<'a> {
-    /// Prepares the normals.
+    /// Computes the normals.
     pub fn new(mesh: &'a Mesh) -> Self {
         Self { mesh, normals: mesh.vertex_normals() }
     }
 
-    /// The picture of a batch of rays. `hits` holds the triangle of each ray, or none.
+    /// Shades a batch of rays. `hits` holds the triangle of each ray, or `None`.
     pub fn picture(&self, rays: &RayBatch, hits: &[Option<u32>]) -> RgbImage {
         let pixel = |(ray, hit): (&Ray, &Option<u32>)| {
             hit.map_or(BACKGROUND, |triangle| self.shade(ray, triangle)).to_array().map(encode)
@@ -40,7 +40,7 @@ impl<'a> TeapotShader<'a> {
         let Some(corners) = self.mesh.corners(triangle) else { return DVec3::new(1.0, 0.0, 1.0) };
         let crossing = reference::intersect(origin, direction, corners.map(wide));
         let weights = DVec3::new(crossing.w, crossing.u, crossing.v);
-        // u belongs to b, v to c, w to a. Rays that miss the triangle they are said to hit are pulled onto its rim.
+        // u belongs to b, v to c, w to a. Rays that miss their reported triangle are clamped to its border.
         let sign = if crossing.n_dot_d < 0.0 { 1.0 } else { -1.0 };
         let barycentric = area_weights(weights.map(|x| (x * sign).max(0.0)));
         let indices = self.mesh.triangles()[triangle as usize];
@@ -56,7 +56,7 @@ fn area_weights(w: DVec3) -> DVec3 {
     if sum > 0.0 { w / sum } else { DVec3::splat(1.0 / 3.0) }
 }
 
-/// A key light from above, a fill from the eye, and a highlight.
+/// Radiance from a key light from above, a fill light from the eye, and a highlight.
 fn light(normal: DVec3, view: DVec3) -> DVec3 {
     let key = unit_or_zero(DVec3::new(-0.35, -0.55, 0.9));
     let diffuse = 0.05 + 0.25 * normal.dot(view).max(0.0) + 0.75 * normal.dot(key).max(0.0);
@@ -72,8 +72,8 @@ fn unit_or_zero(v: DVec3) -> DVec3 {
     unit(v).unwrap_or(v)
 }
 
-/// Linear light to a byte by a curve of gamma 2. The study counts pixels whose bytes differ, so this curve is part of
-/// its figures, and stays beside sRGB.
+/// Encodes linear light with gamma 2. The study counts pixels whose bytes differ, so the curve affects its results and
+/// is kept instead of sRGB.
 fn encode(linear: f64) -> u8 {
     (linear.clamp(0.0, 1.0).sqrt() * 255.0 + 0.5) as u8
 }

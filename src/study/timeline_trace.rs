@@ -1,4 +1,4 @@
-//! A timeline as a trace for a viewer.
+//! Export of a timeline as a trace for a viewer.
 
 use miette::Diagnostic;
 use refsim::device::Profile;
@@ -12,26 +12,26 @@ use thiserror::Error;
 use crate::report::ReportError;
 use crate::report::trace::{Arrow, Slice, Trace};
 
-/// Why a log has no timeline.
+/// Error of building a timeline from a log.
 #[non_exhaustive]
 #[derive(Debug, Error, Diagnostic)]
 pub enum TimelineError {
-    /// The timing model.
+    /// The timing model failed.
     #[error(transparent)]
     #[diagnostic(code(timeline::timing))]
     Timing(#[from] TimingError),
-    /// The replay.
+    /// The replay failed.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Replay(#[from] ReplayError),
-    /// The file.
+    /// The file cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Report(#[from] ReportError),
 }
 
-/// The timeline of a log by the pipeline model, as the bytes of a trace; `None` for devices without time. `what` says
-/// what was logged.
+/// Encodes the timeline of a log by the pipeline model as a trace; `None` for devices without timing. `what` names the
+/// log.
 pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u8>>, TimelineError> {
     let model = match Model::new(Level::Pipeline, profile) {
         Ok(model) => model,
@@ -45,8 +45,8 @@ pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u
     Ok(Some(bytes))
 }
 
-/// Spans and waits on a lane per unit, arrows where the critical path goes from one to another. `model` made the
-/// timeline of what `what` names.
+/// Builds a trace with spans and waits on a lane per unit, and arrows where the critical path changes units. `model` is
+/// the timing model, `what` names the log.
 pub fn trace(profile: &Profile, model: &str, what: &str, timeline: &Timeline) -> Trace {
     let spans = timeline.spans().iter().map(|span| Slice {
         lane: span.unit.index(),
@@ -81,7 +81,7 @@ pub fn trace(profile: &Profile, model: &str, what: &str, timeline: &Timeline) ->
     }
 }
 
-/// From each span of the path to the next one that is on another unit.
+/// Returns the arrows from each span of the path to the next one on another unit.
 fn arrows(path: &[Segment]) -> Vec<Arrow> {
     let spans: Vec<&Segment> = path.iter().filter(|segment| segment.kind != SpanKind::Fill).collect();
     let arrow = |pair: &[&Segment]| Arrow {

@@ -9,16 +9,16 @@ use crate::geom::{Hit, Ray};
 #[error("the rays could not be traced")]
 pub struct CastError(#[source] pub Box<dyn std::error::Error + Send + Sync>);
 
-/// Finds hits for bundles of rays of any size. Large bundles leave a caster room to sort them.
+/// Ray caster: finds hits for bundles of rays of any size. Large bundles give an implementation room to sort them.
 pub trait Caster {
-    /// The first hit of each ray, in the order of the rays.
+    /// Returns the first hit of each ray, in the order of the rays.
     ///
     /// # Errors
     /// [`CastError`] if the caster fails.
     fn cast(&mut self, rays: &[Ray]) -> Result<Vec<Option<Hit>>, CastError>;
 
-    /// Whether anything is hit before t = 1, per ray: shadow rays, whose directions end at the light. Any hit will do,
-    /// which casters that can stop at the first one found answer faster than [`Self::cast`].
+    /// Returns per ray whether anything is hit before t = 1: for shadow rays, whose directions end at the light. Faster
+    /// than [`Self::cast`] in casters that can stop at any hit.
     ///
     /// # Errors
     /// [`CastError`] if the caster fails.
@@ -27,7 +27,7 @@ pub trait Caster {
     }
 }
 
-/// Whether a first hit lies before t = 1.
+/// Returns `true` if a first hit lies before t = 1.
 #[must_use]
 pub fn is_occluder(hit: Option<Hit>) -> bool {
     hit.is_some_and(|hit| hit.t < 1.0)

@@ -1,4 +1,4 @@
-//! First hits on the host alone: the octree and the f32 test. What Table 3 calls "CPU only".
+//! First hits on the host alone by octree and f32 test: "CPU only" in Table 3.
 
 use rayon::prelude::*;
 
@@ -12,15 +12,15 @@ use crate::geom::exact::{Guess, Sides, filter};
 use crate::geom::{Hit, Mesh, Ray};
 use refsim::exec::batch::SimdLevel;
 
-/// Rays that one worker traces at a time.
+/// Rays per parallel task.
 const CHUNK: usize = 256;
 
-/// What tracing cost.
+/// Counters of tracing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct HostCounts {
     /// Rays traced.
     pub rays: u64,
-    /// The octree's.
+    /// Counters of the octree.
     pub traversal: TraversalCounts,
     /// Ray-triangle tests.
     pub tests: u64,
@@ -34,29 +34,29 @@ impl std::ops::AddAssign for HostCounts {
     }
 }
 
-/// A mesh, ready to be traced on the host.
+/// Mesh with the acceleration structures for tracing on the host.
 #[derive(Clone, Debug)]
 pub struct HostTracer {
     octree: Octree,
     triangles: Vec<HostTriangle>,
-    /// The triangles' corners as the mesh has them, for [`filter::guess`].
+    /// Corners of the triangles in mesh coordinates, for [`filter::guess`].
     corners: Vec<[[f32; 3]; 3]>,
     sides: Sides,
-    /// What single-precision coordinates are multiplied by; a power of two.
+    /// Scale of single-precision coordinates; a power of two.
     scale: f64,
-    /// The octree and its lists once more, laid out for rays that the host traces alone.
+    /// Second copy of the octree and its lists, laid out for rays that the host traces alone.
     compact: Compact,
     packets: Packets,
     level: SimdLevel,
 }
 
 impl HostTracer {
-    /// A mesh with an octree of the tuned parameters.
+    /// Creates a tracer with an octree of the tuned parameters.
     pub fn new(mesh: &Mesh, sides: Sides) -> Self {
         Self::with_octree(mesh, OctreeParameters::default(), sides)
     }
 
-    /// A mesh with an octree of these parameters, which change the time, never a hit.
+    /// Creates a tracer with an octree of these parameters, which affect the time but never a hit.
     pub fn with_octree(mesh: &Mesh, parameters: OctreeParameters, sides: Sides) -> Self {
         let scale = mesh_scale(mesh);
         let (octree, triangles) = (Octree::new(mesh, parameters), HostTriangle::all(mesh, scale));
@@ -71,26 +71,26 @@ impl HostTracer {
         &self.octree
     }
 
-    /// What single-precision coordinates are multiplied by; a power of two.
+    /// Scale of single-precision coordinates; a power of two.
     pub(crate) fn scale(&self) -> f64 {
         self.scale
     }
 
-    /// A ray as the test takes it.
+    /// Converts a ray to the units of the f32 test.
     pub(crate) fn host_ray(&self, ray: &Ray) -> HostRay {
         HostRay::new(ray, self.scale)
     }
 
-    /// The first hit of a ray, and what it cost.
+    /// Returns the first hit of a ray, and its cost.
     pub fn nearest(&self, ray: &Ray) -> (Option<Hit>, HostCounts) {
         let mut hit = [None];
         let counts = self.nearest_each(std::slice::from_ref(ray), &mut hit);
         (hit[0], counts)
     }
 
-    /// Whether anything is hit before `t_max`, in multiples of the ray's direction: whether the t of the first hit is
-    /// smaller, unless rounding alone made it so (the triangle lies in cells beyond `t_max`, as in exact arithmetic).
-    /// Cheaper, since any hit will do.
+    /// Returns `true` if anything is hit before `t_max`, in multiples of the ray's direction, that is, if the t of the
+    /// first hit is smaller, unless rounding alone made it so (the triangle lies in cells beyond `t_max`, as in exact
+    /// arithmetic). Cheaper than [`Self::nearest`], since any hit will do.
     pub fn occluded_before(&self, ray: &Ray, t_max: f32) -> (bool, HostCounts) {
         let mut occluded = [false];
         let counts = self.occluded_each(std::slice::from_ref(ray), t_max, &mut occluded);
@@ -146,15 +146,15 @@ impl HostTracer {
         counts
     }
 
-    /// Whether a ray certainly hits a triangle before `t_max` in exact arithmetic. Then it goes through a cell that
-    /// holds the triangle, and the walk would find the same.
+    /// Returns `true` if a ray certainly hits a triangle before `t_max` in exact arithmetic. Then it crosses a cell
+    /// that holds the triangle, and traversal would find the same.
     fn is_certain(&self, ray: &Ray, triangle: u32, t_max: f32) -> bool {
         let guess = filter::guess(ray, &self.corners[triangle as usize], self.sides);
         matches!(guess, Guess::Hit { high, .. } if high < f64::from(t_max))
     }
 
-    /// The nearest hit; with `ANY`, that or any hit before `t_max`, whose leaf goes to `blocker`, or none if there is
-    /// none before.
+    /// Returns the nearest hit; with `ANY`, the nearest or any hit before `t_max`, whose leaf is stored in `blocker`,
+    /// or `None` if there is none before `t_max`.
     #[inline(always)]
     fn walk<const BOTH: bool, const ANY: bool>(
         &self,
@@ -185,8 +185,8 @@ impl HostTracer {
         (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
     }
 
-    /// The first hit with the cells that `gpu` marks tested as the card tests them, every triangle of the cell. It goes
-    /// the plain way, through [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
+    /// Returns the first hit, with the cells marked in `gpu` tested as the card tests them: every triangle of the cell.
+    /// Uses [`Octree::traverse`]; without marks, hit and counts are those of [`Self::nearest`].
     pub fn nearest_in(&self, ray: &Ray, gpu: Option<&GpuCells>) -> (Option<Hit>, HostCounts) {
         let host = self.host_ray(ray);
         let (mut best, mut tests) = (Best::default(), 0);
@@ -201,7 +201,7 @@ impl HostTracer {
         (best.hit(host.power), HostCounts { rays: 1, traversal, tests })
     }
 
-    /// The first hit of a ray among all triangles, each one tested: what the octree must not change.
+    /// Returns the first hit of a ray by testing every triangle: the result that the octree must reproduce.
     pub fn nearest_of_all(&self, ray: &Ray) -> Option<Hit> {
         let host = self.host_ray(ray);
         let mut best = Best::default();
@@ -213,7 +213,8 @@ impl HostTracer {
         best.hit(host.power)
     }
 
-    /// The first hits of rays in any number, on all worker threads: the same for any number of them.
+    /// Returns the first hits of rays in any number, traced on all worker threads; the result does not depend on the
+    /// number of threads.
     ///
     /// ```
     /// use crossbar::geom::{Ray, Sides, teapot::teapot};
@@ -232,9 +233,9 @@ impl HostTracer {
         all(rays, |rays, hits| self.nearest_each(rays, hits))
     }
 
-    /// [`Self::occluded_before`] of rays in any number, on all worker threads, with one `t_max`: 1 for rays whose
-    /// directions end at a light. Rays that follow each other are often blocked by the same triangles: those that
-    /// blocked one ray are tried first for the next, so neighboring rays should stand together.
+    /// Runs [`Self::occluded_before`] on rays in any number, on all worker threads, with one `t_max`: 1 for rays whose
+    /// directions end at a light. Triangles that blocked one ray are tried first for the next, so neighbouring rays
+    /// should be consecutive.
     pub fn occluded_all(&self, rays: &[Ray], t_max: f32) -> (Vec<bool>, HostCounts) {
         all(rays, |rays, occluded| self.occluded_each(rays, t_max, occluded))
     }
@@ -248,7 +249,7 @@ impl HostTracer {
     }
 }
 
-/// Answers in the order of the rays, and what they cost together.
+/// Traces rays in parallel and returns the answers in the order of the rays, with their total cost.
 fn all<T: Clone + Default + Send>(
     rays: &[Ray],
     trace: impl Fn(&[Ray], &mut [T]) -> HostCounts + Sync,

@@ -1,4 +1,4 @@
-//! How far off a surface rays start and end, so that none hits the triangle that it leaves or the one that it goes to.
+//! Offsets of ray ends from surfaces, so that no ray hits the triangle that it leaves or the one that it goes to.
 //!
 //! One policy for all that cast rays: points are lifted along the triangle's normal, to the side that the ray leaves
 //! by, at both ends of a segment. The distance depends on what is known of the point:
@@ -15,42 +15,42 @@ use crate::geom::{Mesh, Ray};
 
 /// Unit roundoff of single precision.
 pub const SINGLE: f64 = 1.0 / 16_777_216.0;
-/// Triangles thinner than this count as this thin: there the bound on the plane test stops growing.
+/// Sine of the thinnest triangle in the bound on the plane test; thinner triangles count as this thin.
 const MIN_SINE: f64 = 1.0 / 256.0;
-/// Fraction of a scene's diagonal.
+/// Clearance as a fraction of a scene's diagonal.
 const SCENE: f64 = 1.0 / 65_536.0;
 
-/// The clearance of points near the surfaces of a scene with this diagonal: farther than f32 corners and the test's
-/// rounding can be off, nearer than anything that one would model.
+/// Clearance of points near the surfaces of a scene with this diagonal: above the error of f32 corners and of the
+/// test's rounding, below the size of modelled detail.
 #[must_use]
 pub fn scene_clearance(diagonal: f64) -> f64 {
     SCENE * diagonal
 }
 
-/// A point of a triangle.
+/// Point on a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// The point.
+    /// Position.
     pub at: DVec3,
-    /// The triangle's unit normal, on the side from which the corners run counter-clockwise.
+    /// Unit normal of the triangle, on the side from which the corners run counter-clockwise.
     pub normal: DVec3,
-    /// Longest of the sides ab and ac.
+    /// Length of the longer of the sides ab and ac.
     size: f64,
     /// `|ab| |ac| / |ab x ac|`: 1 over the sine of the angle at a.
     thinness: f64,
-    /// The caster's unit roundoff.
+    /// Unit roundoff of the caster.
     rounding: f64,
 }
 
 impl SurfacePoint {
-    /// The point of a triangle with these barycentric coordinates; `None` where the triangle has no area or does not
-    /// exist. `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
+    /// Returns the point of a triangle with these barycentric coordinates; `None` if the triangle has no area or does
+    /// not exist. `rounding` is the unit roundoff of the caster's arithmetic, for example [`SINGLE`].
     #[must_use]
     pub fn new(mesh: &Mesh, triangle: u32, weights: DVec3, rounding: f64) -> Option<Self> {
         Self::of(mesh.corners(triangle)?.map(wide), weights, rounding)
     }
 
-    /// The same for the corners of a triangle.
+    /// Like [`Self::new`], for a triangle given by its corners.
     #[must_use]
     pub fn of([a, b, c]: [DVec3; 3], weights: DVec3, rounding: f64) -> Option<Self> {
         let (ab, ac) = (b - a, c - a);
@@ -62,7 +62,8 @@ impl SurfacePoint {
         Some(Self { at, normal, size: ab.max(ac), thinness: 1.0 / sine, rounding })
     }
 
-    /// How far off the triangle a ray must start so that its test misses it, for points up to `reach` from the origin.
+    /// Returns the offset from the triangle at which a ray must start for its test to miss the triangle, for points up
+    /// to `reach` from the origin.
     ///
     /// With u the unit roundoff, 2^-24 for fp32: rounding the origin moves it along the normal by at most u times the
     /// sum of its magnitudes, of which twice is taken. The test finds the side from n . ao. One rounding per component
@@ -74,16 +75,16 @@ impl SurfacePoint {
         self.rounding * (2.0 * self.at.abs().element_sum() + 16.0 * self.thinness * (self.size + reach))
     }
 
-    /// The point lifted off the triangle to the side of `towards`, clear of the test of rays that start there or, with
-    /// a `reach`, that end there.
+    /// Returns the point offset from the triangle to the side of `towards`, clear of the test of rays that start there
+    /// or, with a `reach`, that end there.
     #[must_use]
     pub fn lifted(&self, towards: DVec3, reach: f64) -> [f32; 3] {
         let side = if self.normal.dot(towards) < 0.0 { -1.0 } else { 1.0 };
         narrow(self.at + side * self.clearance(reach) * self.normal)
     }
 
-    /// The ray to a point of another triangle, clear of both: it meets something before t = 1 if and only if something
-    /// lies between. `None` if f32 has no direction for it.
+    /// Returns the ray to a point of another triangle, clear of both: it hits something before t = 1 if and only if
+    /// something lies between. `None` if f32 cannot represent its direction.
     #[must_use]
     pub fn ray_to(&self, other: &Self) -> Option<Ray> {
         let way = other.at - self.at;

@@ -6,15 +6,15 @@ use glam::Vec3;
 use super::best::Best;
 use crate::geom::Mesh;
 
-/// Triangles of a packet.
+/// Triangles per packet.
 const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
-/// A corner per lane, by component.
+/// One corner per lane, by component.
 type Corners = [Lanes; 3];
 
-/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a point, which nothing hits. Edges and
-/// normal are computed again each time: that costs less than to fetch them.
+/// Up to eight triangles of a leaf, by component. Lanes without a triangle hold a degenerate one, which nothing hits.
+/// Edges and normal are recomputed each time, which costs less than loading them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 struct Packet {
@@ -22,18 +22,18 @@ struct Packet {
     b: Corners,
     c: Corners,
     triangles: [u32; LANES],
-    /// How many lanes hold a triangle.
+    /// Number of lanes that hold a triangle.
     filled: u32,
-    /// Whether the next packet is of the same leaf.
+    /// `true` if the next packet belongs to the same leaf.
     more: bool,
 }
 
-/// The triangles of all leaves.
+/// Packets of all leaves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Packets(Vec<Packet>);
 
 impl Packets {
-    /// Adds a leaf's triangles, at least one, at a scale; gives its number.
+    /// Adds a leaf's triangles, at least one, at a scale; returns the index of its first packet.
     pub(crate) fn add(&mut self, mesh: &Mesh, scale: f64, leaf: &[u32]) -> u32 {
         let first = self.0.len() as u32;
         let parts = leaf.chunks(LANES);
@@ -42,7 +42,7 @@ impl Packets {
         first
     }
 
-    /// Tests a leaf's triangles and offers the hits. Gives how many there were to test.
+    /// Tests a leaf's triangles and offers the hits to `best`. Returns the number of triangles tested.
     #[inline(always)]
     pub(crate) fn test<const BOTH: bool>(&self, leaf: u32, ray: &HostRay, best: &mut Best) -> u64 {
         let mut tests = 0;

@@ -6,29 +6,29 @@ use refsim::num::power_of_two;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 
-/// Corners are scaled to at most this magnitude: then the squares of their lengths are in the middle of the exponents
-/// of single precision.
+/// Largest magnitude of scaled corners: the squares of their lengths are then in the middle of the exponent range of
+/// single precision.
 const MAX_CORNER: f64 = 4.0;
 
-/// The scale of a mesh's corners for the single-precision triangle test.
+/// Scale of a mesh's corners for the single-precision triangle test.
 pub(crate) fn mesh_scale(mesh: &Mesh) -> f64 {
     let [low, high] = mesh.bounds().unwrap_or_default().map(|corner| wide(corner).abs().max_element());
     in_single_precision(scale_into(low.max(high), MAX_CORNER))
 }
 
-/// The nearest scale that is a normal or denormal number of single precision. Scenes below 2^-123, numbers with few
-/// bits left, get less than they need.
+/// Clamps a scale to the normal and denormal numbers of single precision. Scenes below 2^-123, numbers with few bits
+/// left, get less than they need.
 pub(crate) fn in_single_precision(scale: f64) -> f64 {
     scale.clamp(power_of_two(-149), power_of_two(127))
 }
 
-/// The exponent of the largest power of two that is not above `x`; `x` finite and above zero.
+/// Exponent of the largest power of two that is at most `x`; `x` must be finite and above zero.
 fn floor_log2(x: f64) -> i32 {
-    // Denormal f64 can't come from f32 inputs, so the biased exponent says it all.
+    // Denormal f64 can't come from f32 inputs, so the biased exponent suffices.
     ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }
 
-/// A direction scaled by a power of two so that its largest component lies in [1/2, 1), and the power.
+/// Scales a direction by a power of two so that its largest component lies in [1/2, 1); returns it and the power.
 ///
 /// `scaled = direction * power`, hence `t = t_scaled * power`.
 pub(crate) fn normalize_range(direction: [f32; 3]) -> (DVec3, f64) {
@@ -37,7 +37,7 @@ pub(crate) fn normalize_range(direction: [f32; 3]) -> (DVec3, f64) {
     (direction * power, power)
 }
 
-/// The smallest power of two that is not below `x`; 1 for 0.
+/// Smallest power of two that is at least `x`; 1 for 0.
 pub(crate) fn ceil_power_of_two(x: f64) -> f64 {
     if x == 0.0 {
         return 1.0;
@@ -46,7 +46,7 @@ pub(crate) fn ceil_power_of_two(x: f64) -> f64 {
     if floor == x { floor } else { floor * 2.0 }
 }
 
-/// The largest power of two `s` with `s * extent <= range`; 1 for an empty scene.
+/// Largest power of two `s` with `s * extent <= range`; 1 for an empty scene.
 pub(crate) fn scale_into(extent: f64, range: f64) -> f64 {
     if extent == 0.0 { 1.0 } else { 1.0 / ceil_power_of_two(extent / range) }
 }

@@ -1,11 +1,11 @@
 //! The ray-triangle test in f32: what the Ray Engine's `float.psa` and `seven_vectors.vsa` compute, operation by
 //! operation.
 //!
-//! Whether a ray meets a triangle on the card or on the host is a matter of scheduling and must not show in the result;
-//! so the host computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the scene brought
-//! to the same scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation here is one IEEE
-//! operation with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products run from the
-//! left, as `dp3` of the fp32 profiles.
+//! Scheduling decides whether a ray is tested on the card or on the host, and must not affect the result; so the host
+//! computes what a card with fp32 pipelines computes, bit for bit (tests draw both): with the scene brought to the same
+//! scale, so that lengths of any unit neither overflow nor vanish. Every `f32` operation here is one IEEE operation
+//! with its own rounding: neither Rust nor glam fuses them, and glam's sums of three products run from the left, as
+//! `dp3` of the fp32 profiles.
 
 use glam::Vec3;
 
@@ -14,7 +14,7 @@ use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
 use crate::geom::{Mesh, Ray};
 
-/// A triangle as the vertex program hands it on.
+/// Triangle as output by the vertex program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostTriangle {
     a: Vec3,
@@ -25,17 +25,17 @@ pub(crate) struct HostTriangle {
     bc: Vec3,
 }
 
-/// A ray as the textures hold it: its direction brought into range by a power of two.
+/// Ray as stored in the textures, its direction brought into range by a power of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HostRay {
     pub(crate) origin: Vec3,
     pub(crate) direction: Vec3,
-    /// What a t in scaled units along `direction` is multiplied by for the ray's own direction; a power of two.
+    /// Factor from t in scaled units along `direction` to t of the ray's own direction; a power of two.
     pub(crate) power: f64,
 }
 
 impl HostTriangle {
-    /// All triangles of a mesh, at a scale.
+    /// Converts all triangles of a mesh, at a scale.
     pub(crate) fn all(mesh: &Mesh, scale: f64) -> Vec<Self> {
         mesh.iter_corners().map(|corners| Self::new(scaled_corners(corners, scale))).collect()
     }
@@ -46,8 +46,8 @@ impl HostTriangle {
         Self { a, b, n: ab.cross(ac), ab, ac, bc }
     }
 
-    /// The t of a hit along the ray's direction in range: not behind the origin, inside or on the edges, and from the
-    /// front unless `sides` says either.
+    /// Returns t of a hit along the ray's direction in range: at or in front of the origin, inside or on the edges, and
+    /// from the front unless `sides` is either.
     pub(crate) fn hit(&self, ray: &HostRay, sides: Sides) -> Option<f32> {
         let (t, hit) = match sides {
             Sides::Front => self.test::<false>(ray),
@@ -56,7 +56,7 @@ impl HostTriangle {
         hit.then_some(t)
     }
 
-    /// t, and whether there is a hit there. Without branches: packets run it on lanes.
+    /// Returns t, and `true` if it is a hit. Branch-free, since packets run the same test on lanes.
     #[inline(always)]
     pub(crate) fn test<const BOTH: bool>(&self, ray: &HostRay) -> (f32, bool) {
         let (ao, bo) = (ray.origin - self.a, ray.origin - self.b); // (1), (2)
@@ -75,20 +75,20 @@ impl HostTriangle {
 }
 
 impl HostRay {
-    /// A ray among triangles at a scale.
+    /// Converts a ray at the scale of the triangles.
     pub(crate) fn new(ray: &Ray, scale: f64) -> Self {
         let (direction, power) = normalize_range(ray.direction());
         Self { origin: scaled(ray.origin(), scale), direction: direction.as_vec3(), power: power / scale }
     }
 }
 
-/// A point times a power of two: exact unless it leaves the range of single precision.
+/// Multiplies a point by a power of two: exact unless it leaves the range of single precision.
 #[inline(always)]
 pub(crate) fn scaled(p: [f32; 3], scale: f64) -> Vec3 {
     (wide(p) * scale).as_vec3()
 }
 
-/// [`scaled`] for the corners of a triangle.
+/// Applies [`scaled`] to the corners of a triangle.
 pub(crate) fn scaled_corners(corners: [[f32; 3]; 3], scale: f64) -> [Vec3; 3] {
     corners.map(|p| scaled(p, scale))
 }

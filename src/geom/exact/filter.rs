@@ -1,12 +1,12 @@
-//! The definitions of [`super`] in f64 with a proved error bound: a clear answer, or none.
+//! The definitions of [`super`] in f64 with a proved error bound: a certain answer, or none.
 //!
 //! **Why nothing overflows or underflows.** A finite f32 is a multiple of 2^-149 below 2^128. A difference of two is a
 //! multiple of 2^-149 below 2^129, also after rounding to f64 (rounding a multiple of 2^-k, far above the least normal
-//! number, gives a multiple of 2^-k). Products of three such figures are multiples of 2^-447 below 2^387, sums of six
+//! number, gives a multiple of 2^-k). Products of three such values are multiples of 2^-447 below 2^387, sums of six
 //! stay below 2^391; quotients lie between 2^-838 and 2^838. All of it is far inside the normal range of f64, so every
 //! operation has a relative error of at most u = 2^-53, and a computed zero is a true zero.
 //!
-//! **The bound.** Every figure here is a sum of at most six products `x * y * z` whose factors are components of d
+//! **The bound.** Every value here is a sum of at most six products `x * y * z` whose factors are components of d
 //! (exact) or differences of corners and origin (one rounding each). A product gathers: at most three roundings of its
 //! factors, two of multiplications, one of the difference inside the cross product, two of the outer sum: 8. So the
 //! error is at most ((1 + u)^8 - 1) * P with P the sum of the products' magnitudes. P is computed as P' by the same
@@ -22,23 +22,23 @@ use crate::geom::vector::wide;
 /// Half a unit in the last place of 1: the largest relative error of one f64 operation.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// What f64 can say about a ray and a triangle.
+/// Result of the f64 test of a ray and a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Guess {
     /// Certainly no hit.
     Miss,
     /// Certainly a hit, with the exact t within the bounds.
     Hit {
-        /// t is not below this.
+        /// Lower bound of t.
         low: f64,
-        /// t is not above this.
+        /// Upper bound of t.
         high: f64,
     },
-    /// Too close to call.
+    /// Uncertain: the error bound does not decide.
     Unclear,
 }
 
-/// A value and a bound of its error.
+/// Value with a bound of its error.
 #[derive(Clone, Copy)]
 struct Estimate {
     value: f64,
@@ -67,28 +67,28 @@ impl Estimate {
     }
 }
 
-/// A cross product, and the sums of its products' magnitudes.
+/// Cross product, and the sums of the magnitudes of its products.
 fn cross(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     let (left, right) = (a.yzx() * b.zxy(), a.zxy() * b.yzx());
     (left - right, left.abs() + right.abs())
 }
 
-/// The product of a vector with such a cross product, with its error bound.
+/// Inner product of a vector with such a cross product, with its error bound.
 fn mixed(d: DVec3, (value, magnitude): (DVec3, DVec3)) -> Estimate {
     Estimate { value: d.dot(value), error: 16.0 * U * d.abs().dot(magnitude) }
 }
 
-/// A number not above any t that rounds to `t`, nor above `t` by up to eight roundings.
+/// Lower bound for every number that rounds to `t` in up to eight roundings.
 pub(super) fn below(t: f64) -> f64 {
     t * (1.0 - 16.0 * U)
 }
 
-/// A number not below any t that rounds to `t`.
+/// Upper bound for every number that rounds to `t` in up to eight roundings.
 pub(super) fn above(t: f64) -> f64 {
     t * (1.0 + 16.0 * U)
 }
 
-/// What f64 can say. The corners must be finite.
+/// Tests a ray and a triangle in f64. The corners must be finite.
 pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     let (o, d) = (wide(ray.origin()), wide(ray.direction()));
     let [a, b, c] = triangle.map(|corner| wide(corner) - o);
@@ -126,7 +126,7 @@ pub fn guess(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Guess {
     Guess::Hit { low: below(low), high: above(high) }
 }
 
-/// Whether the triangle certainly has an area.
+/// Returns `true` if the triangle certainly has an area.
 pub(super) fn has_area(triangle: &[[f32; 3]; 3]) -> bool {
     let [a, b, c] = triangle.map(wide);
     let (value, magnitude) = cross(b - a, c - a);

@@ -1,4 +1,4 @@
-//! What is told of a hit, and which sides can be hit.
+//! Exact hits, and the sides of triangles that can be hit.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,7 @@ use num_traits::Zero;
 
 use super::ratio;
 
-/// Which sides of a triangle can be hit.
+/// Sides of a triangle that can be hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum Sides {
     /// Only the side from which the corners run counter-clockwise (n.d < 0).
@@ -17,7 +17,8 @@ pub enum Sides {
     Both,
 }
 
-/// The exact ray parameter of a hit: a fraction of two integers, never negative. Compared by value, not by spelling.
+/// Exact ray parameter of a hit: a non-negative fraction of two integers. Comparisons are by value, not by
+/// representation.
 #[derive(Debug, Clone)]
 pub struct ExactT {
     num: BigUint,
@@ -25,7 +26,7 @@ pub struct ExactT {
 }
 
 impl ExactT {
-    /// `num / den`; `None` when the denominator is zero.
+    /// Creates `num / den`; `None` if the denominator is zero.
     pub fn new(num: BigUint, den: BigUint) -> Option<Self> {
         (!den.is_zero()).then_some(Self { num, den })
     }
@@ -40,13 +41,13 @@ impl ExactT {
         &self.den
     }
 
-    /// The nearest f32, ties to even; infinity where t exceeds the format.
+    /// Rounds to the nearest f32, ties to even; infinity where t exceeds the format.
     pub fn to_f32(&self) -> f32 {
         ratio::to_f32(&self.num, &self.den)
     }
 
-    /// The nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays and
-    /// triangles.
+    /// Rounds to the nearest f64, ties to even. It neither overflows nor loses bits to underflow for a t of f32 rays
+    /// and triangles.
     pub fn to_f64(&self) -> f64 {
         ratio::to_f64(&self.num, &self.den)
     }
@@ -72,22 +73,22 @@ impl PartialEq for ExactT {
 
 impl Eq for ExactT {}
 
-/// One triangle that a ray hits.
+/// Hit of one triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExactHit {
     /// The triangle's id.
     pub triangle: u32,
-    /// Where.
+    /// Exact ray parameter.
     pub t: ExactT,
 }
 
-/// The first hit of a ray.
+/// First hit of a ray.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NearestHit {
-    /// The smallest id among the triangles hit at the smallest t.
+    /// Smallest id among the triangles hit at the smallest t.
     pub triangle: u32,
-    /// The smallest t.
+    /// Smallest t.
     pub t: ExactT,
-    /// All triangles hit at exactly that t, in rising order; the first is `triangle`.
+    /// All triangles hit at exactly that t, in ascending order; the first is `triangle`.
     pub ties: Vec<u32>,
 }

@@ -1,4 +1,4 @@
-//! Ground truth: which triangles a ray hits, and which first, decided in exact arithmetic on the f32 figures as given.
+//! Ground truth: which triangles a ray hits, and which first, decided in exact arithmetic on the f32 values as given.
 //!
 //! **Definitions.** A triangle is closed: its edges and corners belong to it. A hit has t >= 0, in multiples of the
 //! ray's direction as given. A ray in the triangle's plane (n.d = 0) misses it, so that a triangle without area (n = 0)
@@ -7,9 +7,9 @@
 //!
 //! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) tell on which side
 //! of each edge the ray passes, and t = (n.A) / (n.d). [`whole`] evaluates these as integers of any size, since an f32
-//! is an integer times a power of two. In front of it stands [`filter`], which evaluates them in f64 with a proved
-//! error bound and decides only what is clear; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests
-//! hold all three to the same answers.
+//! is an integer times a power of two. [`filter`] runs first: it evaluates them in f64 with a proved error bound and
+//! decides only certain cases; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests compare all
+//! three.
 
 pub mod filter;
 mod hit;
@@ -24,7 +24,7 @@ pub use filter::Guess;
 pub use hit::{ExactHit, ExactT, NearestHit, Sides};
 pub use tree::{Tracer, nearest_all};
 
-/// Where a ray hits a triangle of finite corners, if it does: the filter first, integers where it is not sure.
+/// Intersects a ray with a triangle of finite corners: first by the filter, then by integers where it is uncertain.
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     match filter::guess(ray, triangle, sides) {
         Guess::Miss => None,
@@ -32,7 +32,7 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
     }
 }
 
-/// All hits of a ray, by rising t and then by rising id.
+/// Returns all hits of a ray, in ascending order of t and then of ids.
 pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
     let mut hits: Vec<ExactHit> = (0..)
         .zip(mesh.iter_corners())
@@ -42,7 +42,7 @@ pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
     hits
 }
 
-/// The first hit of a ray among all triangles, each one tried. For many rays use [`nearest_all`] or a [`Tracer`].
+/// Returns the first hit of a ray by testing all triangles. For many rays use [`nearest_all`] or a [`Tracer`].
 ///
 /// ```
 /// use crossbar::geom::{Mesh, Ray, Sides, exact};
@@ -65,22 +65,22 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     shortlist.settle(mesh, ray, sides)
 }
 
-/// Whether a triangle has no area, exactly: n = 0.
+/// Returns `true` if a triangle has no area, exactly: n = 0.
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     !filter::has_area(triangle) && whole::is_degenerate(triangle)
 }
 
 impl Mesh {
-    /// Number of triangles without area: two corners at one place, or three on one line, exactly.
+    /// Number of triangles without area, exactly: two coincident corners, or three on one line.
     pub fn degenerate_count(&self) -> usize {
         self.iter_corners().filter(is_degenerate).count()
     }
 }
 
-/// The hits that may still be the first, each with bounds of its t.
+/// Hits that may be the first, each with bounds of its t.
 struct Shortlist {
     candidates: Vec<Candidate>,
-    /// No hit beyond this t can be the first.
+    /// Upper bound of the first t.
     limit: f64,
 }
 
@@ -111,7 +111,7 @@ impl Shortlist {
         }
     }
 
-    /// The first hit, decided in integers among the candidates that the bounds leave.
+    /// Decides the first hit in integers among the remaining candidates.
     fn settle(self, mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
         let limit = self.limit;
         let mut first: Option<(ExactT, Vec<u32>)> = None;

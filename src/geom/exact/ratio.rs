@@ -6,7 +6,7 @@ use num_bigint::BigUint;
 use num_integer::Integer;
 use num_traits::Zero;
 
-/// The f32 nearest to `num / den`, ties to even; infinity from 2^128 - 2^103 up. `den` must not be zero.
+/// Rounds `num / den` to the nearest f32, ties to even; infinity from 2^128 - 2^103 up. `den` must not be zero.
 pub fn to_f32(num: &BigUint, den: &BigUint) -> f32 {
     match round(num, den, 24, -149, 128) {
         None => f32::INFINITY,
@@ -18,7 +18,7 @@ pub fn to_f32(num: &BigUint, den: &BigUint) -> f32 {
     }
 }
 
-/// The f64 nearest to `num / den`, ties to even; infinity beyond the format. `den` must not be zero.
+/// Rounds `num / den` to the nearest f64, ties to even; infinity beyond the format. `den` must not be zero.
 pub fn to_f64(num: &BigUint, den: &BigUint) -> f64 {
     match round(num, den, 53, -1074, 1024) {
         None => f64::INFINITY,
@@ -27,13 +27,13 @@ pub fn to_f64(num: &BigUint, den: &BigUint) -> f64 {
     }
 }
 
-/// `a_num / a_den` against `b_num / b_den` by cross multiplication; both denominators positive.
+/// Compares `a_num / a_den` with `b_num / b_den` by cross multiplication; both denominators positive.
 pub fn compare(a_num: &BigUint, a_den: &BigUint, b_num: &BigUint, b_den: &BigUint) -> Ordering {
     (a_num * b_den).cmp(&(b_num * a_den))
 }
 
-/// `num / den` as mantissa * 2^unit with at most `bits` bits, `unit >= lowest`, rounded to nearest even; `None` when
-/// the rounded value reaches 2^`top`. The mantissa has exactly `bits` bits unless `unit == lowest`.
+/// Rounds `num / den` to mantissa * 2^unit with at most `bits` bits, `unit >= lowest`, to nearest even; `None` when the
+/// rounded value reaches 2^`top`. The mantissa has exactly `bits` bits unless `unit == lowest`.
 fn round(num: &BigUint, den: &BigUint, bits: u32, lowest: i64, top: i64) -> Option<(u64, i64)> {
     if num.is_zero() {
         return Some((0, lowest));
@@ -67,7 +67,7 @@ fn scaled(num: &BigUint, den: &BigUint, unit: i64) -> (BigUint, BigUint) {
     if unit < 0 { (num << unit.unsigned_abs(), den.clone()) } else { (num.clone(), den << unit.unsigned_abs()) }
 }
 
-/// The number as 64 bits, if it fits.
+/// Converts to 64 bits, if the number fits.
 fn small(value: &BigUint) -> Option<u64> {
     u64::try_from(value).ok()
 }

@@ -3,8 +3,8 @@
 //! A box holds its triangles exactly (f32 figures in f64). A ray crosses the planes x = k at t = (k - o) / d, computed
 //! with at most three roundings; the interval of t inside a box is widened by 16 u on both ends, so that it holds the
 //! exact interval (no operation here can overflow or underflow: see [`super::filter`]). A box is skipped only when its
-//! widened interval is empty or starts beyond a t that some certain hit does not exceed. So the tree can change the
-//! time, but not the answer.
+//! widened interval is empty or starts beyond a t that some certain hit does not exceed. So the tree affects the time,
+//! but not the result.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,13 +13,13 @@ use super::{NearestHit, Shortlist, Sides, filter};
 use crate::geom::vector::wide;
 use crate::geom::{Mesh, Ray};
 
-/// Triangles in a leaf, at most.
+/// Maximum number of triangles in a leaf.
 const LEAF: usize = 4;
 
-/// Rays one task traces.
+/// Rays per parallel task.
 const CHUNK: usize = 256;
 
-/// A mesh made ready for many exact queries.
+/// Mesh with a bounding volume hierarchy for many exact queries.
 #[derive(Debug, Clone)]
 pub struct Tracer<'a> {
     mesh: &'a Mesh,
@@ -38,13 +38,13 @@ struct BoxNode {
 
 #[derive(Debug, Clone, Copy)]
 enum BoxContent {
-    /// A range of `order`.
+    /// Leaf: a range of `order`.
     Leaf { start: u32, end: u32 },
-    /// The first child follows its parent; the second stands here.
+    /// Inner node: the first child follows its parent; `second` is the index of the second.
     Inner { second: u32 },
 }
 
-/// A ray in f64, with what the boxes need.
+/// Ray in f64, with the values that box tests need.
 struct Probe {
     origin: DVec3,
     direction: DVec3,
@@ -52,7 +52,7 @@ struct Probe {
 }
 
 impl<'a> Tracer<'a> {
-    /// Builds the tree: each node is halved at the median centre along its widest axis, so that its depth is bounded.
+    /// Builds the tree: each node is split at the median centre along its widest axis, so that its depth is bounded.
     pub fn new(mesh: &'a Mesh) -> Self {
         let corners: Vec<_> = mesh.iter_corners().collect();
         let mut items: Vec<(u32, DVec3)> =
@@ -66,7 +66,7 @@ impl<'a> Tracer<'a> {
         Self { mesh, nodes, order, corners }
     }
 
-    /// The first hit of a ray; the same answer as [`super::nearest`].
+    /// Returns the first hit of a ray, equal to [`super::nearest`].
     pub fn nearest(&self, ray: &Ray, sides: Sides) -> Option<NearestHit> {
         let (origin, direction) = (wide(ray.origin()), wide(ray.direction()));
         let probe = Probe { origin, direction, inverse: 1.0 / direction };
@@ -99,18 +99,18 @@ impl<'a> Tracer<'a> {
         shortlist.settle(self.mesh, ray, sides)
     }
 
-    /// The first hits of many rays, in parallel; the result does not depend on the number of threads.
+    /// Returns the first hits of many rays, in parallel; the result does not depend on the number of threads.
     pub fn nearest_all(&self, rays: &[Ray], sides: Sides) -> Vec<Option<NearestHit>> {
         rays.par_iter().with_min_len(CHUNK).map(|ray| self.nearest(ray, sides)).collect()
     }
 }
 
-/// The first hits of many rays, in parallel.
+/// Returns the first hits of many rays, in parallel.
 pub fn nearest_all(mesh: &Mesh, rays: &[Ray], sides: Sides) -> Vec<Option<NearestHit>> {
     Tracer::new(mesh).nearest_all(rays, sides)
 }
 
-/// Builds the node of `items`, which stand at `offset` in the whole order, and all below it.
+/// Builds the node of `items`, which start at `offset` in the whole order, and its subtree.
 fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], nodes: &mut Vec<BoxNode>) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for corner in items.iter().flat_map(|&(id, _)| corners[id as usize]).map(wide) {
@@ -133,7 +133,7 @@ fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], n
 }
 
 impl Probe {
-    /// A t not beyond the first at which the ray is inside the box (at least 0); `None` when it certainly never is.
+    /// Returns a lower bound (at least 0) of the t at which the ray enters the box; `None` if it certainly misses it.
     fn enter(&self, node: &BoxNode) -> Option<f64> {
         let (mut start, mut end) = (0.0_f64, f64::INFINITY);
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! The definitions of [`super`] evaluated in integers, without any filter.
+//! The definitions of [`super`] evaluated in integers, without a filter.
 
 use num_bigint::{BigInt, Sign};
 use num_traits::Zero;
@@ -8,7 +8,7 @@ use crate::geom::{Mesh, Ray};
 
 type IntegerVector = [BigInt; 3];
 
-/// A finite f32 as `mantissa * 2^exponent`.
+/// Decomposes a finite f32 into `mantissa * 2^exponent`.
 fn split(value: f32) -> (i64, i32) {
     let bits = value.to_bits();
     let field = (bits >> 23 & 0xff).cast_signed();
@@ -17,13 +17,13 @@ fn split(value: f32) -> (i64, i32) {
     (if bits >> 31 == 1 { -mantissa } else { mantissa }, exponent)
 }
 
-/// The smallest exponent among some numbers, zeros left out: 2^exponent divides them all.
+/// Smallest exponent among some numbers, zeros excluded: 2^exponent divides them all.
 fn common_exponent<'a>(values: impl IntoIterator<Item = &'a f32>) -> i32 {
     let parts = values.into_iter().map(|&value| split(value));
     parts.filter(|&(mantissa, _)| mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0)
 }
 
-/// `value / 2^exponent`, a whole number.
+/// Computes `value / 2^exponent`, an integer.
 fn whole(value: f32, exponent: i32) -> BigInt {
     let (mantissa, own) = split(value);
     if mantissa == 0 { BigInt::zero() } else { BigInt::from(mantissa) << (own - exponent).unsigned_abs() }
@@ -45,7 +45,7 @@ fn dot(a: &IntegerVector, b: &IntegerVector) -> BigInt {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-/// Where the ray hits the triangle, if it does. The corners must be finite.
+/// Intersects a ray with a triangle. The corners must be finite.
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     let (origin, direction) = (ray.origin(), ray.direction());
     let place = common_exponent(triangle.iter().flatten().chain(&origin));
@@ -81,7 +81,7 @@ pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<Ex
     ExactT::new(num, den)
 }
 
-/// The first hit among all triangles, with no filter and no tree: what the others are tested against.
+/// Returns the first hit among all triangles, without filter or tree: the reference that the others are tested against.
 pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     let mut first: Option<NearestHit> = None;
     for (triangle, corners) in (0..).zip(mesh.iter_corners()) {
@@ -95,7 +95,7 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
     first
 }
 
-/// Whether n = 0.
+/// Returns `true` if n = 0.
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
     let place = common_exponent(triangle.iter().flatten());
     let [a, b, c] = triangle.map(|corner| vector(corner, place));

@@ -3,7 +3,7 @@
 use super::super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 use super::super::display;
 
-/// Two pictures that have no samples to compare.
+/// Error: two pictures have no samples to compare.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -12,58 +12,58 @@ pub enum MismatchError {
     #[error("expected two pictures of one size, found {}x{} and {}x{}", left[0], left[1], right[0], right[1])]
     #[diagnostic(code(crossbar::picture::mismatch))]
     Size { left: [u32; 2], right: [u32; 2] },
-    /// One picture has a channel that the other has not.
+    /// One picture has a channel that the other lacks.
     #[error("expected the same channels in both pictures, found {left} and {right}")]
     #[diagnostic(code(crossbar::picture::mismatch), help("name those that both have with `--channel`"))]
     Channels { left: String, right: String },
-    /// A channel that was asked for is in neither or only one.
+    /// A requested channel is missing in one or both pictures.
     #[error("expected a channel `{name}` in both pictures, found {left} and {right}")]
     #[diagnostic(code(crossbar::picture::mismatch))]
     NoChannel { name: String, left: String, right: String },
-    /// A channel holds floats here and whole numbers there.
+    /// A channel holds floats in one picture and integers in the other.
     #[error("expected samples of one type in channel `{name}`, found floats and whole numbers")]
     #[diagnostic(code(crossbar::picture::mismatch))]
     Type { name: String },
 }
 
-/// Where two channels differ most.
+/// Position and values of the largest difference of two channels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WorstSample {
-    /// Pixels from the left.
+    /// Column, from the left.
     pub x: u32,
-    /// Pixels from the top.
+    /// Row, from the top.
     pub y: u32,
-    /// The sample of the first picture.
+    /// Sample of the first picture.
     pub left: f64,
-    /// The sample of the second.
+    /// Sample of the second picture.
     pub right: f64,
 }
 
-/// How two channels of a name differ. NaN equals NaN here, and both zeros are equal.
+/// Difference of two channels with the same name. NaN equals NaN, and -0 equals +0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChannelDifference {
-    /// The name.
+    /// Name of the channel.
     pub name: String,
-    /// Whether the samples are whole numbers: ids, of which only equality counts.
+    /// `true` if the samples are integers: ids, which are only compared for equality.
     pub whole: bool,
-    /// Samples that differ.
+    /// Number of samples that differ.
     pub differing: u64,
-    /// NaN samples of each picture.
+    /// Number of NaN samples in each picture.
     pub nan: [u64; 2],
-    /// Samples that differ and of which at least one is not finite.
+    /// Number of samples that differ and of which at least one is not finite.
     pub not_finite: u64,
-    /// Root of the mean squared difference, over samples that are finite in both.
+    /// Root mean squared difference, over samples that are finite in both.
     pub rmse: f64,
-    /// Mean of second minus first, over the same samples.
+    /// Mean of second minus first, over samples that are finite in both.
     pub mean: f64,
-    /// The largest absolute difference; infinite if one of two differing samples is not finite.
+    /// Largest absolute difference; infinite if one of two differing samples is not finite.
     pub maximum: f64,
-    /// Where that is, the first such place from the top; `None` if the channels are equal.
+    /// Position of the largest difference, the first from the top; `None` if the channels are equal.
     pub worst: Option<WorstSample>,
 }
 
 /// Compares the channels of two pictures, or only those that `names` lists, in the order of the first picture. Where
-/// one side is encoded for a screen and the other linear, the former is decoded.
+/// one side is sRGB-encoded and the other linear, the former is decoded.
 ///
 /// # Errors
 /// [`MismatchError`] if the pictures have no samples to compare.
@@ -72,7 +72,8 @@ pub fn channels(left: &Picture, right: &Picture, names: &[String]) -> Result<Vec
     Ok(pairs.into_iter().map(|pair| difference(pair, left.width())).collect())
 }
 
-/// Second minus first, sample by sample: of floats the difference, of whole numbers 1 where they differ, else 0.
+/// Computes second minus first, sample by sample: the difference of floats; for integers 1 where they differ, otherwise
+/// 0.
 ///
 /// # Errors
 /// [`MismatchError`], as [`channels`].
@@ -92,7 +93,7 @@ pub fn signed_differences(
     Ok(pairs(left, right, names)?.into_iter().map(signed).collect())
 }
 
-/// Channels of one name.
+/// Two channels with the same name.
 #[derive(Clone, Copy)]
 struct ChannelPair<'a> {
     left: &'a PictureChannel,

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-/// Numbers of a picture's pixels, rows from the top.
+/// Plane of one number per pixel, rows from the top.
 #[derive(Clone, Debug)]
 pub(super) struct PixelPlane {
     pub(super) width: usize,
@@ -10,8 +10,8 @@ pub(super) struct PixelPlane {
 }
 
 impl PixelPlane {
-    /// The sum of products with the weights around each pixel: first along rows, then along columns. Weights are odd in
-    /// number; outside the picture its border goes on.
+    /// Convolves with the weights around each pixel: first along rows, then along columns. The number of weights is
+    /// odd; outside the picture its border is repeated.
     pub(super) fn filtered(&self, along_rows: &[f64], along_columns: &[f64]) -> Self {
         let width = self.width.max(1);
         let last_row = (self.values.len() / width).saturating_sub(1);
@@ -38,13 +38,13 @@ fn weighted(weights: &[f64], at: impl Fn(usize) -> f64) -> f64 {
     weights.iter().enumerate().fold(0.0, |sum, (tap, weight)| sum + weight * at(tap))
 }
 
-/// `value` at -radius, ..., radius.
+/// Evaluates `value` at -radius, ..., radius.
 pub(super) fn taps(radius: u32, value: impl Fn(f64) -> f64) -> Vec<f64> {
     let radius = i64::from(radius);
     (-radius..=radius).map(|at| value(at as f64)).collect()
 }
 
-/// The weights divided by their sum.
+/// Divides the weights by their sum.
 pub(super) fn normalized(weights: &[f64]) -> Vec<f64> {
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|weight| weight / sum).collect()

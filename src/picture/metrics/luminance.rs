@@ -3,10 +3,10 @@
 use super::super::channels::Picture;
 use super::super::error::PictureError;
 
-/// Rec. 709's weights of red, green and blue.
+/// Rec. 709 luma weights of red, green and blue.
 pub(super) const WEIGHTS: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
-/// Second minus first, pixel by pixel, of the luminance times `exposure`; nothing is clipped.
+/// Computes second minus first, pixel by pixel, of the luminance times `exposure`, without clipping.
 ///
 /// # Errors
 /// [`PictureError::NoColor`] if a picture has neither `R`, `G` and `B` nor `Y`.
@@ -15,8 +15,8 @@ pub fn luminance_differences(first: &Picture, second: &Picture, exposure: f64) -
     Ok(pairs.map(|(a, b)| if a == b { 0.0 } else { exposure * (b - a) }).collect())
 }
 
-/// The same in shares of the first: -0.1 is a tenth darker. Where the first is black, 0 if the second is, else not
-/// finite.
+/// Computes the differences of luminance relative to the first picture: -0.1 is a tenth darker. Where the first is
+/// black, 0 if the second is black too, otherwise not finite.
 ///
 /// # Errors
 /// As [`luminance_differences`].

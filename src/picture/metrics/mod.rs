@@ -1,9 +1,9 @@
-//! How far two pictures are from each other: channel by channel in numbers, and as people see it.
+//! Picture metrics: differences channel by channel, and perceptual ones.
 //!
-//! [`channels`] compares samples. [`ssim`] and [`flip`] compare what a screen shows of both ([`ScreenPicture`]): SSIM
-//! the structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP what an observer notices who flips
-//! between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the same
-//! bits.
+//! [`channels`] compares samples. [`ssim`] and [`flip`] compare both as displayed ([`ScreenPicture`]): SSIM the
+//! structure of the luma (Wang, Bovik, Sheikh and Simoncelli, 2004), FLIP the difference noticed by an observer who
+//! flips between the two pictures (Andersson et al., 2020). All sums have a fixed order: the same pictures give the
+//! same bits.
 
 mod channel;
 mod filter;

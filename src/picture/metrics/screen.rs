@@ -1,4 +1,4 @@
-//! What a screen shows of a picture, in double precision.
+//! Pictures as displayed on a screen, in double precision.
 
 use super::super::channels::Picture;
 use super::super::display::{clip, curve};
@@ -14,7 +14,7 @@ pub struct ScreenPicture {
 }
 
 impl ScreenPicture {
-    /// Linear light times `exposure`; what is brighter than 1 is clipped, NaN is black.
+    /// Computes linear light times `exposure`, clipped at 1; NaN is black.
     ///
     /// # Errors
     /// [`PictureError::NoColor`] if the picture has neither `R`, `G` and `B` nor `Y`.
@@ -24,7 +24,7 @@ impl ScreenPicture {
         Ok(Self { width: picture.width() as usize, height: picture.height() as usize, linear })
     }
 
-    /// Rec. 709's weighted sum of the values that a screen is sent, through the sRGB curve.
+    /// Luma: Rec. 709 weighted sum of the sRGB-encoded channels.
     pub fn luma(&self) -> Vec<f64> {
         let luma = |pixel: &[f64; 3]| [0, 1, 2].iter().map(|&c| WEIGHTS[c] * curve(pixel[c])).sum();
         self.linear.iter().map(luma).collect()

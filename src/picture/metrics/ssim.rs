@@ -4,16 +4,16 @@
 use super::filter::{PixelPlane, normalized, taps};
 use super::screen::ScreenPicture;
 
-/// Pixels along a side of the window.
+/// Side of the window, in pixels.
 pub const WINDOW: usize = 11;
-/// Standard deviation of the Gaussian in it, in pixels.
+/// Standard deviation of its Gaussian, in pixels.
 const DEVIATION: f64 = 1.5;
-/// The paper's K1 and K2, squared, for values up to 1.
+/// Squares of the paper's K1 and K2, for values up to 1.
 const C1: f64 = 0.01 * 0.01;
 const C2: f64 = 0.03 * 0.03;
 
-/// The mean structural similarity of the luma over all windows that lie within the pictures: 1 for equal pictures,
-/// at least -1. `None` if the pictures are smaller than a window, or of different sizes.
+/// Mean structural similarity of the luma over all windows that lie within the pictures: 1 for equal pictures, at least
+/// -1. `None` if the pictures are smaller than a window, or of different sizes.
 pub fn ssim(left: &ScreenPicture, right: &ScreenPicture) -> Option<f64> {
     let (width, height) = (left.width, left.height);
     if (width, height) != (right.width, right.height) || width.min(height) < WINDOW {
@@ -62,7 +62,7 @@ mod tests {
         assert!(ssim(&one, &negative).is_some_and(|similarity| similarity < -0.5), "what is inverted is unlike");
     }
 
-    /// Without any structure only the term of the means is left.
+    /// Without structure only the term of the means remains.
     #[test]
     fn two_greys_are_as_alike_as_the_formula_says() {
         let (a, b) = (0.25, 0.75);

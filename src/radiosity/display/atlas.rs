@@ -18,24 +18,24 @@ use crate::radiosity::{Patch, Patches};
 pub struct RadiosityAtlas {
     atlas: Atlas,
     mesh: Mesh,
-    /// Per triangle its patch, and which of the patch's corners are its own.
+    /// Per triangle its patch, and the indices of the patch's corners that are its own.
     of_face: Vec<(u32, [u8; 3])>,
 }
 
-/// How much light a texture of the atlas holds, and how much it should.
+/// Total power stored in a texture of the atlas, and its exact value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtlasPower {
     /// Radiosity times area, summed over texels: red, green, blue.
     pub held: [f64; 3],
-    /// The same over patches, each in its constant radiosity.
+    /// Radiosity times area, summed over patches of constant radiosity.
     pub exact: [f64; 3],
-    /// By how much the two differ at most, but for rounding: areas times the largest difference between a patch and
+    /// Bound on the difference of the two, except for rounding: areas times the largest difference between a patch and
     /// one of its corners.
     pub bound: [f64; 3],
 }
 
 impl RadiosityAtlas {
-    /// An atlas of so many texels along a side, a power of two.
+    /// Creates an atlas of `side` texels along a side, a power of two.
     ///
     /// # Errors
     /// [`AtlasError`] if there are fewer texels than triangles, or the side is none of an atlas.
@@ -58,12 +58,12 @@ impl RadiosityAtlas {
         &self.atlas
     }
 
-    /// The triangles that it is of.
+    /// Triangles of the atlas.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The patch that a triangle is a part of.
+    /// Returns the patch that a triangle is a part of.
     ///
     /// # Panics
     /// If there is no such triangle.
@@ -71,7 +71,8 @@ impl RadiosityAtlas {
         self.of_face[triangle as usize].0
     }
 
-    /// Texels, row by row: means of the radiosity interpolated between corners. What is the same everywhere stays so.
+    /// Computes the texels, row by row: means of the radiosity interpolated between corners. Constant radiosity stays
+    /// constant.
     ///
     /// # Panics
     /// If there is not one radiosity a patch.
@@ -84,7 +85,7 @@ impl RadiosityAtlas {
             let weights = place.mean_weights(low, low.map(|at| at + 1.0));
             let (patch, own) = self.of_face[texel.face as usize];
             let [a, b, c] = own.map(|corner| corners[patch as usize][usize::from(corner)]);
-            // From the first corner on, so that equal corners give no rounding.
+            // Relative to the first corner, so that equal corners give no rounding error.
             [0, 1, 2].map(|channel| {
                 a[channel] + weights[1] * (b[channel] - a[channel]) + weights[2] * (c[channel] - a[channel])
             })
@@ -92,8 +93,8 @@ impl RadiosityAtlas {
         self.atlas.texels().iter().enumerate().map(texel).collect()
     }
 
-    /// A texture's value at a point of a triangle, by the weights of the triangle's corners: bilinear between texels of
-    /// the triangle alone.
+    /// Samples a texture at a point of a triangle, given by barycentric weights: bilinear, between texels of the
+    /// triangle alone.
     ///
     /// # Panics
     /// If there is no such triangle, or not a value per texel.
@@ -103,7 +104,7 @@ impl RadiosityAtlas {
         let place = &self.atlas.places()[triangle as usize];
         let [x, y] = place.coordinates(weights);
         let [left, top, right, bottom] = place.bounds();
-        // Whole and broken part of the way from the middle of one texel to the next.
+        // Integer and fractional position between texel centers.
         let split = |at: f64, low: f64, high: f64, texels: u32| {
             let at = at.clamp(low, high) - low;
             let whole = (at as u32).min(texels.saturating_sub(2));
@@ -122,7 +123,7 @@ impl RadiosityAtlas {
         })
     }
 
-    /// The value at a point of a triangle's plane.
+    /// Samples a texture at a point of a triangle's plane.
     ///
     /// # Panics
     /// As [`Self::read`].
@@ -130,7 +131,7 @@ impl RadiosityAtlas {
         self.read(texels, triangle, weights(self.atlas.corners(triangle), point))
     }
 
-    /// How much light some texels hold, beside that of the patches. What covers a patch in part hides none of it here.
+    /// Computes the power in a texture, and that of the patches. Partly covered patches count whole.
     ///
     /// # Panics
     /// If there is not one radiosity a patch, or not a value per texel.
@@ -158,7 +159,7 @@ fn sum(parts: impl Iterator<Item = [f64; 3]>) -> [f64; 3] {
     parts.fold([0.0; 3], |sum, part| [sum[0] + part[0], sum[1] + part[1], sum[2] + part[2]])
 }
 
-/// The weights of a triangle's corners at a point of its plane.
+/// Barycentric weights of a point in a triangle's plane.
 fn weights([a, b, c]: [DVec3; 3], at: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let share = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / normal.length_squared();

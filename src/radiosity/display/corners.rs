@@ -9,18 +9,18 @@ use glam::DVec3;
 /// Patches whose normals are farther apart than this (a cosine) do not share their corners: about 26 degrees.
 const CREASE: f64 = 0.9;
 
-/// Which patches a corner's radiosity is the mean of.
+/// Sets of patches whose mean is the radiosity of a corner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CornerSets {
-    /// Each different set of patches, in rising order, never empty.
+    /// Each distinct set of patches, in ascending order, never empty.
     pub(super) sets: Vec<Vec<u32>>,
-    /// Of each corner of each patch the place of its set; a triangle's fourth is 0.
+    /// Index of the set of each corner of each patch; a triangle's fourth is 0.
     pub(super) of: Vec<[u32; 4]>,
 }
 
 impl CornerSets {
-    /// At each corner of each patch the patches of one material that meet there, are not across an edge, and are not
-    /// covered.
+    /// Collects, at each corner of each patch, the patches of one material that meet there, are not across an edge, and
+    /// are not covered.
     pub(super) fn new(patches: &Patches) -> Self {
         let list = patches.list();
         let mut meeting: BTreeMap<[u32; 3], Vec<u32>> = BTreeMap::new();
@@ -39,7 +39,7 @@ impl CornerSets {
             };
             for (&corner, of) in patch.corners().iter().zip(of) {
                 let mut set: Vec<u32> = meeting[&place(corner)].iter().copied().filter(smooth).collect();
-                // What is covered altogether is dark and out of sight: it counts only where there is nothing else.
+                // Fully covered patches are dark and invisible: they count only where there is nothing else.
                 if set.iter().any(|&j| !covered[j as usize]) {
                     set.retain(|&j| !covered[j as usize]);
                 }
@@ -53,9 +53,9 @@ impl CornerSets {
     }
 }
 
-/// The radiosity at each corner of each patch: the mean over the patches of one material that meet there and are not
-/// across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do not count.
-/// A radiosity that is the same everywhere stays the same.
+/// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there and
+/// are not across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do
+/// not count. Constant radiosity stays constant.
 ///
 /// # Panics
 /// If there is not one radiosity a patch.
@@ -71,7 +71,7 @@ pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]
     corners.zip(&of).map(|(count, of)| of[..count].iter().map(|&set| means[set as usize]).collect()).collect()
 }
 
-/// Corners of neighbours agree in f32; both zeros are one place.
+/// Key of a corner: neighbours agree in f32, and -0 equals +0.
 pub(super) fn place(corner: DVec3) -> [u32; 3] {
     narrow(corner).map(|x| (x + 0.0).to_bits())
 }

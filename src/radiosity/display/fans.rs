@@ -11,10 +11,11 @@ use crate::geom::vector::wide;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// Corners this near to a side lie on it, relative to the scene's diagonal: what f32 corners need.
+/// Maximum distance of a corner from a side that it lies on, relative to the scene's diagonal: the precision of f32
+/// corners.
 const ON_SIDE: f64 = 1e-6;
 
-/// A point of a patch with its coordinates in it.
+/// Point of a patch with its coordinates in the patch.
 pub(super) type FanVertex = (DVec3, [f64; 2]);
 
 type SnappedCorner = [u32; 3];
@@ -35,14 +36,14 @@ fn sides(patch: &Patch) -> impl Iterator<Item = [DVec3; 2]> + '_ {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]])
 }
 
-/// A side, regardless of its direction.
+/// Key of a side, regardless of its direction.
 fn key(side: [DVec3; 2]) -> [SnappedCorner; 2] {
     let mut ends = side.map(place);
     ends.sort_unstable();
     ends
 }
 
-/// The triangles of each patch on whose sides others have corners; `None` for a patch that is drawn as it is.
+/// Returns the fan of each patch on whose sides others have corners; `None` for a patch that is drawn as it is.
 pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     let loose = loose_sides(patches);
     let ends: BTreeSet<SnappedCorner> = loose.iter().flatten().copied().collect();
@@ -67,7 +68,7 @@ pub(super) fn fans(patches: &Patches) -> Vec<Option<Vec<[FanVertex; 3]>>> {
     patches.list().iter().map(outline).collect()
 }
 
-/// The parameter in (0, 1) of a point on a side; `None` if it is not on it.
+/// Returns the parameter in (0, 1) of a point on a side; `None` if it is not on it.
 fn share(point: DVec3, [a, b]: [DVec3; 2], near: f64) -> Option<f64> {
     let (along, to) = (b - a, point - a);
     let t = to.dot(along) / along.dot(along);
@@ -85,7 +86,7 @@ fn fan(patch: &Patch, outline: &[FanVertex]) -> Vec<[FanVertex; 3]> {
     (0..outline.len()).map(|i| [(middle, inside), outline[i], next(i)]).collect()
 }
 
-/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the shares of its second
+/// Coordinates of a patch's corners in it: of a quadrilateral along two sides, of a triangle the weights of its second
 /// and third corner.
 pub(super) fn in_patch(patch: &Patch) -> [[f64; 2]; 4] {
     let [b, c] = [[1.0, 0.0], [0.0, 1.0]];

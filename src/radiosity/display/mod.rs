@@ -33,8 +33,8 @@ pub use resample::VectorTexture;
 pub struct DisplayOptions {
     /// The layout of the radiosities in their texture.
     pub vector: VectorTexture,
-    /// The target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
-    /// [`TexelFormat::Rgba32f`] keeps all.
+    /// Format of the target: [`TexelFormat::Bgra8`] clamps to 0 to 1 in 8 bits, as a screen of the time;
+    /// [`TexelFormat::Rgba32f`] stores all values.
     pub target: TexelFormat,
 }
 
@@ -64,12 +64,13 @@ pub struct Display {
     id: CheckedProgram,
     resampler: Resampler,
     target: NearestTarget,
-    /// With the same depth buffer.
+    /// Target of the patch numbers, with the same depth buffer.
     ids: NearestTarget,
 }
 
 impl Display {
-    /// Projects the patches, uploads which of them meet at corners, and makes targets of the camera's size.
+    /// Projects the patches, uploads the sets of patches that meet at corners, and creates targets of the camera's
+    /// size.
     ///
     /// # Errors
     /// [`DrawError`] if the card has no fragment programs, or its targets are too small.
@@ -98,7 +99,7 @@ impl Display {
         Ok(Self { patches: patches.list().len(), options, shapes, flat, id, resampler, target, ids })
     }
 
-    /// Radiosities of the host as a texture to draw from, one per patch.
+    /// Uploads radiosities of the host, one per patch, as a texture to draw from.
     ///
     /// # Errors
     /// [`DrawError`] if there is not one per patch, or the card's textures are too small.
@@ -115,7 +116,8 @@ impl Display {
         Ok(vector.upload(machine, TexelFormat::Rgba32f)?)
     }
 
-    /// Each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity over pi.
+    /// Draws each patch in its constant radiosity. A pixel is `exposure` times the radiance, which is the radiosity
+    /// over pi.
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
@@ -124,7 +126,7 @@ impl Display {
         self.picture(machine)
     }
 
-    /// Each patch interpolated between radiosities at its corners, resampled by the card; exposure as with
+    /// Draws each patch interpolated between radiosities at its corners, resampled by the card; exposure as with
     /// [`Display::flat`].
     ///
     /// # Errors
@@ -135,7 +137,7 @@ impl Display {
         self.picture(machine)
     }
 
-    /// The patch whose front each pixel shows, if any; rows from the top.
+    /// Draws the patch whose front each pixel shows, if any; rows from the top.
     ///
     /// # Errors
     /// [`DrawError`] if the card refuses.
@@ -176,7 +178,7 @@ impl Display {
     }
 }
 
-/// Makes the vertices of patches.
+/// Builder of the vertices of patches.
 struct VertexBuilder<'a> {
     patches: &'a Patches,
     camera: &'a Camera,
@@ -186,7 +188,7 @@ struct VertexBuilder<'a> {
 }
 
 impl VertexBuilder<'_> {
-    /// The vertices of all patches that are in the picture: of quadrilaterals, of their fans, of triangles and their
+    /// Returns the vertices of all patches in the picture: of quadrilaterals, of their fans, of triangles and their
     /// fans.
     fn vertices(&self) -> [Vec<Vertex>; 3] {
         let list = self.patches.list();
@@ -207,7 +209,7 @@ impl VertexBuilder<'_> {
         vertices
     }
 
-    /// A vertex with the texels of its patch and of the patch's corners.
+    /// Adds the texels of a patch and of its corners to a vertex.
     fn dressed(&self, mut vertex: Vertex, patch: usize, code: f64) -> Vertex {
         let [[ax, ay], [bx, by], [cx, cy], [dx, dy]] = self.corner_sets.of[patch].map(|set| self.resampler.texel(set));
         let [x, y] = self.vector.texel(patch);

@@ -1,4 +1,4 @@
-//! Resampling of radiosities from patches to corners by fragment passes, which interpolation needs.
+//! Resampling of radiosities from patches to corners by fragment passes, which smooth display requires.
 
 use refsim::exec::{CheckedProgram, Constants};
 use refsim::machine::{Machine, TextureId};
@@ -10,7 +10,7 @@ use crate::card::{FullScreenPass, PingPong, Texels, nearest};
 use crate::radiosity::draw::{DrawError, bits};
 use crate::radiosity::kernels;
 
-/// Texels across, at most.
+/// Maximum width in texels.
 const WIDTH: usize = 512;
 /// Patches per pass.
 const PER_PASS: usize = 4;
@@ -32,7 +32,8 @@ impl VectorTexture {
         if self == Self::Row { [at, 0.5] } else { [0.5, at] }
     }
 
-    /// p[0], p[1] of the resampling program: a number + 1/2 times the first plus the second is the texel.
+    /// Constants p[0], p[1] of the resampling program: (number + 1/2) times the first plus the second is the texel
+    /// coordinate.
     fn constants(self) -> [[u32; 4]; 2] {
         let [step, start] = if self == Self::Row { [[1.0, 0.0], [0.0, 0.5]] } else { [[0.0, 1.0], [0.5, 0.0]] };
         [step, start].map(|[x, y]| bits([x, y, 0.0, 0.0]))
@@ -45,13 +46,13 @@ pub(super) struct Resampler {
     program: CheckedProgram,
     constants: Constants,
     size: [u32; 2],
-    /// Numbers and weights of each pass.
+    /// Textures of patch numbers and weights of each pass.
     passes: Vec<[TextureId; 2]>,
     means: PingPong,
 }
 
 impl Resampler {
-    /// Uploads which patches meet where.
+    /// Uploads the sets of patches that meet at corners.
     pub(super) fn new(
         machine: &mut Machine,
         corner_sets: &CornerSets,
@@ -86,14 +87,14 @@ impl Resampler {
         Ok(self.means.read_by(self.passes.len()))
     }
 
-    /// The texel of a set of patches.
+    /// Texel coordinates of a set of patches.
     pub(super) fn texel(&self, set: u32) -> [f64; 2] {
         let [width, _] = self.size;
         [set % width, set / width].map(|at| f64::from(at) + 0.5)
     }
 }
 
-/// The numbers of the patches of a pass, and their weights.
+/// Uploads the numbers of the patches of a pass, and their weights.
 fn upload(
     machine: &mut Machine,
     sets: &[Vec<u32>],
@@ -103,7 +104,7 @@ fn upload(
     let mut values = [(); 2].map(|()| Texels::from_fn(size, |_, _| [0.0; 4]));
     for (texel, set) in sets.iter().enumerate() {
         let from = pass * PER_PASS;
-        // A number that counts for nothing is still read: one of the set's own, so that nothing foreign gets in.
+        // Numbers with weight 0 are still read: they repeat one of the set's own, so that no other value gets in.
         let number = |k: usize| (f64::from(set[(from + k).min(set.len() - 1)]) + 0.5) as f32;
         let weight = |k: usize| if from + k < set.len() { (1.0 / (from + k + 1) as f64) as f32 } else { 0.0 };
         values[0].texels[texel] = [0, 1, 2, 3].map(number);

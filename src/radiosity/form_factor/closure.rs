@@ -4,9 +4,9 @@ use rayon::prelude::*;
 
 use super::{FormFactorError, FormFactors, mirror};
 
-/// Rounds of scaling before giving up; each halves the logarithm of what is left, or better.
+/// Maximum number of rounds of scaling; each halves the logarithm of the remaining error, or better.
 const MAX_ROUNDS: u32 = 500;
-/// Rows within this of 1 count as scaled.
+/// Tolerance within which a row sum counts as 1.
 const SCALED: f64 = 1e-13;
 
 /// Statistics of the row sums.
@@ -16,10 +16,10 @@ pub struct RowSums {
     pub least: f64,
     /// The largest sum.
     pub most: f64,
-    /// The fraction of the light leaving patches that leaves the room: 1 minus the mean sum, weighted with the
-    /// areas. Blind patches do not count, unless all are blind.
+    /// The fraction of the light leaving patches that leaves the room: 1 minus the mean sum, weighted with the areas.
+    /// Blind patches are excluded unless all are blind.
     pub escaping: f64,
-    /// Patches that see nothing at all, such as those under a block.
+    /// Number of patches that see nothing at all, such as those under a block.
     pub blind: usize,
 }
 
@@ -65,7 +65,7 @@ impl FormFactors {
     pub fn require_closed(&self, tolerance: f64) -> Result<(), FormFactorError> {
         let sums = self.row_sums();
         let blind = sums.iter().filter(|&&sum| sum == 0.0).count();
-        // A sum that is no number is not closed either.
+        // A NaN sum is not closed either.
         let closed = sums.iter().filter(|&&sum| (sum - 1.0).abs() <= tolerance).count();
         let all_blind = blind > 0 && blind == sums.len();
         let open = if all_blind { blind } else { sums.len() - closed - blind };

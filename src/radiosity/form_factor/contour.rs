@@ -12,9 +12,9 @@ use crate::geom::vector::unit;
 use crate::quadrature::EIGHT;
 use glam::DVec3;
 
-/// Sides with a smaller cosine between them contribute nothing.
+/// Maximum cosine between sides that contribute nothing.
 const ACROSS: f64 = 1e-14;
-/// Sides are on one line if they are no farther from it than this, relative to their length.
+/// Maximum distance of sides on one line from it, relative to their length.
 const ON_LINE: f64 = 1e-9;
 
 /// A side of a polygon.
@@ -54,7 +54,7 @@ fn logarithm_between(a: &BoundaryEdge, b: &BoundaryEdge) -> f64 {
     let (near, far) = (a.seen_from(b.start), a.seen_from(b.end()));
     let off = ON_LINE * a.length.max(b.length);
     if near[1] <= off && far[1] <= off {
-        // The integral does not ask which way b runs.
+        // The integral does not depend on the direction of b.
         return on_one_line(a.length, near[0].min(far[0]), near[0].max(far[0]));
     }
     let inner = |t: f64| {
@@ -62,7 +62,7 @@ fn logarithm_between(a: &BoundaryEdge, b: &BoundaryEdge) -> f64 {
         from_point(a.length - along, away) - from_point(-along, away)
     };
     let sum = |value: &dyn Fn(f64) -> f64| EIGHT.iter().map(|&(t, weight)| weight * value(t)).sum::<f64>();
-    // From where sides meet the inner integral goes like s ln s: points gather there, so that eight are enough.
+    // Near a common corner the inner integral varies like s ln s: points are denser there, so that eight suffice.
     b.length
         * match [near, far].map(|[along, away]| away <= off && along >= -off && along <= a.length + off) {
             [true, _] => sum(&|t| 2.0 * t * inner(t * t)),
@@ -80,7 +80,8 @@ impl BoundaryEdge {
         self.at(1.0)
     }
 
-    /// A point relative to this side: its distance along the line from the start, and its distance from the line.
+    /// Coordinates of a point relative to this side: its distance along the line from the start, and its distance from
+    /// the line.
     fn seen_from(&self, point: DVec3) -> [f64; 2] {
         let to = point - self.start;
         let along = to.dot(self.direction);

@@ -7,15 +7,15 @@ use crate::quadrature::{FIVE, GaussPoint, THREE};
 use crate::radiosity::Patch;
 use glam::DVec3;
 
-/// Patches whose centres are farther apart than this many times the sum of their radii take three Gauss points per
-/// direction.
+/// Ratio of the distance between centres to the sum of radii above which three Gauss points per direction suffice.
 const FAR: f64 = 8.0;
-/// Between this and [`FAR`] they take five; nearer, the contour integral.
+/// Ratio above which five Gauss points suffice; below it, the contour integral is used.
 const NEAR: f64 = 3.0;
-/// Corners may lie this far behind a plane, relative to the patch's radius, and still count as in front of it or on it.
+/// Tolerance behind a plane, relative to the patch's radius, within which corners still count as in front of it or on
+/// it.
 const ON_PLANE: f64 = 1e-9;
 
-/// A patch with the points at which its far field is integrated.
+/// Patch with the quadrature points of its far field.
 #[derive(Clone, Debug)]
 pub(super) struct QuadraturePatch<'a> {
     pub(super) patch: &'a Patch,
@@ -43,14 +43,14 @@ fn points(patch: &Patch, rule: &[GaussPoint]) -> Vec<WeightedPoint> {
     points
 }
 
-/// Whether two patches can see each other.
+/// Mutual orientation of two patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Facing {
-    /// All of each is in front of the other.
+    /// Each lies wholly in front of the other.
     Wholly,
     /// The plane of one cuts the other.
     Partly,
-    /// One is behind the other.
+    /// One lies behind the other.
     Not,
 }
 

@@ -39,11 +39,11 @@ pub struct FormFactors {
 }
 
 impl FormFactors {
-    /// Form factors from a matrix with F_ij in row i, column j.
+    /// Creates form factors from a matrix with F_ij in row i, column j.
     ///
     /// # Errors
     /// [`FormFactorError`] if the matrix is not square, there is not one positive area per row, or a form factor is
-    /// negative or no number.
+    /// negative or NaN.
     pub fn from_values(areas: Vec<f64>, matrix: Matrix) -> Result<Self, FormFactorError> {
         let [rows, columns] = [matrix.row_count(), matrix.column_count()];
         if !matrix.is_square() {
@@ -63,7 +63,8 @@ impl FormFactors {
         Ok(Self { areas, matrix })
     }
 
-    /// Without occlusion: exact for convex rooms, and the first step for others. Reciprocal to one ULP.
+    /// Computes form factors without occlusion: exact for convex rooms, and the first step for others. Reciprocal to
+    /// one ULP.
     ///
     /// # Errors
     /// [`FormFactorError::Size`] for too many patches.
@@ -71,8 +72,9 @@ impl FormFactors {
         Ok(Self::from_exchanges(patches.areas(), exchanges(patches)?))
     }
 
-    /// With occlusion: each unoccluded form factor times the weighted fraction of unoccluded sample rays. `caster`
-    /// traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done and of all pairs.
+    /// Computes form factors with occlusion: each unoccluded form factor times the weighted fraction of unoccluded
+    /// sample rays. `caster` traces [`Patches::mesh`] from both sides. `done` is called with the number of pairs done
+    /// and of all pairs.
     ///
     /// # Errors
     /// [`FormFactorError`] for too many patches, no samples, or rays that the ray caster fails on.
@@ -87,24 +89,24 @@ impl FormFactors {
         Ok(Self::from_exchanges(patches.areas(), exchanges))
     }
 
-    /// From the exchanges above the diagonal.
+    /// Completes the matrix from the exchanges above the diagonal.
     fn from_exchanges(areas: Vec<f64>, mut matrix: Matrix) -> Self {
         mirror(&mut matrix);
         matrix.par_rows_mut().zip(&areas).for_each(|(row, area)| row.iter_mut().for_each(|x| *x /= area));
         Self { areas, matrix }
     }
 
-    /// The number of patches.
+    /// Number of patches.
     pub fn len(&self) -> usize {
         self.areas.len()
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no patches.
     pub fn is_empty(&self) -> bool {
         self.areas.is_empty()
     }
 
-    /// The areas of the patches: of their open parts, see [`Patches::areas`].
+    /// Areas of the patches: of their open parts, see [`Patches::areas`].
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
@@ -115,7 +117,7 @@ impl FormFactors {
     }
 }
 
-/// Area times form factor of the open parts of every two patches, above the diagonal, with nothing between them.
+/// Computes area times form factor of the open parts of every two patches, above the diagonal, without occlusion.
 fn exchanges(patches: &Patches) -> Result<Matrix, FormFactorError> {
     let parts = |i| patches.open_parts(i).iter().map(QuadraturePatch::new).collect();
     let list: Vec<Vec<QuadraturePatch<'_>>> = (0..patches.list().len()).map(parts).collect();

@@ -9,10 +9,10 @@ use std::f64::consts::PI;
 
 use crate::elementary::{atan2, ln};
 
-/// An interval, low end first.
+/// Interval: low end, high end.
 pub type Interval = [f64; 2];
 
-/// A number with an error bound.
+/// Number with an error bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded {
     /// The computed number.
@@ -21,10 +21,11 @@ pub struct Bounded {
     pub error: f64,
 }
 
-/// Roundings between the corners and the sum: 12 in a term, 16 in adding up; in units of 2^-53.
+/// Bound on the number of roundings between the corners and the sum: 12 in a term, 16 in adding up; in units of 2^-53.
 const ROUNDINGS: f64 = 28.0;
 
-/// From the rectangle `one` (x and y intervals) at z = 0 to the rectangle `other` at height `apart`, above 0.
+/// Form factor from the rectangle `one` (x and y intervals) at z = 0 to the rectangle `other` at height `apart`, above
+/// 0.
 pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded {
     let part = |u: f64, v: f64| {
         let away = (v * v + apart * apart).sqrt();
@@ -37,8 +38,8 @@ pub fn parallel(one: [Interval; 2], other: [Interval; 2], apart: f64) -> Bounded
     })
 }
 
-/// From a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it, `other` at
-/// `up` (intervals that may begin at 0); each runs along y over an interval.
+/// Form factor from a rectangle to one at right angles. Both planes meet in the y axis: `one` is at `out` from it,
+/// `other` at `up` (intervals that may begin at 0); each extends along y over an interval.
 pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounded {
     corner_sum([out, y], [up, y2], |x, y, z, y2| {
         let (square, v) = (x * x + z * z, y - y2);
@@ -49,9 +50,9 @@ pub fn perpendicular([out, y]: [Interval; 2], [up, y2]: [Interval; 2]) -> Bounde
     })
 }
 
-/// The signed sum of a corner function over all corners, over 2 pi and the area of the first; with a bound on the
-/// rounding error. The function gives its terms, and what stands before its logarithm: near 1 a logarithm's rounding
-/// is not in proportion to it.
+/// Signed sum of a corner function over all corners, divided by 2 pi and the area of the first rectangle, with a bound
+/// on the rounding error. The function returns its terms and the factor of its logarithm: near 1 the rounding error of
+/// a logarithm is not proportional to it.
 fn corner_sum(
     one: [Interval; 2],
     other: [Interval; 2],

@@ -18,11 +18,11 @@ use crate::tracer::offset::scene_clearance;
 /// Parameters of the visibility estimate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilityParameters {
-    /// Strata along a side of a patch: the square of this many rays per pair. At least 1.
+    /// Strata along a side of a patch, at least 1: the square of this many rays per pair.
     pub side: u32,
     /// Random seed.
     pub seed: u64,
-    /// Rays traced at a time, approximately.
+    /// Approximate number of rays traced at a time.
     pub bundle: usize,
 }
 
@@ -32,16 +32,16 @@ impl Default for VisibilityParameters {
     }
 }
 
-/// A ray between two patches with its weight.
+/// Ray between two patches with its weight.
 #[derive(Clone, Copy, Debug)]
 struct VisibilitySample {
     weight: f64,
     ray: Option<Ray>,
-    /// Hits from here on are at the far end.
+    /// Parameter from which a hit counts as the far end.
     arrives: f32,
 }
 
-/// Multiplies the factors above the diagonal with the visible fraction.
+/// Multiplies the factors above the diagonal by the visible fraction.
 pub(super) fn hide(
     patches: &Patches,
     factors: &mut Matrix,
@@ -73,8 +73,8 @@ pub(super) fn hide(
     Ok(())
 }
 
-/// The rays of a pair: a jittered point in each stratum of what is open of one patch, each with one of a stratum of the
-/// other, assigned at random.
+/// Generates the rays of a pair: a jittered point in each stratum of the open parts of one patch, each with one of a
+/// stratum of the other, assigned at random.
 fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters) -> Vec<VisibilitySample> {
     let pair = [i, j].map(|patch| &patches.list()[patch as usize]);
     let (random, index) = (CounterRng::new(parameters.seed), u64::from(i) << 32 | u64::from(j));
@@ -97,14 +97,14 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
     dealt
 }
 
-/// The ray from a point to another, and the share of the way after which a hit is at its end.
+/// Returns the ray from one point to another, and the parameter from which a hit is at its end.
 fn ray_between(start: DVec3, end: DVec3, lift: f64) -> (Option<Ray>, f32) {
     let to = end - start;
     let ray = Ray::new(narrow(start), narrow(to)).ok();
     (ray, (1.0 - 2.0 * lift / to.length()) as f32)
 }
 
-/// The unoccluded fraction of the samples' weight; takes a hit for each ray.
+/// Unoccluded fraction of the samples' weight; consumes one hit per ray.
 fn share(
     patches: &Patches,
     faces: [u32; 2],
@@ -125,7 +125,7 @@ fn share(
     if open == all { 1.0 } else { open / all }
 }
 
-/// The visible fraction of each target patch, seen from a point with a normal.
+/// Visible fraction of each target patch, seen from a point with a normal.
 pub(in crate::radiosity) fn point_share(
     patches: &Patches,
     [point, normal]: [DVec3; 2],

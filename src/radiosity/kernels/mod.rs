@@ -1,6 +1,5 @@
-//! The fragment programs of matrix radiosity as text. Solver programs are written for a block of one texel; the
-//! marked part is repeated for each texel of a block, since these programs have no loops. Display programs are
-//! complete.
+//! The fragment programs of matrix radiosity as text. Solver programs are written for a block of one texel; the marked
+//! part is unrolled for each texel of a block, since these programs have no loops. Display programs are complete.
 
 use super::packing::Packing;
 use crate::card::{KernelText, kernels};

@@ -11,33 +11,33 @@ use super::{CardError, CardSolver};
 /// The state of an iteration: red, green and blue of each patch.
 type Radiosities = [[f32; 3]];
 
-/// States that repeat for ever, bit for bit: as far as the card's number format converges.
+/// Cycle of states that repeats for ever, bit for bit: the limit of convergence in the card's number format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Iterations after which the first state of the cycle was reached; with [`super::CardOptions::check_every`]
-    /// above 1, the first that was read back.
+    /// Iterations until the first state of the cycle; with [`super::CardOptions::check_every`] above 1, until the first
+    /// that was read back.
     pub entered: u32,
-    /// The fewest iterations after which every bit is as it was; 1 is a fixed point.
+    /// Period: the smallest number of iterations after which every bit is the same; 1 is a fixed point.
     pub period: u32,
-    /// How many values, of three a patch, an iteration changes at most; 0 at a fixed point.
+    /// Maximum number of values, of three per patch, changed by one iteration; 0 at a fixed point.
     pub changing: usize,
-    /// The largest change of a value in one iteration, as a share of the larger of the two.
+    /// Largest relative change of a value in one iteration, relative to the larger of the two.
     pub largest_change: f64,
 }
 
 impl Cycle {
-    /// Whether no iteration changes a bit.
+    /// Returns `true` if no iteration changes a bit.
     pub fn is_fixed_point(&self) -> bool {
         self.period == 1
     }
 }
 
-/// The digests of the states read back, and after which iteration each came first.
+/// Digests of the states read back, each with the iteration of its first occurrence.
 #[derive(Debug, Default)]
 pub(super) struct SeenStates(BTreeMap<u64, u32>);
 
 impl SeenStates {
-    /// Adds a state. Returns the iteration after which one of the same digest was added, if one was.
+    /// Adds a state. Returns the iteration of an earlier state with the same digest, if there is one.
     pub(super) fn note(&mut self, state: &Radiosities, number: u32) -> Option<u32> {
         let first = *self.0.entry(digest(state)).or_insert(number);
         (first < number).then_some(first)
@@ -52,8 +52,8 @@ fn digest(state: &Radiosities) -> u64 {
 }
 
 impl CardSolver {
-    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not: the
-    /// card then holds `start` again.
+    /// Iterates from `start`, which is on the card, at most `most` times until it repeats. `None` if it does not
+    /// repeat; the card then holds `start` again.
     pub(super) fn around(
         &mut self,
         start: &Radiosities,
@@ -68,7 +68,7 @@ impl CardSolver {
             let (mut changing, mut largest) = (0, cycle.largest_change);
             for (&a, &b) in changes {
                 let (a, b) = (f64::from(a), f64::from(b));
-                // From one zero to the other is a change of bits, but not of value.
+                // A change between +0 and -0 changes the bits, but not the value.
                 let size = a.abs().max(b.abs()).max(f64::MIN_POSITIVE);
                 (changing, largest) = (changing + 1, largest.max((a - b).abs() / size));
             }

@@ -8,23 +8,23 @@ use thiserror::Error;
 use crate::card::KernelError;
 use crate::radiosity::packing::TooLarge;
 
-/// Why a card does not solve a system.
+/// Error of solving a system on a card.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CardError {
-    /// The card's shader versions have no program of this length; `why`, if that is known.
+    /// The device has no shader version for programs of this length; `why` gives the reason, if known.
     #[error(
         "device `{device}` runs no `!!FP1.0` programs, in which the passes are written{why}; expected one of {have}"
     )]
     NoPrograms { device: String, why: String, have: String },
-    /// A texture that the card does not have.
+    /// A texture exceeds the card's maximum size.
     #[error("device `{device}`: {problem}")]
     TooLarge { device: String, problem: TooLarge },
     /// The device refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
-    /// A size that differs from that of the system on the card.
+    /// A size differs from that of the system on the card.
     #[error("expected {expected} {what}, found {found}")]
     Size { what: &'static str, expected: usize, found: usize },
     /// The iteration diverges.
@@ -36,7 +36,7 @@ pub enum CardError {
 }
 
 impl CardError {
-    /// For a device without programs of such length.
+    /// The error for a device without programs of such length.
     pub(super) fn no_programs(profile: &Profile) -> Self {
         let runs = |name: &&str| Profile::named(name).is_ok_and(|p| p.limits.versions.contains(&Version::Fp1_0));
         let mut have: Vec<&str> = Profile::card_names().into_iter().filter(runs).collect();

@@ -1,4 +1,4 @@
-//! Limits of a device on a system's programs and textures: texels of a block, texels of a side.
+//! Limits of a device on a system's programs and textures: texels per block, texels per side.
 
 use refsim::device::Profile;
 use refsim::isa::Version;
@@ -10,7 +10,7 @@ use crate::radiosity::kernels;
 use crate::radiosity::packing::{Packing, TooLarge};
 use crate::radiosity::{System, model};
 
-/// Texels per side where a device states no limit: the largest image there is.
+/// Maximum texels per side where a device states no limit: the largest image.
 const MAX_TEXELS: usize = 16384;
 
 /// The number format of textures and registers.
@@ -24,7 +24,7 @@ pub enum Storage {
 }
 
 impl Storage {
-    /// The format of matrices and vectors.
+    /// Texel format of matrices and vectors.
     pub fn format(self) -> TexelFormat {
         match self {
             Self::Fp32 => TexelFormat::Rgba32f,
@@ -36,14 +36,14 @@ impl Storage {
 /// The limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
-    /// Texels of a block: the most that a program of the device's length takes.
+    /// Texels per block: the maximum that a program of the device's length allows.
     pub block: usize,
-    /// The most texels that a side of matrix and vector can have.
+    /// Maximum number of texels along a side of matrix and vector.
     pub limit: usize,
 }
 
 impl Fit {
-    /// Of a device. A block is 254 texels on the paper's card.
+    /// Limits of a device. A block is 254 texels on the paper's card.
     ///
     /// # Errors
     /// [`CardError::NoPrograms`].
@@ -65,7 +65,7 @@ impl Fit {
         Err(too_large(profile, TooLarge { what: "a matrix", limit: self.limit, width, height }))
     }
 
-    /// A system in the layout of the device: one system of three channels, or three of one.
+    /// Lays out a system for the device: one system of three channels, or three of one.
     ///
     /// # Errors
     /// [`CardError::TooLarge`].
@@ -82,7 +82,7 @@ impl Fit {
     }
 }
 
-/// The most instructions of a program, and texels per side.
+/// Maximum number of instructions of a program, and of texels per side.
 pub(super) fn limits(profile: &Profile) -> Result<(usize, usize), CardError> {
     let limits = &profile.limits;
     if !limits.versions.contains(&Version::Fp1_0) {

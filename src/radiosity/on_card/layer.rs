@@ -16,7 +16,7 @@ pub(super) struct SystemLayout {
     pub(super) packing: Packing,
     pub(super) size: usize,
     pub(super) block: usize,
-    /// Texels of a vector, and of a matrix across.
+    /// Texels of a vector, and across a matrix.
     pub(super) width: usize,
     /// Rows of a matrix.
     pub(super) rows: usize,
@@ -29,7 +29,7 @@ impl SystemLayout {
         Self { packing, size, block, width: matrix.width, rows: matrix.height }
     }
 
-    /// Whether a texture is one of this system's vectors.
+    /// Checks that a texture is one of this system's vectors.
     pub(super) fn check_vector(&self, texels: &Texels) -> Result<(), CardError> {
         same("texels, as the card has", self.width, texels.texels.len())
     }
@@ -83,12 +83,12 @@ impl Layer {
         Ok(texels.update(machine, texture, self.storage.format())?)
     }
 
-    /// The texture into which a pass draws.
+    /// Texture that a pass draws into.
     pub(super) fn target(&self, pass: usize) -> TextureId {
         self.partial.written_by(pass)
     }
 
-    /// One pass of equation 4.
+    /// Draws one pass of equation 4.
     pub(super) fn pass(&self, machine: &mut Machine, programs: &Programs, number: usize) -> Result<(), CardError> {
         let Some(&pass) = programs.passes.get(number) else { return Ok(()) };
         match self.layout.packing {
@@ -99,7 +99,7 @@ impl Layer {
         }
     }
 
-    /// A quad over the target, whose fragments read the matrix `row` rows below their own.
+    /// Draws a quad over the target, whose fragments read the matrix `row` rows below their own.
     fn draw(
         &self,
         machine: &mut Machine,

@@ -34,11 +34,11 @@ use crate::card::Texels;
 use layer::{Layer, SystemLayout, same};
 use programs::Programs;
 
-/// What the sizes in messages count.
+/// Unit of the sizes in error messages.
 const PATCHES: &str = "patches, as the card has";
 const SYSTEMS: &str = "systems (RGB: one; luminance: one, or three for the channels)";
 
-/// A system on a card. Radiosities are 0 at first, and are kept when emittances or reflectances change.
+/// System on a card. Radiosities are initially 0, and are kept when emittances or reflectances change.
 #[derive(Debug)]
 pub struct CardSolver {
     machine: Machine,
@@ -50,7 +50,7 @@ pub struct CardSolver {
 }
 
 impl CardSolver {
-    /// Uploads a system: one texture of three matrices, or three textures of one.
+    /// Creates a solver and uploads a system: one texture of three matrices, or three textures of one.
     ///
     /// # Errors
     /// [`CardError::NoPrograms`], [`CardError::TooLarge`]; [`CardError::Machine`] if the device lacks the format, or
@@ -67,8 +67,8 @@ impl CardSolver {
         Self::of(profile, executor, &systems, storage)
     }
 
-    /// Uploads systems that are already in the card's layout: one, or three luminance systems of one size for the
-    /// three channels.
+    /// Creates a solver and uploads systems that are already in the card's layout: one, or three luminance systems of
+    /// one size for the three channels.
     ///
     /// # Errors
     /// As [`Self::new`]; [`CardError::Size`] for other numbers of systems or several of different sizes,
@@ -96,17 +96,17 @@ impl CardSolver {
         Ok(Self { machine, fit, layout, programs, layers })
     }
 
-    /// How elements lie in texels.
+    /// Layout of elements in texels.
     pub fn packing(&self) -> Packing {
         self.layout.packing
     }
 
-    /// How many patches.
+    /// Number of patches.
     pub fn len(&self) -> usize {
         self.layout.size
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no patches.
     pub fn is_empty(&self) -> bool {
         self.layout.size == 0
     }
@@ -121,7 +121,7 @@ impl CardSolver {
         &self.programs.list
     }
 
-    /// One iteration: all passes of all systems.
+    /// Runs one iteration: all passes of all systems.
     ///
     /// # Errors
     /// [`CardError::Machine`].
@@ -129,7 +129,7 @@ impl CardSolver {
         self.iterate_watched(&mut |_, _, _| Ok(()))
     }
 
-    /// One iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
+    /// Runs one iteration; `each` receives the result of each pass, by system and pass. That reads every pass back.
     ///
     /// # Errors
     /// [`CardError::Machine`].
@@ -152,8 +152,8 @@ impl CardSolver {
         Ok(())
     }
 
-    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: what
-    /// is bound, not what is computed.
+    /// Leaves the card in the state that an iteration leaves it in, by the last pass of the last system alone: the
+    /// bindings, not the results.
     pub(in crate::radiosity) fn bind_as_after_iteration(&mut self) -> Result<(), CardError> {
         let passes = self.passes();
         if let (Some(layer), Some(last)) = (self.layers.last(), passes.checked_sub(1)) {
@@ -177,7 +177,7 @@ impl CardSolver {
         })
     }
 
-    /// The radiosities as the textures hold them, one per system.
+    /// Reads the radiosities back in the layout of the textures, one per system.
     ///
     /// # Errors
     /// [`CardError::Machine`].
@@ -225,7 +225,7 @@ impl CardSolver {
         self.layers.iter().zip(&texels).try_for_each(|(layer, texels)| layer.set_emittance(machine, texels))
     }
 
-    /// New reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
+    /// Replaces the reflectances: uploads matrix and emittances of a system of as many patches. Radiosities are kept.
     ///
     /// # Errors
     /// [`CardError::Size`] if it has another number of patches.
@@ -262,5 +262,5 @@ impl CardSolver {
     }
 }
 
-/// Called after a pass: the card, which system, which pass.
+/// Called after a pass with the card, the system and the pass.
 type PassObserver<'a> = dyn FnMut(&Machine, (usize, &Layer), usize) -> Result<(), CardError> + 'a;

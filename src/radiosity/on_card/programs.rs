@@ -6,14 +6,14 @@ use refsim::exec::CheckedProgram;
 
 use crate::card::{KernelError, KernelText};
 
-/// A program for a block, accepted by the device.
+/// Program for a block, accepted by the device.
 #[derive(Clone, Debug)]
 pub struct PassProgram {
-    /// The kernel that it was unrolled from.
+    /// Kernel that it was unrolled from.
     pub kernel: KernelText,
-    /// The texels of its block.
+    /// Texels per block.
     pub texels: usize,
-    /// Its text.
+    /// Program text.
     pub text: String,
     pub(super) checked: CheckedProgram,
 }
@@ -25,13 +25,13 @@ impl PassProgram {
         Ok(Self { kernel, texels, text, checked })
     }
 
-    /// The number of its instructions.
+    /// Number of instructions.
     pub fn instructions(&self) -> usize {
         self.checked.instructions.len()
     }
 }
 
-/// A pass over one block: where the block begins, and which program runs.
+/// Pass over one block: the first texel of the block, and the index of its program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct BlockPass {
     pub(super) from: usize,
@@ -46,7 +46,7 @@ pub(super) struct Programs {
 }
 
 impl Programs {
-    /// For `width` texels in blocks of `block`; the first pass has a program of its own.
+    /// Unrolls the programs for `width` texels in blocks of `block`; the first pass has a program of its own.
     pub(super) fn new(
         profile: &Profile,
         [first, next]: [KernelText; 2],

@@ -1,18 +1,18 @@
-//! Iterations until the residual is small enough. The host computes the residual in f64 from the radiosities read back.
+//! Iteration until the residual is small enough. The host computes the residual in f64 from the radiosities read back.
 
 use super::cycle::SeenStates;
 use super::{CardError, CardSolver, Cycle};
 use crate::radiosity::System;
 use crate::radiosity::solve::mean_square;
 
-/// When to stop.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardOptions {
-    /// The norm of the residual, relative to that of the right-hand side, in each channel.
+    /// Tolerance: norm of the residual relative to that of the right-hand side, in each channel.
     pub tolerance: f64,
-    /// The most iterations.
+    /// Maximum number of iterations.
     pub most_iterations: u32,
-    /// The residual is computed, which costs a read-back, after every so many iterations; at least 1.
+    /// Number of iterations between computations of the residual, each of which costs a read-back; at least 1.
     pub check_every: u32,
 }
 
@@ -40,7 +40,7 @@ pub struct CardSolution {
     pub radiosity: Vec<[f32; 3]>,
     /// Iterations after which the residual was computed (0 is the initial one), with its mean square in each channel.
     pub history: Vec<(u32, [f64; 3])>,
-    /// Whether the tolerance was reached.
+    /// `true` if the tolerance was reached.
     pub converged: bool,
     /// The cycle or fixed point in which the radiosities ended without meeting the tolerance. `None` if the iteration
     /// ended before one was found.
@@ -48,7 +48,7 @@ pub struct CardSolution {
 }
 
 impl CardSolution {
-    /// How many iterations it took.
+    /// Number of iterations done.
     pub fn iterations(&self) -> u32 {
         self.history.last().map_or(0, |last| last.0)
     }
@@ -99,7 +99,7 @@ impl CardSolver {
     }
 }
 
-/// Radiosities read back from a card, as the host's solvers have them.
+/// Converts radiosities read back from a card to the type of the host's solvers.
 pub fn to_f64(radiosity: &[[f32; 3]]) -> Vec<[f64; 3]> {
     radiosity.iter().map(|b| b.map(f64::from)).collect()
 }

@@ -3,7 +3,7 @@
 use super::problem::{IterationHistory, Options, Problem, Solution, SolveError, residual, start};
 use crate::linalg::Lu;
 
-/// Counts as one iteration. The tolerance only decides whether the solution counts as converged.
+/// Solves by LU. Counts as one iteration; the tolerance only decides whether the solution counts as converged.
 pub(super) fn solve(problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
     let radiosity = Lu::new(problem.matrix)?.solve(problem.right_hand_side);
     let mut history = IterationHistory::new(problem, options);

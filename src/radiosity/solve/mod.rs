@@ -12,7 +12,7 @@ use thiserror::Error;
 
 pub use problem::{Options, Problem, Solution, SolveError, mean_square, residual};
 
-/// How a system is solved.
+/// Method of solution.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
@@ -29,7 +29,7 @@ pub enum Solver {
     Direct,
 }
 
-/// Solves.
+/// Solves a system.
 ///
 /// # Errors
 /// [`SolveError`]. Reaching the most iterations is none: [`Solution::converged`] tells.
@@ -76,7 +76,7 @@ impl fmt::Display for Solver {
     }
 }
 
-/// No solver has this name.
+/// Error: no solver has this name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected `jacobi`, `gauss-seidel`, `sor:FACTOR` (0 < FACTOR < 2), `shooting` or `direct`, found `{0}`")]
 pub struct UnknownSolver(pub String);

@@ -1,15 +1,15 @@
-//! What solvers are given and what they give back, with the convergence history that all of them keep.
+//! Input and output of the solvers, with the convergence history that all of them keep.
 
 use thiserror::Error;
 
 use crate::linalg::{Matrix, Singular};
 
-/// When to stop.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The norm of the residual, relative to that of the right-hand side, at which an iteration stops.
+    /// Tolerance: norm of the residual relative to that of the right-hand side.
     pub tolerance: f64,
-    /// The most iterations.
+    /// Maximum number of iterations.
     pub most_iterations: u32,
 }
 
@@ -19,14 +19,14 @@ impl Default for Options {
     }
 }
 
-/// A linear system with what solvers need beside it.
+/// A linear system with the further inputs of solvers.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// M of equation 2. Its diagonal has no zero.
     pub matrix: &'a Matrix,
     /// The right-hand side, E.
     pub right_hand_side: &'a [f64],
-    /// The areas of the patches: shooting goes by power.
+    /// Areas of the patches, which shooting weights radiosities with.
     pub areas: &'a [f64],
     /// The initial guess; `None` means 0.
     pub start: Option<&'a [f64]>,
@@ -35,39 +35,39 @@ pub struct Problem<'a> {
 /// A solution with its convergence history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// B.
+    /// Radiosity of each patch, B.
     pub radiosity: Vec<f64>,
     /// The mean square of the residual E - M B, initially and after each iteration: Figure 3's error.
     pub history: Vec<f64>,
-    /// Whether the tolerance was reached.
+    /// `true` if the tolerance was reached.
     pub converged: bool,
 }
 
 impl Solution {
-    /// How many iterations it took.
+    /// Number of iterations done.
     pub fn iterations(&self) -> usize {
         self.history.len() - 1
     }
 }
 
-/// Why there is no solution.
+/// Error of a solver.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SolveError {
-    /// Not one element per row.
+    /// The number of elements is not that of the rows.
     #[error("expected {rows} {what}, one per row of the matrix, found {found}")]
     Count { what: &'static str, rows: usize, found: usize },
-    /// A relaxation factor for which SOR cannot converge.
+    /// The relaxation factor is one for which SOR cannot converge.
     #[error("expected a relaxation factor above 0 and below 2, found {0}")]
     Relaxation(f64),
-    /// A zero on the diagonal.
+    /// The diagonal has a zero.
     #[error("expected a diagonal without zeros, found one in row {row} (counted from 0)")]
     Diagonal { row: usize },
     /// The iteration diverges, or the input holds NaN or infinity.
     #[error("expected an iteration that converges, found no finite residual after {iterations} iterations")]
     Diverged { iterations: usize },
-    /// No inverse.
+    /// The matrix is singular.
     #[error(transparent)]
     Singular(#[from] Singular),
 }
@@ -85,7 +85,7 @@ impl IterationHistory {
         Self { errors: Vec::new(), target, max_iterations: options.most_iterations }
     }
 
-    /// Records a residual. `Some` if the iteration ends here: whether the tolerance is reached.
+    /// Records a residual. Returns `Some` if the iteration ends here: `true` if the tolerance is reached.
     pub(super) fn note(&mut self, residual: &[f64]) -> Result<Option<bool>, SolveError> {
         let error = mean_square(residual);
         if !error.is_finite() {
@@ -101,7 +101,7 @@ impl IterationHistory {
     }
 }
 
-/// The mean square; 0 for no values.
+/// Mean square; 0 for no values.
 pub fn mean_square(values: &[f64]) -> f64 {
     crate::linalg::dot(values, values) / values.len().max(1) as f64
 }

@@ -1,14 +1,14 @@
-//! What an engine did, in numbers.
+//! Counters of an engine.
 
 use crate::ray_engine::ray_tree::RayTreeCounts;
 use crate::tracer::octree::TraversalCounts;
 
-/// What an engine did.
+/// Counters of an engine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EngineCounts {
     /// Rays answered.
     pub rays: u64,
-    /// Rays that met the card at least once on their way.
+    /// Rays that were tested on the card at least once.
     pub rays_on_card: u64,
     /// Passes on the card.
     pub passes: u64,
@@ -18,30 +18,30 @@ pub struct EngineCounts {
     pub pass_tests: u64,
     /// Triangles of all passes.
     pub pass_triangles: u64,
-    /// Those of them that the vertex program moved off the screen.
+    /// Triangles of all passes that the vertex program moved off the screen.
     pub culled: u64,
-    /// Rays in caches that were forced to the host in the end.
+    /// Rays left in caches and tested on the host at the end.
     pub forced_rays: u64,
     /// Ray-triangle tests on the host.
     pub host_tests: u64,
     /// Cells tested against whole buckets of rays.
     pub beam_cells: u64,
-    /// Rays of buckets that meet no cell with triangles: answered at once.
+    /// Rays of buckets that meet no cell with triangles, answered at once.
     pub beam_rays: u64,
-    /// The octree's.
+    /// Counters of the octree.
     pub traversal: TraversalCounts,
-    /// The ray tree's.
+    /// Counters of the ray tree.
     pub tree: RayTreeCounts,
 }
 
 impl EngineCounts {
-    /// The share of rays that met the card at least once: one reading of Table 2.
+    /// Fraction of rays tested on the card at least once, in [0, 1]: one reading of Table 2.
     pub fn share_on_card(&self) -> f64 {
         self.rays_on_card as f64 / self.rays.max(1) as f64
     }
 
-    /// Of all visits of rays to the caches of GPU cells, the share that ended on the card; the others were forced to
-    /// the host. The other reading of Table 2. A ray that visits several caches counts several times.
+    /// Fraction of all visits of rays to the caches of GPU cells that ended on the card, in [0, 1]; the others were
+    /// forced to the host. The other reading of Table 2. A ray that visits several caches counts several times.
     pub fn share_of_visits_on_card(&self) -> f64 {
         self.pass_rays as f64 / (self.pass_rays + self.forced_rays).max(1) as f64
     }

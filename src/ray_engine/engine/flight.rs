@@ -1,26 +1,26 @@
-//! Rays on their way.
+//! Rays in flight.
 
 use crate::geom::{Hit, Ray};
 use crate::tracer::Best;
 use crate::tracer::triangle_test::HostRay;
 
-/// A ray given to the engine, by the order of giving.
+/// Id of a ray given to the engine, in the order of submission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ticket(pub u64);
 
-/// A ray in a GPU cell's cache.
+/// Ray in a GPU cell's cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Waiting {
     pub(super) flight: u32,
-    /// Where the ray leaves the cell, in multiples of its direction.
+    /// Parameter at which the ray leaves the cell, in multiples of its direction.
     pub(super) leave: f64,
 }
 
-/// The rays that wait for a GPU cell.
+/// Rays that wait for a GPU cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cache {
     pub(super) rays: Vec<Waiting>,
-    /// How often the cell stands in the queue of full cells: once for each whole pass of rays.
+    /// Number of entries of the cell in the queue of full cells: one per full pass of rays.
     pub(super) turns: usize,
 }
 
@@ -30,29 +30,29 @@ impl Cache {
     }
 }
 
-/// A ray that has no answer yet.
+/// Ray without an answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RayInFlight {
     pub(super) ticket: Ticket,
     pub(super) ray: Ray,
     pub(super) host: HostRay,
     pub(super) best: Best,
-    /// Whether it has met the card.
+    /// `true` if the ray was tested on the card.
     pub(super) on_card: bool,
-    /// The last triangle that the card hit, with what it computed there.
+    /// Last triangle that the card hit, with u, v, w computed there.
     pub(super) uvw: Option<(u32, [f32; 3])>,
 }
 
-/// A ray that has its answer.
+/// Ray with its answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Answered {
     pub(super) ticket: Ticket,
     pub(super) hit: Option<Hit>,
-    /// What the card computed of the hit, if it did.
+    /// u, v, w of the hit, if the card computed them.
     pub(super) uvw: Option<[f32; 3]>,
 }
 
-/// All of them, in places that are used again.
+/// All rays in flight, in slots that are reused.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RaysInFlight {
     places: Vec<RayInFlight>,
@@ -61,12 +61,12 @@ pub(super) struct RaysInFlight {
 }
 
 impl RaysInFlight {
-    /// Rays given so far: the next ticket.
+    /// Number of rays submitted: the next ticket.
     pub(super) fn given(&self) -> u64 {
         self.given
     }
 
-    /// So many tickets more have been given.
+    /// Issues `rays` more tickets.
     pub(super) fn give(&mut self, rays: usize) {
         self.given += rays as u64;
     }
@@ -85,7 +85,7 @@ impl RaysInFlight {
         &mut self.places[place as usize]
     }
 
-    /// Takes a ray out; its place is free again.
+    /// Removes a ray; its slot is free again.
     pub(super) fn end(&mut self, place: u32) -> RayInFlight {
         self.free.push(place);
         self.places[place as usize]

@@ -5,12 +5,13 @@
 //! A cache of `R_min` rays goes to the card with all triangles of its cell, and its rays then go on behind the cell.
 //! What is left in caches at the end is forced to the host.
 //!
-//! **Where a ray is tested is never seen in the result.** A ray meets all triangles of each GPU cell on its way, on the
-//! card or on the host, which computes what a card with fp32 pipelines computes; of equal t the lowest triangle wins.
-//! So order, sizes of caches, `R_min` and threads change counts and time, never a hit. (On cards of other formats the
-//! hit depends on who tests it: there the caches matter, as they did. And where fp32 finds a triangle that the ray does
-//! not truly meet, outside the cells on its way, the octree and its cells decide whether it is asked: one answer in
-//! thousands of scenes made to be hard; docs/papers/ray_engine.md counts them.)
+//! **The result does not depend on where a ray is tested.** A ray meets all triangles of each GPU cell on its way, on
+//! the card or on the host, which computes what a card with fp32 pipelines computes; at equal t the lowest triangle
+//! wins. So order, sizes of caches, `R_min` and threads change counts and time, never a hit. (On cards of other formats
+//! card and host can disagree, so that the caches matter, as they did on the cards of the time. And where fp32 reports
+//! a hit on a triangle outside the cells along the ray, which the ray does not truly hit, the result depends on whether
+//! the octree and its cells cause that test: one answer in thousands of scenes made to be hard;
+//! docs/papers/ray_engine.md counts them.)
 
 mod counts;
 mod flight;
@@ -42,17 +43,17 @@ pub use counts::EngineCounts;
 pub use flight::Ticket;
 pub use parameters::{EngineParameters, Readback};
 
-/// A hit with its place in the triangle.
+/// Hit with its barycentric coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocatedHit {
     /// Triangle and t.
     pub hit: Hit,
-    /// What the corners a, b and c weigh there: at least 0, their sum 1 but for rounding. Not clamped: a needle's can
-    /// be far off.
+    /// Weights of the corners a, b and c: non-negative, with a sum of 1 up to rounding. Not clamped: those of a needle
+    /// can be far off.
     pub weights: [f32; 3],
 }
 
-/// Rays in, hits out.
+/// Ray Engine over one mesh.
 #[derive(Debug)]
 pub struct RayEngine<'a> {
     mesh: &'a Mesh,
@@ -62,11 +63,11 @@ pub struct RayEngine<'a> {
     parameters: EngineParameters,
     tree: RayTree,
     flights: RaysInFlight,
-    /// The caches of the GPU cells that have rays.
+    /// Caches of the GPU cells that have rays.
     caches: BTreeMap<usize, Cache>,
-    /// Rays that can go on, and from where.
+    /// Rays that can continue, each with the parameter to continue from.
     ready: VecDeque<(u32, f64)>,
-    /// Cells whose caches hold a whole pass, once per pass.
+    /// Cells whose caches hold a full pass, once per pass.
     full: VecDeque<CellId>,
     answered: Vec<Answered>,
     counts: EngineCounts,
@@ -74,7 +75,7 @@ pub struct RayEngine<'a> {
 }
 
 impl<'a> RayEngine<'a> {
-    /// An engine over a mesh: builds the octree, marks the GPU cells.
+    /// Creates an engine over a mesh: builds the octree and marks the GPU cells.
     ///
     /// # Errors
     /// [`EngineError`] if the card runs no intersection program.
@@ -107,7 +108,7 @@ impl<'a> RayEngine<'a> {
         })
     }
 
-    /// Takes rays in, and may answer some of those that wait. Tickets count from the one returned.
+    /// Submits rays, and may answer some of those that wait. Tickets count from the one returned.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
@@ -120,7 +121,7 @@ impl<'a> RayEngine<'a> {
         Ok(Ticket(first))
     }
 
-    /// Answers everything that waits.
+    /// Answers all waiting rays.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
@@ -132,12 +133,12 @@ impl<'a> RayEngine<'a> {
         self.force_caches()
     }
 
-    /// What has been answered since the last time, in no particular order.
+    /// Takes the answers since the last call, in no particular order.
     pub fn take_answers(&mut self) -> Vec<(Ticket, Option<Hit>)> {
         std::mem::take(&mut self.answered).into_iter().map(|answer| (answer.ticket, answer.hit)).collect()
     }
 
-    /// A bundle in, its first hits out, in its own order: what a host renderer calls.
+    /// Traces a bundle and returns its first hits in the order of the rays: the call of a host renderer.
     ///
     /// ```
     /// use crossbar::geom::{Ray, teapot::teapot};
@@ -160,9 +161,9 @@ impl<'a> RayEngine<'a> {
         Ok(self.answers_of(rays)?.into_iter().map(|answer| answer.and_then(|answer| answer.hit)).collect())
     }
 
-    /// The same with the place of each hit in its triangle: from the card where it computed that and found the hit
-    /// ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), else from the host, one more test each. The
-    /// bits are the same on fp32.
+    /// Like [`Self::trace`], with the barycentric coordinates of each hit: from the card where it computed them and
+    /// found the hit ([`Outputs::IdAndBarycentrics`](super::Outputs::IdAndBarycentrics)), otherwise by one more test
+    /// per hit on the host. The bits are the same on fp32.
     ///
     /// # Errors
     /// [`EngineError`] if the card refuses the work.
@@ -187,7 +188,7 @@ impl<'a> RayEngine<'a> {
         Ok(hits)
     }
 
-    /// Submits, finishes, and puts the answers into the order of the rays; answers to rays before stay.
+    /// Submits, finishes, and returns the answers in the order of the rays; answers to earlier rays stay queued.
     fn answers_of(&mut self, rays: &[Ray]) -> Result<Vec<Option<Answered>>, EngineError> {
         let first = self.submit(rays)?;
         self.finish()?;
@@ -203,17 +204,17 @@ impl<'a> RayEngine<'a> {
         Ok(answers)
     }
 
-    /// What happened so far.
+    /// Counters so far.
     pub fn counts(&self) -> EngineCounts {
         EngineCounts { tree: self.tree.counts(), ..self.counts }
     }
 
-    /// The host's part.
+    /// Host tracer.
     pub fn tracer(&self) -> &HostTracer {
         &self.tracer
     }
 
-    /// The GPU cells.
+    /// GPU cells.
     pub fn cells(&self) -> &GpuCells {
         &self.cells
     }
@@ -223,19 +224,19 @@ impl<'a> RayEngine<'a> {
         self.tree.occupancy()
     }
 
-    /// Bytes that waiting rays take, in the tree, in flight and in caches.
+    /// Bytes held by waiting rays, in the tree, in flight and in caches.
     pub fn bytes(&self) -> usize {
         let caches: usize = self.caches.values().map(Cache::bytes).sum();
         self.tree.bytes() + self.flights.bytes() + caches
     }
 
-    /// Counts work of the host's own, such as rays made and hits shaded by a renderer, into the log, if the engine
+    /// Logs work of the application on the host, such as rays generated and hits shaded by a renderer, if the engine
     /// records.
     pub fn note_host(&mut self, operation: HostOperation, count: u64) {
         self.note(operation, count);
     }
 
-    /// What was asked of the card and done on the host since the last time, if the engine records.
+    /// Takes the log of card commands and host work since the last call; empty if the engine does not record.
     pub fn take_log(&mut self) -> Vec<Event> {
         std::mem::take(&mut self.log)
     }

@@ -1,4 +1,4 @@
-//! What can be chosen about an engine; nothing of it changes a hit of fp32.
+//! Parameters of an engine; none of them changes a hit of fp32.
 
 use std::ops::RangeInclusive;
 
@@ -7,55 +7,55 @@ use crate::ray_engine::Outputs;
 use crate::ray_engine::ray_tree::RayTreeParameters;
 use crate::tracer::octree::OctreeParameters;
 
-/// When the results of a pass on the card are taken (Table 3).
+/// Read-back mode: when the results of a pass on the card are taken (Table 3).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Readback {
-    /// Draw, wait, read back, go on: what `glReadPixels` does.
+    /// Draw, wait, read back, continue, as `glReadPixels` does.
     #[default]
     Synchronous,
-    /// The results of a pass come by themselves behind its draw, with a fence (NV_fence) that is passed when they are
-    /// there. Its rays stay in flight while the host goes on; they are taken when `passes` younger passes have been
-    /// given to the card, or when nothing else can go on. 0 is 1.
+    /// Reads back behind the draw, with a fence (NV_fence) that is passed when the results are there. The rays stay in
+    /// flight while the host continues; results are taken when `passes` younger passes have been given to the card, or
+    /// when nothing else can continue. 0 counts as 1.
     Asynchronous {
-        /// Passes in flight while the host goes on, at most.
+        /// Maximum number of passes in flight while the host continues.
         passes: usize,
     },
-    /// Passes cost nothing: the log holds the host's work alone, in the order of [`Readback::Synchronous`].
+    /// Passes take no time: the log holds only the host's work, in the order of [`Readback::Synchronous`].
     InfinitelyFast,
 }
 
-/// How the engine schedules.
+/// Scheduling parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EngineParameters {
-    /// The triangle octree.
+    /// Triangle octree.
     pub octree: OctreeParameters,
-    /// Triangles of a GPU cell: `T_min` to the most that one pass draws (Table 4: 5 to 15).
+    /// Triangles of a GPU cell, from `T_min` to the maximum of one pass (Table 4: 5 to 15).
     pub triangles: RangeInclusive<usize>,
-    /// Rays at which a cell's cache goes to the card (`R_min`), and which one pass takes at most (Table 5: 64).
+    /// Number of rays at which a cell's cache goes to the card (`R_min`), also the maximum of one pass (Table 5: 64).
     pub rays: usize,
-    /// The ray tree.
+    /// Ray tree.
     pub tree: RayTreeParameters,
-    /// Rays that the tree holds before buckets leave it.
+    /// Number of rays that the tree holds before buckets leave it.
     pub waiting: usize,
-    /// Which faces can be hit.
+    /// Faces that can be hit.
     pub sides: Sides,
-    /// Whether the card takes part at all; else the host does everything, in the same order.
+    /// `true` to use the card; otherwise the host does everything, in the same order.
     pub card: bool,
-    /// When the results of a pass are taken.
+    /// Read-back mode.
     pub readback: Readback,
-    /// What comes back of a ray.
+    /// Data read back per ray.
     pub outputs: Outputs,
-    /// Whether triangles come back as places in the pass's list, in the smallest colour target that the card has: one
-    /// byte for up to 255 triangles, two for more, four where the card has no such target. Not with barycentric
+    /// `true` to return triangles as positions in the pass's list, in the smallest color target of the card: one byte
+    /// for up to 255 triangles, two for more, four where the card has no such target. Not available with barycentric
     /// coordinates.
     pub small_ids: bool,
-    /// Whether the vertex program culls triangles that no ray of a pass can hit.
+    /// `true` to cull triangles that no ray of a pass can hit in the vertex program.
     pub cull: bool,
-    /// Whether a bucket that leaves the tree is tested against the octree's cells first, as one beam.
+    /// `true` to test a bucket that leaves the tree against the octree's cells first, as one beam.
     pub beams: bool,
-    /// Rays of a bundle enter the tree in random order (section 5.3), keyed by this seed; `None`: as they come.
+    /// Seed of the random order in which the rays of a bundle enter the tree (section 5.3); `None` keeps their order.
     pub shuffle: Option<u64>,
-    /// Whether the log of the run is kept.
+    /// `true` to record the log of the run.
     pub record: bool,
 }
 

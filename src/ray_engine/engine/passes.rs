@@ -1,4 +1,4 @@
-//! Passes on their way through the card.
+//! Passes in flight on the card.
 
 use std::collections::VecDeque;
 
@@ -14,39 +14,39 @@ use crate::ray_engine::{EngineError, RayBatch};
 /// Rows of a pass's textures (section 5.3: 64 x 4).
 const ROWS: usize = 4;
 
-/// A pass that was given to the card.
+/// Pass that was given to the card.
 #[derive(Debug)]
 pub(super) struct PassInFlight {
-    /// Its rays.
+    /// Rays of the pass.
     pub(super) waiting: Vec<Waiting>,
-    /// What they hit. The emulator knows at once; the host must not look before it has taken the pass.
+    /// Hits of the rays. The emulator knows them at once; the host must not use them before it has taken the pass.
     pub(super) hits: Vec<Option<CardHit>>,
-    /// The fence behind its read-back, if no one has waited for it.
+    /// Fence behind the read-back, if it has not been waited for.
     fence: Option<FenceId>,
-    /// Its textures and targets.
+    /// Set of textures and targets.
     sheet: usize,
 }
 
-/// The card, and what it has been given.
+/// Card with its passes in flight.
 #[derive(Debug)]
 pub(super) struct Passes {
     card: PassCard,
     readback: Readback,
     flying: VecDeque<PassInFlight>,
-    /// Textures and targets that no pass in flight uses, the one not used longest first.
+    /// Sets of textures and targets that no pass in flight uses, least recently used first.
     free: VecDeque<usize>,
-    /// How many there are.
+    /// Number of sets.
     sheets: usize,
 }
 
 impl Passes {
-    /// A card; textures and targets are made when a pass finds none free.
+    /// Wraps a card; sets of textures and targets are created when a pass finds none free.
     pub(super) fn new(mut card: PassCard, readback: Readback, record: bool) -> Self {
         card.record(record && readback != Readback::InfinitelyFast);
         Self { card, readback, flying: VecDeque::new(), free: VecDeque::new(), sheets: 0 }
     }
 
-    /// Passes that stay in flight while the host goes on.
+    /// Maximum number of passes in flight while the host continues.
     fn ahead(&self) -> usize {
         match self.readback {
             Readback::Asynchronous { passes } => passes.max(1),
@@ -54,12 +54,13 @@ impl Passes {
         }
     }
 
-    /// Whether more are in flight than are to be.
+    /// Returns `true` if more passes are in flight than the read-back mode allows.
     pub(super) fn too_many(&self) -> bool {
         self.flying.len() > self.ahead()
     }
 
-    /// Gives a pass to the card; `rays` are those that wait. How many of the triangles were on the screen.
+    /// Gives a pass to the card; `waiting` are the rays of the cache. Returns the number of triangles that were not
+    /// culled.
     pub(super) fn issue(
         &mut self,
         mesh: &Mesh,
@@ -68,7 +69,7 @@ impl Passes {
         waiting: Vec<Waiting>,
     ) -> Result<u64, EngineError> {
         let width = rays.len().div_ceil(ROWS);
-        // The last ray fills what is left of the rectangle.
+        // Pads the rectangle with the last ray.
         if let Some(last) = rays.last().copied() {
             rays.resize(width * ROWS, last);
         }
@@ -80,11 +81,11 @@ impl Passes {
         let wait = !matches!(self.readback, Readback::Asynchronous { .. });
         let (hits, fence) = self.card.read_back(&drawn, triangles, &batch, wait)?;
         self.flying.push_back(PassInFlight { waiting, hits, fence, sheet });
-        // A quad covers the screen or nothing.
+        // A quad covers the whole screen or no pixel.
         Ok((drawn.events.fragments.generated / batch.rays().len().max(1) as u64).min(triangles.len() as u64))
     }
 
-    /// The oldest pass in flight, waited for.
+    /// Waits for the oldest pass in flight and removes it.
     pub(super) fn take(&mut self) -> Option<PassInFlight> {
         let pass = self.flying.pop_front()?;
         if let Some(fence) = pass.fence {
@@ -94,7 +95,7 @@ impl Passes {
         Some(pass)
     }
 
-    /// What was asked of the card since the last time.
+    /// Takes the log of the card since the last call.
     pub(super) fn take_log(&mut self) -> Vec<Event> {
         self.card.take_log()
     }

@@ -1,4 +1,4 @@
-//! Who does what next.
+//! Scheduling of rays between tree, host and card.
 
 use refsim::event::{Event, HostWork};
 use refsim::timing::host::HostOperation;
@@ -12,7 +12,7 @@ use crate::ray_engine::card::CardHit;
 use crate::tracer::octree::{Beam, CellId, Flow, Visit};
 
 impl RayEngine<'_> {
-    /// A ray enters the tree; buckets leave it when it is full.
+    /// Inserts a ray into the tree; buckets leave it when it is full.
     pub(super) fn take_in(&mut self, ticket: Ticket, ray: Ray) -> Result<(), EngineError> {
         let before = self.tree.counts().nodes_passed;
         let flight = self.flights.start(ticket, ray, self.tracer.host_ray(&ray));
@@ -25,7 +25,7 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// A bucket leaves the tree, and its rays start through the octree.
+    /// Removes a bucket from the tree and starts its rays through the octree.
     pub(super) fn release_bucket(&mut self) -> Result<(), EngineError> {
         let bucket = self.tree.take().rays;
         if self.parameters.beams && self.misses_all(&bucket) {
@@ -37,7 +37,7 @@ impl RayEngine<'_> {
         self.drive()
     }
 
-    /// Whether no ray of a bucket can meet a cell with triangles.
+    /// Returns `true` if no ray of a bucket can meet a cell with triangles.
     fn misses_all(&mut self, bucket: &[u32]) -> bool {
         let rays: Vec<Ray> = bucket.iter().map(|flight| self.flights.at(*flight).ray).collect();
         let octree = self.tracer.octree();
@@ -48,8 +48,7 @@ impl RayEngine<'_> {
         reached.cells.is_empty()
     }
 
-    /// Until nothing can go on but what is in flight: rays first, then caches that are full, in the order in which they
-    /// came.
+    /// Runs until only passes in flight remain: rays first, then full caches, in the order in which they filled.
     fn drive(&mut self) -> Result<(), EngineError> {
         loop {
             while let Some((flight, from)) = self.ready.pop_front() {
@@ -65,7 +64,7 @@ impl RayEngine<'_> {
         }
     }
 
-    /// Until nothing is in flight either.
+    /// Runs until nothing is in flight.
     pub(super) fn settle(&mut self) -> Result<(), EngineError> {
         while self.take_pass() {
             self.drive()?;
@@ -73,7 +72,7 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// Takes a ray on from where it left a cell: to its answer, or into the next GPU cell's cache.
+    /// Continues a ray from where it left a cell: to its answer, or into the next GPU cell's cache.
     fn advance(&mut self, flight: u32, from: f64) {
         let here = *self.flights.at(flight);
         let (mut best, mut stop, mut tests) = (here.best, None, 0);
@@ -101,7 +100,7 @@ impl RayEngine<'_> {
         }
     }
 
-    /// A ray joins a cell's cache; each time that makes a whole pass more of it, the cell's turn comes once more.
+    /// Adds a ray to a cell's cache; each time this completes another pass, queues the cell once more.
     fn wait(&mut self, cell: CellId, ray: Waiting) {
         self.note(HostOperation::BucketInsert, 1);
         let cache = self.caches.entry(cell.index()).or_default();
@@ -112,7 +111,7 @@ impl RayEngine<'_> {
         }
     }
 
-    /// All caches, smallest cell number first, to the host; rays that go on may fill others, until none is left.
+    /// Forces all caches to the host, lowest cell number first; rays that continue may fill others, until none is left.
     pub(super) fn force_caches(&mut self) -> Result<(), EngineError> {
         while let Some((cell, Cache { rays, .. })) = self.caches.pop_first() {
             self.counts.forced_rays += rays.len() as u64;
@@ -123,8 +122,8 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// The rays of a cache against the triangles of its cell: section 3.3, with fp32 results in the host's own units.
-    /// They are in flight then; whatever is one too many in flight is taken.
+    /// Tests the rays of a cache against the triangles of its cell on the card: section 3.3, with fp32 results in the
+    /// host's own units. They are in flight then; passes beyond the allowed number in flight are taken.
     fn on_card(&mut self, cell: CellId, waiting: Vec<Waiting>) -> Result<(), EngineError> {
         let Some(triangles) = self.cells.triangles(cell).map(<[u32]>::to_vec) else { return Ok(()) };
         if waiting.is_empty() {
@@ -147,7 +146,7 @@ impl RayEngine<'_> {
         Ok(())
     }
 
-    /// Takes the results of the oldest pass in flight; false if there is none.
+    /// Takes the results of the oldest pass in flight; returns `false` if there is none.
     fn take_pass(&mut self) -> bool {
         let Some(pass) = self.passes.take() else { return false };
         self.log.extend(self.passes.take_log());
@@ -157,7 +156,7 @@ impl RayEngine<'_> {
             let flight = self.flights.at(ray.flight);
             flight.on_card = true;
             let Some(CardHit { triangle, t, uvw }) = hit else { continue };
-            // Without the t-buffer, the host finds t of the one triangle.
+            // Without the t-buffer, the host computes t of the one triangle.
             tests += u64::from(t.is_none());
             let found = || plane_point(mesh, scale, triangle, &flight.ray, sides).map(|point| point.t);
             let Some(t) = t.or_else(found) else { continue };
@@ -173,7 +172,7 @@ impl RayEngine<'_> {
         true
     }
 
-    /// The same on the host.
+    /// Tests the rays of a cache against the triangles of its cell on the host.
     fn on_host(&mut self, cell: CellId, waiting: &[Waiting]) {
         let triangles = self.cells.triangles(cell).unwrap_or_default();
         let tests = (triangles.len() * waiting.len()) as u64;
@@ -186,7 +185,7 @@ impl RayEngine<'_> {
         self.go_on(waiting);
     }
 
-    /// Rays behind a cell: answered, if nothing nearer can come.
+    /// Continues rays behind a cell: each is answered if nothing nearer can follow.
     fn go_on(&mut self, rays: &[Waiting]) {
         for &Waiting { flight, leave } in rays {
             let here = self.flights.at(flight);
@@ -207,7 +206,7 @@ impl RayEngine<'_> {
         self.answered.push(Answered { ticket: ended.ticket, hit, uvw });
     }
 
-    /// Work of the host, for the log: between two calls of the card, all of one kind is one entry.
+    /// Logs work of the host: between two commands of the card, all work of one kind is one entry.
     pub(super) fn note(&mut self, operation: HostOperation, count: u64) {
         if !self.parameters.record || count == 0 {
             return;

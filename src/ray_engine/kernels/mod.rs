@@ -1,4 +1,4 @@
-//! The intersection programs as period assembly, embedded.
+//! Intersection programs as period assembly, embedded.
 
 use crate::card::kernels;
 

@@ -1,18 +1,18 @@
-//! A ray as a point of five dimensions.
+//! Rays as points in five dimensions.
 
 use crate::geom::Ray;
 
-/// Faces of the unit cube.
+/// Number of faces of the unit cube.
 pub(super) const FACES: usize = 6;
 
-/// Where a ray starts, and where its direction meets its face of the cube, both coordinates in [-1, 1].
+/// Origin of a ray, and the point where its direction meets its face of the cube, both coordinates in [-1, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub(super) origin: [f32; 3],
     pub(super) direction: [f32; 2],
 }
 
-/// A ray of the tree: its number, as the caller gave it, and its place in five dimensions.
+/// Ray of the tree: the caller's number, and its five-dimensional key.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RayTreeEntry {
     pub(super) ray: u32,
@@ -20,7 +20,8 @@ pub(super) struct RayTreeEntry {
 }
 
 impl Key {
-    /// The face that a ray looks through (0 to 5: +x -x +y -y +z -z; of equal components the first) and its place.
+    /// Returns the face that a ray looks through (0 to 5: +x -x +y -y +z -z; the first of equal components) and its
+    /// key.
     pub(super) fn of(ray: &Ray) -> (u32, Self) {
         let d = ray.direction();
         let longest = (1..3).fold(0, |best: usize, axis| if d[axis].abs() > d[best].abs() { axis } else { best });

@@ -15,12 +15,12 @@ use split::Split;
 
 pub use take::Taken;
 
-/// How a ray tree is run.
+/// Parameters of a ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RayTreeParameters {
-    /// Rays of a bucket: the paper's is 256, two textures of 64 x 4.
+    /// Maximum number of rays of a bucket: the paper's is 256, two textures of 64 x 4.
     pub bucket: usize,
-    /// A subtree that is left with at most so many rays becomes one bucket.
+    /// Subtrees left with at most this many rays are merged into one bucket.
     pub merge: usize,
 }
 
@@ -30,22 +30,22 @@ impl Default for RayTreeParameters {
     }
 }
 
-/// What happened in a tree.
+/// Counters of a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayTreeCounts {
-    /// Rays put in.
+    /// Rays inserted.
     pub inserted: u64,
-    /// Nodes that rays went through on their way in, buckets among them.
+    /// Nodes passed by inserted rays, buckets included.
     pub nodes_passed: u64,
-    /// Buckets cut in four.
+    /// Buckets split in four.
     pub splits: u64,
     /// Batches taken out.
     pub batches: u64,
-    /// Rays that were in a batch's own bucket.
+    /// Rays of batches from the batch's own bucket.
     pub own: u64,
-    /// Rays that a batch took from its bucket's siblings.
+    /// Rays of batches taken from siblings of the bucket.
     pub stolen: u64,
-    /// Levels of inner nodes that became a bucket again.
+    /// Levels of inner nodes merged into a bucket.
     pub levels_merged: u64,
     /// Batches after which anything was merged.
     pub merges: u64,
@@ -65,40 +65,40 @@ struct RayTreeNode {
     kind: RayTreeContent,
 }
 
-/// Rays in coherent buckets. A ray is told by a number of the caller's.
+/// Rays in coherent buckets, identified by the caller's numbers.
 #[derive(Clone, Debug)]
 pub struct RayTree {
     parameters: RayTreeParameters,
-    /// The first six are the faces' roots.
+    /// Nodes; the first six are the roots of the faces.
     nodes: Vec<RayTreeNode>,
     free: Vec<u32>,
     counts: RayTreeCounts,
 }
 
 impl RayTree {
-    /// An empty tree. A bucket holds one ray at least.
+    /// Creates an empty tree. A bucket holds at least one ray.
     pub fn new(parameters: RayTreeParameters) -> Self {
         let parameters = RayTreeParameters { bucket: parameters.bucket.max(1), ..parameters };
         let root = RayTreeNode { count: 0, parent: None, kind: RayTreeContent::Bucket(Vec::new()) };
         Self { parameters, nodes: vec![root; key::FACES], free: Vec::new(), counts: RayTreeCounts::default() }
     }
 
-    /// Rays in the tree.
+    /// Number of rays in the tree.
     pub fn len(&self) -> usize {
         self.nodes[..key::FACES].iter().map(|root| root.count).sum()
     }
 
-    /// Whether there is none.
+    /// Returns `true` if the tree holds no rays.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// What happened so far.
+    /// Counters so far.
     pub fn counts(&self) -> RayTreeCounts {
         self.counts
     }
 
-    /// Occupancy of the buckets that hold anything, in [0, 1], in no particular order. The paper: typically 0.5 to 0.8.
+    /// Occupancy of the non-empty buckets, in [0, 1], in no particular order. The paper: typically 0.5 to 0.8.
     pub fn occupancy(&self) -> Vec<f64> {
         let share = |rays: &Vec<RayTreeEntry>| rays.len() as f64 / self.parameters.bucket as f64;
         let bucket = |node: &RayTreeNode| match &node.kind {
@@ -108,7 +108,7 @@ impl RayTree {
         self.nodes.iter().filter_map(bucket).collect()
     }
 
-    /// Bytes that the tree holds on to.
+    /// Bytes allocated by the tree.
     pub fn bytes(&self) -> usize {
         let buckets = self.nodes.iter().map(|node| match &node.kind {
             RayTreeContent::Bucket(rays) => rays.capacity() * size_of::<RayTreeEntry>(),
@@ -119,7 +119,7 @@ impl RayTree {
             + buckets.sum::<usize>()
     }
 
-    /// Puts a ray in.
+    /// Inserts a ray.
     pub fn insert(&mut self, ray: u32, at: &Ray) {
         let (face, key) = Key::of(at);
         let mut node = face;
@@ -139,7 +139,7 @@ impl RayTree {
         self.split(node);
     }
 
-    /// Cuts a bucket that is too full, and any child that is; rays that are all alike stay together.
+    /// Splits an overfull bucket, and any overfull child; rays with identical keys stay together.
     fn split(&mut self, node: u32) {
         let RayTreeContent::Bucket(rays) = &mut self.nodes[node as usize].kind else { return };
         if rays.len() <= self.parameters.bucket {
@@ -160,7 +160,7 @@ impl RayTree {
         }
     }
 
-    /// A place for a node.
+    /// Allocates a node.
     fn make(&mut self, node: RayTreeNode) -> u32 {
         if let Some(place) = self.free.pop() {
             self.nodes[place as usize] = node;

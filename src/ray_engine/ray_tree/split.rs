@@ -1,8 +1,8 @@
-//! Where a full bucket is cut.
+//! Split planes of a full bucket.
 
 use super::key::{Key, RayTreeEntry};
 
-/// Two planes: one of origins, one of directions.
+/// Two split planes: one of origins, one of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Split {
     origin: (usize, f32),
@@ -10,7 +10,8 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// The planes at the means, across the axes of greatest variance; `None` if that would leave all rays together.
+    /// Computes the planes at the means, across the axes of greatest variance; `None` if they would leave all rays
+    /// together.
     pub(super) fn of(rays: &[RayTreeEntry]) -> Option<Self> {
         let origin = widest(rays, |key: &Key, axis| key.origin[axis], 3);
         let direction = widest(rays, |key: &Key, axis| key.direction[axis], 2);
@@ -19,14 +20,14 @@ impl Split {
         rays.iter().any(|entry| split.child(&entry.key) != first).then_some(split)
     }
 
-    /// Which of the four children a ray belongs to.
+    /// Index of the child that a ray belongs to, 0 to 3.
     pub(super) fn child(&self, key: &Key) -> usize {
         let upper = |value: f32, plane: f32| usize::from(value >= plane);
         2 * upper(key.origin[self.origin.0], self.origin.1) + upper(key.direction[self.direction.0], self.direction.1)
     }
 }
 
-/// The axis with the greatest variance, and the mean there; sums run in the order of the rays.
+/// Returns the axis of greatest variance and the mean along it; sums run in the order of the rays.
 fn widest(rays: &[RayTreeEntry], at: impl Fn(&Key, usize) -> f32, axes: usize) -> (usize, f32) {
     let count = rays.len() as f64;
     let moments = |axis| {

@@ -1,21 +1,21 @@
-//! Taking a batch out: the fullest bucket that a greedy search finds, filled up from its siblings.
+//! Removal of a batch: the fullest bucket that a greedy search finds, filled up from its siblings.
 
 use super::{RayTree, RayTreeContent, RayTreeEntry, RayTreeNode, key};
 
-/// Rays that go to the card together.
+/// Batch of rays that go to the card together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Taken {
-    /// Their numbers, those of the bucket first; at most a bucket full.
+    /// Numbers of the rays, those of the bucket first; at most one bucket full.
     pub rays: Vec<u32>,
-    /// How many of them were in the bucket itself.
+    /// Number of rays from the bucket itself.
     pub own: usize,
-    /// Levels of inner nodes above the bucket that became a bucket again.
+    /// Levels of inner nodes above the bucket that were merged into a bucket.
     pub levels_merged: usize,
 }
 
 impl RayTree {
-    /// Takes a batch out: at most a bucket full; nothing from an empty tree. The search goes down to the child with the
-    /// most rays below it, so it need not find the fullest bucket of all.
+    /// Takes a batch out: at most one bucket full, empty if the tree is empty. The search descends to the child with
+    /// the most rays below it, so that it need not find the fullest bucket of all.
     pub fn take(&mut self) -> Taken {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {
@@ -26,7 +26,7 @@ impl RayTree {
         let mut rays = Vec::with_capacity(size);
         self.drain(bucket, size, &mut rays);
         let own = rays.len();
-        // From the nearest relatives first: rays are stolen from the parent's other children, not from farther away.
+        // Nearest siblings first: rays are taken from the parent's other children, not from farther away.
         if let Some(parent) = self.nodes[bucket as usize].parent {
             while rays.len() < size && self.nodes[parent as usize].count > 0 {
                 let donor = self.descend(parent);
@@ -42,7 +42,7 @@ impl RayTree {
         Taken { rays: rays.into_iter().map(|entry| entry.ray).collect(), own, levels_merged }
     }
 
-    /// The node with the most rays below it, the first of equals.
+    /// Returns the node with the most rays below it, the first of equals.
     fn fullest(&self, nodes: impl IntoIterator<Item = u32>) -> u32 {
         let mut best = (0, None);
         for node in nodes {
@@ -54,7 +54,7 @@ impl RayTree {
         best.0
     }
 
-    /// The bucket that a greedy search ends in.
+    /// Descends greedily to a bucket.
     fn descend(&self, mut node: u32) -> u32 {
         while let RayTreeContent::Inner(_, children) = &self.nodes[node as usize].kind {
             node = self.fullest(*children);
@@ -74,7 +74,7 @@ impl RayTree {
         }
     }
 
-    /// Walks up from a bucket: a subtree of few rays becomes one bucket. Gives the levels that went.
+    /// Walks up from a bucket and merges subtrees of few rays into one bucket. Returns the number of levels removed.
     fn merge_above(&mut self, bucket: u32) -> usize {
         let mut levels = 0;
         let mut above = self.nodes[bucket as usize].parent;
@@ -89,7 +89,7 @@ impl RayTree {
         levels
     }
 
-    /// Takes everything out of a node's subtree; the nodes below it are free again.
+    /// Moves all rays of a node's subtree into `into` and frees the nodes below it.
     fn collect(&mut self, node: u32, into: &mut Vec<RayTreeEntry>) {
         let kind = std::mem::replace(&mut self.nodes[node as usize].kind, RayTreeContent::Bucket(Vec::new()));
         match kind {

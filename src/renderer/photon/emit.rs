@@ -1,4 +1,4 @@
-//! Photons from the lights to where they land.
+//! Emission and tracing of photons.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,9 +13,9 @@ use crate::renderer::wave::{Dice, PathRay};
 use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
 
-/// Photons count from here in the random numbers, so that they share none with pixels.
+/// Offset of photon numbers in the random number sequence, so that photons share no numbers with pixels.
 const FIRST: u64 = 1 << 40;
-/// Caustic photons' random numbers are not those of the global map.
+/// Offset of caustic photons, whose random numbers differ from those of the global map.
 const CAUSTIC: u64 = 1 << 41;
 
 /// Photons of one map.
@@ -23,13 +23,13 @@ pub(super) struct Shot<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a Settings,
     pub(super) lights: &'a Lights<'a>,
-    /// How many.
+    /// Number of photons.
     pub(super) count: u32,
-    /// Whether only light counts that came by mirrors and glass alone, and by at least one.
+    /// `true` to store only light that came by at least one mirror or glass and by nothing else.
     pub(super) caustic: bool,
 }
 
-/// What becomes of a photon at a hit.
+/// Interaction of a photon at a hit.
 #[derive(Default)]
 struct Landing {
     stored: Option<Photon>,
@@ -37,7 +37,7 @@ struct Landing {
 }
 
 impl Shot<'_> {
-    /// Shoots them, and returns those that landed, by their number and then by their hits.
+    /// Emits the photons, and returns the stored ones, by their number and then by their hits.
     pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, RenderError> {
         tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
         let chunk = self.settings.bundle.clamp(1, 1 << 24) as u32;
@@ -47,7 +47,7 @@ impl Shot<'_> {
             let end = self.count.min(start.saturating_add(chunk));
             let flights = (start..end).into_par_iter().filter_map(|photon| self.leaving(photon, start)).collect();
             let mut part = self.follow(tracer, flights)?;
-            // A wave brings first hits before second ones; the map must not know where chunks end.
+            // Sorted by photon, since waves order by depth: the map must not depend on the size of chunks.
             part.sort_by_key(|(number, _)| *number);
             landed.extend(part.into_iter().map(|(_, photon)| photon));
             tracer.advance(u64::from(end - start));
@@ -92,7 +92,7 @@ impl Shot<'_> {
             let way = one_way(&surfel, dice.at(flight.depth, 3)).filter(|_| more);
             let next = way.and_then(|way| {
                 let next = go_on(flight, &surfel, way.towards, way.weight)?;
-                // Apart from the weight, so that roulette takes no heed of what comes back at the way out.
+                // Not in the weight, so that Russian roulette ignores it: it is undone where the light leaves the glass.
                 Some(PathRay { weight: way.squeeze * next.weight, ..next })
             });
             return Landing { stored: None, next };
@@ -115,14 +115,14 @@ impl Shot<'_> {
     }
 }
 
-/// What light weighs more than importance at a shading normal (Veach 1997, equation 5.19).
+/// Correction factor of light relative to importance at a shading normal (Veach 1997, equation 5.19).
 fn adjoint(surfel: &Surfel<'_>, towards: DVec3) -> f64 {
     let smooth = surfel.view.dot(surfel.shading) * towards.dot(surfel.normal);
     let flat = surfel.view.dot(surfel.normal) * towards.dot(surfel.shading);
     if flat > 0.0 { smooth / flat } else { 0.0 }
 }
 
-/// Goes on with a chance of the weight, so that power stays about what it was.
+/// Continues with a probability equal to the weight, so that the power of photons stays about constant.
 fn go_on(flight: &PathRay, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<PathRay> {
     let chance = weight.max_element().min(1.0);
     if chance <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {

@@ -1,14 +1,13 @@
 //! Photon mapping with final gather (Jensen, Global Illumination using Photon Maps, 1996).
 //!
 //! Two maps are filled from the lights. The *global* map holds every landing on a diffuse or glossy surface; the
-//! *caustic* map those of light that met nothing but mirrors and glass before. What the eye sees of a diffuse part is
-//! then the sum of three that share no path: light straight from the lights (a shadow ray), caustics (the caustic map's
-//! density), and light by other diffuse and glossy surfaces (gather rays, which end at the next such surface in the
-//! global map's density, and see no light themselves). Glossy lobes, mirrors and glass send rays on as in
-//! [`super::distributed`].
+//! *caustic* map those of light that met nothing but mirrors and glass before. The radiance of a diffuse part is the
+//! sum of three terms that share no path: direct light (a shadow ray), caustics (the caustic map's density), and
+//! indirect light (gather rays, which end at the next diffuse or glossy surface in the global map's density, and see no
+//! light themselves). Glossy lobes, mirrors and glass send further rays as in [`super::distributed`].
 //!
-//! Densities are taken over disks of finite size, so this is the one renderer whose mean is not the rendering
-//! equation's: it blurs within [`Photons::radius`], and darkens where a disk hangs over an edge.
+//! Densities are estimated over disks of finite size, so this is the one biased renderer: it blurs within
+//! [`Photons::radius`], and darkens where a disk extends over an edge.
 
 mod emit;
 
@@ -27,26 +26,26 @@ use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 use glam::DVec3;
 
-/// The least cosine by which a photon's flux is turned back into what a shading normal makes of it.
+/// Minimum cosine in the conversion of a photon's flux to the shading normal.
 const LEAST_COSINE: f64 = 0.01;
 
-/// How photons are shot and counted.
+/// Parameters of photon mapping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Photons {
-    /// Photons shot for the global map.
+    /// Number of photons emitted for the global map.
     pub global: u32,
-    /// Photons shot for the caustic map.
+    /// Number of photons emitted for the caustic map.
     pub caustic: u32,
-    /// Nearest photons that an estimate takes.
+    /// Maximum number of nearest photons per estimate.
     pub nearest: u32,
-    /// How far an estimate looks at most, in units of the scene.
+    /// Maximum radius of an estimate, in scene units.
     pub radius: f64,
-    /// Gather rays of each diffuse hit of a sample; 0 shows the global map itself.
+    /// Gather rays per diffuse hit of a sample; 0 shows the global map itself.
     pub gather: u32,
 }
 
 impl Photons {
-    /// 100,000 photons for each map, 60 nearest within 1/20 of the scene's diagonal, 16 gather rays.
+    /// Default parameters: 100,000 photons per map, 60 nearest within 1/20 of the scene's diagonal, 16 gather rays.
     pub fn for_scene(scene: &Scene) -> Self {
         let diagonal = scene.mesh().bounds().map_or(1.0, |[low, high]| (wide(high) - wide(low)).length());
         Self { global: 100_000, caustic: 100_000, nearest: 60, radius: diagonal / 20.0, gather: 16 }
@@ -61,11 +60,11 @@ impl Photons {
     }
 }
 
-/// Renders with photon maps. `settings.depth` is the most surfaces that a photon meets, and the most rays that follow
-/// each other from the eye.
+/// Renders with photon maps. `settings.depth` is the maximum number of surfaces that a photon hits, and of rays in
+/// sequence from the eye.
 ///
 /// # Errors
-/// [`RenderError`] if the settings make no sense or the caster fails.
+/// [`RenderError`] if a setting is out of range or the caster fails.
 pub fn render<'a>(
     scene: &Scene,
     camera: &Camera,
@@ -136,7 +135,7 @@ impl Gathering<'_> {
         }
     }
 
-    /// Rays by the cosine, so that each weighs the albedo over their number.
+    /// Emits cosine-distributed gather rays, so that each is weighted by the albedo over their number.
     fn gather(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
         let rays = self.photons.gather;
         let weight = 1.0 / f64::from(rays) * (flight.weight * lobes.albedo);
@@ -152,7 +151,8 @@ impl Gathering<'_> {
         }
     }
 
-    /// Radiance by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading normal.
+    /// Radiance estimate by a map. A photon's flux is per area of the triangle; the surface scatters it by its shading
+    /// normal.
     fn estimate(&self, map: &PhotonMap, surfel: &Surfel<'_>, lobes: &Lobes) -> DVec3 {
         let Photons { nearest, radius, .. } = *self.photons;
         map.density(surfel.place.at, surfel.normal, nearest as usize, radius, |photon: &Photon| {

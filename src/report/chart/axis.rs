@@ -1,4 +1,4 @@
-//! Axes: their range, their ticks, and where a value stands on them.
+//! Axes: range, ticks, and positions of values.
 
 use std::ops::Range;
 
@@ -6,40 +6,40 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 
 use crate::elementary::log10;
 
-/// How an axis grows.
+/// Scale of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// From 0, evenly; from the least value if that is below 0.
+    /// Linear, from 0 or from the smallest value if that is negative.
     #[default]
     Linear,
-    /// By powers of ten; values that are not above 0 are left out.
+    /// Logarithmic; values that are not above 0 are omitted.
     Logarithmic,
 }
 
-/// Values that differ by more than this factor get a logarithmic axis from [`Scale::fitting`]: on a linear one the
-/// smallest would stand within an eighth of the axis.
+/// Ratio of values above which [`Scale::fitting`] chooses a logarithmic axis: on a linear one the smallest would lie
+/// within an eighth of the axis.
 const MAX_LINEAR_FACTOR: f64 = 8.0;
 
 impl Scale {
-    /// The scale that keeps values above 0 apart: logarithmic where they differ by a large factor.
+    /// Chooses the scale for positive values: logarithmic where they differ by a large factor.
     pub fn fitting(values: impl IntoIterator<Item = f64>) -> Self {
         let positive = values.into_iter().filter(|value| *value > 0.0 && value.is_finite());
         let [least, most] = ends(positive);
         if most > MAX_LINEAR_FACTOR * least { Self::Logarithmic } else { Self::Linear }
     }
 
-    /// Whether a value can stand on the axis.
+    /// Returns `true` if a value can be shown on the axis.
     pub(super) fn admits(self, value: f64) -> bool {
         value.is_finite() && (self == Self::Linear || value > 0.0)
     }
 }
 
-/// The least and the largest; infinite and the wrong way round for none.
+/// Smallest and largest value; inverted infinities for none.
 fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
-/// An axis as plotters asks for it.
+/// Axis in the form that plotters requires.
 #[derive(Clone, Debug)]
 pub(super) struct Axis {
     scale: Scale,
@@ -48,16 +48,16 @@ pub(super) struct Axis {
     ticks: Vec<(f64, String)>,
 }
 
-/// Room beyond the outermost values.
+/// Margin beyond the outermost values.
 const MARGIN: f64 = 1.06;
-/// Positive values that differ by less than this factor get an axis to the right that does not begin at 0.
+/// Ratio of positive values below which a horizontal axis does not begin at 0.
 const MAX_FACTOR_FROM_0: f64 = 4.0;
-/// At most so many intervals between ticks.
+/// Maximum number of intervals between ticks.
 const MAX_INTERVALS: usize = 8;
 
 impl Axis {
-    /// The axis to the right over some values, all of which its scale admits. It leaves out 0 where all values are
-    /// far from it. `None` if they span nothing.
+    /// Builds a horizontal axis for some values, all of which its scale admits. It omits 0 where all values are far
+    /// from it. `None` if the range is empty.
     pub(super) fn rightward(scale: Scale, values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
         let [least, most] = ends(values.clone());
         let margin = (MARGIN - 1.0) * (most - least);
@@ -65,7 +65,8 @@ impl Axis {
         if far { Self::between(scale, least - margin, most + margin) } else { Self::over(scale, values) }
     }
 
-    /// An axis over some values, all of which its scale admits; a linear one has 0. `None` if they span nothing.
+    /// Builds an axis for some values, all of which its scale admits; a linear one includes 0. `None` if the range is
+    /// empty.
     pub(super) fn over(scale: Scale, values: impl Iterator<Item = f64>) -> Option<Self> {
         let [least, most] = ends(values);
         match scale {
@@ -85,13 +86,14 @@ impl Axis {
         })
     }
 
-    /// An axis on which so many names stand at 1, 2, ..., in the middle of as much room each; the drawing writes them.
+    /// Builds an axis of `names` categories at 1, 2, ..., each in the middle of an equal interval; the drawing writes
+    /// the names.
     pub(super) fn named(names: u32) -> Self {
         let ticks = (1..=names).map(|place| (f64::from(place), String::new())).collect();
         Self { scale: Scale::Linear, low: 0.5, high: f64::from(names) + 0.5, ticks }
     }
 
-    /// How far along the axis a value stands, from 0 to 1.
+    /// Relative position of a value along the axis, from 0 to 1.
     fn share(&self, value: f64) -> f64 {
         match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -127,7 +129,7 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten.
+/// Ticks at multiples of 1, 2 or 5 times a power of ten.
 fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
     let exponent = log10((high - low) / MAX_INTERVALS as f64).floor() as i32;
     // Decimal text is read back to the nearest number: 3 times 0.1 would not be.
@@ -141,7 +143,7 @@ fn linear_ticks(low: f64, high: f64) -> Vec<f64> {
     all.take(2 * MAX_INTERVALS).map(|tick| tick + 0.0).collect()
 }
 
-/// Powers of ten, with 2 and 5 times each where there are few of them; round steps within less than that.
+/// Ticks at powers of ten, with 2 and 5 times each where there are few of them; at round steps within less than that.
 fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     let (first, last) = (log10(low).floor() as i32, log10(high).ceil() as i32);
     let decades = (log10(high) - log10(low)).ceil() as usize;
@@ -154,7 +156,7 @@ fn logarithmic_ticks(low: f64, high: f64) -> Vec<f64> {
     if ticks.len() >= 2 { ticks } else { linear_ticks(low, high) }
 }
 
-/// A tick's number: plain near one, by its power of ten far from it.
+/// Formats a tick: plain near one, as a power of ten far from it.
 fn tick_text(tick: f64) -> String {
     let magnitude = tick.abs();
     if tick == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{tick}") } else { format!("{tick:e}") }
@@ -198,7 +200,7 @@ mod tests {
         assert!(axis.map(&-20.0, (0, 600)) > 0 && axis.map(&40.0, (0, 600)) < 600);
     }
 
-    /// On an axis from 0, 60 and 70 would stand at its right end.
+    /// On an axis from 0, 60 and 70 would be at its right end.
     #[test]
     fn values_far_from_0_fill_the_axis() {
         let axis = Axis::rightward(Scale::Linear, [60.0, 70.0].into_iter()).expect("an axis");
@@ -215,7 +217,7 @@ mod tests {
         assert_eq!(Scale::fitting([]), Scale::Linear);
     }
 
-    /// The least of three counts of iterations stands where it can be told from the axis.
+    /// The smallest of three counts of iterations is distinguishable from the axis.
     #[test]
     fn fast_solvers_are_kept_apart() {
         let axis = over(Scale::Logarithmic, &[1.0, 8.0, 13.0, 213.0]);

@@ -1,44 +1,44 @@
-//! What a chart shows.
+//! Data of a chart.
 
 use super::axis::Scale;
 use super::style::SeriesStyle;
 
-/// Points with a name.
+/// Named series of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    /// What it is, for the label.
+    /// Label.
     pub label: String,
-    /// Its points, x and y, finite.
+    /// Points, x and y, finite.
     pub points: Vec<(f64, f64)>,
 }
 
-/// Lines and points over an axis to the right and an axis upward.
+/// Chart of lines and points over a horizontal and a vertical axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
-    /// What the chart shows.
+    /// Title.
     pub title: String,
-    /// The axis to the right, with its unit; nothing where `ticks` say what stands there.
+    /// Label of the horizontal axis, with its unit; empty if `ticks` name its categories.
     pub x: String,
-    /// The axis upward, with its unit.
+    /// Label of the vertical axis, with its unit.
     pub y: String,
-    /// How the axis to the right grows.
+    /// Scale of the horizontal axis.
     pub x_scale: Scale,
-    /// How the axis upward grows.
+    /// Scale of the vertical axis.
     pub y_scale: Scale,
     /// The lines.
     pub lines: Vec<Series>,
-    /// Points that no line joins.
+    /// Series of unconnected points.
     pub dots: Vec<Series>,
-    /// A paper's points: crosses in rings, called "printed".
+    /// Points of a paper: crosses in rings, labelled "printed".
     pub printed: Vec<(f64, f64)>,
-    /// What stands at 1, 2, ... of the axis to the right, where that has no numbers.
+    /// Names at 1, 2, ... of the horizontal axis, if it has no numbers.
     pub ticks: Vec<String>,
 }
 
-/// A line or set of points as it is drawn.
+/// Series in drawn form.
 pub(super) struct DrawnSeries<'a> {
     pub(super) label: &'a str,
-    /// Those that the axes admit.
+    /// Points that the axes admit.
     pub(super) points: Vec<(f64, f64)>,
     pub(super) joined: bool,
     pub(super) style: SeriesStyle,

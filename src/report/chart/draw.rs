@@ -1,4 +1,4 @@
-//! The drawing of a chart by plotters: axes by its mesh, everything else in pixels.
+//! Drawing of a chart by plotters: axes by its mesh, everything else in pixels.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -11,34 +11,34 @@ use super::data::{Chart, DrawnSeries};
 use super::labels::{PITCH, signed, spread};
 use super::style::{Marker, SeriesStyle, rgb};
 
-/// A place in pixels.
+/// Position in pixels.
 type Pixel = (i32, i32);
 type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// Axes and what they enclose, with the axes' numbers.
+/// Size of the plot area, including the numbers of the axes, in pixels.
 const PLOT: (i32, i32) = (580, 400);
-/// Above and below the plot, for the title and for the numbers below.
+/// Margins above and below the plot, for the title and for the numbers below, in pixels.
 const MARGINS: [i32; 2] = [44, 54];
-/// The stroke of the column's samples, from its left end to its right one.
+/// Horizontal extent of the line samples in the legend column, in pixels.
 const SAMPLE: [i32; 2] = [PLOT.0 + 4, PLOT.0 + 28];
 /// Sizes of fonts; plotters writes them divided by 1.24.
 const FONTS: [f64; 2] = [20.0, 15.5];
-/// What a letter of the smaller font takes at most, in pixels, over a whole label: sans-serif letters are 0.6 of their
+/// Maximum width of a letter of the smaller font, averaged over a label, in pixels: sans-serif letters are 0.6 of their
 /// font's size wide on average, or less.
 const LETTER: i32 = 8;
 /// Half the size of a marker.
 const MARK: i32 = 4;
-/// From one marker of a line to the next, at least.
+/// Minimum distance between markers of a line, in pixels.
 const APART: i32 = 56;
 
-/// A chart and its sizes.
+/// Chart with its layout.
 pub(super) struct Drawing<'a> {
     chart: &'a Chart,
     series: &'a [DrawnSeries<'a>],
     height: i32,
 }
 
-/// A series in pixels.
+/// Series in pixels.
 struct PixelSeries<'a> {
     series: &'a DrawnSeries<'a>,
     points: Vec<Pixel>,
@@ -50,7 +50,7 @@ impl<'a> Drawing<'a> {
         Self { chart, series, height: PLOT.1.max(labels) }
     }
 
-    /// Width and height.
+    /// Width and height, in pixels.
     pub(super) fn size(&self) -> (u32, u32) {
         let letters = self.series.iter().map(|series| signed(series.label.chars().count())).max().unwrap_or(0);
         let width = SAMPLE[1] + 10 + letters * LETTER;
@@ -72,7 +72,7 @@ impl<'a> Drawing<'a> {
         area.present()
     }
 
-    /// Draws the axes, and gives the series in pixels.
+    /// Draws the axes, and returns the series in pixels.
     fn axes<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
@@ -110,7 +110,7 @@ impl<'a> Drawing<'a> {
             .collect())
     }
 
-    /// A name below the axis, in two lines where one would run into its neighbours.
+    /// Draws a category name below the axis, in two lines where one would overlap its neighbours.
     fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> Drawn<B> {
         let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
         let long = signed(name.chars().count()) * LETTER > room;
@@ -123,7 +123,7 @@ impl<'a> Drawing<'a> {
             .try_for_each(|(line, y)| area.draw(&Text::new(line.to_owned(), (middle, y), style.clone())))
     }
 
-    /// The column of labels: a sample of each series, its name, and a thin line from where it ends.
+    /// Draws the column of labels: a sample of each series, its name, and a thin line from the end of the series.
     fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> Drawn<B> {
         let wanted: Vec<i32> = all.iter().map(|one| one.end().1).collect();
         let places = spread(&wanted, [MARGINS[0] + PITCH / 2, self.height - MARGINS[1] - PITCH / 2]);
@@ -141,7 +141,7 @@ impl<'a> Drawing<'a> {
     }
 }
 
-/// A name in two lines as short as they can be; in one if it is one word.
+/// Splits a name into two lines as short as possible; into one if it is one word.
 fn halves(name: &str) -> Vec<&str> {
     let longer = |(space, _): &(usize, &str)| (*space).max(name.len() - space - 1);
     let best = name.match_indices(' ').min_by_key(longer);
@@ -149,12 +149,12 @@ fn halves(name: &str) -> Vec<&str> {
 }
 
 impl PixelSeries<'_> {
-    /// Where the label's line starts.
+    /// Start of the label's line.
     fn end(&self) -> Pixel {
         self.points.last().copied().unwrap_or_default()
     }
 
-    /// The line, dashed or not; nothing for points.
+    /// Draws the line, dashed or not; nothing for points.
     fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
         let style = self.series.style;
         let stroke = style.color.stroke_width(2);
@@ -166,7 +166,7 @@ impl PixelSeries<'_> {
         }
     }
 
-    /// The markers: all points, or along a line some, which begin elsewhere on each line.
+    /// Draws the markers: all points, or some along a line, with a different start on each line.
     fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> Drawn<B> {
         let few = !self.series.joined || self.points.len() <= 10;
         let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
@@ -180,7 +180,7 @@ impl PixelSeries<'_> {
     }
 }
 
-/// One marker.
+/// Draws a marker.
 fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> Drawn<B> {
     let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
     let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];

@@ -1,20 +1,20 @@
-//! The labels of a chart: a column to its right, each label as near to the end of its line as the others let it.
+//! Label positions of a chart: a column to its right, each label as near as possible to the end of its line.
 
-/// From one label's middle to the next one's, in pixels.
+/// Distance of the centres of neighbouring labels, in pixels.
 pub(super) const PITCH: i32 = 19;
 
-/// A number of labels or letters as pixels are counted; a drawing has far less than the most that it gives.
+/// Converts a number of labels or letters to pixel arithmetic; a drawing has far fewer than the maximum.
 pub(super) fn signed(count: usize) -> i32 {
     const MOST: i32 = 100_000;
     i32::try_from(count).unwrap_or(MOST).min(MOST)
 }
 
-/// Places for labels whose lines end at some heights, in the same order as these: at least a pitch apart, between `top`
-/// and `bottom` if there is room for all, and downward from `top` if there is not.
+/// Places labels whose lines end at some heights, in the same order: at least a pitch apart, between `top` and `bottom`
+/// if there is room for all, otherwise downward from `top`.
 pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     order.sort_by_key(|&n| (wanted[n], n));
-    // Labels that touch move together: a group stands around the middle of what its labels want.
+    // Labels that touch move together: a group is centered on the mean of its labels' targets.
     let mut groups: Vec<Group> = Vec::new();
     for &n in &order {
         let mut group = Group { labels: vec![n], first: clamped(wanted[n], 1, [top, bottom]) };
@@ -32,14 +32,14 @@ pub(super) fn spread(wanted: &[i32], [top, bottom]: [i32; 2]) -> Vec<i32> {
     places
 }
 
-/// Labels one below the other.
+/// Group of adjacent labels.
 struct Group {
     labels: Vec<usize>,
     first: i32,
 }
 
 impl Group {
-    /// Where the next label may stand.
+    /// Next free position.
     fn end(&self) -> i32 {
         self.first + signed(self.labels.len()) * PITCH
     }
@@ -53,7 +53,7 @@ impl Group {
     }
 }
 
-/// The place of the first of some labels, moved into the room.
+/// Position of the first of some labels, clamped to the available room.
 fn clamped(first: i32, labels: usize, [top, bottom]: [i32; 2]) -> i32 {
     first.min(bottom - (signed(labels) - 1) * PITCH).max(top)
 }

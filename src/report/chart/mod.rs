@@ -1,6 +1,6 @@
 //! Line charts as SVG.
 //!
-//! Each line and set of points has a look of its own and its label beside its end, in a column that is the legend too.
+//! Each series has its own style and its label beside its end, in a column that is also the legend.
 
 mod axis;
 mod data;
@@ -21,10 +21,10 @@ use super::ReportError;
 use super::visible::visible;
 
 impl Chart {
-    /// The chart as an SVG file.
+    /// Encodes the chart as an SVG file.
     ///
     /// # Errors
-    /// [`ReportError::Encode`] if there is nothing to draw, or too much to tell apart.
+    /// [`ReportError::Encode`] if there is nothing to draw, or more series than distinguishable styles.
     pub fn svg(&self) -> Result<String, ReportError> {
         let fail = |reason: String| ReportError::Encode { format: "SVG", reason };
         let count = self.lines.len() + self.dots.len();
@@ -50,7 +50,7 @@ impl Chart {
         Ok(visible(&self.titled(&text)).into_owned())
     }
 
-    /// Lines, points and the printed ones, in the order of their styles; those without a point to show are left out.
+    /// Lines, points and the printed ones, in the order of their styles; empty ones are omitted.
     fn series(&self) -> Vec<DrawnSeries<'_>> {
         let admitted = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
             points.iter().copied().filter(|p| self.x_scale.admits(p.0) && self.y_scale.admits(p.1)).collect()
@@ -71,7 +71,7 @@ impl Chart {
         ours.chain([printed]).filter(|series| !series.points.is_empty()).collect()
     }
 
-    /// A drawing of plotters with what readers that cannot see it need, and the colours of a dark page.
+    /// Adds the title for screen readers, and the colors of a dark page, to a drawing of plotters.
     fn titled(&self, drawing: &str) -> String {
         let title = maud::html! { title { (self.title) } }.into_string();
         let (head, body) = drawing.split_once('>').unwrap_or_default();
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(svg.matches("<circle").count(), 3, "{svg}");
     }
 
-    /// The height of each label's text.
+    /// Heights of the labels' texts.
     fn heights(svg: &str, labels: &[String]) -> Vec<f64> {
         let place = |label: &String| {
             let tag = svg.split("<text ").find(|tag| tag.contains(&format!(">\n{label}\n"))).expect("a label");
@@ -130,7 +130,7 @@ mod tests {
         labels.iter().map(place).collect()
     }
 
-    /// More lines than colours, all of which end at the same point.
+    /// More lines than colors, all of which end at the same point.
     #[test]
     fn many_lines_have_looks_of_their_own_and_labels_that_do_not_overlap() {
         let labels: Vec<String> = (0..40).map(|n| format!("line {n:02}")).collect();

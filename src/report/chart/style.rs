@@ -1,14 +1,14 @@
-//! How lines and points look: each has a colour, a dash and a marker of its own, on a light page and on a dark one.
+//! Styles of series: each has its own combination of color, dash and marker, on a light page and on a dark one.
 //!
-//! Colours are those of Okabe and Ito (2008), which stay apart for readers who do not tell red from green; on paper,
-//! sky blue and reddish purple are darkened until they stand out from it, and orange to brown. Yellow is left out, and
-//! black is the papers'.
+//! Colours are those of Okabe and Ito (2008), which readers with red-green color blindness can distinguish; on a light
+//! page, sky blue and reddish purple are darkened for contrast, and orange to brown. Yellow is omitted, and black is
+//! reserved for the papers' points.
 
 use plotters::style::RGBColor;
 
 use super::super::palette::{Color, DARK, LIGHT, Theme};
 
-/// Lines on a light page, and the same on a dark one.
+/// Colors of lines on a light page, and on a dark one.
 const COLORS: [(Color, Color); 6] = [
     // Blue.
     ([0x00, 0x72, 0xb2], [0x4b, 0xa3, 0xdb]),
@@ -35,10 +35,10 @@ const MARKERS: [Marker; 7] = [
     Marker::OpenDiamond,
 ];
 
-/// Lines and sets of points that one chart can tell apart: the lists have no common divisor.
+/// Maximum number of distinguishable series: the lengths of the lists have no common divisor.
 pub(super) const MAX_SERIES: usize = COLORS.len() * DASHES.len() * MARKERS.len();
 
-/// The shape of a point.
+/// Shape of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Marker {
     Disc,
@@ -48,11 +48,11 @@ pub(super) enum Marker {
     OpenSquare,
     OpenTriangle,
     OpenDiamond,
-    /// A cross in a ring: figures that a paper prints.
+    /// Cross in a ring: printed values of a paper.
     Printed,
 }
 
-/// How one line or set of points looks.
+/// Style of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SeriesStyle {
     pub(super) color: RGBColor,
@@ -61,23 +61,23 @@ pub(super) struct SeriesStyle {
 }
 
 impl SeriesStyle {
-    /// A paper's points.
+    /// Style of a paper's points.
     pub(super) const PRINTED: Self = Self { color: rgb(LIGHT.ink), dash: None, marker: Marker::Printed };
 
-    /// The style of the n-th line or set of points of a chart.
+    /// Style of the n-th series of a chart.
     pub(super) fn nth(n: usize) -> Self {
         let (light, _) = COLORS[n % COLORS.len()];
         Self { color: rgb(light), dash: DASHES[n % DASHES.len()], marker: MARKERS[n % MARKERS.len()] }
     }
 }
 
-/// plotters' form of a colour.
+/// Converts a color to plotters' type.
 pub(super) const fn rgb([r, g, b]: Color) -> RGBColor {
     RGBColor(r, g, b)
 }
 
-/// Rules that give a drawing the colours of a dark page. Colours are attributes, so that a viewer without style sheets
-/// shows the light ones.
+/// CSS rules for the colors of a dark page. Colors are attributes, so that a viewer without style sheets shows the
+/// light ones.
 pub(super) fn dark_rules() -> String {
     let of = |theme: &Theme| [theme.paper, theme.ink, theme.quiet, theme.rule];
     let pairs = of(&LIGHT).into_iter().zip(of(&DARK)).chain(COLORS);
@@ -88,7 +88,7 @@ pub(super) fn dark_rules() -> String {
     format!("@media (prefers-color-scheme:dark){{{}}}", pairs.map(rule).collect::<String>())
 }
 
-/// A colour as style sheets write it.
+/// Formats a color for style sheets.
 fn hex([r, g, b]: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -8,10 +8,10 @@ use maud::{Markup, PreEscaped, html};
 use super::super::{NamedPicture, ReportError};
 use crate::picture::png;
 
-/// Widths that pictures have on a page, in pixels: on a phone, and two side by side on a screen.
+/// Widths of pictures on a page, in pixels: on a phone, and two side by side on a screen.
 const WIDTHS: [(&str, u32); 2] = [("narrow", 340), ("wide", 600)];
 
-/// One size of a picture: the factor by which it is reduced, where it is shown, and its file.
+/// One size of a picture: its reduction factor, its place, and its file.
 struct SizedPicture {
     factor: u32,
     pixels: (u32, u32),
@@ -19,7 +19,7 @@ struct SizedPicture {
     source: String,
 }
 
-/// A chart; the drawing is of our own making, and put in as it is.
+/// Renders a chart; the SVG is our own and inserted unescaped.
 pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
     html! {
         figure.drawing {
@@ -29,8 +29,8 @@ pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
     }
 }
 
-/// Pictures side by side, in their own pixels; what is wider than its place is reduced by a whole factor, and shown in
-/// full when it is clicked.
+/// Renders pictures side by side at their native resolution; larger ones are reduced by a whole factor, and shown in
+/// full when clicked.
 pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Result<Markup, ReportError> {
     let figures: Vec<Markup> =
         places.map(|place| figure(&all[place], &pngs[place], place)).collect::<Result<_, _>>()?;
@@ -58,7 +58,7 @@ fn figure(picture: &NamedPicture, full: &[u8], place: usize) -> Result<Markup, R
     })
 }
 
-/// Each size that some place asks for, once; the last is the picture itself.
+/// Returns each size that some place requires, once; the last is the picture itself.
 fn sizes(picture: &NamedPicture, full: &[u8]) -> Result<Vec<SizedPicture>, ReportError> {
     let wanted = WIDTHS.map(|(class, width)| (class, picture.reduction(width)));
     let mut sizes: Vec<SizedPicture> = Vec::new();
@@ -84,7 +84,7 @@ fn sizes(picture: &NamedPicture, full: &[u8]) -> Result<Vec<SizedPicture>, Repor
     Ok(sizes)
 }
 
-/// Which pixels a reduced picture shows.
+/// Notes on which pixels a reduced picture shows.
 fn notes(picture: &NamedPicture, sizes: &[SizedPicture]) -> Markup {
     let which = if picture.ranks.is_empty() { "the middle one" } else { "the worst" };
     html! {

@@ -1,4 +1,4 @@
-//! One HTML file with everything inside it.
+//! Rendering of a page as one self-contained HTML file.
 
 mod figure;
 mod style;
@@ -12,15 +12,15 @@ use super::findings::{Findings, Legend, Passage, TallyEntry, Tone, Verdict};
 use super::visible::visible;
 use super::{Provenance, ReportError};
 
-/// The page as one HTML file that needs nothing else: pictures (`pngs`), charts (`drawings`) and style are inside it,
-/// scripts there are none. Conclusion and tally come first, the provenance last.
+/// Renders the page as one self-contained HTML file: pictures (`pngs`), charts (`drawings`) and style are embedded, and
+/// there are no scripts. Conclusion and tally come first, the provenance last.
 pub(super) fn html(
     findings: &Findings,
     pngs: &[Vec<u8>],
     drawings: &[String],
     provenance: &Provenance,
 ) -> Result<String, ReportError> {
-    // The table of contents stands before the first heading.
+    // The table of contents precedes the first heading.
     let is_heading = |passage: &Passage| matches!(passage, Passage::Heading(_));
     let lead = findings.text.iter().position(is_heading).unwrap_or(findings.text.len());
     let mut parts = Vec::new();
@@ -56,16 +56,16 @@ pub(super) fn html(
             }
         }
     };
-    // Tags, styles and drawings have nothing hidden in them: what is escaped is text from outside.
+    // Tags, styles and drawings have no hidden characters: only external text is escaped.
     Ok(visible(&page.into_string()).into_owned())
 }
 
-/// The id of a heading, by its place in the text.
+/// Id of a heading, by its index in the text.
 fn section(place: usize) -> String {
     format!("section-{place}")
 }
 
-/// The conclusion, its first sentence as the verdict, and the tally as counts and as a bar.
+/// Renders the conclusion, its first sentence as the verdict, and the tally as counts and as a bar.
 fn render_summary(findings: &Findings) -> Markup {
     let failed = findings.verdict() == Verdict::Failed;
     let tone = |entry: &TallyEntry| match entry.tone {

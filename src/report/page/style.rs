@@ -1,9 +1,9 @@
-//! The page's style sheet: colours from the palette, the rest from `page.css`.
+//! Style sheet of a page: colors from the palette, the rest from `page.css`.
 
 use super::super::palette::{Color, DARK, LIGHT, Theme};
 
-/// Links; what one hopes for, what says nothing, and what one does not hope for: blue, grey and orange of Okabe and
-/// Ito (2008), made to stand out from each page.
+/// Accents of links and of good, neutral and bad outcomes: blue, grey and orange of Okabe and Ito (2008), adjusted for
+/// contrast with each page.
 type Accents = [(&'static str, Color); 4];
 
 const ON_LIGHT: Accents = [
@@ -19,7 +19,7 @@ const ON_DARK: Accents = [
     ("bad", [0xf0, 0x7b, 0x1f]),
 ];
 
-/// Follows the reader's choice of a light or dark page.
+/// Returns the style sheet, which follows the reader's choice of a light or dark page.
 pub(super) fn sheet() -> String {
     format!(
         "\n:root {{ color-scheme: light dark; {} }}\n@media (prefers-color-scheme: dark) {{ :root {{ {} }} }}\n{}",
@@ -52,7 +52,7 @@ mod tests {
         }
     }
 
-    /// Every colour of the sheet is a variable, so that a dark page has no colour of a light one.
+    /// Every color of the sheet is a variable, so that a dark page uses no color of a light one.
     #[test]
     fn the_sheet_has_no_colour_of_its_own() {
         let css = include_str!("page.css");

@@ -1,18 +1,18 @@
-//! Tables that move inside their box.
+//! Tables that scroll inside their box.
 
 use maud::{Markup, html};
 
 use super::super::{Cell, Table};
 
-/// The column of this name stays in sight at the right edge.
+/// Name of the column that stays visible at the right edge.
 const SAID: &str = "verdict";
 
-/// A table in a box that scrolls; `place` makes its id.
+/// Renders a table in a box that scrolls; `place` makes its id.
 pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
     let id = format!("table-{place}");
     let said = |column: usize| table.headings()[column] == SAID;
     html! {
-        // What scrolls can be reached by keys, and has a name.
+        // Scrollable regions are focusable by keyboard, and have a name.
         div.scroll tabindex="0" role="region" aria-labelledby=(id) {
             table {
                 caption id=(id) { (table.title()) }
@@ -41,7 +41,7 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
     }
 }
 
-/// The class of an entry; a verdict is no number.
+/// CSS class of a cell; a verdict is not formatted as a number.
 const fn class(cell: &Cell, said: bool) -> Option<&'static str> {
     match (said, cell.is_number()) {
         (true, _) => Some("said"),

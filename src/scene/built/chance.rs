@@ -1,8 +1,8 @@
-//! Chance in a scene: numbers drawn one after the other, for places and angles only.
+//! Random numbers for built scenes, in sequence: for positions and angles only.
 
 use crate::geom::random::CounterRng;
 
-/// Numbers of a seed, in the order in which a generator asks for them.
+/// Random number generator with a seed; its numbers depend on the order of calls.
 pub(super) struct Chance {
     random: CounterRng,
     drawn: u64,
@@ -13,13 +13,13 @@ impl Chance {
         Self { random: CounterRng::new(seed), drawn: 0 }
     }
 
-    /// A number from `low` up to `high`.
+    /// Returns a number in [`low`, `high`).
     pub(super) fn between(&mut self, low: f64, high: f64) -> f64 {
         self.drawn += 1;
         low + (high - low) * self.random.unit(self.drawn, 0, 0)
     }
 
-    /// One of several things.
+    /// Chooses one of several items.
     pub(super) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
         let place = self.between(0.0, things.len() as f64) as usize;
         things[place.min(things.len() - 1)]

@@ -1,12 +1,12 @@
 //! The Cornell box, as measured at Cornell University: 42 triangles, open in front.
 //!
-//! The published figures are millimetres, x to the left and y up; here x runs to the right and z up, in metres. The
-//! ceiling has a hole where the light is, so that no two faces lie in one plane.
+//! The published coordinates are in millimetres, x to the left and y up; here x runs to the right and z up, in metres.
+//! The ceiling has a hole where the light is, so that no two faces lie in one plane.
 
 use super::super::{Material, PointLight, Scene, Surface, View};
 use super::parts::{MaterialId, Parts, Placement};
 
-/// The box with its two blocks and its light.
+/// Builds the box with its two blocks and its light.
 pub fn cornell_box() -> Scene {
     let mut parts = Parts::default();
     let white = parts.paint("white", [0.73, 0.73, 0.73]);
@@ -34,7 +34,7 @@ pub fn cornell_box() -> Scene {
     parts.scene(vec![view], vec![lamp])
 }
 
-/// A point of the published list: x to the left, depth, height in millimetres.
+/// Converts a point of the published list: x to the left, depth, height in millimetres.
 fn measured([x, height, depth]: [f64; 3]) -> [f64; 3] {
     [(556.0 - x) / 1000.0, depth / 1000.0, height / 1000.0]
 }
@@ -58,8 +58,8 @@ fn walls(parts: &mut Parts, white: MaterialId, [left, right]: [MaterialId; 2], l
     wall(parts, inner, light);
 }
 
-/// A block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed below.
-/// 12 triangles.
+/// Adds a block on a quadrilateral of the floor, its corners counter-clockwise as seen from above in our axes, closed
+/// below. 12 triangles.
 fn block(parts: &mut Parts, base: [[f64; 2]; 4], height: f64, material: MaterialId) {
     let ring = |height: f64| base.map(|[x, depth]| [x, height, depth]);
     let (low, high) = (ring(0.0), ring(height));

@@ -1,10 +1,10 @@
-//! What stands on a desk. Every piece stands on its place's origin and is used from the side of -y.
+//! Objects on a desk. Each stands at its placement's origin and faces -y.
 
 use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{MaterialId, Parts, Placement};
 
-/// A monitor with a tube, as deep as they were. 60 triangles.
+/// Adds a cathode-ray monitor. 60 triangles.
 pub(super) fn monitor(parts: &mut Parts, place: Placement, palette: &Palette) {
     let (case, screen) = (palette.beige, palette.screen);
     parts.frustum(place, [[-0.13, -0.13, 0.0], [0.13, 0.13, 0.02]], 0.02, [case; 6]);
@@ -19,7 +19,7 @@ pub(super) fn monitor(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, [-0.175, -0.184, 0.1], [0.175, -0.18, 0.375], screen);
 }
 
-/// A keyboard of 78 keys. 948 triangles.
+/// Adds a keyboard of 78 keys. 948 triangles.
 pub(super) fn keyboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     let board = place.turned(0, 0.012);
     parts.block(board, [-0.22, -0.075, 0.0], [0.22, 0.075, 0.018], palette.beige);
@@ -52,7 +52,7 @@ pub(super) fn keyboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A mouse. 64 triangles.
+/// Adds a mouse. 64 triangles.
 pub(super) fn mouse(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.frustum(place, [[-0.03, -0.055, 0.0], [0.03, 0.055, 0.03]], 0.009, [palette.beige; 6]);
     for x in [-0.02, 0.002] {
@@ -62,13 +62,13 @@ pub(super) fn mouse(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.cylinder(wheel, 0.006, [-0.001, 0.001], 8, palette.black);
 }
 
-/// A mug with coffee in it. 318 triangles.
+/// Adds a mug with coffee in it. 318 triangles.
 pub(super) fn mug(parts: &mut Parts, place: Placement, palette: &Palette) {
     vessel(parts, place, [0.036, 0.095], 24, palette.china, palette.soil);
     parts.bent_tube(place.to(0.036, 0.0, 0.048), [0.026, 0.005], [-0.25, 0.25], [10, 6], palette.china);
 }
 
-/// A cup of `[radius, height]`, filled below its rim. 7 `sides` + `sides` - 2 triangles.
+/// Adds a cup of `[radius, height]`, filled below its rim. 7 `sides` + `sides` - 2 triangles.
 fn vessel(
     parts: &mut Parts,
     place: Placement,
@@ -83,7 +83,7 @@ fn vessel(
     parts.lathe(place, &[[inner, 0.7 * height], [0.0, 0.7 * height]], sides, filling);
 }
 
-/// A cup with four pencils. 206 triangles.
+/// Adds a cup with four pencils. 206 triangles.
 pub(super) fn pencils(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     vessel(parts, place, [0.035, 0.1], 16, palette.metal, palette.black);
     for pencil in 0..4 {
@@ -93,7 +93,7 @@ pub(super) fn pencils(parts: &mut Parts, place: Placement, palette: &Palette, ch
     }
 }
 
-/// A telephone. 192 triangles.
+/// Adds a telephone. 192 triangles.
 pub(super) fn telephone(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.frustum(place, [[-0.1, -0.1, 0.0], [0.1, 0.1, 0.05]], 0.012, [palette.black; 6]);
     for key in 0..12 {
@@ -106,7 +106,7 @@ pub(super) fn telephone(parts: &mut Parts, place: Placement, palette: &Palette) 
     }
 }
 
-/// A pile of `sheets` stacks of paper, each a little askew. 12 `sheets` triangles.
+/// Adds a pile of `sheets` stacks of paper, each a little askew. 12 `sheets` triangles.
 pub(super) fn papers(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance, sheets: u32) {
     for sheet in 0..sheets {
         let z = 0.006 * f64::from(sheet);

@@ -1,5 +1,5 @@
-//! Models of flat parts with as many vertices as those of the paper on bi-scale transfer (its Table I) that have
-//! several textures: a chair and a temple. Which ones they were is not at hand.
+//! Models of flat parts with the vertex counts of the models with several textures in the paper on bi-scale transfer
+//! (its Table I): a chair and a temple. The original models are not available.
 //!
 //! Parts are blocks, walls and roofs, of which every face is a grid of triangles with its own normal. Texture
 //! coordinates are lengths, 1 per unit, along the edges of a face. Units are those of the models: the chair is 1 high,
@@ -11,7 +11,7 @@ use super::super::Material;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
-/// A model of flat parts.
+/// Model of flat parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FlatModel {
     /// A chair with arms: 16,101 vertices; frame, seat, back.
@@ -20,20 +20,20 @@ pub enum FlatModel {
     Temple,
 }
 
-/// A mesh with a material per triangle.
+/// Mesh with a material per triangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialMesh {
-    /// The mesh, with normals and texture coordinates.
+    /// Mesh, with normals and texture coordinates.
     pub mesh: Mesh,
     /// Its materials.
     pub materials: Vec<Material>,
-    /// The number of each triangle's material.
+    /// Index of each triangle's material.
     pub material_of: Vec<u32>,
 }
 
 impl FlatModel {
-    /// The model with edges about so many times as long: with 1, as many vertices as the paper's. More than 16 is as
-    /// 16.
+    /// Builds the model with edges about `coarser` times as long: with 1, as many vertices as the paper's. Values above
+    /// 16 count as 16.
     pub fn model(self, coarser: u32) -> MaterialMesh {
         let coarser = coarser.clamp(1, 16);
         let (vertices, build, materials): (u32, fn(&mut FlatParts), &[Paint]) = match self {
@@ -63,13 +63,13 @@ impl FlatModel {
     }
 }
 
-/// A material's name and its reflectance.
+/// Name and reflectance of a material.
 type Paint = (&'static str, [f32; 3]);
 
-/// Flat parts in the making.
+/// Builder of a model of flat parts.
 #[derive(Clone, Debug, Default)]
 struct FlatParts {
-    /// The length that edges should have.
+    /// Target edge length.
     edge: f64,
     positions: Vec<[f32; 3]>,
     normals: Vec<[f32; 3]>,
@@ -79,14 +79,14 @@ struct FlatParts {
 }
 
 impl FlatParts {
-    /// The parts with the shortest edges that make at most so many vertices, of lengths each a hundredth above the one
-    /// before.
+    /// Builds the parts with the shortest edges that give at most this many vertices; edge lengths are tried in steps
+    /// of a hundredth.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
         let mut edge = 0.005;
         loop {
             let mut parts = Self { edge, ..Self::default() };
             build(&mut parts);
-            // Nothing is coarser than one quad per face.
+            // The coarsest model has one quad per face.
             if parts.positions.len() <= vertices || edge > 10.0 {
                 return parts;
             }
@@ -94,7 +94,7 @@ impl FlatParts {
         }
     }
 
-    /// Puts a vertex into the middle of each of the largest triangles, of equal ones the first.
+    /// Inserts a vertex into the middle of each of the `count` largest triangles, the first of equals.
     fn divide_largest(&mut self, count: usize) {
         let area = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|corner| DVec3::from(self.positions[corner as usize].map(f64::from)));
@@ -120,12 +120,12 @@ impl FlatParts {
         }
     }
 
-    /// A parallelogram: a corner and its two sides, `across` x `along` looking out of the front.
+    /// Adds a parallelogram given by a corner and its two sides; `across` x `along` points out of the front.
     fn face(&mut self, corner: DVec3, across: DVec3, along: DVec3, material: u32) {
         self.trapezoid(corner, [across, across], along, material);
     }
 
-    /// The same with another upper side, as long or shorter, whose middle stands above the lower one's.
+    /// Like [`Self::face`], with another upper side, as long or shorter, whose middle stands above the lower one's.
     fn trapezoid(&mut self, corner: DVec3, [lower, upper]: [DVec3; 2], along: DVec3, material: u32) {
         let parts = |side: DVec3| ((side.length() / self.edge).round() as u32).max(1);
         let (columns, rows) = (parts(lower), parts(along));
@@ -153,7 +153,7 @@ impl FlatParts {
         }
     }
 
-    /// A block between two corners.
+    /// Adds a block between two corners.
     fn block(&mut self, [x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], material: u32) {
         let at = DVec3::new;
         let (x, y, z) = (at(x1 - x0, 0.0, 0.0), at(0.0, y1 - y0, 0.0), at(0.0, 0.0, z1 - z0));
@@ -166,10 +166,10 @@ impl FlatParts {
     }
 }
 
-/// How deep parts stand in each other, so that no two faces share an edge.
+/// Overlap of adjoining parts, so that no two faces share an edge.
 const SUNK: f64 = 0.001;
 
-/// A chair of 0.5 x 0.5, 1 high. Its front is at -y.
+/// Adds a chair of 0.5 x 0.5, 1 high, that faces -y.
 fn chair(parts: &mut FlatParts) {
     let [frame, seat, back] = [0, 1, 2];
     for x in [-0.25, 0.2] {
@@ -187,7 +187,7 @@ fn chair(parts: &mut FlatParts) {
     parts.block([-0.17, 0.17, 0.58], [0.17, 0.21 + SUNK, 0.92], back);
 }
 
-/// A temple with six pillars along its front and eight along each side.
+/// Adds a temple with six pillars along its front and eight along each side.
 fn temple(parts: &mut FlatParts) {
     let [steps, pillars, walls, eaves, roof] = [0, 1, 2, 3, 4];
     for step in 0..3 {

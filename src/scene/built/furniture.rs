@@ -1,10 +1,10 @@
-//! Furniture of many small triangles. Every piece stands on its place's origin and is used from the side of -y.
+//! Furniture of many small triangles. Each piece stands at its placement's origin and faces -y.
 
 use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{Parts, Placement};
 
-/// A desk of 1.6 x 0.8 m, 0.74 m high, with a box of drawers. 132 triangles.
+/// Adds a desk of 1.6 x 0.8 m, 0.74 m high, with a box of drawers. 132 triangles.
 pub(super) fn desk(parts: &mut Parts, place: Placement, palette: &Palette) {
     let (wood, dark) = (palette.wood, palette.dark_wood);
     parts.block(place, [-0.8, -0.4, 0.71], [0.8, 0.4, 0.74], wood);
@@ -19,7 +19,7 @@ pub(super) fn desk(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A chair on five castors. 452 triangles.
+/// Adds a chair on five castors. 452 triangles.
 pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     for leg in 0..5 {
         let place = place.turned(2, (f64::from(leg) + 0.25) / 5.0);
@@ -41,8 +41,8 @@ pub(super) fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A shelf of 1 x 0.3 m, `rows` rows of `books` books each, 0.35 m per row. 36 + 12 (`rows` + 1) + 12 `rows` `books`
-/// triangles.
+/// Adds a shelf of 1 x 0.3 m, `rows` rows of `books` books each, 0.35 m per row. 36 + 12 (`rows` + 1) + 12 `rows`
+/// `books` triangles.
 pub(super) fn bookshelf(
     parts: &mut Parts,
     place: Placement,
@@ -73,7 +73,7 @@ pub(super) fn bookshelf(
     }
 }
 
-/// A desk lamp with a shining disc in its shade, which hangs over +x. 348 triangles.
+/// Adds a desk lamp with an emitting disc in its shade, which hangs over +x. 348 triangles.
 pub(super) fn desk_lamp(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.cylinder(place, 0.08, [0.0, 0.02], 20, palette.black);
     let lower = place.to(0.0, 0.0, 0.02).turned(1, -0.06);
@@ -88,7 +88,7 @@ pub(super) fn desk_lamp(parts: &mut Parts, place: Placement, palette: &Palette) 
     parts.disc(shade, 0.05, -0.03, 10, false, palette.bulb);
 }
 
-/// A plant of `leaves` leaves in a pot, about 1 m high. 160 + 24 `leaves` triangles.
+/// Adds a plant of `leaves` leaves in a pot, about 1 m high. 160 + 24 `leaves` triangles.
 pub(super) fn plant(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance, leaves: u32) {
     let pot = [[0.0, 0.0], [0.12, 0.0], [0.17, 0.3], [0.155, 0.3], [0.15, 0.26]];
     parts.lathe(place, &pot, 20, palette.clay);
@@ -104,7 +104,7 @@ pub(super) fn plant(parts: &mut Parts, place: Placement, palette: &Palette, chan
     }
 }
 
-/// A leaf along z, with a ridge on both sides. 8 triangles.
+/// Adds a leaf along z, with a ridge on both sides. 8 triangles.
 fn blade(parts: &mut Parts, place: Placement, palette: &Palette, length: f64) {
     let ring = [[0.0, 0.0, 0.0], [0.0, 0.06, 0.4 * length], [0.02, 0.0, length], [0.0, -0.06, 0.4 * length]];
     let (outer, inner) = ([0.018, 0.0, 0.4 * length], [0.008, 0.0, 0.4 * length]);
@@ -115,13 +115,13 @@ fn blade(parts: &mut Parts, place: Placement, palette: &Palette, length: f64) {
     }
 }
 
-/// A basket for waste paper, open above. 8 `sides` triangles.
+/// Adds a waste-paper basket, open above. 8 `sides` triangles.
 pub(super) fn basket(parts: &mut Parts, place: Placement, palette: &Palette, sides: u32) {
     let profile = [[0.0, 0.0], [0.11, 0.0], [0.14, 0.3], [0.134, 0.3], [0.105, 0.006], [0.0, 0.006]];
     parts.lathe(place, &profile, sides, palette.metal);
 }
 
-/// A radiator below a window, with its back to +y. 24 + 12 `fins` triangles.
+/// Adds a radiator below a window, with its back to +y. 24 + 12 `fins` triangles.
 pub(super) fn radiator(parts: &mut Parts, place: Placement, palette: &Palette, fins: u32) {
     let width = 0.06 * f64::from(fins);
     for z in [0.15, 0.6] {

@@ -1,4 +1,4 @@
-//! Geodesic spheres, bent and dented: closed meshes of any number of vertices.
+//! Deformed geodesic spheres: closed meshes of any number of vertices.
 
 use std::collections::BTreeMap;
 
@@ -8,17 +8,17 @@ use crate::elementary::exp;
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
-/// A bump of a sphere, or with a negative height a dent.
+/// Bump of a sphere, or a dent if its height is negative.
 pub(super) struct Lobe {
-    /// Where it is.
+    /// Direction of its centre.
     pub(super) toward: [f64; 3],
     /// Height over the sphere, of radius 1.
     pub(super) height: f64,
-    /// How quickly it falls off to its sides.
+    /// Steepness of the falloff.
     pub(super) narrow: f64,
 }
 
-/// The radius of a bumped unit sphere.
+/// Radius of a unit sphere with bumps, in a direction.
 pub(super) fn bumped(toward: DVec3, lobes: &[Lobe]) -> f64 {
     let height = |lobe: &Lobe| {
         let middle = unit(DVec3::from(lobe.toward)).unwrap_or(DVec3::Z);
@@ -27,7 +27,8 @@ pub(super) fn bumped(toward: DVec3, lobes: &[Lobe]) -> f64 {
     1.0 + lobes.iter().map(height).sum::<f64>()
 }
 
-/// The geodesic sphere of `20 * parts * parts` faces, changed, with every direction in its place.
+/// Builds the geodesic sphere of `20 * parts * parts` faces, modified by `change`, with every direction mapped by
+/// `shape`.
 pub(super) fn mesh_of(parts: u32, shape: &dyn Fn(DVec3) -> DVec3, change: impl FnOnce(&mut Sphere)) -> Mesh {
     let mut sphere = Sphere::new(parts);
     change(&mut sphere);
@@ -35,21 +36,21 @@ pub(super) fn mesh_of(parts: u32, shape: &dyn Fn(DVec3) -> DVec3, change: impl F
     Mesh::new(positions, sphere.faces).expect("indices are those of directions, and shapes are finite")
 }
 
-/// A triangulated unit sphere, fronts outwards.
+/// Triangulated unit sphere, fronts outwards.
 pub(super) struct Sphere {
     pub(super) directions: Vec<DVec3>,
     pub(super) faces: Vec<[u32; 3]>,
 }
 
 impl Sphere {
-    /// An icosahedron with each edge in so many parts.
+    /// Creates an icosahedron with each edge divided into `parts` parts.
     pub(super) fn new(parts: u32) -> Self {
         let (corners, triangles) = icosahedron();
         let mut known = BTreeMap::new();
         let mut sphere = Self { directions: Vec::new(), faces: Vec::new() };
         for triangle in triangles {
             let mut vertex = |counts: [u32; 3]| {
-                // In one order whatever triangle it is seen from, so that shared points are the same.
+                // Independent of the triangle's orientation, so that shared points are bit-identical.
                 let mut key =
                     [0, 1, 2].map(|at| (triangle[at], counts[at])).map(|own| if own.1 == 0 { (0, 0) } else { own });
                 key.sort_unstable();
@@ -75,7 +76,7 @@ impl Sphere {
         sphere
     }
 
-    /// Divides the faces that are largest in a shape into three each.
+    /// Divides the faces that are largest after applying `shape` into three each.
     pub(super) fn divide_largest(&mut self, count: usize, shape: &dyn Fn(DVec3) -> DVec3) {
         let area = |face: [u32; 3]| {
             let [a, b, c] = face.map(|corner| shape(self.directions[corner as usize]));
@@ -93,7 +94,7 @@ impl Sphere {
         }
     }
 
-    /// Leaves out the lowest faces, so that so many are left.
+    /// Removes the lowest faces, so that `left` are left.
     pub(super) fn open_at_the_bottom(&mut self, left: usize) {
         let height = |face: &[u32; 3]| face.iter().map(|&corner| self.directions[corner as usize].z).sum::<f64>();
         let mut by_height: Vec<(f64, usize)> = self.faces.iter().map(height).zip(0..).collect();
@@ -104,7 +105,7 @@ impl Sphere {
     }
 }
 
-/// Corners and triangles, fronts outwards.
+/// Corners and triangles of an icosahedron, fronts outwards.
 fn icosahedron() -> ([DVec3; 12], [[usize; 3]; 20]) {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let mut corners = [DVec3::ZERO; 12];

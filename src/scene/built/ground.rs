@@ -1,4 +1,4 @@
-//! A ground below a model, which receives its shadow.
+//! Ground planes below a model, which receive its shadow.
 
 use glam::DVec3;
 
@@ -8,8 +8,8 @@ use crate::geom::{Mesh, MeshError};
 /// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
 
-/// A square of `side` x `side` vertices at a height that looks up, with normals and texture coordinates: its middle and
-/// half its width.
+/// Builds a horizontal square of `side` x `side` vertices that faces up, with normals and texture coordinates, given by
+/// its centre and half its width.
 ///
 /// # Panics
 /// If there are fewer than two vertices along an edge, or a coordinate is not finite in single precision.
@@ -29,8 +29,8 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
     mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite coordinates of a grid")
 }
 
-/// A ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along its
-/// longest side of x and y.
+/// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along
+/// its longest side of x and y.
 ///
 /// # Panics
 /// As [`ground`].
@@ -41,10 +41,10 @@ pub fn ground_of(model: &Mesh, side: u32) -> Mesh {
     ground(side, middle, if width > 0.0 { width } else { 1.0 })
 }
 
-/// A model on its ground ([`ground_of`]): both in one mesh, and a material per triangle, 0 of the model and 1 of the
-/// ground.
+/// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for
+/// the ground.
 ///
-/// The ground's vertices have normals; the model keeps its own, or is given the means of its triangles.
+/// The ground's vertices have normals; the model keeps its own, or receives the means of its triangles.
 ///
 /// # Errors
 /// [`MeshError::TooMany`] if there are too many triangles.

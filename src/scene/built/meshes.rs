@@ -1,4 +1,4 @@
-//! The meshes that the project builds itself and that are no scenes, by name.
+//! Named meshes built by the project that are not scenes.
 
 use super::super::Material;
 use super::flat_models::{FlatModel, MaterialMesh};
@@ -6,7 +6,7 @@ use super::stand_ins;
 use super::transfer_models::TransferModel;
 use crate::geom::Mesh;
 
-/// A mesh that can be asked for by name.
+/// Mesh with its name.
 struct BuiltMesh {
     name: &'static str,
     what: &'static str,
@@ -88,27 +88,28 @@ const MESHES: &[BuiltMesh] = &[
     },
 ];
 
-/// The teapot with about as many vertices as in the paper on all-frequency transfer (its Table 1).
+/// Builds the teapot with about as many vertices as in the paper on all-frequency transfer (its Table 1).
 fn teapot() -> Mesh {
     crate::geom::teapot::teapot(40).expect("a rate in range")
 }
 
-/// The names of all meshes, in alphabetical order.
+/// Names of all meshes, in alphabetical order.
 pub fn names() -> impl Iterator<Item = &'static str> {
     MESHES.iter().map(|entry| entry.name)
 }
 
-/// What a mesh is, in one line.
+/// One-line description of a mesh.
 pub fn description(name: &str) -> Option<&'static str> {
     MESHES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
 }
 
-/// The mesh of a name.
+/// Builds the mesh with this name.
 pub fn build(name: &str) -> Option<Mesh> {
     MESHES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
 }
 
-/// The mesh of a name with its materials: one, `plain`, reflectance a half, for those that have none of their own.
+/// Builds the mesh with this name and its materials; a mesh without materials gets one, `plain`, with a reflectance of
+/// one half.
 pub fn build_with_materials(name: &str) -> Option<MaterialMesh> {
     match name {
         CHAIR => Some(FlatModel::Chair.model(1)),

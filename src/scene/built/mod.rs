@@ -1,8 +1,8 @@
-//! Scenes that the project builds itself: exact counts of triangles, the same bits everywhere.
+//! Scenes built by the project: exact triangle counts, the same bits on every platform.
 //!
-//! Units are metres, z is up, fronts look outwards (of a room: inwards). Coordinates are computed in f64 by additions,
-//! products, square roots and [`crate::elementary`], and rounded to f32 once. A seed moves and turns things; it never
-//! changes a count.
+//! Units are metres, z is up, fronts face outwards (of a room: inwards). Coordinates are computed in f64 by additions,
+//! products, square roots and [`crate::elementary`], and rounded to f32 once. A seed moves and rotates objects; it
+//! never changes a count.
 //!
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene;
@@ -39,10 +39,10 @@ pub use office_floor::office_floor;
 pub use teapot_room::teapot_room;
 pub use white_box::white_box;
 
-/// The seed of the scenes in [`build`].
+/// Seed of the scenes in [`build`].
 pub const SEED: u64 = 2002;
 
-/// A scene that can be asked for by name.
+/// Scene with its name.
 struct BuiltScene {
     name: &'static str,
     what: &'static str,
@@ -83,17 +83,17 @@ const SCENES: &[BuiltScene] = &[
     },
 ];
 
-/// The names of all scenes, in alphabetical order.
+/// Names of all scenes, in alphabetical order.
 pub fn names() -> impl Iterator<Item = &'static str> {
     SCENES.iter().map(|entry| entry.name)
 }
 
-/// What a scene shows, in one line.
+/// One-line description of a scene.
 pub fn description(name: &str) -> Option<&'static str> {
     SCENES.iter().find(|entry| entry.name == name).map(|entry| entry.what)
 }
 
-/// The scene of a name, with the seed [`SEED`].
+/// Builds the scene with this name, with the seed [`SEED`].
 pub fn build(name: &str) -> Option<Scene> {
     SCENES.iter().find(|entry| entry.name == name).map(|entry| (entry.build)())
 }

@@ -20,17 +20,17 @@ use super::furniture::{basket, bookshelf, chair, desk, desk_lamp, plant, radiato
 use super::palette::{Palette, lamp};
 use super::parts::{MaterialId, Parts, Placement};
 
-/// The room from 0 to these, in metres.
+/// Dimensions of the room, in metres.
 const WIDTH: f64 = 9.6;
 const DEPTH: f64 = 6.6;
 const HEIGHT: f64 = 2.8;
-/// Windows of the wall at the far end: left edges; all are 1.8 m wide, from 0.9 to 2.4 m high.
+/// Left edges of the windows in the far wall, in metres; all are 1.8 m wide, from 0.9 to 2.4 m high.
 const WINDOWS: [f64; 2] = [1.6, 6.0];
 const WINDOW: [f64; 3] = [1.8, 0.9, 2.4];
-/// How far the glass lies behind the wall.
+/// Distance of the glass behind the wall, in metres.
 const RECESS: f64 = 0.2;
 
-/// The office. The seed turns chairs, and moves what stands on the desks.
+/// Builds the office. The seed rotates chairs, and moves the objects on the desks.
 pub fn office(seed: u64) -> Scene {
     let mut parts = Parts::default();
     let mut chance = Chance::new(seed);
@@ -61,7 +61,7 @@ fn views() -> Vec<View> {
     vec![view("front", [0.55, 0.5, 1.7], [4.6, 4.0, 0.7], 0.52), view("desk", [2.9, 2.35, 1.35], [2.2, 3.55, 0.8], 0.5)]
 }
 
-/// Floor, ceiling and walls, all looking inwards. 20 triangles.
+/// Adds floor, ceiling and walls, all facing inwards. 20 triangles.
 fn shell(parts: &mut Parts, palette: &Palette) {
     let carpet = parts.paint("carpet", [0.36, 0.37, 0.40]);
     let wall = parts.paint("wall", [0.72, 0.69, 0.60]);
@@ -84,10 +84,10 @@ fn shell(parts: &mut Parts, palette: &Palette) {
     piece(WINDOWS[1] + wide, sill, w - WINDOWS[1] - wide, head - sill);
 }
 
-/// Slats of a blind.
+/// Number of slats of a blind.
 const SLATS: u32 = 26;
 
-/// The recess, a bright sky behind it, a frame and a blind that is half down. 10 + 72 + 12 `SLATS` triangles.
+/// Adds the recess, a bright sky behind it, a frame and a half-closed blind. 10 + 72 + 12 `SLATS` triangles.
 fn window(parts: &mut Parts, left: f64, palette: &Palette) {
     let [wide, sill, head] = WINDOW;
     let high = head - sill;
@@ -112,7 +112,7 @@ fn window(parts: &mut Parts, left: f64, palette: &Palette) {
     }
 }
 
-/// A closed door with its frame and a handle, on a wall that looks to -y. 148 triangles.
+/// Adds a closed door with its frame and a handle, on a wall that faces -y. 148 triangles.
 fn door(parts: &mut Parts, place: Placement, palette: &Palette) {
     let wall = place.turned(2, 0.5);
     parts.block(wall, [-0.45, 0.002, 0.002], [0.45, 0.04, 2.05], palette.wood);
@@ -132,7 +132,7 @@ fn door(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.sphere(wall.to(0.38, 0.11, 1.03), 0.028, 8, 4, palette.metal);
 }
 
-/// Eight workplaces in two blocks of four.
+/// Adds eight workplaces in two blocks of four.
 fn workplaces(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
     for (x, y, degrees) in [
         (2.2, 3.1, 0.0),
@@ -148,7 +148,7 @@ fn workplaces(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
     }
 }
 
-/// A desk with all that stands on it, a chair and a basket.
+/// Adds a desk with its objects, a chair and a basket.
 fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     desk(parts, place, palette);
     let seat = place.to(chance.between(-0.35, -0.05), chance.between(-0.75, -0.55), 0.0);
@@ -169,7 +169,7 @@ fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mu
     desk_lamp(parts, top.to(0.5, 0.24, 0.0).facing(chance.between(140.0, 200.0)), palette);
 }
 
-/// Shelves, plants, a clock, a board.
+/// Adds shelves, plants, a clock and a board.
 fn along_the_walls(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
     for y in [0.9, 1.92, 2.94, 3.96] {
         bookshelf(parts, Placement::at(WIDTH - 0.16, y, 0.0).facing(-90.0), palette, chance, [5, 20]);
@@ -181,7 +181,7 @@ fn along_the_walls(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
     clock(parts, Placement::at(4.7, DEPTH, 2.1).turned(0, 0.25), palette);
 }
 
-/// A board of 2 m on a wall that looks to -y, with a tray of markers.
+/// Adds a board of 2 m on a wall that faces -y, with a tray of markers.
 fn board(parts: &mut Parts, place: Placement, palette: &Palette) {
     let place = place.turned(2, 0.5);
     parts.block(place, [-1.0, 0.002, -0.5], [1.0, 0.02, 0.5], palette.paper);
@@ -192,7 +192,7 @@ fn board(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A clock whose face looks along its place's z.
+/// Adds a clock that faces its placement's z.
 fn clock(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.cylinder(place, 0.16, [0.002, 0.03], 32, palette.black);
     parts.cylinder(place, 0.145, [0.03, 0.033], 32, palette.paper);
@@ -205,7 +205,7 @@ fn clock(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A shining box below the ceiling, in a frame, with blades below it. 156 triangles.
+/// Adds an emitting box below the ceiling, in a frame, with blades below it. 156 triangles.
 fn ceiling_light(parts: &mut Parts, place: Placement, palette: &Palette) {
     let shine: [MaterialId; 6] =
         [palette.white, palette.white, palette.white, palette.white, palette.tube, palette.white];

@@ -2,8 +2,7 @@
 //! Engine (Table 1).
 //!
 //! Rooms along the outer walls, a corridor all around, rooms in the core. Walls have a thickness, doors stand open at
-//! all angles, and there is no ceiling, so that one looks in from above: many small things, disjoint as seen from
-//! there.
+//! all angles, and there is no ceiling, so that the view from above shows many small, disjoint objects.
 //!
 //! | what | triangles |
 //! |---|---|
@@ -23,27 +22,27 @@ use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{MaterialId, Parts, Placement};
 
-/// Height of the walls.
+/// Height of the walls, in metres.
 const HEIGHT: f64 = 2.8;
-/// The floor from 0 to these.
+/// Dimensions of the floor, in metres.
 const WIDTH: f64 = 36.0;
 const DEPTH: f64 = 24.0;
-/// Thickness of outer and inner walls.
+/// Thickness of outer and inner walls, in metres.
 const OUTER: f64 = 0.3;
 const INNER: f64 = 0.15;
-/// From the outside to the corridor's wall, and width of the corridor.
+/// Distance from the outside to the corridor's wall, and width of the corridor, in metres.
 const ROOM: f64 = 5.5;
 const CORRIDOR: f64 = 2.2;
-/// Width of the rooms in the core.
+/// Width of the rooms in the core, in metres.
 const HALL: f64 = 6.8;
-/// How far the grounds reach from the house.
+/// Extent of the grounds around the house, in metres.
 const GROUNDS: f64 = 30.0;
-/// Doors: width, height of the opening.
+/// Doors: width and height of the opening, in metres.
 const DOOR: [f64; 2] = [0.95, 2.1];
-/// Windows: width, sill, head.
+/// Windows: width, sill and head, in metres.
 const WINDOW: [f64; 3] = [2.0, 0.9, 2.2];
 
-/// What floors, walls and doors are made of.
+/// Materials of floors, walls and doors.
 struct Shell {
     wall: MaterialId,
     outside: MaterialId,
@@ -51,16 +50,16 @@ struct Shell {
     frame: MaterialId,
 }
 
-/// An opening of a wall.
+/// Opening of a wall.
 #[derive(Clone, Copy)]
 enum Opening {
-    /// A door whose leaf hangs at the left edge as seen from the wall's -y side, opened by so many degrees towards +y.
+    /// Door whose leaf hangs at the left edge as seen from the wall's -y side, opened by `open` degrees towards +y.
     Door { left: f64, open: f64 },
-    /// A window.
+    /// Window.
     Window { left: f64 },
 }
 
-/// The floor. The seed opens doors and moves furniture.
+/// Builds the floor. The seed opens doors and moves furniture.
 pub fn office_floor(seed: u64) -> Scene {
     let mut parts = Parts::default();
     let mut chance = Chance::new(seed);
@@ -91,7 +90,7 @@ fn views() -> Vec<View> {
     ]
 }
 
-/// The grounds and the floors, all at height 0 and none on another. 36 triangles.
+/// Adds the grounds and the floors, all at height 0 without overlap. 36 triangles.
 fn ground(parts: &mut Parts) {
     let lawn = parts.paint("lawn", [0.16, 0.24, 0.10]);
     let carpet = parts.paint("carpet", [0.38, 0.36, 0.33]);
@@ -124,8 +123,8 @@ fn ground(parts: &mut Parts) {
     floor(parts, [-GROUNDS, DEPTH], [WIDTH + GROUNDS, DEPTH + GROUNDS], lawn);
 }
 
-/// A wall along its place's x from 0 to `length`, `thick` to +y, with openings from left to right. Each stretch is a
-/// block.
+/// Adds a wall along its placement's x from 0 to `length`, `thick` to +y, with openings from left to right. Each
+/// stretch is a block.
 fn wall(
     parts: &mut Parts,
     place: Placement,
@@ -161,7 +160,7 @@ fn wall(
     stretch(parts, [from, length], [0.0, HEIGHT]);
 }
 
-/// Two posts and a lintel of a frame, and a leaf. 48 triangles.
+/// Adds two posts and a lintel of a frame, and a leaf. 48 triangles.
 fn door(parts: &mut Parts, place: Placement, open: f64, shell: &Shell) {
     let [wide, high] = DOOR;
     for x in [0.0, wide - 0.04] {
@@ -172,7 +171,7 @@ fn door(parts: &mut Parts, place: Placement, open: f64, shell: &Shell) {
     parts.block(leaf, [0.0, -0.02, 0.01], [wide - 0.09, 0.02, high - 0.05], shell.door);
 }
 
-/// Two bars across an opening without glass. 24 triangles.
+/// Adds two bars across an opening without glass. 24 triangles.
 fn window(parts: &mut Parts, place: Placement, shell: &Shell) {
     let [wide, sill, head] = WINDOW;
     let high = head - sill;
@@ -180,7 +179,7 @@ fn window(parts: &mut Parts, place: Placement, shell: &Shell) {
     parts.block(place, [0.0, -0.03, 0.65 * high - 0.03], [wide, 0.03, 0.65 * high + 0.03], shell.frame);
 }
 
-/// The outer walls, with a window a room.
+/// Adds the outer walls, with a window per room.
 fn outline(parts: &mut Parts, shell: &Shell) {
     let windows = |count: u32, first: f64, pitch: f64| {
         (0..count).map(|i| Opening::Window { left: first + pitch * f64::from(i) }).collect::<Vec<_>>()
@@ -194,15 +193,15 @@ fn outline(parts: &mut Parts, shell: &Shell) {
     wall(parts, Placement::at(WIDTH, OUTER, 0.0).facing(90.0), [between, OUTER], &short, shell, outside);
 }
 
-/// How far a door stands open: a third are shut.
+/// Returns the random opening angle of a door, in degrees: a third are shut.
 fn ajar(chance: &mut Chance) -> f64 {
     (chance.between(-60.0, 110.0)).max(0.0)
 }
 
-/// The rows of nine rooms along the two long sides.
+/// Adds the rows of nine rooms along the two long sides.
 fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
     for degrees in [0.0, 180.0] {
-        // Seen from the room's corner of the house; the other row is the same turned round.
+        // In the frame of the row's corner of the house; the other row is rotated by half a turn.
         let house = if degrees == 0.0 { Placement::ROOM } else { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) };
         let doors: Vec<Opening> =
             (0..9).map(|i| Opening::Door { left: 0.6 + 4.0 * f64::from(i), open: ajar(chance) }).collect();
@@ -221,7 +220,7 @@ fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
     }
 }
 
-/// Three rooms at each of the two short sides.
+/// Adds three rooms at each of the two short sides.
 fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
     let long = DEPTH - 2.0 * ROOM;
     for turned in [false, true] {
@@ -240,7 +239,7 @@ fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chanc
     }
 }
 
-/// The core: two meeting rooms, two store rooms with shelves, and stairs between.
+/// Adds the core: two meeting rooms, two store rooms with shelves, and stairs between.
 fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
     let (x, y) = (ROOM + CORRIDOR, ROOM + CORRIDOR);
     let (long, deep) = (WIDTH - 2.0 * x, DEPTH - 2.0 * y);
@@ -261,7 +260,7 @@ fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
     stairs(parts, Placement::at(WIDTH / 2.0 - 2.4, DEPTH / 2.0 - 0.3, 0.0), palette);
 }
 
-/// Lamps over the corridor.
+/// Adds lamps over the corridor.
 fn corridor(parts: &mut Parts, palette: &Palette) {
     let middle = ROOM + CORRIDOR / 2.0;
     let shine = [palette.metal, palette.metal, palette.metal, palette.metal, palette.tube, palette.metal];
@@ -273,8 +272,8 @@ fn corridor(parts: &mut Parts, palette: &Palette) {
     }
 }
 
-/// A room of one or two workplaces, with a cupboard or none; the place is the middle of its window's wall, the room
-/// lies towards +y.
+/// Furnishes a room of one or two workplaces, with or without a cupboard; the placement is the middle of its window's
+/// wall, the room lies towards +y.
 fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, chance: &mut Chance) {
     let left = place.to(-1.35, 1.5 + chance.between(-0.15, 0.15), 0.0).facing(90.0);
     workplace(parts, left, palette, chance);
@@ -287,7 +286,7 @@ fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], pa
     }
 }
 
-/// A desk, a chair that is used from -y, and a monitor. 144 triangles.
+/// Adds a desk, a chair at its -y side, and a monitor. 144 triangles.
 fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     parts.block(place, [-0.8, -0.4, 0.7], [0.8, 0.4, 0.74], palette.wood);
     for x in [-0.78, 0.74] {
@@ -301,7 +300,7 @@ fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mu
     chair(parts, seat.facing(chance.between(-50.0, 50.0)), palette);
 }
 
-/// A chair of four legs. 72 triangles.
+/// Adds a chair of four legs. 72 triangles.
 fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     parts.block(place, [-0.22, -0.22, 0.42], [0.22, 0.22, 0.46], palette.cloth);
     parts.block(place, [-0.22, -0.24, 0.55], [0.22, -0.2, 0.9], palette.cloth);
@@ -312,7 +311,7 @@ fn chair(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// An open cupboard with three boards, its back to +y. 72 triangles.
+/// Adds an open cupboard with three boards, its back to +y. 72 triangles.
 fn cupboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     for x in [-0.5, 0.47] {
         parts.block(place, [x, -0.2, 0.0], [x + 0.03, 0.2, 1.8], palette.wood);
@@ -324,7 +323,7 @@ fn cupboard(parts: &mut Parts, place: Placement, palette: &Palette) {
     }
 }
 
-/// A long table with six chairs.
+/// Adds a long table with six chairs.
 fn meeting(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
     parts.block(place, [-2.0, -0.6, 0.7], [2.0, 0.6, 0.74], palette.dark_wood);
     for x in [-1.6, 1.5] {
@@ -337,7 +336,7 @@ fn meeting(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut 
     }
 }
 
-/// A flight of sixteen steps. 192 triangles.
+/// Adds a flight of sixteen steps. 192 triangles.
 fn stairs(parts: &mut Parts, place: Placement, palette: &Palette) {
     for step in 0..16 {
         let (x, z) = (0.28 * f64::from(step), 0.17 * f64::from(step));

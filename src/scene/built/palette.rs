@@ -1,9 +1,9 @@
-//! What furniture is made of.
+//! Materials of furniture.
 
 use super::super::{Color, Material, Surface};
 use super::parts::{MaterialId, Parts};
 
-/// The materials of an office.
+/// Materials of an office.
 pub(super) struct Palette {
     pub(super) wood: MaterialId,
     pub(super) dark_wood: MaterialId,
@@ -25,7 +25,7 @@ pub(super) struct Palette {
 }
 
 impl Palette {
-    /// One of each, added to a scene.
+    /// Adds one of each material to a scene.
     pub(super) fn new(parts: &mut Parts) -> Self {
         let covers = [
             ("book-red", [0.46, 0.07, 0.06]),
@@ -61,7 +61,7 @@ pub(super) fn glossy(name: &str, albedo: Color, specular: Color, exponent: f32) 
     Material { name: name.into(), surface: Surface::Glossy { albedo, specular, exponent }, emission: [0.0; 3] }
 }
 
-/// What shines, and reflects nothing.
+/// Creates an emitting material that reflects nothing.
 pub(super) fn lamp(name: &str, emission: Color) -> Material {
     Material { name: name.into(), surface: Surface::Diffuse { albedo: [0.0; 3] }, emission }
 }

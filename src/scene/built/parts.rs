@@ -1,4 +1,4 @@
-//! Triangles put together piece by piece: where a piece stands, of what it is made, and the piece itself.
+//! Assembly of scenes from pieces: placement, materials, triangles.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use crate::elementary::on_circle;
 use crate::geom::mesh::{Mesh, Welder};
 use crate::geom::vector::{narrow, unit};
 
-/// A material of the [`Parts`] that gave it.
+/// Index of a material of the [`Parts`] that created it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MaterialId(u32);
 
-/// Where a piece stands: its own axes, of length 1 and at right angles, and its origin, in the room's coordinates.
+/// Coordinate frame of a piece: orthonormal axes and an origin, in the room's coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     origin: DVec3,
@@ -19,20 +19,20 @@ pub(super) struct Placement {
 }
 
 impl Placement {
-    /// The room itself.
+    /// The room's own frame.
     pub(super) const ROOM: Self = Self { origin: DVec3::ZERO, axes: DVec3::AXES };
 
-    /// A place in the room, not turned.
+    /// Creates a frame at a point of the room, not rotated.
     pub(super) const fn at(x: f64, y: f64, z: f64) -> Self {
         Self { origin: DVec3::new(x, y, z), ..Self::ROOM }
     }
 
-    /// A place named in the coordinates of this one.
+    /// Returns this frame moved to a point in its own coordinates.
     pub(super) fn to(self, x: f64, y: f64, z: f64) -> Self {
         Self { origin: self.point([x, y, z]), ..self }
     }
 
-    /// Turned counter-clockwise around its own axis (0 to 2) by a part of a full turn.
+    /// Rotates the frame counter-clockwise around its own axis (0 to 2) by a fraction of a full turn.
     pub(super) fn turned(self, axis: usize, turns: f64) -> Self {
         let [cos, sin] = on_circle(turns);
         let (a, b) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -42,24 +42,24 @@ impl Placement {
         Self { axes, ..self }
     }
 
-    /// Turned around the vertical, in degrees.
+    /// Rotates the frame around the vertical, in degrees.
     pub(super) fn facing(self, degrees: f64) -> Self {
         self.turned(2, degrees / 360.0)
     }
 
-    /// A point of the piece in the room.
+    /// Converts a point of the piece to room coordinates.
     pub(super) fn point(&self, at: impl Into<DVec3>) -> DVec3 {
         self.origin + self.direction(at)
     }
 
-    /// A direction of the piece in the room.
+    /// Converts a direction of the piece to room coordinates.
     pub(super) fn direction(&self, along: impl Into<DVec3>) -> DVec3 {
         let (along, [x, y, z]) = (along.into(), self.axes);
         along.x * x + along.y * y + along.z * z
     }
 }
 
-/// A scene in the making.
+/// Builder of a scene.
 #[derive(Default)]
 pub(super) struct Parts {
     welder: Welder,
@@ -70,19 +70,19 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    /// One more material.
+    /// Adds a material.
     pub(super) fn material(&mut self, material: Material) -> MaterialId {
         self.materials.push(material);
         MaterialId(self.materials.len() as u32 - 1)
     }
 
-    /// One more Lambert surface.
+    /// Adds a Lambert material.
     pub(super) fn paint(&mut self, name: &str, albedo: [f32; 3]) -> MaterialId {
         self.material(Material::diffuse(name, albedo))
     }
 
-    /// One triangle of the room, counter-clockwise from the front; with normals at its corners if it is part of
-    /// something round.
+    /// Adds a triangle in room coordinates, counter-clockwise from the front, with normals at its corners if it is part
+    /// of a curved surface.
     pub(super) fn triangle(&mut self, corners: [DVec3; 3], normals: Option<[DVec3; 3]>, material: MaterialId) {
         let corners = corners.map(|corner| self.welder.vertex(positive_zeros(corner)));
         self.triangles.push(corners);
@@ -92,19 +92,21 @@ impl Parts {
         self.material_of.push(material.0);
     }
 
-    /// A flat convex polygon of n corners as a fan of n - 2 triangles, counter-clockwise from the front.
+    /// Adds a flat convex polygon of n corners as a fan of n - 2 triangles, counter-clockwise from the front.
     pub(super) fn polygon(&mut self, place: Placement, corners: &[impl Into<DVec3> + Copy], material: MaterialId) {
         for pair in corners[1..].windows(2) {
             self.triangle([corners[0], pair[0], pair[1]].map(|at| place.point(at)), None, material);
         }
     }
 
-    /// A parallelogram: a corner and its two sides, `across` x `along` looking out of the front. 2 triangles.
+    /// Adds a parallelogram given by a corner and its two sides; `across` x `along` points out of the front. 2
+    /// triangles.
     pub(super) fn quad(&mut self, place: Placement, [corner, across, along]: [[f64; 3]; 3], material: MaterialId) {
         self.tiles(place, [corner, across, along], [1, 1], |_, _| material);
     }
 
-    /// A parallelogram cut into `counts` tiles along its two sides, 2 triangles each; `material` says of what each is.
+    /// Adds a parallelogram divided into `counts` tiles along its two sides, 2 triangles each; `material` returns the
+    /// material of a tile.
     pub(super) fn tiles(
         &mut self,
         place: Placement,
@@ -124,7 +126,7 @@ impl Parts {
         }
     }
 
-    /// The whole scene.
+    /// Returns the finished scene.
     ///
     /// # Panics
     /// If a generator made coordinates that are not finite; the tests build every scene.
@@ -138,7 +140,7 @@ impl Parts {
     }
 }
 
-/// Rounded to f32, with -0 turned into 0: both are one place.
+/// Rounds to f32 and turns -0 into 0, so that equal points have equal bits.
 fn positive_zeros(vector: DVec3) -> [f32; 3] {
     narrow(vector).map(|value| value + 0.0)
 }

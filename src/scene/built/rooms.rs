@@ -1,20 +1,20 @@
-//! Closed rooms, and rooms that can be closed, to try radiosity on: a cube that sees only itself, and a Cornell box of
-//! straight walls. z is up, y goes back, walls face inwards.
+//! Closed and closable rooms as test scenes of radiosity: a cube that sees only itself, and a Cornell box of straight
+//! walls. z is up, y points to the back, walls face inwards.
 
 use crate::geom::Mesh;
 use crate::scene::{Color, Material, Scene, Surface, View};
 
-/// Floor, ceiling, left (x = 0), right, front (y = 0) and back wall.
+/// Names of the walls: floor, ceiling, left (x = 0), right, front (y = 0) and back.
 pub const WALLS: [&str; 6] = ["floor", "ceiling", "left", "right", "front", "back"];
 
-/// Reflectances that renderers use for the Cornell box, after the spectra measured at Cornell.
+/// Reflectances of the Cornell box used by renderers, after the spectra measured at Cornell.
 const WHITE: Color = [0.725, 0.71, 0.68];
 const RED: Color = [0.63, 0.065, 0.05];
 const GREEN: Color = [0.14, 0.45, 0.091];
 /// Radiance of its light.
 const LIGHT: Color = [17.0, 12.0, 4.0];
 
-/// Collects quadrilaterals.
+/// Builder of a room from quadrilaterals.
 #[derive(Default)]
 struct RoomBuilder {
     positions: Vec<[f32; 3]>,
@@ -24,7 +24,7 @@ struct RoomBuilder {
 }
 
 impl RoomBuilder {
-    /// Corners counter-clockwise from the front.
+    /// Adds a quadrilateral, its corners counter-clockwise from the front.
     fn quad(&mut self, corners: [[f32; 3]; 4], material: u32) {
         let first = self.positions.len() as u32;
         self.positions.extend(corners);
@@ -32,7 +32,7 @@ impl RoomBuilder {
         self.material_of.extend([material; 2]);
     }
 
-    /// The six walls of a box from the origin, in the order of [`WALLS`]; without those of material `None`.
+    /// Adds the six walls of a box from the origin, in the order of [`WALLS`]; omits walls of material `None`.
     fn walls(&mut self, [x, y, z]: [f32; 3], materials: [Option<u32>; 6]) {
         let quads = [
             [[0.0, 0.0, 0.0], [x, 0.0, 0.0], [x, y, 0.0], [0.0, y, 0.0]],
@@ -57,14 +57,14 @@ impl RoomBuilder {
     }
 }
 
-/// The closed unit cube, a material per wall in the order of [`WALLS`].
+/// Builds the closed unit cube, with a material per wall in the order of [`WALLS`].
 pub fn cube(materials: [Material; 6]) -> Scene {
     let mut room = RoomBuilder { materials: materials.into(), ..RoomBuilder::default() };
     room.walls([1.0; 3], [0, 1, 2, 3, 4, 5].map(Some));
     room.scene([0.5, 0.01, 0.5], [0.5, 1.0, 0.5], 0.75)
 }
 
-/// A white furnace: the unit cube whose walls reflect `reflectance` and emit what is missing to 1. Its radiosity is 1
+/// Builds a white furnace: the unit cube whose walls reflect `reflectance` and emit 1 minus that. Its radiosity is 1
 /// everywhere.
 pub fn furnace(reflectance: f32) -> Scene {
     let radiance = ((1.0 - f64::from(reflectance)) / std::f64::consts::PI) as f32;
@@ -72,17 +72,17 @@ pub fn furnace(reflectance: f32) -> Scene {
     cube(WALLS.map(|name| Material { name: name.to_owned(), surface, emission: [radiance; 3] }))
 }
 
-/// What a Cornell box has.
+/// Parts of a Cornell box.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CornellBox {
-    /// The short and the tall block.
+    /// `true` to include the short and the tall block.
     pub blocks: bool,
-    /// No front wall, as in the photographs; otherwise the room is closed by a white one.
+    /// `true` to omit the front wall, as in the photographs; otherwise a white wall closes the room.
     pub open: bool,
 }
 
-/// The Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the ceiling,
-/// blocks as published.
+/// Builds the Cornell box: 5.5 in each direction, red wall left, green wall right, a light of 1.3 x 1.05 in the
+/// ceiling, blocks as published.
 pub fn cornell(what: CornellBox) -> Scene {
     let light = Material { emission: LIGHT, ..Material::diffuse("light", [0.78; 3]) };
     let painted =
@@ -103,7 +103,7 @@ pub fn cornell(what: CornellBox) -> Scene {
     room.scene(eye, target, if what.open { 0.345 } else { 1.2 })
 }
 
-/// Nine pieces, the middle one shines.
+/// Adds the ceiling in nine pieces, of which the middle one emits.
 fn ceiling_with_light(room: &mut RoomBuilder) {
     let (xs, ys, z) = ([0.0, 2.1, 3.4, 5.5], [0.0, 2.25, 3.3, 5.5], 5.5);
     for j in 0..3 {
@@ -114,7 +114,7 @@ fn ceiling_with_light(room: &mut RoomBuilder) {
     }
 }
 
-/// Four sides and a top on a quadrilateral of the floor, whose corners run clockwise from above.
+/// Adds four sides and a top on a quadrilateral of the floor, whose corners run clockwise from above.
 fn block(room: &mut RoomBuilder, floor: [[f32; 2]; 4], height: f32) {
     let at = |[x, y]: [f32; 2], z: f32| [x, y, z];
     for i in 0..4 {

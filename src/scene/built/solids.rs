@@ -1,26 +1,27 @@
-//! Closed pieces: blocks, cylinders, spheres, vessels, bent tubes.
+//! Closed solids: blocks, cylinders, spheres, vessels, bent tubes.
 
 use super::parts::{MaterialId, Parts, Placement};
 use crate::elementary::on_circle;
 
-/// Corners of a profile sharper than this (cosine of the angle between neighbours) stay sharp.
+/// Cosine of the largest angle between neighbouring stretches of a profile that is smoothed; sharper corners stay
+/// sharp.
 const CREASE: f64 = 0.6;
 
-/// The faces of a block: looking along -x, +x, -y, +y, -z, +z.
+/// Materials of a block's faces: towards -x, +x, -y, +y, -z, +z.
 pub(super) type Faces = [MaterialId; 6];
 
 impl Parts {
-    /// A block between two corners. 12 triangles.
+    /// Adds a block between two corners. 12 triangles.
     pub(super) fn block(&mut self, place: Placement, low: [f64; 3], high: [f64; 3], material: MaterialId) {
         self.painted_block(place, low, high, [material; 6]);
     }
 
-    /// A block with a material per face. 12 triangles.
+    /// Adds a block with a material per face. 12 triangles.
     pub(super) fn painted_block(&mut self, place: Placement, low: [f64; 3], high: [f64; 3], faces: Faces) {
         self.frustum(place, [low, high], 0.0, faces);
     }
 
-    /// A block whose upper face is drawn in by `inset` on all four sides. 12 triangles.
+    /// Adds a block whose upper face is inset by `inset` on all four sides. 12 triangles.
     pub(super) fn frustum(&mut self, place: Placement, [low, high]: [[f64; 3]; 2], inset: f64, faces: Faces) {
         let corner = |index: usize| {
             let pick = |axis: usize| if index >> axis & 1 == 0 { low[axis] } else { high[axis] };
@@ -35,7 +36,7 @@ impl Parts {
         }
     }
 
-    /// An upright cylinder of `sides` sides, closed by two polygons. 4 `sides` - 4 triangles.
+    /// Adds an upright cylinder of `sides` sides, closed by two polygons. 4 `sides` - 4 triangles.
     pub(super) fn cylinder(
         &mut self,
         place: Placement,
@@ -49,7 +50,7 @@ impl Parts {
         self.disc(place, radius, high, sides, true, material);
     }
 
-    /// A flat polygon that looks up or down. `sides` - 2 triangles.
+    /// Adds a flat polygon that faces up or down. `sides` - 2 triangles.
     pub(super) fn disc(
         &mut self,
         place: Placement,
@@ -68,7 +69,7 @@ impl Parts {
         self.polygon(place, &ring, material);
     }
 
-    /// A sphere of `bands` bands between its poles. 2 `sides` (`bands` - 1) triangles.
+    /// Adds a sphere of `bands` bands between its poles. 2 `sides` (`bands` - 1) triangles.
     pub(super) fn sphere(&mut self, place: Placement, radius: f64, sides: u32, bands: u32, material: MaterialId) {
         let profile: Vec<[f64; 2]> = (0..=bands)
             .map(|band| {
@@ -80,7 +81,7 @@ impl Parts {
         self.revolve(place, &profile, normals, sides, material);
     }
 
-    /// A surface of revolution around z. The profile is a line of (radius, height) with the outside to its right:
+    /// Adds a surface of revolution around z. The profile is a line of (radius, height) with the outside to its right:
     /// upwards on the outside, downwards on the inside of a vessel. Each stretch takes 2 `sides` triangles, or `sides`
     /// where an end lies on the axis. Gentle corners of the profile are smoothed.
     pub(super) fn lathe(&mut self, place: Placement, profile: &[[f64; 2]], sides: u32, material: MaterialId) {
@@ -101,8 +102,8 @@ impl Parts {
         self.revolve(place, profile, normals, sides, material);
     }
 
-    /// A profile turned around z; `normals` (radius, height) at each of its points, as the end of one stretch and the
-    /// start of the next.
+    /// Revolves a profile around z; `normals` are those (radius, height) at each of its points, as the end of one
+    /// stretch and the start of the next.
     fn revolve(
         &mut self,
         place: Placement,
@@ -130,8 +131,8 @@ impl Parts {
         }
     }
 
-    /// A tube bent in a circle around the place's y axis: `bend` is its radius, `from` and `to` parts of a full turn
-    /// from +x towards +z. Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
+    /// Adds a tube bent in a circle around the placement's y axis: `bend` is its radius, `from` and `to` fractions of a
+    /// full turn from +x towards +z. Both ends are closed. 2 `steps` `sides` + 2 (`sides` - 2) triangles.
     pub(super) fn bent_tube(
         &mut self,
         place: Placement,
@@ -162,7 +163,7 @@ impl Parts {
     }
 }
 
-/// The normal to the right of a line of a profile, at length 1.
+/// Unit normal to the right of a line of a profile.
 fn outward(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
     let (across, up) = (to[0] - from[0], to[1] - from[1]);
     let length = (across * across + up * up).sqrt();

@@ -1,15 +1,15 @@
-//! Stand-ins for the models of the subsurface paper, which are not at hand: as many faces as it prints, shapes that
-//! resemble them a little.
+//! Stand-ins for the models of the subsurface paper, which are not available: the printed face counts, and roughly
+//! similar shapes.
 //!
-//! Each is a geodesic sphere, bent and dented. A closed mesh has an even number of faces, so the bunny, with an odd
-//! one, is open: at the bottom.
+//! Each is a deformed geodesic sphere. A closed mesh has an even number of faces, so the bunny, with an odd one, is
+//! open: at the bottom.
 
 use glam::DVec3;
 
 use super::geodesic::{Lobe, bumped, mesh_of};
 use crate::geom::Mesh;
 
-/// A stand-in for the paper's head: 7,232 faces, closed, about 2.3 units high.
+/// Builds a stand-in for the paper's head: 7,232 faces, closed, about 2.3 units high.
 pub fn head() -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, -1.0, -0.1], height: 0.22, narrow: 45.0 },
@@ -24,7 +24,7 @@ pub fn head() -> Mesh {
     mesh_of(19, &shape, |sphere| sphere.divide_largest(6, &shape))
 }
 
-/// A stand-in for the paper's dolphin: 21,952 faces, closed, about 4 units long, with thin fins.
+/// Builds a stand-in for the paper's dolphin: 21,952 faces, closed, about 4 units long, with thin fins.
 pub fn dolphin() -> Mesh {
     let fins = [
         Lobe { toward: [0.1, 0.0, 1.0], height: 0.5, narrow: 90.0 },
@@ -42,7 +42,7 @@ pub fn dolphin() -> Mesh {
     mesh_of(33, &shape, |sphere| sphere.divide_largest(86, &shape))
 }
 
-/// A stand-in for the paper's bunny: 69,451 faces, open at the bottom, about 2.5 units high.
+/// Builds a stand-in for the paper's bunny: 69,451 faces, open at the bottom, about 2.5 units high.
 pub fn bunny() -> Mesh {
     let lobes = [
         Lobe { toward: [0.8, 0.0, 0.7], height: 0.45, narrow: 9.0 },

@@ -19,16 +19,16 @@ use crate::geom::random::CounterRng;
 use crate::geom::teapot::{TeapotPart, part_of_patch, tessellate};
 use crate::geom::vector::wide;
 
-/// Quads along a patch side.
+/// Quads along a side of a teapot patch.
 const RATE: u32 = 6;
-/// Half the width of the room, half its depth, its height.
+/// Half the width of the room, half its depth, and its height, in metres.
 const HALF_WIDTH: f64 = 0.6;
 const HALF_DEPTH: f64 = 0.75;
 const HEIGHT: f64 = 1.1;
-/// Half a side of the light in the ceiling.
+/// Half a side of the light in the ceiling, in metres.
 const LIGHT: f64 = 0.18;
 
-/// The room. The seed shifts and turns blocks and sphere a little.
+/// Builds the room. The seed shifts and rotates blocks and sphere a little.
 pub fn teapot_room(seed: u64) -> Scene {
     let mut parts = Parts::default();
     walls(&mut parts);
@@ -68,7 +68,7 @@ fn walls(parts: &mut Parts) {
     ceiling(parts, [[-w, -d], [w, d]], [[-LIGHT, -LIGHT], [LIGHT, LIGHT]], h, white, lamp);
 }
 
-/// A ceiling that looks down, with a square in it. 10 triangles.
+/// Adds a ceiling that faces down, with a square in it. 10 triangles.
 pub(super) fn ceiling(
     parts: &mut Parts,
     [low, high]: [[f64; 2]; 2],
@@ -89,7 +89,7 @@ pub(super) fn ceiling(
 }
 
 fn things(parts: &mut Parts, random: CounterRng) {
-    // A number from -1 to 1 for each thing that may move.
+    // A number from -1 to 1 for each movable object.
     let wobble = |thing: u64| 2.0 * random.unit(thing, 0, 0) - 1.0;
     let copper = parts.material(Material {
         name: "copper".into(),
@@ -123,8 +123,7 @@ fn things(parts: &mut Parts, random: CounterRng) {
     parts.block(Placement::at(0.2, HALF_DEPTH, 0.56), [-0.2, -0.015, 0.0], [0.2, -0.002, 0.32], picture);
 }
 
-/// The teapot standing at a place, with smooth normals: each corner has the mean of its part's triangles there, by
-/// area.
+/// Adds the teapot with smooth normals: each corner has the mean of its part's triangles there, weighted by area.
 fn teapot(parts: &mut Parts, place: Placement, scale: f64, material: MaterialId) {
     let teapot = tessellate(RATE).expect("a rate in range");
     let corners: Vec<[DVec3; 3]> = teapot.mesh.iter_corners().map(|corners| corners.map(wide)).collect();

@@ -1,5 +1,5 @@
-//! Models with as many vertices as those of the papers on compressed transfer (Table 1 of each), which are not at hand:
-//! smooth ones, bumpy ones, a head, and two polygons of which one shadows the other.
+//! Models with the vertex counts of those in the papers on compressed transfer (Table 1 of each), which are not
+//! available: smooth ones, bumpy ones, a head, and two polygons of which one shadows the other.
 //!
 //! All have normals and texture coordinates. The first three are closed; where the texture's two ends meet, the mesh
 //! repeats vertices, which have the same position, normal and tangent and count once.
@@ -14,16 +14,16 @@ use crate::elementary::{acos, atan2, sin_cos};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
-/// A model.
+/// Model with the vertex count of a paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransferModel {
-    /// A smooth closed body with a neck that shadows its breast, about 2.5 units high. Stands for the paper's bird.
+    /// A smooth closed body with a neck that shadows its breast, about 2.5 units high. Stands in for the paper's bird.
     Smooth,
-    /// A closed body covered with bumps that shadow each other, about 2.5 units high. Stands for the paper's Buddha.
+    /// A closed body covered with bumps that shadow each other, about 2.5 units high. Stands in for the paper's Buddha.
     Bumpy,
     /// A closed head with nose, eye sockets, ears and neck, about 2.5 units high.
     Head,
-    /// A ground 4 units wide, and above it a blocker 1 unit wide, both looking up (Figure 6).
+    /// A ground 4 units wide, and above it a blocker 1 unit wide, both facing up (Figure 6).
     Polygons,
     /// The smooth body with the 11,556 vertices of the bunny in the paper on all-frequency transfer.
     Bunny,
@@ -33,16 +33,16 @@ pub enum TransferModel {
     Buddha,
     /// The smooth body with the 3,286 vertices of the bunny in the paper on bi-scale transfer (its Tables I and II).
     BiScaleBunny,
-    /// With 12,380 vertices (Table II).
+    /// The smooth body with 12,380 vertices (Table II).
     BiScaleBunnyMiddle,
-    /// With 47,960 vertices (Table II).
+    /// The smooth body with 47,960 vertices (Table II).
     BiScaleBunnyFine,
     /// The bumpy body with the 10,652 vertices of its armor (Table I).
     BiScaleArmor,
 }
 
-/// Parts of an icosahedron's edge, which make 10 parts^2 + 2 vertices, and how many of the largest faces are divided,
-/// which adds a vertex each.
+/// Parts of an icosahedron's edge, which give 10 parts^2 + 2 vertices, and the number of the largest faces that are
+/// divided, which adds a vertex each.
 const SMOOTH: [u32; 2] = [69, 1_076];
 const BUMPY: [u32; 2] = [70, 988];
 const HEAD: [u32; 2] = [70, 1_058];
@@ -55,7 +55,8 @@ const BI_SCALE_BUNNY_FINE: [u32; 2] = [69, 348];
 const BI_SCALE_ARMOR: [u32; 2] = [32, 410];
 
 impl TransferModel {
-    /// The mesh with edges about so many times as long: with 1, as many vertices as the paper's. More than 16 is as 16.
+    /// Builds the mesh with edges about `coarser` times as long: with 1, as many vertices as the paper's. Values above
+    /// 16 count as 16.
     pub fn mesh(self, coarser: u32) -> Mesh {
         let coarser = coarser.clamp(1, 16);
         match self {
@@ -74,7 +75,7 @@ impl TransferModel {
     }
 }
 
-/// A body with a neck.
+/// Builds a body with a neck.
 fn smooth(size: [u32; 2], coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.55, 0.0, 0.85], height: 0.9, narrow: 14.0 },
@@ -92,7 +93,7 @@ fn smooth(size: [u32; 2], coarser: u32) -> Mesh {
     closed(size, coarser, &shape)
 }
 
-/// A body with bumps.
+/// Builds a body with bumps.
 fn bumpy(size: [u32; 2], coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, 0.0, 1.0], height: 0.45, narrow: 9.0 },
@@ -109,7 +110,7 @@ fn bumpy(size: [u32; 2], coarser: u32) -> Mesh {
     closed(size, coarser, &shape)
 }
 
-/// 50,060 vertices.
+/// Builds a head of 50,060 vertices.
 fn head(coarser: u32) -> Mesh {
     let lobes = [
         Lobe { toward: [0.0, -1.0, -0.1], height: 0.25, narrow: 45.0 },
@@ -126,7 +127,7 @@ fn head(coarser: u32) -> Mesh {
     closed(HEAD, coarser, &shape)
 }
 
-/// A ground of 240 x 240 vertices and a blocker of 32 x 32: 58,624 vertices.
+/// Builds a ground of 240 x 240 vertices and a blocker of 32 x 32: 58,624 vertices.
 fn polygons(coarser: u32) -> Mesh {
     let (mut positions, mut texture, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
     for (counts, width, height) in [(240 / coarser, 4.0, 0.0), (32 / coarser, 1.0, 0.5)] {
@@ -148,7 +149,7 @@ fn polygons(coarser: u32) -> Mesh {
     finished(positions, triangles, normals, texture)
 }
 
-/// A geodesic sphere, the faces that are largest in a shape divided, in that shape.
+/// Builds a deformed geodesic sphere, its faces divided where they are largest after deformation.
 fn closed([parts, divided]: [u32; 2], coarser: u32, shape: &dyn Fn(DVec3) -> DVec3) -> Mesh {
     let mut sphere = Sphere::new(parts / coarser);
     sphere.divide_largest((divided / (coarser * coarser)) as usize, shape);
@@ -175,8 +176,8 @@ fn closed([parts, divided]: [u32; 2], coarser: u32, shape: &dyn Fn(DVec3) -> DVe
     finished(of(&places), triangles, of(&normals), texture)
 }
 
-/// The longitudes of a face's corners, less than half a turn apart; of the face around a pole, which has none such, the
-/// first: its texture has no area.
+/// Longitudes of a face's corners, unwrapped to less than half a turn apart; the face around a pole, where that is
+/// impossible, gets its first longitude throughout: its texture has no area.
 fn unrolled(turns: [f64; 3]) -> [f64; 3] {
     let least = turns.map(|at| if at + 0.5 < turns[0] { at + 1.0 } else { at });
     let behind = least.iter().any(|&at| at > turns[0] + 0.5);

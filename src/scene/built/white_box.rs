@@ -1,10 +1,9 @@
-//! A closed box of grey walls that all shine: 12 triangles. Inside it the radiance is emission / (1 - albedo)
-//! everywhere.
+//! A closed box of grey emitting walls: 12 triangles. Inside it the radiance is emission / (1 - albedo) everywhere.
 
 use super::super::{Material, Scene, Surface, View};
 use super::parts::{Parts, Placement};
 
-/// A box from 0 to 1 whose walls look inwards, with an emission and albedo of a half: the radiance is 1 in every
+/// Builds a box from 0 to 1 whose walls face inwards, with emission and albedo of one half: the radiance is 1 in every
 /// direction.
 pub fn white_box() -> Scene {
     let mut parts = Parts::default();

@@ -1,4 +1,4 @@
-//! The atlas as files for other programs: OBJ with texture coordinates, and a table of the faces' rectangles.
+//! Export of the atlas for other programs: OBJ with texture coordinates, and a table of the faces' rectangles.
 
 use std::fmt::Write as _;
 
@@ -6,8 +6,8 @@ use crate::atlas::Atlas;
 use crate::geom::Mesh;
 use crate::geom::vector::narrow;
 
-/// The mesh with every face in two halves, so that texture coordinates are right everywhere: u to the right and v up,
-/// from 0 to 1 over the atlas.
+/// Encodes the mesh with every face in two halves, for exact texture coordinates: u to the right and v up, from 0 to 1
+/// over the atlas.
 pub(super) fn obj(mesh: &Mesh, atlas: &Atlas) -> String {
     let mut text = format!("# {} faces in halves\nmtllib atlas.mtl\n", mesh.len());
     // Writing to a string does not fail.
@@ -38,10 +38,10 @@ pub(super) fn obj(mesh: &Mesh, atlas: &Atlas) -> String {
     text
 }
 
-/// The material of [`obj`]: the picture of the faces as its texture.
+/// Material of [`obj`], with the picture of the faces as its texture.
 pub(super) const MATERIAL: &str = "newmtl atlas\nKd 1 1 1\nillum 1\nmap_Kd faces.png\n";
 
-/// A line per face: its rectangle in texels, how it lies there, and its area.
+/// Table with a line per face: its rectangle in texels, orientation and area.
 pub(super) fn faces(atlas: &Atlas) -> String {
     let mut text = "face,x,y,width,height,first,transposed,texel_area\n".to_owned();
     for (face, place) in (0_u32..).zip(atlas.places()) {

@@ -1,4 +1,4 @@
-//! A mesh's atlas: how good it is, how it looks, and its files.
+//! Study of a mesh's atlas: quality, pictures and files.
 
 mod export;
 mod parameters;

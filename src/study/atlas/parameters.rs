@@ -1,24 +1,24 @@
-//! What is asked for, and why there may be no answer.
+//! Parameters and errors of the study.
 
 use crate::atlas::AtlasError;
 use crate::geom::Mesh;
 use crate::report::ReportError;
 use crate::scene::Camera;
 
-/// An atlas to be made and measured.
+/// Parameters: an atlas to build and measure.
 #[derive(Debug, Clone)]
 pub struct AtlasStudy {
-    /// What the mesh is called.
+    /// Name of the mesh.
     pub name: String,
-    /// The mesh.
+    /// Mesh.
     pub mesh: Mesh,
-    /// Texels along a side.
+    /// Side of the atlas, in texels.
     pub side: u32,
-    /// The camera of the pictures of the mesh; `None` for no pictures and no files.
+    /// Camera of the pictures of the mesh; `None` for no pictures and no files.
     pub camera: Option<Camera>,
 }
 
-/// Why there is no atlas, or no page of it.
+/// Error of the study.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum AtlasStudyError {

@@ -1,4 +1,4 @@
-//! The atlas and the mesh in false colors.
+//! False-color pictures of the atlas and of the mesh.
 
 use glam::DVec3;
 
@@ -10,20 +10,21 @@ use crate::picture::{RgbImage, rgb8};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
-/// The longest side of a picture of the atlas: of a larger one every other texel, or every fourth, is shown.
+/// Maximum side of a picture of the atlas, in pixels: of a larger atlas only every other texel, or every fourth, is
+/// shown.
 pub const MAX_PICTURE: u32 = 2048;
 
-/// What a picture is colored by.
+/// Criterion of coloring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Coloring {
-    /// Faces.
+    /// Color per face.
     Face,
-    /// Clusters of a level.
+    /// Color per cluster of a level.
     Level(u32),
 }
 
 impl Coloring {
-    /// The color of a texel.
+    /// Color of a texel.
     fn color(self, atlas: &Atlas, x: u32, y: u32) -> [u8; 3] {
         let side = atlas.side();
         match self {
@@ -33,7 +34,7 @@ impl Coloring {
     }
 }
 
-/// A color for a number: bright, never grey, and of numbers next to each other never alike by rule.
+/// Color for a number: bright, never grey, and dissimilar for consecutive numbers.
 fn color_of(number: u64) -> [u8; 3] {
     let random = CounterRng::new(1);
     let hue = 6.0 * random.unit(number, 0, 0);
@@ -45,7 +46,7 @@ fn color_of(number: u64) -> [u8; 3] {
     [0.0, 2.0, 4.0].map(|shift| (255.0 * (low + (0.95 - low) * rise(shift))) as u8)
 }
 
-/// The atlas, rows from the top.
+/// Picture of the atlas, rows from the top.
 pub(super) fn atlas(atlas: &Atlas, coloring: Coloring) -> RgbImage {
     let step = atlas.side().div_ceil(MAX_PICTURE);
     let side = atlas.side() / step;
@@ -53,11 +54,11 @@ pub(super) fn atlas(atlas: &Atlas, coloring: Coloring) -> RgbImage {
     rgb8(side, side, texels.map(|[x, y]| coloring.color(atlas, x, y)))
 }
 
-/// The mesh through its atlas: what the texel under each hit is colored.
+/// Pictures of the mesh, colored by the texel under each hit.
 pub(super) struct ModelPictures<'a> {
     atlas: &'a Atlas,
     camera: &'a Camera,
-    /// Per pixel the texel, and how much the surface faces the eye.
+    /// Texel of each pixel, and the cosine between normal and view.
     seen: Vec<Option<([u32; 2], f64)>>,
 }
 
@@ -90,7 +91,7 @@ impl<'a> ModelPictures<'a> {
     }
 }
 
-/// The weights of the corners at a point of their plane.
+/// Barycentric weights of a point in a triangle's plane.
 fn weights([a, b, c]: [DVec3; 3], at: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let whole = normal.length_squared();

@@ -1,4 +1,4 @@
-//! What an atlas is like, as tables, pictures and files.
+//! Tables, pictures and files of the study.
 
 use serde_json::json;
 

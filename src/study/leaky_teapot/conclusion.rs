@@ -1,4 +1,4 @@
-//! What the rows of the study say, as sentences.
+//! Conclusion of the study, in sentences.
 
 use std::cmp::Reverse;
 
@@ -7,20 +7,20 @@ use crate::report::digits::count;
 use crate::report::words::{counted, listed, percent};
 use crate::report::{Findings, Tone};
 
-/// Names in a sentence, at most; more are counted.
+/// Maximum number of names in a sentence; further ones are counted.
 const MAX_NAMES: usize = 4;
 
 impl Tally {
-    /// Rays with any other answer than the right one.
+    /// Number of rays with a wrong result.
     pub const fn wrong(&self) -> u64 {
         self.leaks + self.false_hits + self.wrong_triangle
     }
 }
 
-/// What answers are counted in: one and more of them.
+/// Unit of the counts, singular and plural.
 pub(super) type Plural = [&'static str; 2];
 
-/// Puts verdict, worst row, seams and tally into the findings.
+/// Adds verdict, worst row, seams and tally to the findings.
 pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Plural) {
     let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
     sentences.into_iter().flatten().chain(limits(rows)).for_each(|sentence| found.conclusion(sentence));
@@ -32,7 +32,7 @@ pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Plural) 
     found.tally(rows_with(|t| t.leaks > 0), ["leaking row", "leaking rows"], Tone::Bad);
 }
 
-/// Where next to nothing is left in a format: each warning once, with the rows that it is of.
+/// Warnings about formats with too few bits, each once, with the rows that they apply to.
 fn limits(rows: &[TeapotRow]) -> Vec<String> {
     let mut warnings: Vec<(String, Vec<&str>)> = Vec::new();
     for (row, warning) in rows.iter().filter_map(|row| Some((row, row.limits.warning()?))) {
@@ -48,7 +48,7 @@ fn limits(rows: &[TeapotRow]) -> Vec<String> {
     warnings.into_iter().map(|(warning, rows)| format!("{}: {warning}.", names(&rows))).collect()
 }
 
-/// Which rows are right everywhere.
+/// Sentence on the rows that are correct everywhere.
 fn verdict(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
@@ -66,9 +66,9 @@ fn verdict(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
     })
 }
 
-/// Which row leaks most; nothing if none does.
+/// Sentence on the row that leaks most; `None` if none does.
 fn most_leaks(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
-    // The first of those that leak alike.
+    // The first of equals.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;
     Some(format!(
@@ -81,7 +81,7 @@ fn most_leaks(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
     ))
 }
 
-/// What the rays do that are aimed at edges; nothing if none were.
+/// Sentence on the rays aimed at edges; `None` if there were none.
 fn seams(rows: &[TeapotRow]) -> Option<String> {
     let shares = rows.iter().filter(|row| row.edges.surface > 0).map(|row| row.edges.leak_share());
     let leaking = rows.iter().filter(|row| row.edges.leaks > 0).count();

@@ -1,4 +1,4 @@
-//! Where a kernel has no bits left: what the number format keeps of the triangles, and of t.
+//! Loss of information to the number format: in the triangles, and in t.
 
 use std::collections::BTreeSet;
 
@@ -9,33 +9,33 @@ use crate::ray_engine::BitsLeft;
 use crate::report::digits::count;
 use crate::report::words::{counted, percent};
 
-/// The share of triangles without a normal from which on it is worth a warning.
+/// Fraction of triangles without a normal from which a warning is given.
 const MUCH: f64 = 0.25;
-/// Hits from which on the values of t are counted.
+/// Minimum number of hits for counting the values of t.
 const SOME_HITS: u64 = 100;
-/// Hits per value of t from which on it is worth a warning.
+/// Hits per distinct value of t from which a warning is given.
 const HITS_PER_VALUE: u64 = 20;
 
-/// What the format of a card leaves of a scene and of the answers.
+/// Loss of a scene and of the hits to the format of a card.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FormatLimits {
-    /// Of the triangles.
+    /// Loss in the triangles.
     #[serde(flatten)]
     pub bits: BitsLeft,
-    /// Hits reported.
+    /// Number of hits reported.
     pub hits: u64,
-    /// Different values of t among them.
+    /// Number of distinct values of t among them.
     pub t_values: u64,
 }
 
 impl FormatLimits {
-    /// Of triangles and hits.
+    /// Measures triangles and hits.
     pub fn new(bits: BitsLeft, hits: &[Option<Hit>]) -> Self {
         let t: BTreeSet<u32> = hits.iter().flatten().map(|hit| hit.t.to_bits()).collect();
         Self { bits, hits: hits.iter().flatten().count() as u64, t_values: t.len() as u64 }
     }
 
-    /// What to say where next to nothing is left.
+    /// Warning, if the format keeps too little.
     pub fn warning(&self) -> Option<String> {
         let below = format!(
             "n of {} of {} ({}) is below one step of the card's format",

@@ -1,9 +1,9 @@
-//! How many holes does the teapot get? Figure 4 of the Ray Engine paper, in any number format, against exact
+//! The leaky teapot: the number of holes in Figure 4 of the Ray Engine paper, in any number format, against exact
 //! arithmetic.
 //!
-//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; what comes back is judged against
-//! first hits that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners
-//! that triangles share, where the paper's equations are evaluated once for each neighbour and need not agree.
+//! The eye rays meet the triangles on the emulated card, in buckets or all pairs; the hits are compared with first hits
+//! that are decided exactly on the same f32 inputs. A second question aims rays at the edges and corners that triangles
+//! share, where the paper's equations are evaluated once for each neighbour and need not agree.
 
 mod conclusion;
 mod format_limits;
@@ -28,7 +28,7 @@ pub use format_limits::FormatLimits;
 pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
 
-/// Why the study has no findings.
+/// Error of the study.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum LeakyTeapotError {
@@ -36,7 +36,7 @@ pub enum LeakyTeapotError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Engine(#[from] EngineError),
-    /// A file that cannot be encoded.
+    /// A file cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Report(#[from] ReportError),
@@ -54,7 +54,7 @@ impl JudgedRays {
         Self { rays, truth }
     }
 
-    /// The verdict on each ray's answer, and their tally.
+    /// Judges each ray's hit, and counts the verdicts.
     fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
         let judge = |(hit, truth): (&Option<Hit>, &Option<NearestHit>)| {
             let none = Candidate { triangle: None, t: 0.0 };
@@ -71,7 +71,7 @@ impl JudgedRays {
     }
 }
 
-/// Traces all configurations. `progress` hears the label of each before it starts.
+/// Traces all configurations. `progress` is called with the label of each before it starts.
 ///
 /// # Errors
 /// If a configuration has no intersection program, or the card refuses the work.
@@ -156,7 +156,7 @@ impl Study for Parameters {
     }
 }
 
-/// The values, and infinities up to a length.
+/// Pads values with infinities to a length.
 fn filled(values: impl Iterator<Item = f32>, length: usize) -> Vec<f32> {
     values.chain(std::iter::repeat(f32::INFINITY)).take(length).collect()
 }

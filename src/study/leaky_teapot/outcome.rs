@@ -1,4 +1,4 @@
-//! What is traced, and what came of it.
+//! Parameters and results of the study.
 
 use refsim::machine::Executor;
 use serde::Serialize;
@@ -11,34 +11,34 @@ use crate::picture::RgbImage;
 use crate::ray_engine::RayBatch;
 use crate::study::configuration::Configuration;
 
-/// What to trace, and in which configurations.
+/// Rays, surface and configurations to trace.
 #[derive(Clone, Debug)]
 pub struct Parameters {
-    /// What the surface is called; `None` for the teapot.
+    /// Name of the surface; `None` for the teapot.
     pub model: Option<String>,
-    /// The surface.
+    /// Surface.
     pub mesh: Mesh,
-    /// The rays: what the pictures show.
+    /// Rays, in the layout of the pictures.
     pub view: RayBatch,
-    /// Of rays that are a list and no view, how many there are; the pictures show them row by row, and the rest of
-    /// `view` fills the last row and is not asked.
+    /// Number of rays, if they are a list instead of a view; the pictures show them row by row, and the rest of `view`
+    /// is padding that is not traced.
     pub listed: Option<usize>,
-    /// Which faces count.
+    /// Faces that can be hit.
     pub sides: Sides,
-    /// The rows.
+    /// Configurations, one per row.
     pub configurations: Vec<Configuration>,
-    /// Rays aimed at every shared edge; 0 leaves the second table out.
+    /// Rays aimed at every shared edge; 0 omits the second table.
     pub rays_per_edge: u32,
     /// Seed of the points on the edges.
     pub seed: u64,
-    /// The executor of the cards.
+    /// Executor of the cards.
     pub executor: Executor,
-    /// Whether every ray meets every triangle, or only those near its bucket.
+    /// `true` to test every ray against every triangle; otherwise against those near its bucket.
     pub all_pairs: bool,
 }
 
 impl Parameters {
-    /// A list of rays as rows of a picture that is about square, and how many there are.
+    /// Lays out a list of rays as rows of an approximately square picture; returns also their number.
     pub fn of_list(rays: &[Ray]) -> (RayBatch, usize) {
         let width = rays.len().isqrt().max(1);
         let width = if width * width < rays.len() { width + 1 } else { width };
@@ -48,7 +48,7 @@ impl Parameters {
         (RayBatch::rows(width as u32, padded), rays.len())
     }
 
-    /// The rays that are asked.
+    /// Rays to trace.
     pub fn rays(&self) -> &[Ray] {
         let rays = self.view.rays();
         &rays[..self.listed.unwrap_or(rays.len()).min(rays.len())]
@@ -58,26 +58,26 @@ impl Parameters {
 /// Counts of verdicts over a set of rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Tally {
-    /// Rays asked.
+    /// Rays traced.
     pub rays: u64,
-    /// Rays that truly hit.
+    /// Rays that hit in exact arithmetic.
     pub surface: u64,
     /// Hits reported.
     pub hits: u64,
-    /// No hit reported where the surface is.
+    /// Misses reported where there is a surface.
     pub leaks: u64,
-    /// A hit reported where no surface is.
+    /// Hits reported where there is no surface.
     pub false_hits: u64,
-    /// Another triangle reported than the first one.
+    /// Hits reported on a triangle that is not the first.
     pub wrong_triangle: u64,
-    /// Of these, triangles that touch the right one.
+    /// Hits among these on triangles that touch the correct one.
     pub wrong_adjacent: u64,
-    /// The largest |t - exact t| where both hit, in multiples of the ray's direction.
+    /// Largest |t - exact t| where both hit, in multiples of the ray's direction.
     pub largest_t_error: f64,
 }
 
 impl Tally {
-    /// Leaks as a share of the rays that truly hit; 0 if none does.
+    /// Leaks as a fraction of the rays that hit in exact arithmetic, in [0, 1]; 0 if there are none.
     pub fn leak_share(&self) -> f64 {
         if self.surface == 0 { 0.0 } else { self.leaks as f64 / self.surface as f64 }
     }
@@ -101,42 +101,42 @@ impl Tally {
     }
 }
 
-/// One configuration's hits, judged.
+/// Judged hits of one configuration.
 #[derive(Clone, Debug)]
 pub struct TeapotRow {
-    /// The configuration.
+    /// Configuration.
     pub configuration: Configuration,
-    /// The eye rays' verdicts.
+    /// Verdicts of the eye rays.
     pub tally: Tally,
-    /// Pixels of the shaded picture that differ from the exact one.
+    /// Number of pixels of the shaded picture that differ from the exact one.
     pub pixels_differing: u64,
-    /// The shaded picture.
+    /// Shaded picture.
     pub picture: RgbImage,
-    /// The verdict per pixel.
+    /// Verdict per pixel.
     pub verdicts: Vec<HitVerdict>,
-    /// The leak map; [`super::PixelVerdict`] explains it.
+    /// Leak map; [`super::PixelVerdict`] defines its colors.
     pub map: RgbImage,
-    /// t per pixel; infinite where nothing was hit.
+    /// t per pixel; infinite for a miss.
     pub t: Vec<f32>,
-    /// The triangle per pixel; `u32::MAX` where nothing was hit.
+    /// Triangle per pixel; `u32::MAX` for a miss.
     pub triangle: Vec<u32>,
-    /// Rays aimed at shared edges.
+    /// Verdicts of rays aimed at shared edges.
     pub edges: Tally,
-    /// Rays aimed at vertices.
+    /// Verdicts of rays aimed at vertices.
     pub vertices: Tally,
-    /// What the number format leaves.
+    /// Loss to the number format.
     pub limits: FormatLimits,
 }
 
-/// Every configuration's hits, and the exact ones.
+/// Hits of all configurations, and the exact ones.
 #[derive(Clone, Debug)]
 pub struct TeapotOutcome {
-    /// The exact picture.
+    /// Exact picture.
     pub exact_picture: RgbImage,
-    /// t per pixel, exact and then rounded once; infinite where nothing is.
+    /// t per pixel, exact and then rounded once; infinite for a miss.
     pub exact_t: Vec<f32>,
-    /// The triangle per pixel (the smallest of a tie); `u32::MAX` where nothing is.
+    /// Triangle per pixel (the smallest of a tie); `u32::MAX` for a miss.
     pub exact_triangle: Vec<u32>,
-    /// The rows, in the order of the configurations.
+    /// Rows, in the order of the configurations.
     pub rows: Vec<TeapotRow>,
 }

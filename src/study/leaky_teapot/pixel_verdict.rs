@@ -1,4 +1,4 @@
-//! What a pixel of the leak map says: its colour, its rank and its words, in one place.
+//! Verdicts of the leak map: color, rank and name.
 
 use strum::VariantArray as _;
 
@@ -6,25 +6,25 @@ use crate::geom::classify::HitVerdict;
 use crate::report::Legend;
 use crate::report::palette::{Color, okabe_ito};
 
-/// What is said of a pixel, from the least to the worst.
+/// Verdict on a pixel, from the least to the worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::VariantArray)]
 pub enum PixelVerdict {
-    /// Rightly nothing.
+    /// Correct miss.
     Nothing,
-    /// The right triangle.
+    /// Correct triangle.
     Right,
-    /// A wrong triangle that touches the right one.
+    /// Wrong triangle that touches the correct one.
     WrongNeighbour,
-    /// A wrong triangle that does not.
+    /// Wrong triangle that does not touch the correct one.
     WrongTriangle,
-    /// A hit where no surface is.
+    /// Hit where there is no surface.
     FalseHit,
-    /// No hit where the surface is.
+    /// Miss where there is a surface.
     Leak,
 }
 
 impl PixelVerdict {
-    /// A verdict on a ray; `surface`: whether it truly hits.
+    /// Converts a ray's verdict; `surface` is `true` if the ray hits in exact arithmetic.
     pub const fn of(verdict: HitVerdict, surface: bool) -> Self {
         match verdict {
             HitVerdict::Right if surface => Self::Right,
@@ -36,8 +36,8 @@ impl PixelVerdict {
         }
     }
 
-    /// Its colour in the map: what is wrong has colours of Okabe and Ito, which no reader confuses with each other or
-    /// with the greys of what is right.
+    /// Color in the map: errors have colors of Okabe and Ito, which readers with any color vision can distinguish from
+    /// each other and from the greys of correct pixels.
     pub const fn color(self) -> Color {
         match self {
             Self::Nothing => [16, 18, 22],
@@ -49,7 +49,7 @@ impl PixelVerdict {
         }
     }
 
-    /// How much a pixel matters where the map is shown smaller: 0 for what is right.
+    /// Rank in downscaling of the map: 0 for correct pixels.
     pub const fn rank(self) -> u8 {
         match self {
             Self::Nothing | Self::Right => 0,
@@ -60,7 +60,7 @@ impl PixelVerdict {
         }
     }
 
-    /// What it says, in words.
+    /// Name of the verdict.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Nothing => "nothing there",
@@ -72,7 +72,7 @@ impl PixelVerdict {
         }
     }
 
-    /// The map's legend, the worst first.
+    /// Legend of the map, the worst first.
     pub(super) fn legend() -> Legend {
         Self::VARIANTS.iter().rev().map(|verdict| (verdict.color(), verdict.words().to_owned())).collect()
     }
@@ -87,7 +87,7 @@ mod tests {
     fn colours_differ_for_every_reader() {
         let colors: Vec<Color> = PixelVerdict::VARIANTS.iter().map(|verdict| verdict.color()).collect();
         assert!(least_distance(&colors) > 20.0, "{}", least_distance(&colors));
-        // What is wrong is brighter than what is right, for readers without colours too.
+        // Errors are brighter than correct pixels, for readers without color vision.
         for verdict in PixelVerdict::VARIANTS.iter().filter(|verdict| verdict.rank() > 0) {
             assert!(contrast(verdict.color(), PixelVerdict::Right.color()) > 2.0, "{verdict:?}");
         }

@@ -1,4 +1,4 @@
-//! The leaky teapot's tables, pictures and page.
+//! Tables, pictures and page of the study.
 
 use std::cmp::Reverse;
 
@@ -8,7 +8,7 @@ use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples};
 use crate::report::words::{counted, listed};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table};
 
-/// The rows' names, formats and switches.
+/// Name, format and switch of a row.
 fn head(row: &TeapotRow) -> [Cell; 4] {
     let profile = &row.configuration.profile;
     let switch = row.configuration.switch.as_ref().map(|(name, value)| format!("{name}={value}"));
@@ -20,7 +20,7 @@ fn head(row: &TeapotRow) -> [Cell; 4] {
     ]
 }
 
-/// The two tables: eye rays, and rays aimed at shared edges and vertices, if any were.
+/// Builds the two tables: eye rays, and rays aimed at shared edges and vertices, if there were any.
 fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
     let mut rows = Table::of(
         if parameters.listed.is_some() { "Rays against exact first hits" } else { "Eye rays against exact first hits" },
@@ -62,12 +62,12 @@ fn tables(parameters: &Parameters, outcome: &TeapotOutcome) -> [Table; 2] {
     [rows, edges]
 }
 
-/// Whether rays were aimed at edges and vertices: there are some for each edge, and one eye.
+/// Returns `true` if rays were aimed at edges and vertices: there are some for each edge, and one eye.
 fn aimed(parameters: &Parameters) -> bool {
     parameters.rays_per_edge > 0 && parameters.view.common_origin().is_some()
 }
 
-/// For each row the first that has the same hits to the bit, and the same counts of aimed rays.
+/// For each row the first one with bit-identical hits, and the same counts of aimed rays.
 fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     let alike = |a: &TeapotRow, b: &TeapotRow| {
@@ -78,19 +78,19 @@ fn first_alike(outcome: &TeapotOutcome) -> Vec<usize> {
     rows.iter().enumerate().map(first).collect()
 }
 
-/// What a row is called among others like it: by its switch, if one was turned.
+/// Name of a row within its group: its switch, if one was changed.
 fn called(row: &TeapotRow) -> String {
     let switch = row.configuration.switch.as_ref().map(|(name, value)| format!("{name}={value}"));
     switch.unwrap_or_else(|| row.configuration.label.clone())
 }
 
-/// A row, and the rows after it with the same hits to the bit.
+/// Row, and the later rows with bit-identical hits.
 struct Group<'a> {
     row: &'a TeapotRow,
     same: Vec<&'a TeapotRow>,
 }
 
-/// The rows by their hits: most switches change nothing for these programs.
+/// Groups the rows by their hits: most switches change nothing for these programs.
 fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for row in &outcome.rows {
@@ -107,28 +107,28 @@ fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
 }
 
 impl Group<'_> {
-    /// `, and the same bits with a, b and c`
+    /// Phrase on the other rows: `, and the same bits with a, b and c`
     fn others(&self) -> String {
         let names: Vec<String> = self.same.iter().map(|row| called(row)).collect();
         if names.is_empty() { String::new() } else { format!(". The same bits with {}", names.join(", ")) }
     }
 }
 
-/// First hits as layers.
+/// Encodes first hits as picture layers.
 fn layers(parameters: &Parameters, t: Vec<f32>, triangles: Vec<u32>) -> Result<Picture, PictureError> {
     Picture::new(parameters.view.width(), parameters.view.height())
         .with("t", ChannelUnit::RayLength, Samples::Float(t))?
         .with("triangle", ChannelUnit::Id, Samples::Uint(triangles))
 }
 
-/// A row's picture and its map, side by side, in which no wrong pixel gets lost.
+/// Picture and map of a row, side by side; downscaling keeps every wrong pixel.
 fn pair(group: &Group<'_>, exact: &RgbImage) -> [NamedPicture; 2] {
     let row = group.row;
     let (label, t) = (&row.configuration.label, &row.tally);
     let leaks = counted(t.leaks, "leak", "leaks");
-    // Verdicts alone do not say whether the surface is there; ranks do not ask.
+    // Verdicts alone do not include whether there is a surface; ranks do not depend on it.
     let ranks: Vec<u8> = row.verdicts.iter().map(|verdict| PixelVerdict::of(*verdict, true).rank()).collect();
-    // A pixel whose triangle is wrong may be shaded right, and then there is nothing to see.
+    // A pixel with a wrong triangle may be shaded correctly, and then shows no error.
     let differs = row.picture.pixels().zip(exact.pixels()).map(|(ours, exact)| ours != exact);
     let seen = ranks.iter().zip(differs).map(|(rank, differs)| if differs { *rank } else { 0 }).collect();
     let counts = [
@@ -181,11 +181,11 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     Ok(found)
 }
 
-/// The page's pictures: of the row that leaks most and the exact one first, then of all others. One picture and one map
-/// of each group stand on the page.
+/// Adds the pictures of the page: of the row that leaks most and the exact one first, then of all others. One picture
+/// and one map of each group are shown on the page.
 fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutcome) {
     let mut groups = groups(outcome);
-    // The first of those that leak alike.
+    // The first of equals.
     let worst = groups.iter().enumerate().min_by_key(|(_, group)| Reverse(group.row.tally.leaks)).map(|(n, _)| n);
     let first = worst.map(|worst| groups.remove(worst));
     let mut lead: Vec<NamedPicture> = Vec::new();

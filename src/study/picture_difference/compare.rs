@@ -1,4 +1,4 @@
-//! The comparison: samples, SSIM, FLIP, and what must hold.
+//! Comparison of two pictures: samples, SSIM, FLIP, and bounds.
 
 use crate::picture::metrics::{
     ChannelDifference, FlipMap, MismatchError, ScreenPicture, channels, flip, luminance_differences,
@@ -8,67 +8,66 @@ use crate::picture::{Picture, PictureError};
 use crate::report::ReportError;
 use crate::study::ProgressFn;
 
-/// A picture with its name in the findings.
+/// Picture with its name in the findings.
 #[derive(Clone, Debug)]
 pub struct PictureInput {
-    /// The name.
+    /// Name.
     pub name: String,
-    /// The picture.
+    /// Picture.
     pub picture: Picture,
 }
 
-/// What must hold; without any of these the pictures must be equal.
+/// Bounds on the difference; without any, the pictures must be equal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DifferenceBounds {
-    /// The largest root mean square difference of a channel.
+    /// Maximum root mean square difference of a channel.
     pub rmse: Option<f64>,
-    /// The largest difference of a sample.
+    /// Maximum difference of a sample.
     pub maximum: Option<f64>,
-    /// The largest mean FLIP.
+    /// Maximum mean FLIP.
     pub flip: Option<f64>,
-    /// The least structural similarity.
+    /// Minimum structural similarity.
     pub ssim: Option<f64>,
 }
 
-/// Two pictures, and how they are compared.
+/// Two pictures, with the parameters of their comparison.
 #[derive(Clone, Debug)]
 pub struct PictureDifference {
-    /// The first and the second picture; differences are second minus first.
+    /// First and second picture; differences are second minus first.
     pub pictures: [PictureInput; 2],
-    /// The channels that are compared; all if there are none.
+    /// Channels that are compared; all if empty.
     pub channels: Vec<String>,
-    /// What linear light is multiplied by before a screen shows it.
+    /// Factor of linear light before display encoding.
     pub exposure: f64,
     /// Pixels per degree of the observer.
     pub ppd: f64,
-    /// The number at the ends of the false colors of differences; if there is none, one that one in a hundred of the
-    /// pixels that differ exceeds.
+    /// Magnitude at the ends of the false-color scale; `None` for the 99th percentile of the pixels that differ.
     pub scale: Option<f64>,
-    /// What must hold.
+    /// Bounds.
     pub bounds: DifferenceBounds,
-    /// Whether there are to be maps and a page.
+    /// `true` to add maps and a page.
     pub maps: bool,
 }
 
-/// Why pictures cannot be compared.
+/// Error of comparing pictures.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 pub enum DifferenceError {
-    /// They have no samples in common.
+    /// The pictures have no samples in common.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Mismatch(#[from] MismatchError),
-    /// A bound on what people see, of pictures without color.
+    /// A perceptual bound is set for pictures without color.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Color(#[from] PictureError),
-    /// A bound on SSIM, of pictures smaller than its window.
+    /// A bound on SSIM is set for pictures smaller than its window.
     #[error("expected pictures of at least 11x11 pixels for SSIM, found {width}x{height}")]
     #[diagnostic(code(crossbar::picture::window))]
     Window {
-        /// Pixels per row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
     },
     /// The findings cannot be encoded.
@@ -77,7 +76,7 @@ pub enum DifferenceError {
     Report(#[from] ReportError),
 }
 
-/// What was found.
+/// Result of a comparison.
 #[derive(Debug)]
 pub(super) struct DifferenceOutcome {
     pub(super) channels: Vec<ChannelDifference>,
@@ -85,7 +84,7 @@ pub(super) struct DifferenceOutcome {
     pub(super) seen: Option<SeenDifference>,
 }
 
-/// The difference as people see it.
+/// Perceptual difference.
 #[derive(Debug)]
 pub(super) struct SeenDifference {
     pub(super) ssim: Option<f64>,
@@ -103,7 +102,7 @@ impl PictureDifference {
         let signed = signed_differences(first, second, &self.channels)?;
         progress("SSIM and FLIP", 1, 3);
         let seen = match self.seen(first, second) {
-            // Depths and ids are compared by their samples alone.
+            // Depths and ids are compared by samples only.
             Err(PictureError::NoColor { .. }) if self.bounds.flip.is_none() && self.bounds.ssim.is_none() => None,
             other => other?,
         };
@@ -122,7 +121,7 @@ impl PictureDifference {
         Ok(Some(SeenDifference { ssim, flip, luminance }))
     }
 
-    /// Whether what must hold holds.
+    /// Returns `true` if all bounds hold.
     pub(super) fn holds(&self, outcome: &DifferenceOutcome) -> bool {
         let DifferenceBounds { rmse, maximum, flip, ssim } = self.bounds;
         if self.bounds == DifferenceBounds::default() {
@@ -130,7 +129,7 @@ impl PictureDifference {
         }
         let within = |found: f64, most: Option<f64>| most.is_none_or(|most| found <= most);
         let channel = |channel: &ChannelDifference| match channel.whole {
-            // Ids are the same or not.
+            // Ids are only compared for equality.
             true => channel.differing == 0,
             false => channel.not_finite == 0 && within(channel.rmse, rmse) && within(channel.maximum, maximum),
         };

@@ -1,4 +1,4 @@
-//! How far two pictures are from each other: in numbers, and as people see it.
+//! Study of the difference of two pictures: numerical and perceptual.
 
 mod compare;
 mod report;

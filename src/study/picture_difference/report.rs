@@ -1,4 +1,4 @@
-//! The tables, maps and page of a comparison of pictures.
+//! Tables, maps and page of the study.
 
 use serde_json::json;
 
@@ -40,7 +40,7 @@ pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) ->
     Ok(found)
 }
 
-/// How many channels differ.
+/// Sentence on the number of channels that differ.
 fn conclusion(channels: &[ChannelDifference]) -> String {
     let all = channels.len();
     match channels.iter().filter(|channel| channel.differing > 0).count() {
@@ -73,7 +73,7 @@ fn table(channels: &[ChannelDifference]) -> Table {
     table
 }
 
-/// SSIM and FLIP, in words and for machines.
+/// Adds SSIM and FLIP, in words and for programs.
 fn tell(found: &mut Findings, asked: &PictureDifference, seen: &SeenDifference) {
     let (flip, ppd) = (&seen.flip, shown(asked.ppd, Quantity::Measured));
     let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));
@@ -87,7 +87,7 @@ fn tell(found: &mut Findings, asked: &PictureDifference, seen: &SeenDifference) 
     found.field("exposure", json!(asked.exposure));
 }
 
-/// False colors, and all differences as numbers.
+/// Adds false-color maps, and all differences as numbers.
 fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), DifferenceError> {
     let [first, second] = &asked.pictures;
     let (width, height) = (first.picture.width(), first.picture.height());
@@ -126,14 +126,14 @@ fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOut
     Ok(())
 }
 
-/// Of a hundred pixels that differ, one differs by more: a few bright ones do not make all others pale.
+/// 99th percentile of the magnitudes of pixels that differ: a few large ones do not make all others pale.
 fn usual_scale(values: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).filter(|x| x.is_finite() && *x > 0.0).collect();
     sizes.sort_unstable_by(f64::total_cmp);
     sizes.get((sizes.len() * 99).div_ceil(100).saturating_sub(1)).copied().unwrap_or(1.0)
 }
 
-/// The channel of floats that differs most, else the first.
+/// Float channel with the largest difference, otherwise the first.
 fn worst_channel(outcome: &DifferenceOutcome) -> (String, Vec<f64>) {
     let mut place = 0;
     for (at, channel) in outcome.channels.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A solution in a meshed atlas: its texture, and the room seen through it.
+//! Solution in a meshed atlas: its texture, and the room rendered through it.
 
 use super::RadiosityError;
 use crate::geom::vector::wide;
@@ -10,24 +10,25 @@ use crate::report::{Cell, Table};
 use crate::scene::Camera;
 use crate::tracer::HostTracer;
 
-/// A solution in an atlas.
+/// Solution in an atlas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtlasPictures {
-    /// Whose solution.
+    /// Name of the solution's method.
     pub label: String,
-    /// Texels along a side.
+    /// Side of the atlas, in texels.
     pub side: u32,
-    /// Triangles in it.
+    /// Number of triangles.
     pub triangles: usize,
-    /// How much light its texels hold.
+    /// Power in the texels.
     pub power: AtlasPower,
-    /// The atlas.
+    /// Picture of the atlas.
     pub texture: RgbImage,
-    /// The room, each pixel a bilinear read.
+    /// Picture of the room, each pixel a bilinear read.
     pub view: RgbImage,
 }
 
-/// A solution by its name in an atlas of its patches, seen from a camera, and exposed as all pictures.
+/// Resamples a named solution into an atlas of its patches, and renders it from a camera, with the exposure of all
+/// pictures.
 pub(super) fn show(
     (patches, atlas): (&Patches, &RadiosityAtlas),
     (label, radiosity): (&str, &[[f64; 3]]),
@@ -62,7 +63,7 @@ pub(super) fn show(
     })
 }
 
-/// A line per channel: the light that the atlas holds beside that of the patches.
+/// Table with a line per channel: the power in the atlas and that of the patches.
 pub(super) fn table(atlas: Option<&AtlasPictures>) -> Table {
     let mut table = Table::of(
         "The meshed atlas; power is radiosity times area",

@@ -1,32 +1,32 @@
-//! Dynamic relighting: another light or another paint, the same form factors (section 1: "while the geometry is fixed,
-//! the emittance is not").
+//! Dynamic relighting: a new emission or reflectance with the same form factors (section 1: "while the geometry is
+//! fixed, the emittance is not").
 
 use super::RadiosityError;
 use crate::radiosity::{Patches, System};
 use crate::scene::{Color, Scene};
 
-/// What becomes of the patches of a material.
+/// Change of a material.
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum Change {
-    /// Another radiance.
+    /// New radiance.
     Emission { material: String, radiance: Color },
-    /// Another reflectance, in [0, 1).
+    /// New reflectance, in [0, 1).
     Reflectance { material: String, reflectance: Color },
 }
 
-/// A solution after changes.
+/// Solution after changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relit {
-    /// The radiosity of each patch.
+    /// Radiosity of each patch.
     pub radiosity: Vec<[f64; 3]>,
-    /// Iterations from the solution before; `None` if the tolerance was not reached.
+    /// Iterations from the previous solution; `None` if the tolerance was not reached.
     pub from_last: Option<usize>,
-    /// Iterations from 0.
+    /// Iterations from 0; `None` if the tolerance was not reached.
     pub from_nothing: Option<usize>,
 }
 
-/// The system after all changes; `None` if there are none.
+/// Applies the changes to a system; `None` if there are none.
 pub(super) fn apply(
     changes: &[Change],
     scene: &Scene,

@@ -1,10 +1,10 @@
-//! What the rows of the study say, as sentences.
+//! Conclusion of the study, in sentences.
 
 use super::{MethodRow, RadiosityOutcome, SolveMethod, StopReason, SweepRow};
 use crate::report::words::{counted, percent};
 use crate::report::{Findings, Tone};
 
-/// Puts accuracy, speed, the sweep's range and the tally into the findings.
+/// Adds accuracy, speed, the sweep's range and the tally to the findings.
 pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     let sentences = [accuracy(&outcome.rows), speed(&outcome.rows), sweep(outcome)];
     sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
@@ -27,7 +27,7 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     );
 }
 
-/// The row whose mean error is the largest; nothing without a direct solution to compare with.
+/// Row with the largest mean error; `None` without a direct solution to compare with.
 pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
     let bias = |row: &MethodRow| row.off.map_or(0.0, |off| off.bias.abs());
     rows.iter()
@@ -46,13 +46,13 @@ fn accuracy(rows: &[MethodRow]) -> Option<String> {
     ))
 }
 
-/// A signed error as too dark or too bright.
+/// Formats a signed error as too dark or too bright.
 fn shade(bias: f64) -> String {
     let which = if bias < 0.0 { "dark" } else { "bright" };
     format!("{} too {which}", percent(bias.abs()))
 }
 
-/// Which of the rows that met the tolerance did so first; nothing if none did.
+/// Sentence on the row that met the tolerance first; `None` if none did.
 fn speed(rows: &[MethodRow]) -> Option<String> {
     let within = || rows.iter().filter(|row| row.stopped == StopReason::Tolerance);
     let (first, last) = (within().min_by_key(|row| row.iterations())?, within().max_by_key(|row| row.iterations())?);
@@ -65,7 +65,7 @@ fn speed(rows: &[MethodRow]) -> Option<String> {
     })
 }
 
-/// The range of the sweep's mean errors; nothing without a sweep.
+/// Sentence on the range of the sweep's mean errors; `None` without a sweep.
 fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
     let rows = || outcome.sweep.iter().filter(|row| row.off.bias.is_finite());
     let darkest = rows().min_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;

@@ -5,14 +5,14 @@
 pub struct SolutionError {
     /// Largest absolute difference, relative to the brightest patch's radiosity.
     pub largest: f64,
-    /// Largest relative difference. Patches without any light do not count.
+    /// Largest relative difference. Patches without any light are excluded.
     pub relative: f64,
-    /// Mean signed relative difference over patches that do not emit: below 0 the room is too dark.
+    /// Mean signed relative difference over patches that do not emit: negative if the room is too dark.
     pub bias: f64,
 }
 
 impl SolutionError {
-    /// Compares two solutions, a radiosity per patch.
+    /// Compares two solutions, one radiosity per patch.
     pub(super) fn between(found: &[[f64; 3]], truth: &[[f64; 3]], emittance: &[[f64; 3]]) -> Self {
         let brightest = truth.as_flattened().iter().copied().fold(0.0, f64::max);
         let mut off = Self::default();

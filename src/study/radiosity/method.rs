@@ -1,4 +1,4 @@
-//! A method: a solver of the host, or equation 4 on the card.
+//! Methods of solution: a solver of the host, or equation 4 on the card.
 
 use std::fmt;
 
@@ -8,42 +8,42 @@ use crate::radiosity::on_card::{CardSolution, Cycle, Storage};
 use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::Solver;
 
-/// How a system is solved on a card.
+/// Parameters of a solution on a card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CardMethod {
-    /// How elements lie in texels.
+    /// Layout of elements in texels.
     pub packing: Packing,
-    /// What registers, textures and targets hold.
+    /// Number format of registers, textures and targets.
     pub storage: Storage,
 }
 
-/// How a system is solved.
+/// Method of solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SolveMethod {
-    /// On the host, in f64.
+    /// A solver of the host, in f64.
     Host(Solver),
-    /// By fragment programs.
+    /// Fragment programs on a card.
     Card(CardMethod),
 }
 
-/// Why an iteration stopped.
+/// Reason why an iteration stopped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StopReason {
-    /// The residual is small enough.
+    /// The residual reached the tolerance.
     Tolerance,
-    /// The iteration is in a cycle of equal states.
+    /// The iteration entered a cycle of repeating states.
     Cycle(Cycle),
-    /// The most iterations were made; on a card, without a cycle.
+    /// The maximum number of iterations was reached; on a card, without a cycle.
     Iterations,
     /// The method does not iterate.
     Direct,
 }
 
 impl SolveMethod {
-    /// Elimination on the host.
+    /// Direct solution on the host.
     pub const DIRECT: Self = Self::Host(Solver::Direct);
 
-    /// A name that is unique among methods on one device, and fit for a file name.
+    /// Name, unique among methods on one device and valid as a file name.
     pub fn label(&self, profile: &Profile) -> String {
         match self {
             Self::Host(solver) => solver.to_string().replace(':', "-"),
@@ -57,7 +57,7 @@ impl SolveMethod {
 }
 
 impl StopReason {
-    /// Why an iteration on a card stopped.
+    /// Reason why an iteration on a card stopped.
     pub(super) fn on_card(found: &CardSolution) -> Self {
         match (found.converged, found.cycle) {
             (true, _) => Self::Tolerance,

@@ -1,7 +1,8 @@
-//! Radiosity of a scene by several methods side by side: on a card, on the host, directly.
+//! Study of the radiosity of a scene by several methods: on a card, on the host, directly.
 //!
-//! What each method needs (iterations, passes, time), how far it is from the direct solution, and how the room looks.
-//! After a change of light or paint: how many iterations it needs from its own solution, and from zero.
+//! It measures the cost of each method (iterations, passes, time) and its error relative to the direct solution, and
+//! renders the room. After a change of emission or reflectance, it counts the iterations from the previous solution and
+//! from zero.
 
 mod atlas;
 mod change;
@@ -56,7 +57,7 @@ impl Study for Parameters {
     }
 }
 
-/// Solves by every method, draws the pictures, sweeps.
+/// Solves by every method, draws the pictures, and runs the sweep.
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, RadiosityError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
@@ -111,7 +112,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     })
 }
 
-/// A method's row: its error and its pictures.
+/// Builds a method's row with its error and pictures.
 fn row(
     mut one: solve::Solved,
     system: &System,
@@ -136,7 +137,7 @@ fn row(
     })
 }
 
-/// Energy-balance error relative to the emitted power, the largest of the channels that emit.
+/// Energy-balance error relative to the emitted power, the maximum over the channels that emit.
 fn energy_balance_error(system: &System, radiosity: &[[f64; 3]]) -> f64 {
     let left = system.energy_balance_error(radiosity);
     let emitted = |c: usize| -> f64 {

@@ -1,4 +1,4 @@
-//! What the study finds.
+//! Results of the study.
 
 use super::atlas::AtlasPictures;
 use super::change::Relit;
@@ -10,50 +10,50 @@ use super::time::CardFacts;
 use crate::radiosity::Patches;
 use crate::radiosity::form_factor::RowSums;
 
-/// One method, and what came of it.
+/// Results of one method.
 #[derive(Debug)]
 pub struct MethodRow {
-    /// The method.
+    /// Method.
     pub way: SolveMethod,
-    /// Its name, unique in a study and fit for a file name.
+    /// Name of the method, unique in a study and valid as a file name.
     pub label: String,
-    /// The radiosity of each patch.
+    /// Radiosity of each patch.
     pub radiosity: Vec<[f64; 3]>,
-    /// Figure 3's error at the start and after each iteration: the mean squared residual, over all channels.
+    /// Figure 3's error initially and after each iteration: the mean squared residual, over all channels.
     pub history: Vec<f64>,
-    /// The final residual relative to the emittance, both by their Euclidean norms.
+    /// Final residual relative to the emittance, both in Euclidean norms.
     pub residual: f64,
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub stopped: StopReason,
-    /// Energy-balance error relative to the emitted power, the largest of the channels.
+    /// Energy-balance error relative to the emitted power, the maximum over the channels.
     pub energy_balance_error: f64,
-    /// The difference from the direct solution, if that was asked for.
+    /// Error against the direct solution, if that was requested.
     pub off: Option<SolutionError>,
-    /// On a card.
+    /// Cost on a card; `None` on the host.
     pub card: Option<CardFacts>,
-    /// After the changes.
+    /// Solution after the changes, if there are any.
     pub relit: Option<Relit>,
-    /// How the room looks.
+    /// Pictures of the room.
     pub pictures: Pictures,
 }
 
-/// All solutions.
+/// Results of all methods.
 #[derive(Debug)]
 pub struct RadiosityOutcome {
-    /// The patches.
+    /// Patches.
     pub patches: Patches,
     /// Row sums before anything was enforced.
     pub found_sums: RowSums,
-    /// The largest relative difference between A_i F_ij and A_j F_ji, before anything was enforced.
+    /// Largest relative difference between A_i F_ij and A_j F_ji, before anything was enforced.
     pub reciprocity_error: f64,
-    /// Pictures' exposure.
+    /// Exposure of the pictures: pixel value per radiance.
     pub exposure: f64,
-    /// A row per method.
+    /// One row per method.
     pub rows: Vec<MethodRow>,
-    /// The room after some iterations.
+    /// Pictures of the room after some iterations.
     pub frames: Vec<IterationPicture>,
-    /// The direct solution, or the first method's, in a meshed atlas, if one was asked for.
+    /// Direct solution, or the first method's, in a meshed atlas, if one was requested.
     pub atlas: Option<AtlasPictures>,
-    /// Other numbers of patches, other settings of the switches.
+    /// Rows of the sweep over numbers of patches and settings of the switches.
     pub sweep: Vec<SweepRow>,
 }

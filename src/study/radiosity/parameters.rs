@@ -1,4 +1,4 @@
-//! What the study is asked.
+//! Parameters of the study.
 
 use refsim::device::Profile;
 use refsim::machine::Executor;
@@ -10,61 +10,60 @@ use crate::radiosity::form_factor::VisibilityParameters;
 use crate::radiosity::solve::Options;
 use crate::scene::{Camera, Scene};
 
-/// What to solve, how, and what to show of it.
+/// Parameters of the study: scene, methods and output.
 #[derive(Debug)]
 pub struct Parameters {
-    /// The room.
+    /// Scene.
     pub scene: Scene,
-    /// How finely it is cut.
+    /// Fineness of its subdivision.
     pub subdivision: Subdivision,
-    /// How form factors are found, and what they must satisfy.
+    /// Computation of form factors, and their requirements.
     pub factors: FactorRequirements,
-    /// The methods: a row of the table for each.
+    /// Methods, one row of the table for each.
     pub ways: Vec<SolveMethod>,
-    /// The card for methods on a card.
+    /// Card of the methods that run on one.
     pub profile: Profile,
-    /// The switches of the card that were set.
+    /// Switches of the card that were set.
     pub switches: Vec<(String, String)>,
-    /// The executor of the card.
+    /// Executor of the card.
     pub executor: Executor,
-    /// When iterations stop.
+    /// Stopping criteria.
     pub options: Options,
-    /// What changes after the first solution.
+    /// Changes after the first solution.
     pub changes: Vec<Change>,
-    /// The camera of the pictures.
+    /// Camera of the pictures.
     pub camera: Camera,
-    /// What radiance is multiplied by in pictures; `None` for auto-exposure: surfaces that do not emit at 18 % grey on
-    /// average.
+    /// Factor of radiance in pictures; `None` for auto-exposure: surfaces that do not emit at 18 % grey on average.
     pub exposure: Option<f64>,
-    /// Iterations of the first method on a card of which there are pictures.
+    /// Iterations of the first method on a card after which pictures are drawn.
     pub frames: Vec<u32>,
-    /// Texels along a side of a meshed atlas that a solution is resampled into.
+    /// Side of a meshed atlas that a solution is resampled into, in texels; `None` for no atlas.
     pub atlas: Option<u32>,
-    /// Other numbers of patches in which the room is solved on the card, under each of its open switches.
+    /// Numbers of patches of the sweep, in which the room is solved on the card under each of its open switches.
     pub sweep: Vec<u32>,
 }
 
-/// How form factors are found, and what they must satisfy.
+/// Computation of form factors, and their requirements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorRequirements {
-    /// Where they come from.
+    /// Source of the form factors.
     pub from: Factors,
-    /// Largest deviation of a row sum from 1; a larger one is an error.
+    /// Maximum deviation of a row sum from 1, above which the study fails.
     pub closed: Option<f64>,
-    /// Make A_i F_ij and A_j F_ji equal.
+    /// `true` to make A_i F_ij and A_j F_ji equal.
     pub enforce_reciprocity: bool,
-    /// Make rows sum to 1 (and pairs reciprocal).
+    /// `true` to make rows sum to 1 (and pairs reciprocal).
     pub enforce_closure: bool,
 }
 
-/// Where form factors come from.
+/// Source of form factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factors {
-    /// As if nothing stood between any two patches.
+    /// Without occlusion.
     Unoccluded,
-    /// Closed forms and contour integrals, times what rays find open.
+    /// Closed forms and contour integrals, times the visible fraction by rays.
     Rays(VisibilityParameters),
-    /// Pictures of the scene from each patch, drawn by the study's card.
+    /// Hemicubes drawn from each patch by the study's card.
     Hemicube {
         /// Pixels along a side of the top face.
         resolution: u32,

@@ -1,5 +1,5 @@
-//! How the room looks, drawn by the card: from the solver's own texture where one texture holds all three channels,
-//! else uploaded.
+//! Pictures of the room, drawn by the card: from the solver's own texture where one texture holds all three channels,
+//! otherwise uploaded.
 
 use refsim::machine::Machine;
 use refsim::texture::TexelFormat;
@@ -12,38 +12,38 @@ use crate::picture::{Picture, RgbImage};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
 
-/// Linear light seen as halfway between black and white.
+/// Linear value perceived as halfway between black and white.
 const MIDDLE_GREY: f64 = 0.18;
-/// Rec. 709's weights of red, green and blue.
+/// Rec. 709 weights of red, green and blue.
 const LUMINANCE: glam::DVec3 = glam::DVec3::new(0.2126, 0.7152, 0.0722);
-/// The card multiplies by the exposure and keeps all digits; the curve of a display comes after it.
+/// The card multiplies by the exposure without clipping; display encoding follows on the host.
 const OPTIONS: DisplayOptions =
     DisplayOptions { vector: crate::radiosity::display::VectorTexture::Row, target: TexelFormat::Rgba32f };
 
 /// Pictures of a solution.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictures {
-    /// Each patch in its radiosity.
+    /// Flat-shaded: each patch in its radiosity.
     pub flat: RgbImage,
-    /// Interpolated between corners.
+    /// Smooth-shaded: interpolated between corners.
     pub smooth: RgbImage,
-    /// After the changes, interpolated.
+    /// Smooth-shaded after the changes.
     pub relit: Option<RgbImage>,
-    /// Of a solution on the card, the luminance of each patch minus that of the direct solution, as a share of the
+    /// For a solution on the card, the luminance of each patch minus that of the direct solution, relative to the
     /// latter, per pixel.
     pub error: Option<Vec<f64>>,
 }
 
-/// The room after some iterations on the card.
+/// Picture of the room after some iterations on the card.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IterationPicture {
-    /// Iterations.
+    /// Number of iterations.
     pub iteration: u32,
-    /// Each patch in its radiosity.
+    /// Flat-shaded picture.
     pub flat: RgbImage,
 }
 
-/// Auto-exposure: surfaces that do not emit at 18 % grey on average over their area.
+/// Computes the auto-exposure: surfaces that do not emit at 18 % grey on average over their area.
 pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[f64; 3]]) -> f64 {
     let (mut light, mut area) = (0.0, 0.0);
     for (i, (e, b)) in emittance.iter().zip(radiosity).enumerate() {
@@ -52,18 +52,18 @@ pub(super) fn exposure(patches: &Patches, emittance: &[[f64; 3]], radiosity: &[[
             area += patches.open_area(i);
         }
     }
-    // Where everything shines, or nothing is lit, radiance is shown as it is.
+    // If everything emits, or nothing is lit, the exposure is 1.
     if light > 0.0 && light.is_finite() { MIDDLE_GREY * area / light } else { 1.0 }
 }
 
-/// A card to draw on that no solution is on.
+/// Renderer of pictures, with a card of its own for solutions that are not on one.
 pub(super) struct PictureRenderer<'a> {
     patches: &'a Patches,
     parameters: &'a Parameters,
     exposure: f64,
     machine: Machine,
     display: Display,
-    /// The direct solution, each patch in its radiosity.
+    /// Direct solution, each patch in its radiosity.
     truth: Option<Picture>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> PictureRenderer<'a> {
         Ok(Self { patches, parameters, exposure, machine, display, truth: None })
     }
 
-    /// From now on, solutions on a card are compared with this one.
+    /// Sets the solution that later solutions on a card are compared with.
     pub(super) fn compare_with(&mut self, truth: &[[f64; 3]]) -> Result<(), RadiosityError> {
         self.truth = Some(self.flat(truth)?);
         Ok(())
@@ -91,7 +91,7 @@ impl<'a> PictureRenderer<'a> {
         Ok(picture.display(1.0)?)
     }
 
-    /// Pictures of a solution and of what came after it, and what its card says.
+    /// Draws the pictures of a solution before and after the changes, and measures its cost on its card.
     pub(super) fn show(
         &mut self,
         solved: &mut Solved,
@@ -119,7 +119,7 @@ impl<'a> PictureRenderer<'a> {
         Ok((Pictures { flat: flat.display(1.0)?, smooth, relit, error }, facts))
     }
 
-    /// The room after the iterations that were kept.
+    /// Draws the room after the recorded iterations.
     pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, RadiosityError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {

@@ -1,4 +1,4 @@
-//! The study's page, tables, charts, pictures and trace.
+//! Page, tables, charts, pictures and trace of the study.
 
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
@@ -27,7 +27,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
     let errors = errors(parameters, &outcome);
-    // The room by the least accurate method and by the direct one stand at the top.
+    // The pictures of the least accurate method and of the direct one come first.
     let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| row.label.clone());
     let (mut lead, mut pictures, mut relit_pictures) = (Vec::new(), Vec::new(), Vec::new());
     for row in outcome.rows {
@@ -107,7 +107,7 @@ const ON_THE_CARD: &str = "Operations are counted as the paper does: two an elem
 const SWEEP: &str = "A switch is an open question about the card; each is turned alone. Settings that find the same bits share a row. \
     predicted_mean is what follows to first order from rounding every term of a sum to the sum's own step.";
 
-/// Each solution on the card against the direct one, in false colors of one scale.
+/// False-color pictures of the error of each solution on the card, on one scale.
 fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPicture> {
     let errors = || outcome.rows.iter().filter_map(|row| Some((row.label.as_str(), row.pictures.error.as_ref()?)));
     let finite = errors().flat_map(|(_, error)| error).filter(|error| error.is_finite());
@@ -124,20 +124,20 @@ fn errors(parameters: &Parameters, outcome: &RadiosityOutcome) -> Vec<NamedPictu
     errors().map(picture).collect()
 }
 
-/// The atlas, and the room through it.
+/// Pictures of the atlas, and of the room through it.
 fn in_atlas(atlas: AtlasPictures) -> [NamedPicture; 2] {
     let caption = format!("{}: the atlas, {} triangles", atlas.label, atlas.triangles);
     let view = format!("{}: the room through the atlas", atlas.label);
     [NamedPicture::new("atlas", atlas.texture, caption), NamedPicture::new("atlas-view", atlas.view, view)]
 }
 
-/// The room after some iterations, as a picture.
+/// Picture of the room after some iterations.
 fn frame(frame: IterationPicture) -> NamedPicture {
     let caption = format!("after {}", counted(frame.iteration.into(), "iteration", "iterations"));
     NamedPicture::new(format!("iteration-{}", frame.iteration), frame.flat, caption)
 }
 
-/// A row per patch: its place, its areas, its material, and its radiosity by each method.
+/// Table with a row per patch: its position, its areas, its material, and its radiosity by each method.
 fn patches(outcome: &RadiosityOutcome) -> Table {
     let mut headings: Vec<String> =
         ["patch", "x", "y", "z", "area", "open_area", "face", "material"].into_iter().map(str::to_owned).collect();
@@ -156,7 +156,7 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Figure 3: the residual of each method, iteration by iteration. `None` where nothing iterates.
+/// Chart of Figure 3: the residual of each method by iteration. `None` where nothing iterates.
 fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let line = |row: &MethodRow| Series {
         label: row.label.clone(),
@@ -166,17 +166,16 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
         outcome.rows.iter().filter(|row| row.iterations() > 0 && row.way != SolveMethod::DIRECT).map(line).collect();
     let caption = "The mean over the channels of the mean squared residual, as in the paper's Figure 3.";
     let names = ["Mean squared residual of M B - E", "iterations", "error"];
-    // Fast methods must not stand in a corner beside one that goes on for ever.
+    // A method without convergence must not compress the others into a corner.
     let scale = Scale::fitting(lines.iter().filter_map(|line| line.points.last()).map(|end| end.0));
     (!lines.is_empty()).then(|| logarithmic("residual", names, (scale, lines), caption))
 }
 
-/// Settings of switches get a line of their own where they change the error by more than this factor; the table has
-/// all.
+/// Ratio of mean errors above which a setting of a switch gets a line of its own; the table has all settings.
 const APART: f64 = 1.5;
 
-/// The mean error by number of patches: a line per method on the card as it is, and one per setting that makes a
-/// difference. `None` without a sweep.
+/// Chart of the mean error by number of patches: a line per method on the card as it is, and one per setting that makes
+/// a difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
     let apart = |row: &SweepRow| {
@@ -218,7 +217,7 @@ fn logarithmic(
     NamedChart { name: name.to_owned(), chart, caption: caption.to_owned() }
 }
 
-/// The log of the first method on a card, as a trace; `None` for devices without time.
+/// Encodes the log of the first method on a card as a trace; `None` for devices without timing.
 fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Option<Vec<u8>>, RadiosityError> {
     let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! Form factors of the patches.
+//! Computation of the form factors of the patches.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use crate::radiosity::form_factor::{Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
 use crate::tracer::HostTracer;
 
-/// Form factors, and their errors before anything was enforced.
+/// Form factors, with their errors before anything was enforced.
 pub(super) struct Room {
     pub(super) factors: FormFactors,
     pub(super) found_sums: RowSums,

@@ -1,4 +1,4 @@
-//! Solving by one method: a solver of the host, or equation 4 on the card.
+//! Solution by one method: a solver of the host, or equation 4 on the card.
 
 use super::RadiosityError;
 use super::change::Relit;
@@ -8,7 +8,7 @@ use crate::radiosity::System;
 use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
 
-/// A method's solution, still on its card.
+/// Solution of a method, with its card.
 pub(super) struct Solved {
     pub(super) way: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,
@@ -18,7 +18,7 @@ pub(super) struct Solved {
     pub(super) stopped: StopReason,
     pub(super) relit: Option<Relit>,
     pub(super) card: Option<CardSolver>,
-    /// Radiosities after the iterations that `--frames` names.
+    /// Radiosities after the iterations requested by `--frames`.
     pub(super) kept: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
@@ -61,7 +61,7 @@ fn on_host(
         };
         Ok(Relit { from_last: count(&again), from_nothing: count(&anew), radiosity: again.radiosity() })
     });
-    // Channels stop by themselves; one that has stopped stays where it is.
+    // Channels stop independently; a stopped channel keeps its last residual.
     let longest = found.channels.iter().map(|c| c.history.len()).max().unwrap_or(0);
     let at = |k: usize| [0, 1, 2].map(|c| found.channels[c].history[k.min(found.channels[c].history.len() - 1)]);
     let converged = found.channels.iter().all(|c| c.converged);
@@ -106,7 +106,7 @@ fn on_card(
         };
         let again = run(&found.radiosity)?;
         let anew = run(&vec![[0.0; 3]; found.radiosity.len()])?;
-        // The card goes on to show the first solution.
+        // Restores the first solution, which the card displays later.
         card.load(&found.radiosity)?;
         card.set_system(system)?;
         let count = |s: &CardSolution| s.converged.then(|| s.iterations() as usize);

@@ -1,5 +1,5 @@
-//! The same room in other numbers of patches, on the card as it is and with each of its open switches turned: how much
-//! a result depends on the size of the system, and on guesses about the card.
+//! Sweep over numbers of patches and open switches of the card: the dependence of the error on the size of the system,
+//! and on guesses about the card.
 
 use refsim::device::Profile;
 
@@ -10,20 +10,21 @@ use crate::radiosity::solve::{Options, Solver};
 use crate::radiosity::{Patches, Subdivision, System};
 use crate::study::configuration::Configuration;
 
-/// One number of patches, one method on the card, and one setting of its switches.
+/// Result for one number of patches, one method on the card, and one setting of its switches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRow {
-    /// How many patches the room was cut into.
+    /// Number of patches.
     pub patches: usize,
-    /// The method's name.
+    /// Name of the method.
     pub way: String,
-    /// The switch that was turned, and its value; `None` for the card as it was asked for.
+    /// Switch that was changed, and its value; `None` for the card as configured.
     pub switch: Option<(String, String)>,
-    /// The first row of the sweep with the same bits: this one, or one of the same patches and method before it.
+    /// Index of the first row of the sweep with the same bits: this one, or an earlier one of the same patches and
+    /// method.
     pub same_as: usize,
-    /// How many iterations it took.
+    /// Number of iterations.
     pub iterations: u32,
-    /// Why it stopped.
+    /// Reason why it stopped.
     pub stopped: StopReason,
     /// Error against the direct solution.
     pub off: SolutionError,
@@ -32,13 +33,13 @@ pub struct SweepRow {
 }
 
 impl SweepRow {
-    /// The setting in words.
+    /// Formats the setting.
     pub fn setting(&self) -> String {
         self.switch.as_ref().map_or_else(|| "as it is".to_owned(), |(name, value)| format!("{name}={value}"))
     }
 }
 
-/// Rows by patches, method and settings.
+/// Runs the sweep: rows by patches, method and settings.
 pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, RadiosityError> {
     let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(*how) } else { None };
     let ways: Vec<CardMethod> = parameters.ways.iter().filter_map(on_card).collect();
@@ -97,7 +98,7 @@ fn solved(
     Ok((solution.radiosity, row))
 }
 
-/// The bias that rounding alone should cause.
+/// Bias predicted for rounding alone.
 fn bias(
     how: CardMethod,
     profile: &Profile,

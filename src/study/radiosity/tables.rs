@@ -1,25 +1,25 @@
-//! The tables of the study.
+//! Tables of the study.
 
 use super::{MethodRow, Parameters, RadiosityOutcome, SolutionError, SolveMethod, StopReason};
 use crate::report::{Cell, Table};
 
-/// The tables of a study.
+/// Tables of the study.
 pub(super) struct Tables {
-    /// The room, and what its form factors obey.
+    /// The room, and the properties of its form factors.
     pub(super) room: Table,
     /// A row per method.
     pub(super) ways: Table,
-    /// How iterations on a card end: a row per method on a card.
+    /// End state of iterations on a card: a row per method on a card.
     pub(super) ends: Table,
     /// A row per method on a card.
     pub(super) card: Table,
     /// A row per method, after the changes.
     pub(super) relit: Table,
-    /// A row per number of patches, method on a card, and settings of its switches that find other bits.
+    /// A row per number of patches, method on a card, and setting of its switches that changes the bits.
     pub(super) sweep: Table,
 }
 
-/// The tables.
+/// Builds the tables.
 pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tables {
     Tables {
         room: room(parameters, outcome),
@@ -78,7 +78,7 @@ fn ways(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// How iterations on a card end that reach no tolerance: at a fixed point, or in a cycle of equal states.
+/// Table of the iterations on a card that reach no tolerance: their fixed point, or cycle of repeating states.
 fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     let columns = "way ends entered_after period values_changing of_values largest_change_%";
     let mut table = Table::of("What iterations on the card come to; changes from one iteration to the next", columns);
@@ -106,7 +106,7 @@ fn ends(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// The sweep over numbers of patches and switches.
+/// Table of the sweep over numbers of patches and switches.
 fn sweep(outcome: &RadiosityOutcome) -> Table {
     let columns = "patches way setting iterations stopped_by largest_error mean_relative predicted_mean";
     let mut table =
@@ -176,7 +176,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
 }
 
 impl MethodRow {
-    /// Iterations made.
+    /// Number of iterations.
     pub fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }

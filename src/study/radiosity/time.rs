@@ -1,4 +1,4 @@
-//! Time of an iteration on the card, and the log of a relit scene.
+//! Time of an iteration on the card, and the log of relighting a scene.
 
 use refsim::event::Event;
 use refsim::timing::{Bottleneck, TimingError};
@@ -10,42 +10,42 @@ use crate::radiosity::on_card::{CardSolver, PassProgram};
 use crate::radiosity::rate::{RateError, Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
 
-/// Iterations of the log.
+/// Number of iterations in the log.
 pub(super) const LOGGED: u32 = 4;
-/// Red, green, blue.
+/// Number of channels: red, green, blue.
 const CHANNELS: f64 = 3.0;
 
-/// An iteration of all three channels by the pipeline model.
+/// Time of an iteration of all three channels by the pipeline model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IterationTime {
     /// Seconds per iteration.
     pub seconds: f64,
-    /// Million operations per second: two per element and channel, indexing not counted.
+    /// Millions of operations per second: two per element and channel, indexing not counted.
     pub mflops: f64,
-    /// The longest draw's bottleneck.
+    /// Bottleneck of the longest draw.
     pub bound_by: Bottleneck,
     /// Memory bandwidth in use, in [0, 1].
     pub bandwidth: f64,
 }
 
-/// What a method costs on a card.
+/// Cost of a method on a card.
 #[derive(Clone, Debug)]
 pub struct CardFacts {
-    /// Passes per iteration, of all its systems.
+    /// Passes per iteration, over all its systems.
     pub passes: usize,
-    /// Texels of a block.
+    /// Texels per block.
     pub block: usize,
     /// Instructions of the longest program.
     pub instructions: usize,
-    /// Bytes of matrices.
+    /// Bytes of the matrices.
     pub matrix_bytes: f64,
-    /// An iteration by the pipeline model; `None` for devices without time.
+    /// Time of an iteration by the pipeline model; `None` for devices without timing.
     pub time: Option<IterationTime>,
-    /// Log of changing the light, iterating and showing the room.
+    /// Log of changing the light, iterating and displaying the room.
     pub log: Vec<Event>,
 }
 
-/// Changes the light, iterates and shows the room on the card, and measures that.
+/// Changes the light, iterates and displays the room on the card, and measures the cost.
 pub(super) fn facts(
     card: &mut CardSolver,
     how: CardMethod,
@@ -81,7 +81,7 @@ pub(super) fn facts(
     })
 }
 
-/// `None` for devices without time.
+/// Time of an iteration; `None` for devices without timing.
 fn time(
     how: CardMethod,
     systems: usize,

@@ -1,46 +1,46 @@
-//! An entry, and what it finds.
+//! Entries of the reproduction, and their findings.
 
 use super::shared::Shared;
 use super::{PaperRow, Prose, ReproduceError};
 use crate::report::{Chart, NamedPicture, Table};
 
-/// A chart, the name of its file, and what stands under it.
+/// Chart with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryChart {
-    /// File name without folder and ending.
+    /// File name without folder and extension.
     pub name: &'static str,
     /// The chart.
     pub chart: Chart,
-    /// What stands under it.
+    /// Caption.
     pub caption: Prose,
 }
 
-/// What one entry found.
+/// Findings of one entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EntryFindings {
-    /// How it was done, as paragraphs.
+    /// Method, in paragraphs.
     pub text: Vec<Prose>,
-    /// The paper's figures beside ours.
+    /// Printed values of the paper with ours.
     pub rows: Vec<PaperRow>,
-    /// What would have to be known to say why rows are off.
+    /// Open questions whose answers would explain rows outside their bounds.
     pub questions: Vec<&'static str>,
-    /// What else there is to show.
+    /// Further tables.
     pub tables: Vec<Table>,
-    /// Plots.
+    /// Charts.
     pub charts: Vec<EntryChart>,
     /// Pictures.
     pub pictures: Vec<NamedPicture>,
 }
 
-/// A table or figure of a paper.
+/// Table or figure of a paper.
 #[derive(Clone, Copy, Debug)]
 pub struct ReproduceEntry {
-    /// The name on the command line.
+    /// Name on the command line.
     pub id: &'static str,
-    /// What it is, and where it is printed.
+    /// Title, with the place where it is printed.
     pub title: &'static str,
     pub(super) work: fn(&Shared) -> Result<EntryFindings, ReproduceError>,
 }
 
-/// Entries with what they found.
+/// Entries with their findings.
 pub type Reproduced = Vec<(ReproduceEntry, EntryFindings)>;

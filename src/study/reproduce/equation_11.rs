@@ -9,16 +9,16 @@ use super::{
 };
 use crate::ray_engine::model::CostRates;
 
-/// Bytes per ray: a triangle id; an id with three barycentric coordinates.
+/// Bytes read back per ray: a triangle id; an id with three barycentric coordinates.
 pub(super) const GAMMAS: [f64; 2] = [4.0, 16.0];
-/// Triangles of the paper's example.
+/// Number of triangles in the paper's example.
 pub(super) const TEN: f64 = 10.0;
 /// Printed millions of tests per second at ten triangles, in the text under figure 7.
 pub(super) const TEN_TRIANGLES: [(&str, f64); 2] = [("nv20", 240.0), ("nv25", 286.0)];
-/// In millions.
+/// Numbers per million.
 pub(super) const MEGA: f64 = 1e6;
 
-/// The rates of equation 11 on a card: fill as measured, or implied, by the paper.
+/// Rates of equation 11 on a card, with the fill rate measured in the paper, or implied by it.
 pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
     let profile = Profile::named(device)?;
     let (rates, bus) = (&profile.rates, &profile.bus);
@@ -31,7 +31,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
 const PLACE: &str = "section 6.1";
 const READ_BACK: &str = "250 MB/s (read-back)";
 const RATES: &str = "390 M/s (fill rate), 250 MB/s (read-back)";
-/// How the GeForce4's fill rate follows.
+/// Derivation of the GeForce4's fill rate.
 const IMPLIED: &str = "equation 11 solved for the fill rate: T / (T / 286 M/s - gamma / 250 MB/s), T = 10, gamma = 4 B, if it reads back like a GeForce3";
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
@@ -69,7 +69,7 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     })
 }
 
-/// Results read back: the equation's quotient of printed figures, and the pipeline's bus, which has the printed rate.
+/// Rows on read-back: the equation's quotient of printed values, and the pipeline's bus, which has the printed rate.
 fn read_back(gamma: f64, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
     let what = format!("results read back, {gamma} B each");
     let equation = (rates("nv20")?.results_per_s(gamma) / MEGA, Standing::Predicted { from: READ_BACK });
@@ -80,7 +80,7 @@ fn read_back(gamma: f64, target: PaperFigure) -> Result<[PaperRow; 2], Reproduce
     ])
 }
 
-/// The fill rate: the equation's input, and the pipeline's prediction.
+/// Rows on the fill rate: the equation's input, and the pipeline's prediction.
 fn fill(device: &'static str, target: PaperFigure, on: &'static str) -> Result<[PaperRow; 2], ReproduceError> {
     let what = "fill rate, two textures a pixel";
     let equation = (rates(device)?.fill_pixels_per_s / MEGA, Standing::Calibrated { on });
@@ -91,7 +91,7 @@ fn fill(device: &'static str, target: PaperFigure, on: &'static str) -> Result<[
     ])
 }
 
-/// Ten triangles: equation 11 on both cards, the GeForce4's with the fill rate that this figure implies; and the
+/// Rows on ten triangles: equation 11 on both cards, the GeForce4's with the fill rate implied by this value; and the
 /// pipeline.
 fn ten_triangles(device: &'static str, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
     let what = "tests, ten triangles, 4 B a ray";

@@ -1,4 +1,4 @@
-//! Why a figure could not be worked out.
+//! Errors of the reproduction.
 
 use refsim::device::{DeviceError, Profile};
 use refsim::timing::TimingError;
@@ -7,35 +7,35 @@ use crate::names::did_you_mean;
 use crate::ray_engine::EngineError;
 use crate::report::ReportError;
 
-/// Why a figure could not be worked out.
+/// Error of computing an entry.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReproduceError {
-    /// No such entry.
+    /// No entry has this name.
     #[error("expected the name of an entry ({known}), found `{found}`")]
     #[diagnostic(
         code(reproduce::unknown),
         help("{}`crossbar reproduce --list` says what each is", did_you_mean(found, known.split(", ")))
     )]
     Unknown { found: String, known: String },
-    /// A profile lacks a figure that the paper's cost equation needs.
+    /// A profile lacks a value that the paper's cost equation needs.
     #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
     #[diagnostic(code(reproduce::no_figure))]
     NoFigure { device: String, figure: &'static str },
-    /// A device cannot be had.
+    /// A device is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Device(#[from] DeviceError),
-    /// The Ray Engine could not run.
+    /// The Ray Engine failed.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Engine(#[from] EngineError),
-    /// The timing model lacks a figure.
+    /// The timing model lacks a value.
     #[error(transparent)]
     #[diagnostic(code(reproduce::timing))]
     Timing(#[from] TimingError),
-    /// A chart cannot be drawn.
+    /// A chart cannot be encoded.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Report(#[from] ReportError),
@@ -45,7 +45,7 @@ pub enum ReproduceError {
     Run { device: String, reason: String },
 }
 
-/// A figure that an entry cannot do without.
+/// Converts a value required by an entry, or returns the error for its absence.
 pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, ReproduceError> {
     let missing = || ReproduceError::NoFigure { device: profile.name.clone(), figure: name };
     Ok(value.ok_or_else(missing)? as f64)

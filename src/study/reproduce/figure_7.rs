@@ -1,15 +1,16 @@
-//! Figure 7: tests per second by the number of triangles; and the least number at which a card pays.
+//! Figure 7: tests per second by the number of triangles, and the minimum number at which a card is faster than the
+//! host.
 
 use super::equation_11::{GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
 use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, Series, Table};
 
-/// The cards of the figure, with their names in it.
+/// Cards of the figure, with their names in it.
 const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
-/// Triangles of the table.
+/// Numbers of triangles in the table.
 const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
-/// Triangles of the plot.
+/// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;
 /// Tests per second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
 const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];

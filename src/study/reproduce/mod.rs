@@ -1,8 +1,8 @@
-//! The papers' printed figures beside ours: one file per entry, each a list of rows with tables and charts.
+//! Reproduction of the papers' printed values: one file per entry, each a list of rows with tables and charts.
 //!
-//! Every row has the paper's value with its origin, ours with the printed figures that went into it, and a bound that
-//! was stated beforehand; the verdict follows from these. A miss is a miss unless a sweep of the same run reaches the
-//! value ([`Sweep`]).
+//! Every row has the paper's value with its origin, ours with the printed values that it depends on, and a bound that
+//! was stated beforehand, which determine the verdict. A row outside its bound counts as missed unless a sweep of the
+//! same run reaches the printed value ([`Sweep`]).
 
 mod all_frequency;
 mod bi_scale;
@@ -38,8 +38,8 @@ pub use prose::{Prose, number};
 pub use row::{Bound, Explanation, Method, Origin, PaperFigure, PaperRow, RowVerdict, Setting, Standing, Sweep};
 use shared::Shared;
 
-/// Works entries out, one after the other, on models of a size where they have a choice. What several of them need is
-/// rendered and run once. `progress` hears the name of each.
+/// Computes entries in order, with models of the given size where they have a choice. Renderings and runs needed by
+/// several entries are made once. `progress` is called with the name of each.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     models: ModelSize,
@@ -53,12 +53,12 @@ pub fn reproduce(
     (0..).zip(entries).map(work).collect()
 }
 
-/// Entries to be reproduced.
+/// Parameters of the study.
 #[derive(Clone, Debug)]
 pub struct Parameters {
-    /// The entries.
+    /// Entries to reproduce.
     pub entries: Vec<ReproduceEntry>,
-    /// The size of models that stand for a paper's.
+    /// Size of stand-in models.
     pub models: ModelSize,
 }
 
@@ -260,12 +260,12 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     },
 ];
 
-/// The entries' names.
+/// Names of the entries.
 pub fn names() -> Vec<&'static str> {
     ENTRIES.iter().map(|entry| entry.id).collect()
 }
 
-/// The entries of these names in the order of [`ENTRIES`]; all of them for none.
+/// Returns the entries with these names, in the order of [`ENTRIES`]; all entries for no names.
 ///
 /// # Errors
 /// [`ReproduceError::Unknown`].

@@ -1,11 +1,11 @@
-//! The size of models that stand for a paper's.
+//! Size of stand-in models.
 
-/// How large the models are that stand for a paper's, where an entry has a choice.
+/// Size of the stand-ins for a paper's models, where an entry has a choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ModelSize {
-    /// Small: an entry takes seconds.
+    /// Reduced: seconds per entry.
     #[default]
     Reduced,
-    /// As printed: minutes to hours.
+    /// As printed: minutes to hours per entry.
     Printed,
 }

@@ -1,8 +1,8 @@
-//! Values that are computed when they are first asked for.
+//! Lazily computed values.
 
 use std::cell::OnceCell;
 
-/// The value of a cell; computed if it has none yet, and left empty if that fails.
+/// Returns the value of a cell; computes it if the cell is empty, and leaves the cell empty if that fails.
 pub(super) fn get_or_try<T, E>(cell: &OnceCell<T>, make: impl FnOnce() -> Result<T, E>) -> Result<&T, E> {
     if let Some(value) = cell.get() {
         return Ok(value);

@@ -1,4 +1,4 @@
-//! All rows at a glance: the conclusion, the tally, and a chart of ours over the papers'.
+//! Overview of all rows: conclusion, tally, and a chart of our values relative to the papers'.
 
 use strum::VariantArray as _;
 
@@ -10,7 +10,7 @@ const JUDGED: &str =
 const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
-/// Puts conclusion, tally and chart into the findings.
+/// Adds conclusion, tally and chart to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
     for sentence in [Some(judged(&rows)), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
@@ -58,7 +58,8 @@ fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
     (all > 0).then(|| Prose::new(CALIBRATED, [all, missed].map(|figure| figure.to_string())))
 }
 
-/// How far a row is from print, as a factor of at least 1; nothing for a value that is not above 0.
+/// Ratio of our value and the printed one, inverted if necessary so that it is at least 1; `None` for a value that is
+/// not above 0.
 fn distance(row: &PaperRow) -> Option<f64> {
     let ratio = ratio(row);
     (ratio > 0.0 && ratio.is_finite()).then(|| ratio.max(1.0 / ratio))
@@ -75,12 +76,12 @@ fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
     Some(Prose::new(FARTHEST, figures))
 }
 
-/// The chart's verdicts: the first two have the colours of the tally.
+/// Verdicts in the order of the chart: the first two have the colors of the tally.
 const ORDER: [RowVerdict; 5] =
     [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Calibrated, RowVerdict::Explained, RowVerdict::TooVague];
 
-/// Ours over the paper's, a point per row, in the order of `rows.csv`; nothing for less than two rows that can be
-/// shown.
+/// Chart of our values relative to the papers', a point per row, in the order of `rows.csv`; `None` for fewer than two
+/// rows that can be shown.
 fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
     let point = |(n, row): (usize, &&PaperRow)| ((n + 1) as f64, ratio(row));
     let of = |verdict: RowVerdict| Series {

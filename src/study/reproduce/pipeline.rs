@@ -1,4 +1,4 @@
-//! Runs on the emulated cards, timed by the pipeline model.
+//! Draws on the emulated cards, timed by the pipeline model.
 
 use std::fmt::Display;
 
@@ -16,14 +16,15 @@ use refsim::timing::{DrawCost, Level, Model};
 use super::ReproduceError;
 use crate::report::{Cell, Table};
 
-/// Sides of the screen and of its textures, in pixels. The paper does not say its own; the rate hardly depends on it.
+/// Side of the screen and of its textures, in pixels. The paper does not state it; the rate hardly depends on it.
 const SIDE: u32 = 256;
-/// Quads of a draw that measures a fill rate: enough that filling and draining the pipeline does not show.
+/// Quads per draw for measuring a fill rate: enough to make filling and draining of the pipeline negligible.
 const QUADS: usize = 64;
-/// Two textures per pixel, as the ray origins and directions are, and what a ps_1_1 card can do with them in one clock.
+/// Program with two textures per pixel, as for ray origins and directions, and as much arithmetic as a ps_1_1 card can
+/// execute in one clock.
 pub const DUAL_TEXTURED: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1\n";
 
-/// A draw with its cost.
+/// Draw with its cost.
 pub(super) struct TimedDraw {
     pub(super) record: DrawRecord,
     pub(super) cost: DrawCost,
@@ -36,17 +37,17 @@ impl TimedDraw {
     }
 }
 
-/// Why a run could not be made, as an entry's error.
+/// Returns a function that converts a failure to an entry's error.
 pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> ReproduceError + '_ {
     move |reason| ReproduceError::Run { device: device.to_owned(), reason: reason.to_string() }
 }
 
-/// The pipeline model of a card.
+/// Pipeline model of a card.
 pub(super) fn model(device: &str) -> Result<Model, ReproduceError> {
     Ok(Model::new(Level::Pipeline, &Profile::named(device)?)?)
 }
 
-/// The costliest draw of a log, timed.
+/// Times the most expensive draw of a log.
 pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, ReproduceError> {
     let model = model(device)?;
     let draws = log.into_iter().filter_map(|event| match event {
@@ -56,18 +57,19 @@ pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, Reproduc
     draws.max_by_key(|draw| draw.cost.total).ok_or_else(|| failed(device)(&"no draw was recorded"))
 }
 
-/// Screen-filling quads with two textures of the screen's size, tested and written.
+/// Times screen-filling quads with two textures of the screen's size, with depth test and write.
 pub(super) fn dual_textured(device: &str) -> Result<TimedDraw, ReproduceError> {
     timed(device, screen_quads(device, QUADS)?)
 }
 
-/// Results that read-back allows, `gamma` bytes each, a screen at a time.
+/// Results per second allowed by read-back alone, `gamma` bytes each, a screen at a time.
 pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, ReproduceError> {
     let rays = f64::from(SIDE * SIDE);
     Ok(rays / model(device)?.read_back((rays * gamma) as u64).seconds())
 }
 
-/// Equation 11's left side, run: quads for so many triangles over a screen of rays, then the read-back.
+/// Tests per second as in equation 11, measured: quads for `triangles` triangles over a screen of rays, followed by
+/// read-back.
 pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, ReproduceError> {
     let drawn = timed(device, screen_quads(device, triangles as usize)?)?;
     let rays = f64::from(SIDE * SIDE);
@@ -75,7 +77,7 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
     Ok(triangles * rays / (drawn.cost.total + back).seconds())
 }
 
-/// What a dual-textured pixel costs each unit of some cards.
+/// Table of the cost of a dual-textured pixel in each unit of some cards.
 pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         "A dual-textured pixel in the pipeline model",
@@ -101,7 +103,7 @@ pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
     Ok(table)
 }
 
-/// The log of one draw of so many quads over the screen.
+/// Records the log of one draw of `quads` quads over the screen.
 fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError> {
     let fail = failed(device);
     let profile = Profile::named(device)?;
@@ -130,7 +132,7 @@ fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError
     Ok(machine.take_log())
 }
 
-/// A quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, row 0 on top.
+/// Quad over the whole screen, at depth 0.5; coordinate sets 0 and 1 go from 0 to 1 over it, with row 0 at the top.
 pub fn screen_quad() -> [Vertex; 4] {
     [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| {
         let mut vertex = Vertex { position: [x, y, 0.5, 1.0].map(f32::to_bits), ..Vertex::default() };

@@ -1,15 +1,15 @@
-//! Sentences whose numbers are computed, not written by hand.
+//! Prose with computed numbers.
 
 use std::fmt;
 
 use crate::report::digits::{Quantity, shown};
 
-/// A number with `decimals` digits after the point.
+/// Formats a number with `decimals` digits after the point.
 pub fn number(value: f64, decimals: u8) -> String {
     shown(value, Quantity::Decimals(decimals))
 }
 
-/// A paragraph: a template, and the numbers that replace its `{}`.
+/// Paragraph: a template, and the numbers that replace its `{}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Prose {
     template: &'static str,
@@ -17,17 +17,17 @@ pub struct Prose {
 }
 
 impl Prose {
-    /// A paragraph with its numbers, one per `{}`.
+    /// Creates a paragraph with its numbers, one per `{}`.
     pub fn new(template: &'static str, figures: impl IntoIterator<Item = String>) -> Self {
         Self { template, figures: figures.into_iter().collect() }
     }
 
-    /// The text as it is written in the source.
+    /// Template, as in the source.
     pub const fn template(&self) -> &'static str {
         self.template
     }
 
-    /// Whether there are as many figures as places for them.
+    /// Returns `true` if there are as many numbers as placeholders.
     pub fn is_whole(&self) -> bool {
         self.template.matches("{}").count() == self.figures.len()
     }

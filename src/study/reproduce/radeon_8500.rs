@@ -14,11 +14,11 @@ use crate::report::{Cell, Table};
 use crate::scene::Camera;
 
 const DEVICE: &str = "r200";
-/// Rays of a side.
+/// Side of the batch, in rays.
 const SIDE: u32 = 256;
 /// "Thousands of triangles" (section 6.1).
 const TRIANGLES: usize = 2048;
-/// Tests per second as printed, in millions.
+/// Printed tests per second, in millions.
 const PRINTED: f64 = 114.0;
 
 const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and vertices do not show, so the figure is the pixel \
@@ -92,7 +92,7 @@ fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), Reprodu
     Ok((answer.kernel, timed(DEVICE, answer.log)?))
 }
 
-/// Part of the teapot.
+/// Builds a part of the teapot.
 fn mesh() -> Result<Mesh, ReproduceError> {
     let whole = teapot(8).map_err(|e| failed(DEVICE)(&e))?;
     let triangles = whole.triangles().iter().take(TRIANGLES).copied().collect();

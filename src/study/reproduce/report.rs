@@ -1,4 +1,4 @@
-//! Entries as the findings of one study.
+//! Findings of the study from those of the entries.
 
 use serde_json::json;
 use strum::VariantArray as _;
@@ -14,7 +14,7 @@ fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
 }
 
-/// Every row with all that is known of it, for machines.
+/// Table of every row with all its attributes, for programs.
 fn rows(found: &Reproduced) -> Table {
     let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
@@ -72,7 +72,7 @@ fn calibrated(row: &PaperRow) -> bool {
     matches!(row.standing, super::Standing::Calibrated { .. })
 }
 
-/// The rows as people read them: predictions and counts; and apart from them what was calibrated.
+/// Tables of the rows for people: predictions and counts; and separately the calibrated values.
 pub fn tables(found: &Reproduced) -> [Table; 2] {
     let of = |title: &str, wanted: bool| {
         let mut table = Table::new(title, &SHOWN);
@@ -82,8 +82,8 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
     [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
 }
 
-/// Where the paper's figures come from if they are not printed, what rows were calibrated on, and what reaches those
-/// outside their bounds: each reason once, with its rows.
+/// Table of notes: origins of values that are not printed, inputs of calibration, and explanations of rows outside
+/// their bounds; each reason once, with its rows.
 pub fn notes(found: &Reproduced) -> Table {
     let mut notes: Vec<([String; 2], Vec<String>)> = Vec::new();
     for (_, row) in all(found) {
@@ -114,7 +114,7 @@ pub fn notes(found: &Reproduced) -> Table {
     table
 }
 
-/// How many rows came out how.
+/// Table of the number of rows per verdict.
 fn tally(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
     for verdict in RowVerdict::VARIANTS {
@@ -127,7 +127,7 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
-/// The tally in one line: what is explained is no more reproduced than what is missed.
+/// Formats the tally in one line: explained rows do not count as reproduced.
 pub fn tally_line(found: &Reproduced) -> String {
     let [reproduced, calibrated, explained, missed, vague] = [
         RowVerdict::Reproduced,
@@ -145,7 +145,7 @@ pub fn tally_line(found: &Reproduced) -> String {
     )
 }
 
-/// What would have to be known to say why rows are off: each question once, with the entry that asks first.
+/// Open questions about rows outside their bounds: each once, with the first entry that asks it.
 fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     let mut all: Vec<(&str, &str)> = Vec::new();
     for (entry, question) in found.iter().flat_map(|(entry, found)| found.questions.iter().map(|q| (entry.id, *q))) {
@@ -156,7 +156,7 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Whether no figure is missed.
+/// Returns `true` if no value is missed.
 pub fn held(found: &Reproduced) -> bool {
     count(found, RowVerdict::Missed) == 0
 }

@@ -1,4 +1,4 @@
-//! What several entries need: worked out once, by the first that asks.
+//! Intermediate results shared by several entries, computed on first use.
 
 use std::cell::OnceCell;
 
@@ -21,22 +21,22 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    /// Nothing yet.
+    /// Creates empty cells.
     pub(super) fn new(models: ModelSize) -> Self {
         Self { models, ..Self::default() }
     }
 
-    /// The teapot room of Tables 1 to 5.
+    /// Teapot room of Tables 1 to 5.
     pub(super) fn teapot(&self) -> Result<&TeapotRoom, ReproduceError> {
         get_or_try(&self.teapot, TeapotRoom::new)
     }
 
-    /// The rows of Tables 3 to 5 and what explains them.
+    /// Rows of Tables 3 to 5 with their explanations.
     pub(super) fn speed_ups(&self) -> Result<&SpeedUps, ReproduceError> {
         get_or_try(&self.speed_ups, || work_out(self.teapot()?))
     }
 
-    /// Pass 2 of system 3 on the card of its Table 1, in each of its variants.
+    /// Cost of pass 2 of system 3 on the card of its Table 1, in each of its variants.
     pub(super) fn gather(&self) -> Result<&[GatherCost], ReproduceError> {
         Ok(get_or_try(&self.gather, || all_costs(CARD))?)
     }

@@ -1,10 +1,10 @@
-//! A light for pictures of all-frequency transfer.
+//! Light for pictures of all-frequency transfer.
 
 use glam::DVec3;
 
 use crate::sphere::ClearSky;
 
-/// A clear sky with a sun of a quarter of a degree, which casts hard shadows.
+/// Clear sky with a sun of a quarter of a degree, which casts hard shadows.
 pub(super) const HARD_SUN: ClearSky = ClearSky {
     sun: DVec3::new(1.0, -0.6, 1.1),
     sun_radiance: [4e4, 3.7e4, 3.2e4],

@@ -11,9 +11,9 @@ use crate::ray_engine::{RayBatch, VertexCrossbar};
 use crate::report::Table;
 use crate::scene::Camera;
 
-/// The cards of the day with vertex programs.
+/// Contemporary cards with vertex programs.
 const DEVICES: [&str; 3] = ["nv20", "nv25", "r200"];
-/// Tests per second as printed, in millions.
+/// Printed tests per second, in millions.
 const PRINTED: f64 = 4.1;
 
 const HOW: &str = "The road not taken: a ray as constants, a triangle as three vertices that cover the ray's pixel where it is hit. Our \

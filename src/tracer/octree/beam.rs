@@ -1,8 +1,8 @@
 //! A bucket of rays against cells (section 5.3, after Arvo and Kirk 1987): the beam that holds all of its rays.
 //!
 //! The rays of a bucket look through one face of the unit cube, so that along its axis all of them go one way, and
-//! their slopes across it are bounded. Each bound is a plane with all rays on one side of it: `p_u - most * p_k` never
-//! exceeds the largest value that it has at an origin. A cell on the other side of one of them is met by no ray.
+//! their slopes across it are bounded. Each bound is a plane with all rays on one side: `p_u - most * p_k` never
+//! exceeds the largest value that it has at an origin. No ray meets a cell on the other side of one of them.
 
 use glam::DVec3;
 
@@ -11,36 +11,36 @@ use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 use crate::geom::vector::wide;
 
-/// By how much traversal can be off, in shares of what lies between a ray's origin and the octree: many roundings of
+/// Bound on the error of traversal, relative to the distance between a ray's origin and the octree: many roundings of
 /// f64.
 const ROUNDING: f64 = 1e-13;
 
-/// A plane that has all rays on its lower side: the points at which `normal . p <= most`.
+/// Plane with all rays on its lower side: the points at which `normal . p <= most`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Plane {
     normal: DVec3,
     most: f64,
 }
 
-/// All rays of a bucket, from outside.
+/// Volume that holds all rays of a bucket.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     planes: Vec<Plane>,
-    /// The largest component of an origin.
+    /// Largest component of an origin.
     reach: f64,
 }
 
-/// What a beam found in an octree.
+/// Result of a beam's search in an octree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reached {
-    /// GPU cells and leaves with triangles that rays of the beam may meet, in the order of their numbers.
+    /// GPU cells and leaves with triangles that rays of the beam may meet, in ascending order.
     pub cells: Vec<CellId>,
-    /// Cells that were tested for it.
+    /// Number of cells tested.
     pub tested: u64,
 }
 
 impl Beam {
-    /// The beam of some rays; `None` if they have no face of the cube in common, or there are none.
+    /// Builds the beam of some rays; `None` if they share no face of the cube, or there are none.
     pub fn of(rays: &[Ray]) -> Option<Self> {
         let axis = common_axis(rays)?;
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -56,7 +56,7 @@ impl Beam {
                 let mut normal = side * DVec3::AXES[across];
                 normal[axis] = -slope * sign;
                 normals.push(normal);
-                // All rays fall, or rise, across it too.
+                // All rays have the same sign along this axis too.
                 if slope <= 0.0 {
                     normals.push(side * DVec3::AXES[across]);
                 }
@@ -69,7 +69,7 @@ impl Beam {
         Some(Self { planes, reach })
     }
 
-    /// Whether a box grown by `margin` may be met: given by its middle and its half side.
+    /// Returns `true` if the beam may meet a box grown by `margin`, given by its center and half its side.
     fn meets(&self, middle: DVec3, half: f64, margin: f64) -> bool {
         self.planes.iter().all(|plane| {
             let across = plane.normal.abs().element_sum();
@@ -79,8 +79,8 @@ impl Beam {
 }
 
 impl Octree {
-    /// The first cell with triangles that a ray of the beam may meet, or all of them; GPU cells count whole. Never
-    /// leaves one out that [`Octree::traverse`] would visit for a ray of the beam.
+    /// Returns the first cell with triangles that a ray of the beam may meet, or all of them; GPU cells are not
+    /// subdivided. Never omits a cell that [`Octree::traverse`] would visit for a ray of the beam.
     pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> Reached {
         let middle = self.corner + self.size / 2.0;
         let extent = beam.reach + self.size + self.corner.abs().max_element();
@@ -96,8 +96,8 @@ impl Octree {
         search.found
     }
 
-    /// Whether a beam's test says anything of these rays: from very far away, traversal visits cells that a ray does
-    /// not meet.
+    /// Returns `true` if the beam test is conservative for these rays: from very far away, traversal visits cells that
+    /// a ray does not meet.
     pub(crate) fn sees(&self, rays: &[Ray]) -> bool {
         !rays.iter().any(|ray| self.is_out_of_sight(ray))
     }
@@ -138,7 +138,7 @@ impl BeamSearch<'_> {
     }
 }
 
-/// The axis along which all rays go furthest, the same way.
+/// Axis along which every ray has its largest component, with the same sign.
 fn common_axis(rays: &[Ray]) -> Option<usize> {
     let first = rays.first()?.direction();
     let longest =

@@ -1,4 +1,4 @@
-//! Cutting space in eight.
+//! Construction of the octree.
 
 use glam::DVec3;
 
@@ -7,15 +7,15 @@ use super::{MAX_DEPTH, Octree, OctreeNode, OctreeParameters};
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 
-/// Growth of a cell for its list, in sides of the root and in magnitudes of coordinates: some units in the last place
-/// of fp32.
+/// Growth of a cell for its list of triangles, relative to the side of the root and to the magnitudes of coordinates: a
+/// few units in the last place of fp32.
 const MARGIN: f64 = 5e-7;
-/// Growth of the root over the mesh, so that nothing lies on its outer planes.
+/// Relative growth of the root over the mesh, so that nothing lies on its outer planes.
 const ROOM: f64 = 1e-3;
-/// Levels that nothing is gained by, at most: a cut that leaves a child with all of its parent's triangles.
+/// Maximum number of consecutive useless levels: splits that leave a child with all of its parent's triangles.
 const VAIN_LEVELS: u32 = 3;
 
-/// Triangles as the builder sees them.
+/// Builder with the triangles in its own form.
 struct OctreeBuilder {
     corners: Vec<[DVec3; 3]>,
     parameters: OctreeParameters,
@@ -24,7 +24,7 @@ struct OctreeBuilder {
 }
 
 impl Octree {
-    /// An octree over a mesh. An empty mesh makes a root without triangles.
+    /// Builds an octree over a mesh. An empty mesh gives a root without triangles.
     pub fn new(mesh: &Mesh, parameters: OctreeParameters) -> Self {
         let [low, high] = mesh.bounds().unwrap_or_default().map(wide);
         let widest = (high - low).max_element();
@@ -46,12 +46,11 @@ impl Octree {
 }
 
 impl OctreeBuilder {
-    /// Makes `node` a leaf of these triangles, or cuts it. `vain` counts the levels above at which cutting gained
-    /// nothing.
+    /// Makes `node` a leaf of these triangles, or splits it. `vain` counts the useless levels above.
     fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, vain: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
         self.octree.depth = self.octree.depth.max(depth);
-        // Cells of the margin's own size tell triangles apart no better than their parents.
+        // Cells as small as the margin separate triangles no better than their parents.
         let small = half < 4.0 * self.margin;
         if inside.len() <= self.parameters.most_triangles || depth >= deepest || vain >= VAIN_LEVELS || small {
             let first = self.octree.triangles.len() as u32;
@@ -74,7 +73,7 @@ impl OctreeBuilder {
         }
     }
 
-    /// A triangle's corners from a point.
+    /// Corners of a triangle relative to a point.
     fn from(&self, id: u32, point: DVec3) -> [DVec3; 3] {
         let [a, b, c] = self.corners[id as usize];
         [a - point, b - point, c - point]

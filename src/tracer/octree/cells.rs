@@ -1,61 +1,61 @@
-//! GPU cells: where triangles are close enough together for the card (section 6.2).
+//! GPU cells: cells with enough triangles for a pass on the card (section 6.2).
 
 use std::ops::RangeInclusive;
 
 use super::{Octree, OctreeNode};
 
-/// A cell of an octree.
+/// Cell of an octree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CellId(pub(super) u32);
 
 impl CellId {
-    /// The cell of a number.
+    /// Cell with this number.
     pub(crate) const fn at(index: usize) -> Self {
         Self(index as u32)
     }
 
-    /// The cell's number: at most the count of all cells.
+    /// Number of the cell, below the count of all cells.
     pub const fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// The cells whose triangles go to the card as one, found in a pass over the finished octree: the largest ones whose
-/// number of different triangles lies in a range (`T` of Table 4). No GPU cell lies in another.
+/// Cells whose triangles go to the card together, found in a pass over the finished octree: the largest ones whose
+/// number of distinct triangles lies in a range (`T` of Table 4). GPU cells are never nested.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GpuCells {
-    /// For each node, where its triangles stand; empty for a node that is no GPU cell.
+    /// Range of each node's triangles in the list; empty for a node that is no GPU cell.
     spans: Vec<(u32, u32)>,
     triangles: Vec<u32>,
     count: usize,
 }
 
 impl GpuCells {
-    /// Marks the cells of `octree` with at least `range.start()` triangles, the T_min of section 6.1, and at most
-    /// `range.end()`, more than which one pass is not to draw.
+    /// Marks the cells of `octree` with at least `range.start()` distinct triangles (`T_min` of section 6.1) and at
+    /// most `range.end()` (the maximum of one pass).
     pub fn mark(octree: &Octree, range: RangeInclusive<usize>) -> Self {
         let mut cells = Self { spans: vec![(0, 0); octree.nodes.len()], triangles: Vec::new(), count: 0 };
         cells.visit(octree, 0, &range);
         cells
     }
 
-    /// The triangles of a GPU cell in rising order; `None` for other cells.
+    /// Triangles of a GPU cell in ascending order; `None` for other cells.
     pub fn triangles(&self, cell: CellId) -> Option<&[u32]> {
         let (first, count) = *self.spans.get(cell.index())?;
         (count > 0).then(|| &self.triangles[first as usize..(first + count) as usize])
     }
 
-    /// How many there are.
+    /// Number of GPU cells.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Whether there is none.
+    /// Returns `true` if there are no GPU cells.
     pub fn is_empty(&self) -> bool {
         self.count == 0
     }
 
-    /// All of them.
+    /// Iterates over the GPU cells.
     pub fn iter(&self) -> impl Iterator<Item = CellId> + '_ {
         (0_u32..).zip(&self.spans).filter(|(_, span)| span.1 > 0).map(|(i, _)| CellId(i))
     }
@@ -65,7 +65,7 @@ impl GpuCells {
         gather(octree, node, &mut all);
         all.sort_unstable();
         all.dedup();
-        // Below, there are no more.
+        // GPU cells are not nested: nothing to find below.
         if all.len() < *range.start() || all.is_empty() {
             return;
         }
@@ -83,7 +83,7 @@ impl GpuCells {
     }
 }
 
-/// The triangles of all leaves below a node, some of them more than once.
+/// Collects the triangles of all leaves below a node, with repetitions.
 fn gather(octree: &Octree, node: u32, into: &mut Vec<u32>) {
     match octree.nodes[node as usize] {
         OctreeNode::Leaf(..) => into.extend_from_slice(octree.list(node)),

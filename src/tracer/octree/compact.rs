@@ -1,5 +1,5 @@
-//! The octree as the host walks it when it traces alone: the same cells in the same order as `traverse.rs`, found with
-//! less work.
+//! Compact form of the octree for rays that the host traces alone: the same cells in the same order as `traverse.rs`,
+//! found with less work.
 //!
 //! - A word per child, the eight of a cell together: whether a child is cut, empty or a leaf is known before it is
 //!   touched.
@@ -16,12 +16,13 @@ use super::traverse::{earliest, is_out_of_sight, latest, middle, root_planes};
 use super::{Flow, MAX_DEPTH, Octree, OctreeNode, TraversalCounts};
 use crate::geom::Ray;
 
-/// A leaf without triangles.
+/// Word of a leaf without triangles.
 const EMPTY: u32 = u32::MAX;
-/// Set in the word of a leaf, beside what its owner gave for it; else the word is the place of a cut cell's children.
+/// Bit of a leaf's word; the other bits are the owner's number of the leaf. Words without it are the index of a split
+/// cell's children.
 const LEAF: u32 = 1 << 31;
 
-/// The words of an octree's cells.
+/// Words of an octree's cells.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Compact {
     corner: DVec3,
@@ -31,31 +32,31 @@ pub(crate) struct Compact {
     children: Vec<[u32; 8]>,
 }
 
-/// A cut cell on the way.
+/// Split cell on the traversal stack.
 #[derive(Clone, Copy, Default)]
 struct WaitingCell {
-    /// Where the ray meets the cell's upper planes.
+    /// Parameters at which the ray meets the cell's upper planes.
     high: Keys,
-    /// And its middle planes.
+    /// Parameters at which it meets the middle planes.
     middle: Keys,
-    /// Where its children stand.
+    /// Index of the children.
     children: u32,
-    /// The next of them.
+    /// Next child to visit.
     child: u32,
-    /// Cuts above it.
+    /// Number of splits above the cell.
     level: u32,
 }
 
-/// Room for cells that wait on the way of a ray. What is in it before does not matter: one serves many rays.
+/// Traversal stack. Its initial contents do not matter: one serves many rays.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Waiting([WaitingCell; MAX_DEPTH as usize + 1]);
 
-/// Parameters as the bits of f64. Those that are not negative keep their order, and the others come before them:
-/// comparing and choosing is then the business of the integer units, in which it takes a clock.
+/// Parameters as the bits of f64. The order of non-negative numbers is kept, and negative numbers come before them:
+/// comparisons and selections then run on the integer units, in one clock.
 type Keys = [i64; 3];
 
 impl Compact {
-    /// The words of an octree, where `leaf` gives the number of a leaf with these triangles, below 2^31 - 1.
+    /// Builds the words of an octree; `leaf` returns the number of a leaf with these triangles, below 2^31 - 1.
     pub(crate) fn new(octree: &Octree, mut leaf: impl FnMut(&[u32]) -> u32) -> Self {
         let mut places = vec![0; octree.nodes.len()];
         let mut cut = 0;
@@ -79,8 +80,8 @@ impl Compact {
         Self { corner, size, margin, root: places[0], children: children.collect() }
     }
 
-    /// Calls `visit` with the number of every leaf with triangles that the ray goes through at t >= 0, and with the
-    /// parameters of its entry and exit, front to back, until it says stop.
+    /// Calls `visit` with the number of every leaf with triangles that the ray crosses at t >= 0, and with the
+    /// parameters of its entry and exit, front to back, until it returns [`Flow::Stop`].
     #[inline(always)]
     pub(crate) fn walk(
         &self,
@@ -108,7 +109,7 @@ impl Compact {
         let span = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
         let waiting = &mut waiting.0;
         let mut depth = 0;
-        // Where the ray is.
+        // Parameter of the ray's current position.
         let mut now = key(if enter > 0.0 { enter } else { 0.0 });
         let (mut frame, mut far) = WaitingCell::enter(self.root, high.map(key), span, 0, now);
         loop {
@@ -141,7 +142,7 @@ impl Compact {
         }
     }
 
-    /// All leaves with triangles, as the reference gives them for a ray from too far away.
+    /// Visits all leaves with triangles, as the reference does for a ray from too far away.
     fn everything(&self, mut visit: impl FnMut(u32, [f64; 2]) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         let words = self.children.iter().flatten().chain([&self.root]);
@@ -156,7 +157,8 @@ impl Compact {
 }
 
 impl WaitingCell {
-    /// A cell that the ray is in at `now`, and where it leaves the slabs of the child that it is in.
+    /// Enters a cell that contains the ray at `now`; returns it and the exit parameters of the child that contains the
+    /// ray.
     #[inline(always)]
     fn enter(children: u32, high: Keys, span: [f64; 3], level: u32, now: i64) -> (Self, Keys) {
         let middle = middle(high.map(parameter), span, level).map(key);
@@ -165,7 +167,7 @@ impl WaitingCell {
         (frame, frame.far())
     }
 
-    /// Where the ray leaves the slabs of the next child.
+    /// Parameters at which the ray leaves the slabs of the next child.
     #[inline(always)]
     fn far(&self) -> Keys {
         [
@@ -186,7 +188,7 @@ fn parameter(key: i64) -> f64 {
     f64::from_bits(key.cast_unsigned())
 }
 
-/// The first of three parameters, and the bit of its axis; of equal ones the first axis.
+/// Smallest of three parameters, and the bit of its axis; the first axis of equals.
 #[inline(always)]
 fn first(far: Keys) -> (i64, u32) {
     let (x_or_y, bit) = if far[0] <= far[1] { (far[0], 4) } else { (far[1], 2) };
@@ -200,7 +202,8 @@ mod tests {
     use crate::geom::teapot::teapot;
     use crate::tracer::octree::OctreeParameters;
 
-    /// From anywhere within and around the teapot to anywhere; on a grid that holds the planes of cells and both zeros.
+    /// Rays from anywhere within and around the teapot to anywhere, on a grid that includes the planes of cells and
+    /// both zeros.
     fn rays(octree: &Octree, count: u64) -> Vec<Ray> {
         let random = CounterRng::new(17);
         let middle = octree.corner + octree.size / 2.0;
@@ -230,7 +233,7 @@ mod tests {
             let (mut still, mut waiting) = (0, Waiting::default());
             for (i, ray) in rays(&octree, 30_000).into_iter().enumerate() {
                 let (mut slow, mut fast) = (Vec::new(), Vec::new());
-                // Some stop on the way.
+                // Some visits stop early.
                 let flow = |visits: usize| if i % 4 == 0 && visits == 2 { Flow::Stop } else { Flow::Continue };
                 let expected = octree.traverse(&ray, None, |cell| {
                     slow.push((cell.triangles, cell.t.map(|t| t.max(0.0).to_bits())));

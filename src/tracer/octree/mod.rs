@@ -1,10 +1,10 @@
-//! The triangle octree (section 5.3), traversed after Revelles, Urena and Lastra, "An Efficient Parametric Algorithm
-//! for Octree Traversal" (2000): from the root down, with nothing but the parameters at which the ray meets the planes
-//! of a cell.
+//! The triangle octree (section 5.3), traversed as in Revelles, Urena and Lastra, "An Efficient Parametric Algorithm
+//! for Octree Traversal" (2000): from the root down, using only the parameters at which the ray meets the planes of a
+//! cell.
 //!
 //! **No hit is lost.** A cell lists every triangle that touches the closed cell grown by [`Octree::margin`], which is
-//! larger than what rounding can do to a plane's parameter; so whichever of two neighbours a ray on their common plane,
-//! edge or corner is said to go through, that one lists what is hit there. Both zeros are one direction.
+//! larger than what rounding can do to a plane's parameter; so that a ray on the common plane, edge or corner of two
+//! cells may be assigned to either: both list the triangles hit there. A direction component of -0 counts as +0.
 
 mod beam;
 mod build;
@@ -20,36 +20,36 @@ pub use traverse::{Flow, TraversalCounts, Visit};
 
 use glam::DVec3;
 
-/// When a cell is cut in eight.
+/// Criteria for splitting a cell in eight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OctreeParameters {
-    /// A cell of at most so many triangles stays whole.
+    /// Maximum number of triangles of a cell that is not split.
     pub most_triangles: usize,
-    /// Cuts between the root and the smallest cell, at most; 20 is the most there is.
+    /// Maximum depth: splits between the root and the smallest cell, at most 20.
     pub most_depth: u32,
 }
 
 impl Default for OctreeParameters {
     /// Tuned for [`HostTracer`](super::HostTracer), which tests eight triangles at a time: 16 triangles make fewer
-    /// cells than 8, and less memory to wait for.
+    /// cells than 8, and fewer cache misses.
     fn default() -> Self {
         Self { most_triangles: 16, most_depth: 10 }
     }
 }
 
-/// The deepest cell there can be.
+/// Maximum depth of a cell.
 pub const MAX_DEPTH: u32 = 20;
 
-/// A node: eight children that stand together, or a list of triangles.
+/// Node: eight consecutive children, or a list of triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum OctreeNode {
-    /// The first of the eight. Child number: bit 2 is set for the upper half in x, bit 1 in y, bit 0 in z.
+    /// Index of the first of the eight. Child number: bit 2 is set for the upper half in x, bit 1 in y, bit 0 in z.
     Inner(u32),
-    /// Where its triangles begin in the list, and how many there are.
+    /// Start of its triangles in the list, and their number.
     Leaf(u32, u32),
 }
 
-/// An octree over the triangles of a mesh.
+/// Octree over the triangles of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Octree {
     /// Lower corner of the root, a cube.
@@ -62,30 +62,30 @@ pub struct Octree {
     depth: u32,
 }
 
-/// What an octree is made of.
+/// Statistics of an octree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OctreeCounts {
-    /// Cells that are cut.
+    /// Cells that are split.
     pub inner: usize,
-    /// Cells that are not.
+    /// Cells that are not split.
     pub leaves: usize,
     /// Leaves without a triangle.
     pub empty_leaves: usize,
     /// Entries of the lists: a triangle counts once per leaf.
     pub entries: usize,
-    /// Triangles of the fullest leaf.
+    /// Maximum number of triangles in a leaf.
     pub fullest: usize,
-    /// Cuts between the root and the smallest cell.
+    /// Splits between the root and the smallest cell.
     pub depth: u32,
 }
 
 impl Octree {
-    /// How far beyond its planes a cell still lists triangles, in scene units.
+    /// Distance beyond its planes within which a cell still lists triangles, in scene units.
     pub fn margin(&self) -> f64 {
         self.margin
     }
 
-    /// What it is made of.
+    /// Statistics of the octree.
     pub fn counts(&self) -> OctreeCounts {
         let mut out = OctreeCounts { depth: self.depth, entries: self.triangles.len(), ..OctreeCounts::default() };
         for node in &self.nodes {
@@ -101,7 +101,7 @@ impl Octree {
         out
     }
 
-    /// The triangles of a node's own list, in rising order; empty for a cell that is cut.
+    /// Triangles of a node's own list, in ascending order; empty for a cell that is split.
     fn list(&self, node: u32) -> &[u32] {
         match self.nodes.get(node as usize) {
             Some(OctreeNode::Leaf(first, count)) => &self.triangles[*first as usize..(*first + *count) as usize],

@@ -1,10 +1,10 @@
-//! Whether a triangle touches a closed box: no plane separates them (the separating axis theorem, 13 axes).
+//! Triangle-box overlap by the separating axis theorem (13 axes).
 
 use glam::DVec3;
 
-/// Whether the triangle, its corners given from the middle of the box, touches the box of these half sides. Rounding
-/// can make it say yes to a triangle that misses by less than 1e-14 of the corners' magnitude, and no to one that
-/// reaches in by less: callers grow the box.
+/// Returns `true` if the triangle, its corners given relative to the center of the box, touches the closed box of these
+/// half sides. Rounding can make it accept a triangle that misses by less than 1e-14 of the corners' magnitude, and
+/// reject one that overlaps by less: callers grow the box.
 pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = *corners;
     for axis in 0..3 {
@@ -27,14 +27,13 @@ pub(super) fn touches(corners: &[DVec3; 3], half: DVec3) -> bool {
     true
 }
 
-/// Whether a plane across this direction has the box on one side and the triangle on the other. No direction separates
-/// nothing.
+/// Returns `true` if a plane perpendicular to this direction separates box and triangle; `false` for a zero direction.
 fn separates(direction: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
     let [a, b, c] = corners;
     apart(a.dot(direction), b.dot(direction), c.dot(direction), half.dot(direction.abs()))
 }
 
-/// The same for the direction that is across an edge and an axis: one of its components is 0, the others are the
+/// Like [`separates`], for the cross product of an edge and an axis: one of its components is 0, the others are the
 /// edge's.
 #[inline]
 fn separates_across(axis: usize, edge: DVec3, corners: &[DVec3; 3], half: DVec3) -> bool {
@@ -45,7 +44,7 @@ fn separates_across(axis: usize, edge: DVec3, corners: &[DVec3; 3], half: DVec3)
     apart(a[u] * du + a[v] * dv, b[u] * du + b[v] * dv, c[u] * du + c[v] * dv, reach)
 }
 
-/// Whether three numbers all lie beyond `reach` on one side.
+/// Returns `true` if three numbers all lie beyond `reach` on one side.
 #[inline]
 fn apart(p: f64, q: f64, r: f64, reach: f64) -> bool {
     (p > reach && q > reach && r > reach) || (p < -reach && q < -reach && r < -reach)
@@ -55,7 +54,7 @@ fn apart(p: f64, q: f64, r: f64, reach: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Whether a triangle touches the cube from -1 to 1.
+    /// Returns `true` if a triangle touches the cube from -1 to 1.
     fn touches_cube(corners: [[f64; 3]; 3]) -> bool {
         touches(&corners.map(DVec3::from), DVec3::ONE)
     }

@@ -1,4 +1,4 @@
-//! The parametric traversal, plainly written: the reference of `compact.rs`, and what the Ray Engine walks.
+//! The parametric traversal in its plain form: reference of `compact.rs`, and the traversal of the Ray Engine.
 
 use std::ops::ControlFlow;
 
@@ -8,27 +8,27 @@ use super::cells::{CellId, GpuCells};
 use super::{Octree, OctreeNode};
 use crate::geom::Ray;
 
-/// Stands for a component 0 of a direction: a plane a scene away is met at a parameter that f64 still holds, and the
-/// middle between two such parameters still tells which half of a cell the ray is in.
+/// Substitute for a zero component of a direction: a plane one scene away is met at a parameter that f64 can represent,
+/// and the middle between two such parameters still tells which half of a cell the ray is in.
 const STILL: f64 = 1e-200;
 
-/// Margins from which a ray can be told where it goes: the parameter of a plane is a difference and a quotient, each
+/// Maximum distance of a ray's origin, in margins: the parameter of a plane is a difference and a quotient, each
 /// rounded to 53 bits, and those of inner planes are differences of such, one more per level.
 const SIGHT: f64 = (1u64 << 48) as f64;
 
-/// What to do after a cell.
+/// Traversal control after a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on to the next cell.
+    /// Continue to the next cell.
     Continue,
-    /// The ray needs nothing more.
+    /// End the traversal.
     Stop,
 }
 
-/// What traversals did.
+/// Counters of traversal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TraversalCounts {
-    /// Cells entered, the root and cut cells among them.
+    /// Cells entered, the root and split cells included.
     pub cells: u64,
     /// Leaves entered.
     pub leaves: u64,
@@ -44,39 +44,41 @@ impl std::ops::AddAssign for TraversalCounts {
     }
 }
 
-/// A cell that a ray goes through.
+/// Cell crossed by a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Visit<'a> {
-    /// Which.
+    /// The cell.
     pub cell: CellId,
-    /// Its triangles in rising order.
+    /// Its triangles in ascending order.
     pub triangles: &'a [u32],
-    /// Whether it is a GPU cell.
+    /// `true` if it is a GPU cell.
     pub gpu: bool,
-    /// Where the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind the origin.
+    /// Parameters at which the ray enters and leaves it, in multiples of the ray's direction. The entry may lie behind
+    /// the origin.
     pub t: [f64; 2],
 }
 
-/// The parameters at which a ray meets the lower and the upper planes of a cell, after turning it so that it rises.
+/// Parameters at which a ray meets the lower and the upper planes of a cell, after mirroring it so that its direction
+/// is positive.
 pub(super) type Planes = [[f64; 3]; 2];
 
-/// A traversal on its way.
+/// State of a traversal.
 struct Walk<'a, F> {
     octree: &'a Octree,
     gpu: Option<&'a GpuCells>,
-    /// Cells left by then are past.
+    /// Cells left by this parameter are skipped.
     from: f64,
-    /// Child numbers are exchanged where the ray falls.
+    /// Bits of child numbers flipped by mirroring.
     mirror: u32,
-    /// The parameters from the root's lower planes to its upper ones.
+    /// Differences of the parameters of the root's upper and lower planes.
     span: [f64; 3],
     counts: TraversalCounts,
     visit: F,
 }
 
 impl Octree {
-    /// Calls `visit` for every cell with triangles that the ray goes through at t >= 0, front to back, until it says
-    /// stop. With `gpu`, GPU cells are visited whole; else all are leaves.
+    /// Calls `visit` for every cell with triangles that the ray crosses at t >= 0, front to back, until it returns
+    /// [`Flow::Stop`]. With `gpu`, GPU cells are visited as one; otherwise all visited cells are leaves.
     pub fn traverse<'a>(
         &'a self,
         ray: &Ray,
@@ -86,8 +88,8 @@ impl Octree {
         self.traverse_from(ray, gpu, f64::NEG_INFINITY, visit)
     }
 
-    /// The same for a ray that has left a cell at `from`, in multiples of its direction: cells that it leaves no later
-    /// are not visited (again).
+    /// Like [`Self::traverse`], for a ray that has left a cell at `from`, in multiples of its direction: skips cells
+    /// that it leaves no later.
     pub fn traverse_from<'a>(
         &'a self,
         ray: &Ray,
@@ -102,20 +104,20 @@ impl Octree {
         let span = [0, 1, 2].map(|i| high[i] - low[i]);
         let mut walk = Walk { octree: self, gpu, from, mirror, span, counts: TraversalCounts::default(), visit };
         if latest(low) <= earliest(high) {
-            // Whether it was stopped or ran out of cells is all the same here.
+            // Stopping and running out of cells need no distinction here.
             let _: ControlFlow<()> = walk.enter(0, 0, [low, high]);
         }
         walk.counts
     }
 
-    /// Whether a ray starts so far away that f64 does not tell the parameters of the cells' planes apart as well as
-    /// margins do.
+    /// Returns `true` if a ray starts so far away that f64 cannot resolve the parameters of the cells' planes to within
+    /// the margins.
     pub(super) fn is_out_of_sight(&self, ray: &Ray) -> bool {
         is_out_of_sight(self.corner, self.margin, ray)
     }
 
-    /// All leaves, for a ray of which nothing is known. No hit settles what the others hold, so each has t of minus
-    /// infinity. GPU cells are not visited: a ray could not go on behind one.
+    /// Visits all leaves, for a ray whose crossings cannot be computed. No hit rules out the other leaves, so each has
+    /// t of minus infinity. GPU cells are not visited: a ray could not continue behind one.
     fn everything<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         for node in 0..self.nodes.len() as u32 {
@@ -132,15 +134,15 @@ impl Octree {
     }
 }
 
-/// Whether a ray starts too far from an octree's corner for one with this margin.
+/// Returns `true` if a ray starts too far from the corner of an octree with this margin.
 #[inline(always)]
 pub(super) fn is_out_of_sight(corner: DVec3, margin: f64, ray: &Ray) -> bool {
     let far = |axis: usize| (f64::from(ray.origin()[axis]) - corner[axis]).abs() > margin * SIGHT;
     far(0) | far(1) | far(2)
 }
 
-/// Where the ray, turned so that it rises, meets the planes of a cube, and which bits of a child's number the turning
-/// flips.
+/// Parameters at which the ray, mirrored so that its direction is positive, meets the planes of a cube, and the bits of
+/// a child's number that mirroring flips.
 #[inline(always)]
 pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) {
     let (mut low, mut high, mut mirror) = ([0.0; 3], [0.0; 3], 0);
@@ -151,7 +153,7 @@ pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) 
             (origin, speed) = (near + far - origin, -speed);
             mirror |= 4 >> axis;
         }
-        // Of either sign.
+        // +0 or -0.
         if speed == 0.0 {
             speed = STILL;
         }
@@ -172,7 +174,7 @@ pub(super) fn earliest(t: [f64; 3]) -> f64 {
 }
 
 impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
-    /// A cell with so many cuts above it.
+    /// Enters a cell with `level` splits above it.
     fn enter(&mut self, node: u32, level: u32, [low, high]: Planes) -> ControlFlow<()> {
         let leave = earliest(high);
         if leave < 0.0 || leave <= self.from {
@@ -197,7 +199,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
         }
     }
 
-    /// The children that the ray goes through, in its order.
+    /// Visits the children that the ray crosses, front to back.
     fn children(&mut self, first: u32, level: u32, [low, high]: Planes) -> ControlFlow<()> {
         let middle = middle(high, self.span, level);
         let mut child = first_child(low, middle);
@@ -209,7 +211,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
                 (near[axis], far[axis]) = (from[axis], to[axis]);
             }
             self.enter(first + (child ^ self.mirror), level + 1, [near, far])?;
-            // Out through the plane that comes first; from an upper half, out of the parent.
+            // The ray leaves through the nearest plane; from an upper half, it leaves the parent.
             let axis = first_axis(far);
             let bit = 4 >> axis;
             if child & bit != 0 {
@@ -220,8 +222,8 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
     }
 }
 
-/// Where the ray meets the middle planes of a cell with so many cuts above it: half of the cell's share of the root's
-/// span before its upper planes. A power of two makes the share, so that only the difference is rounded.
+/// Parameters of the middle planes of a cell with `level` splits above it: half of the cell's fraction of the root's
+/// span before its upper planes. The fraction is a power of two, so that only the difference is rounded.
 #[inline(always)]
 pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
     let half = f64::from_bits(u64::from(1022 - level) << 52);
@@ -235,7 +237,7 @@ fn flow(flow: Flow) -> ControlFlow<()> {
     }
 }
 
-/// The child that the ray enters first: of each axis, the upper half if its middle plane lies behind the entry.
+/// Child that the ray enters first: along each axis, the upper half if its middle plane lies before the entry.
 fn first_child(low: [f64; 3], middle: [f64; 3]) -> u32 {
     let entry = latest(low);
     (0..3).filter(|&axis| middle[axis] < entry).map(|axis| 4 >> axis).sum()

@@ -1,8 +1,8 @@
-//! Spaces of color: linear sRGB, XYZ, the opponent space YCxCz, CIELAB.
+//! Color spaces: linear sRGB, XYZ, the opponent space YCxCz, CIELAB.
 
 use crate::elementary::cbrt;
 
-/// Linear sRGB (IEC 61966-2-1: primaries of Rec. 709, white D65) to CIE XYZ.
+/// Matrix from linear sRGB (IEC 61966-2-1: primaries of Rec. 709, white D65) to CIE XYZ.
 const TO_XYZ: [[f64; 3]; 3] = [
     [506_752.0 / 1_228_815.0, 87_881.0 / 245_763.0, 12_673.0 / 70_218.0],
     [87_098.0 / 409_605.0, 175_762.0 / 245_763.0, 12_673.0 / 175_545.0],
@@ -14,33 +14,33 @@ const FROM_XYZ: [[f64; 3]; 3] = [
     [-851_781.0 / 878_810.0, 1_648_619.0 / 878_810.0, 36_519.0 / 878_810.0],
     [705.0 / 12_673.0, -2_585.0 / 12_673.0, 705.0 / 667.0],
 ];
-/// D65 by its chromaticities (0.3127, 0.3290).
+/// White point D65, from its chromaticities (0.3127, 0.3290).
 const WHITE: [f64; 3] = [0.3127 / 0.329, 1.0, 0.3583 / 0.329];
 
 fn product(matrix: &[[f64; 3]; 3], vector: [f64; 3]) -> [f64; 3] {
     matrix.map(|row| row[0] * vector[0] + row[1] * vector[1] + row[2] * vector[2])
 }
 
-/// XYZ with white at (1, 1, 1).
+/// Converts linear sRGB to XYZ with white at (1, 1, 1).
 fn relative_xyz(linear: [f64; 3]) -> [f64; 3] {
     let xyz = product(&TO_XYZ, linear);
     [0, 1, 2].map(|i| xyz[i] / WHITE[i])
 }
 
-/// Linear sRGB to YCxCz: lightness, red against green, yellow against blue.
+/// Converts linear sRGB to YCxCz: lightness, red-green, yellow-blue.
 pub(super) fn to_opponents(linear: [f64; 3]) -> [f64; 3] {
     let [x, y, z] = relative_xyz(linear);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-/// YCxCz to linear sRGB.
+/// Converts YCxCz to linear sRGB.
 pub(super) fn from_opponents([lightness, cx, cz]: [f64; 3]) -> [f64; 3] {
     let y = (lightness + 16.0) / 116.0;
     let relative = [y + cx / 500.0, y, y - cz / 200.0];
     product(&FROM_XYZ, [0, 1, 2].map(|i| relative[i] * WHITE[i]))
 }
 
-/// Linear sRGB to CIELAB with the chroma of dark colors reduced (the Hunt effect).
+/// Converts linear sRGB to CIELAB with the chroma of dark colors reduced (the Hunt effect).
 pub(super) fn to_hunt_lab(linear: [f64; 3]) -> [f64; 3] {
     const KNEE: f64 = 6.0 / 29.0;
     let root = |t: f64| if t > KNEE * KNEE * KNEE { cbrt(t) } else { t / (3.0 * KNEE * KNEE) + 4.0 / 29.0 };
@@ -50,7 +50,7 @@ pub(super) fn to_hunt_lab(linear: [f64; 3]) -> [f64; 3] {
     [lightness, chroma * 500.0 * (x - y), chroma * 200.0 * (y - z)]
 }
 
-/// The distance HyAB: lightness and chroma apart, for differences that are large.
+/// HyAB distance, for large color differences: absolute difference of lightness plus Euclidean distance of chroma.
 pub(super) fn hyab(a: [f64; 3], b: [f64; 3]) -> f64 {
     let [l, x, y] = [0, 1, 2].map(|i| a[i] - b[i]);
     l.abs() + (x * x + y * y).sqrt()

@@ -1,4 +1,4 @@
-//! Edges and points: first and second derivatives of the lightness.
+//! Edge and point detection: first and second derivatives of the lightness.
 
 use super::super::filter::{PixelPlane, normalized, taps};
 use crate::elementary::exp;
@@ -6,14 +6,14 @@ use crate::elementary::exp;
 /// Width of the features that the eye detects, in degrees.
 const FEATURE_WIDTH: f64 = 0.082;
 
-/// The strength of edges and of points in each pixel.
+/// Strength of edges and of points in each pixel.
 pub(super) struct Features {
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
 impl Features {
-    /// Of a lightness in [0, 1].
+    /// Detects the features of a lightness in [0, 1].
     pub(super) fn of(lightness: &PixelPlane, ppd: f64) -> Self {
         let deviation = 0.5 * FEATURE_WIDTH * ppd;
         let radius = (3.0 * deviation).ceil() as u32;
@@ -30,13 +30,13 @@ impl Features {
         }
     }
 
-    /// The larger of the differences of edges and points.
+    /// Larger of the differences of edges and points at a pixel.
     pub(super) fn difference(&self, other: &Self, at: usize) -> f64 {
         (self.edges[at] - other.edges[at]).abs().max((self.points[at] - other.points[at]).abs())
     }
 }
 
-/// Weights whose positive part sums to 1 and whose negative part to -1.
+/// Scales weights so that the positive part sums to 1 and the negative part to -1.
 fn balanced(weights: &[f64]) -> Vec<f64> {
     let sum = |sign: f64| weights.iter().map(|weight| (sign * weight).max(0.0)).sum::<f64>();
     let (above, below) = (sum(1.0), sum(-1.0));

@@ -1,8 +1,8 @@
 //! LDR-FLIP: the difference that an observer notices who flips between two pictures (Andersson, Nilsson,
 //! Akenine-Möller, Oskarsson, Åström and Fairchild, 2020, "FLIP: a difference evaluator for alternating images").
 //!
-//! Colors are filtered as the eye filters contrast and compared by a distance for large differences; where edges or
-//! points come or go, the difference counts for more. Tests hold it against figures of the authors' own program.
+//! Colors are filtered by contrast sensitivity and compared by a distance for large differences; where edges or points
+//! appear or vanish, the difference is amplified. Tests compare it with values of the authors' own program.
 
 mod color;
 mod features;
@@ -17,16 +17,16 @@ use features::Features;
 
 /// Pixels per degree of an observer 0.7 m in front of a screen 0.7 m wide with 3840 pixels across.
 pub const DEFAULT_PPD: f64 = 3840.0 * std::f64::consts::PI / 180.0;
-/// Fewest pixels per degree.
+/// Minimum pixels per degree.
 pub const MIN_PPD: f64 = 1.0;
-/// Most pixels per degree.
+/// Maximum pixels per degree.
 pub const MAX_PPD: f64 = 1000.0;
 
-/// The exponent of color differences.
+/// Exponent of color differences.
 const COLOR_EXPONENT: f64 = 0.7;
-/// The exponent of feature differences.
+/// Exponent of feature differences.
 const FEATURE_EXPONENT: f64 = 0.5;
-/// The share of the largest color difference that is mapped to [`KNEE_ERROR`].
+/// Fraction of the largest color difference that is mapped to [`KNEE_ERROR`].
 const KNEE: f64 = 0.4;
 const KNEE_ERROR: f64 = 0.95;
 /// Contrast sensitivity: pairs of weight and width, in degrees, of Gaussians for lightness, red against green, and
@@ -40,14 +40,14 @@ const BLUE_YELLOW: [[f64; 2]; 2] = [[34.1, 0.04], [13.5, 0.025]];
 pub struct FlipMap {
     /// Rows from the top.
     pub errors: Vec<f64>,
-    /// Their mean.
+    /// Mean error.
     pub mean: f64,
-    /// The largest.
+    /// Maximum error.
     pub maximum: f64,
 }
 
-/// FLIP between two pictures of one size, for an observer who sees `ppd` pixels per degree, which is clipped to
-/// [[`MIN_PPD`], [`MAX_PPD`]]. `None` if the sizes differ.
+/// Computes FLIP between two pictures of one size, for an observer who sees `ppd` pixels per degree, which is clipped
+/// to [[`MIN_PPD`], [`MAX_PPD`]]. `None` if the sizes differ.
 pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<FlipMap> {
     if (left.width, left.height) != (right.width, right.height) {
         return None;
@@ -71,7 +71,7 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
     Some(FlipMap { errors, mean, maximum })
 }
 
-/// What the eye makes of a picture: filtered colors for comparing, and features.
+/// Computes the filtered colors and the features of a picture.
 fn seen(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
     let width = picture.width;
     let opponents: Vec<[f64; 3]> = picture.linear.par_iter().map(|&linear| to_opponents(linear)).collect();
@@ -91,7 +91,7 @@ fn seen(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
     ((0..opponents.len()).into_par_iter().map(color).collect(), features)
 }
 
-/// A plane filtered by a sum of Gaussians, whose weights sum to 1.
+/// Filters a plane by a sum of Gaussians, whose weights sum to 1.
 fn contrast_filtered(plane: &PixelPlane, gaussians: &[[f64; 2]], ppd: f64) -> Vec<f64> {
     use std::f64::consts::PI;
     // Three standard deviations of the widest, for all channels.

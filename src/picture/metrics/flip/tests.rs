@@ -1,4 +1,4 @@
-//! Facts of FLIP, and figures of the authors' program (flip-evaluator 1.7, LDR, its own sRGB matrix).
+//! Properties of FLIP, and values of the authors' program (flip-evaluator 1.7, LDR, its own sRGB matrix).
 
 use super::*;
 use crate::picture::Picture;
@@ -19,7 +19,7 @@ fn busy(shift: u32, green: f64) -> ScreenPicture {
     })
 }
 
-/// A slope, darker in a rectangle.
+/// A gradient, darker in a rectangle.
 fn slope(factor: f64) -> ScreenPicture {
     screen(40, 30, |x, y| {
         let inside = (10..30).contains(&x) && (10..20).contains(&y);

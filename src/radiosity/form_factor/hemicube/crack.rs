@@ -9,11 +9,11 @@ use crate::radiosity::draw::Projection;
 use crate::radiosity::{Patch, Patches};
 use glam::DVec3;
 
-/// How far outside a side of a patch a ray may pass and still meet it, relative to the side: neighbours' corners
+/// Relative distance outside a side of a patch at which a ray may pass and still hit the patch: neighbours' corners
 /// agree in f32.
 const SLACK: f64 = 1e-6;
 
-/// Fills the cracks of a face of `width` pixels per row; returns how many there were.
+/// Fills the cracks of a face of `width` pixels per row; returns their number.
 pub(super) fn fill(patches: &Patches, eye: &HemicubeView, face: &Projection, width: usize, codes: &mut [f32]) -> usize {
     let height = codes.len() / width;
     let cracks: Vec<usize> =
@@ -28,7 +28,7 @@ pub(super) fn fill(patches: &Patches, eye: &HemicubeView, face: &Projection, wid
     filled
 }
 
-/// Whether a pixel lies at the face's border or beside one that shows a front.
+/// Returns `true` if a pixel lies at the face's border or beside one that shows a front.
 fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
     let (x, y) = (at % width, at / width);
     if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
@@ -37,8 +37,8 @@ fn is_edge(codes: &[f32], width: usize, height: usize, at: usize) -> bool {
     (y - 1..=y + 1).any(|y| codes[y * width + x - 1..=y * width + x + 1].iter().any(|&code| code > 0.0))
 }
 
-/// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: of length 1 and at right
-/// angles, but for `upwards` of a side, which is twice the normal less `forward`.
+/// The direction whose clip coordinates are x, y and 1. The axes are those of a hemicube: orthonormal, except for
+/// `upwards` of a side, which is twice the normal less `forward`.
 fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
     let leaning = face.upwards.dot(face.forward);
     let up = face.upwards - leaning * face.forward;
@@ -46,7 +46,7 @@ fn direction(face: &Projection, [x, y]: [f64; 2]) -> DVec3 {
     face.forward + x * face.across + height * up
 }
 
-/// The color of the nearest patch along a ray from the eye; 0 for none.
+/// Color of the nearest patch along a ray from the eye; 0 for none.
 fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: DVec3) -> f64 {
     let (mut best, mut first) = (0.0, f64::INFINITY);
     for &(i, code) in &eye.seen {
@@ -60,7 +60,7 @@ fn nearest(patches: &Patches, eye: &HemicubeView, face: &Projection, direction: 
     best
 }
 
-/// Whether a point of a patch's plane is in the patch, or within [`SLACK`] of it.
+/// Returns `true` if a point of a patch's plane is in the patch, or within [`SLACK`] of it.
 fn holds(patch: &Patch, point: DVec3) -> bool {
     let corners = patch.corners();
     (0..corners.len()).all(|i| {

@@ -11,14 +11,14 @@ use crate::elementary::atan2;
 /// The delta form factors of the five faces, rows from the top: the top face, then a side.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Deltas {
-    /// `resolution` squared.
+    /// Top face: `resolution` squared values.
     pub(super) top: Vec<f64>,
-    /// Half of that; the lowest row touches the patch's plane. The same for all four.
+    /// A side face: half as many, the lowest row touching the patch's plane. The same for all four.
     pub(super) side: Vec<f64>,
 }
 
 impl Deltas {
-    /// For so many pixels along a side of the top face, an even number.
+    /// Computes the delta form factors for `resolution` pixels along a side of the top face, an even number.
     pub(super) fn new(resolution: u32) -> Self {
         let (across, half) = (f64::from(resolution), resolution / 2);
         let centered = |i: u32| 2.0 * f64::from(i) / across - 1.0;

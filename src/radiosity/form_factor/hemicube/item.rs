@@ -1,4 +1,4 @@
-//! The item buffer: five faces of a hemicube, drawn by a card, each pixel the number of the patch that is seen there.
+//! The item buffer: five faces of a hemicube, drawn by a card; each pixel is the number of the visible patch.
 
 use std::sync::Arc;
 
@@ -38,8 +38,8 @@ impl ItemBuffer {
         Ok(Self { machine, program, resolution, target })
     }
 
-    /// Draws the faces of a hemicube. Pixels are patches' numbers from 1, negative for a back, 0 for none, by rows
-    /// from the top.
+    /// Draws the faces of a hemicube. Pixels are patches' numbers from 1, negative for a back, 0 for none; rows from
+    /// the top.
     pub(super) fn see(&mut self, patches: &Patches, hemicube: &HemicubeView) -> Result<[Vec<f32>; FACES], DrawError> {
         self.target.clear(&mut self.machine)?;
         for (face, projection) in hemicube.faces.iter().enumerate() {
@@ -97,7 +97,7 @@ pub(super) fn size(resolution: u32) -> [u32; 2] {
     [2 * resolution, resolution + resolution / 2]
 }
 
-/// Where a face lies in the item buffer.
+/// Region of a face in the item buffer.
 fn place(face: usize, resolution: u32) -> Region {
     let half = resolution / 2;
     let [x, y, height] = match face {
@@ -118,11 +118,11 @@ pub(super) struct HemicubeView {
     pub(super) seen: Vec<(u32, f64)>,
 }
 
-/// Corners this far behind the eye's plane, relative to the patch's radius, still count as behind it.
+/// Tolerance behind the eye's plane, relative to the patch's radius, within which corners count as on it.
 const ON_PLANE: f64 = 1e-9;
 
 impl HemicubeView {
-    /// A hemicube on a point of a patch.
+    /// Creates a hemicube on a point of a patch.
     pub(super) fn new(patches: &Patches, patch: &Patch, point: DVec3) -> Self {
         let corners = patch.corners();
         let normal = patch.normal();

@@ -1,5 +1,5 @@
 //! Form factors by hemicubes (Cohen and Greenberg, 1985), drawn by a card: from a point of each patch five faces of
-//! half a cube into an item buffer, and for each pixel its delta form factor to the patch that is seen there.
+//! half a cube into an item buffer, and for each pixel its delta form factor to the visible patch.
 
 mod crack;
 mod delta;
@@ -19,9 +19,9 @@ use crate::radiosity::{Patch, Patches};
 use delta::Deltas;
 use item::{HemicubeView, ItemBuffer, size};
 
-/// Hemicubes that are drawn between two reports of progress.
+/// Hemicubes drawn between two reports of progress.
 const BUNDLE: usize = 64;
-/// Where else on a patch the eye may be, if its centre sees nothing: thirds of both sides.
+/// Alternative eye points if a patch's centre sees nothing: the centres of thirds of both sides.
 const ELSEWHERE: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 
 /// Parameters of hemicubes.
@@ -29,12 +29,12 @@ const ELSEWHERE: [f64; 3] = [1.0 / 6.0, 0.5, 5.0 / 6.0];
 pub struct Hemicube {
     /// Pixels along a side of the top face: even, at least 2.
     pub resolution: u32,
-    /// The card. It needs fragment programs (`!!FP1.0`).
+    /// Profile of the card, which must run fragment programs (`!!FP1.0`).
     pub device: Arc<Profile>,
 }
 
 impl Hemicube {
-    /// This many pixels along a side of the top face, on a GeForce FX 5900 Ultra.
+    /// Creates hemicubes with this many pixels along a side of the top face, on a GeForce FX 5900 Ultra.
     ///
     /// # Panics
     /// Never: the device is a built-in one.
@@ -42,7 +42,7 @@ impl Hemicube {
         Self { resolution, device: Arc::new(Profile::named("nv35").expect("a built-in device")) }
     }
 
-    /// Whether the card can draw it.
+    /// Checks that the card can draw the hemicube.
     fn check(&self) -> Result<(), FormFactorError> {
         let limit = self.device.limits.max_target_size.unwrap_or(16_384);
         let most = limit / 4 * 2;
@@ -63,9 +63,9 @@ impl Default for Hemicube {
 }
 
 impl FormFactors {
-    /// By hemicubes at the centres of the patches, or of their largest open parts; where a centre sees nothing, at the
-    /// first of nine points that does. Occluders hide what is behind them, from either side; backs receive no light.
-    /// `done` is called with the number of patches done and of all patches.
+    /// Computes form factors by hemicubes at the centres of the patches, or of their largest open parts; where a centre
+    /// sees nothing, at the first of nine points that does. Occluders hide what is behind them, from either side; backs
+    /// receive no light. `done` is called with the number of patches done and of all patches.
     ///
     /// Rows sum to 1 in a closed room, but pairs are not reciprocal: see [`FormFactors::reciprocity_error`],
     /// [`FormFactors::enforce_reciprocity`].
@@ -86,7 +86,7 @@ impl FormFactors {
         let mut rows: Vec<&mut [f64]> = matrix.par_rows_mut().collect();
         for (bundle, rows) in rows.chunks_mut(BUNDLE).enumerate() {
             let first = bundle * BUNDLE;
-            // A card a worker; what it draws does not depend on which.
+            // One card per worker; the result does not depend on the assignment.
             let each = rows.len().div_ceil(rayon::current_num_threads()).max(1);
             rows.par_chunks_mut(each).enumerate().try_for_each(|(part, rows)| work.fill(first + part * each, rows))?;
             done(first + rows.len(), all);
@@ -95,7 +95,7 @@ impl FormFactors {
     }
 }
 
-/// What the rows of all patches are computed with.
+/// Inputs of the computation of rows.
 struct HemicubeRows<'a> {
     patches: &'a Patches,
     hemicube: &'a Hemicube,
@@ -104,11 +104,11 @@ struct HemicubeRows<'a> {
 }
 
 impl HemicubeRows<'_> {
-    /// The rows of some patches in a row.
+    /// Computes consecutive rows, starting at row `first`.
     fn fill(&self, first: usize, rows: &mut [&mut [f64]]) -> Result<(), DrawError> {
         let mut buffer = ItemBuffer::new(self.executor, &self.hemicube.device, self.hemicube.resolution)?;
         for (patch, row) in (first..).zip(rows) {
-            // The largest open part; of the first of equals, so that a patch that is wholly open is its own.
+            // The largest open part, the first of equals; a patch that is wholly open is its own.
             let larger = |one: &&Patch, other: &&Patch| one.area().total_cmp(&other.area());
             let Some(part) = self.patches.open_parts(patch).iter().rev().max_by(larger) else { continue };
             if !self.look(&mut buffer, part, part.center(), row)? {
@@ -129,7 +129,7 @@ impl HemicubeRows<'_> {
         Ok(())
     }
 
-    /// Adds the delta form factors of a hemicube to a row; false if it sees nothing.
+    /// Adds the delta form factors of a hemicube to a row; returns `false` if it sees nothing.
     fn look(&self, buffer: &mut ItemBuffer, patch: &Patch, point: DVec3, row: &mut [f64]) -> Result<bool, DrawError> {
         let eye = HemicubeView::new(self.patches, patch, point);
         let mut any = false;

@@ -1,4 +1,4 @@
-//! Sections 1, 4, 5 and 6, and the columns of Table 1: what follows from sizes and from the geometry of the cube.
+//! Sections 1, 4, 5 and 6, and the columns of Table 1: values that follow from sizes and from the geometry of the cube.
 
 use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
 use crate::elementary::log10;
@@ -9,26 +9,26 @@ use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 use crate::transfer::hats::{HatWidth, Hats};
 use crate::transfer::visibility::segments_below_horizon;
 
-/// Rows of a glossy transfer matrix, representatives per cluster, and vertices per cluster as asked for.
+/// Rows of a glossy transfer matrix, representatives per cluster, and target vertices per cluster.
 const M: usize = 10;
 const N: usize = 16;
 const PER_CLUSTER: f64 = 200.0;
-/// Texels along an edge of the cube whose texels' centers are the normals that segments are counted for.
+/// Texels along an edge of the cube map whose texel centers are the normals for counting segments.
 const NORMALS: usize = 48;
 
-/// A column of Table 1.
+/// Column of Table 1.
 struct Column {
     name: &'static str,
     rows: usize,
-    /// In thousands.
+    /// Number of vertices, in thousands.
     vertices: f64,
-    /// In decimal gigabytes, as printed, with its digits.
+    /// Raw size in decimal gigabytes, with its printed digits.
     raw: (f64, u8),
     omega: f64,
     clusters: f64,
-    /// In %.
+    /// Size after clustering, in %.
     clustered: f64,
-    /// With and without drawing, the latter with its digits.
+    /// Frames per second with and without drawing, the latter with its digits.
     fps: (f64, f64, u8),
 }
 
@@ -104,24 +104,24 @@ impl Column {
         4e-9 * 1e3 * self.vertices * (self.rows * LIGHT_TEXELS) as f64
     }
 
-    /// Segments of vertices that are not empty.
+    /// Number of non-empty segments over all vertices.
     fn nonempty(&self) -> f64 {
         1e3 * self.vertices * 24.0 * self.omega
     }
 
-    /// The size after clustering as a share of the raw one: omega / r.
+    /// Size after clustering relative to the raw one: omega / r.
     fn clustered(&self) -> f64 {
         self.omega / ratio(self.nonempty() / self.clusters, self.segment_numbers())
     }
 
-    /// Multiplications of a frame by clusters, representatives dense, and by vertices.
+    /// Multiplications per frame by clusters, by dense representatives, and by vertices.
     fn multiplies(&self) -> [f64; 2] {
         let clusters = self.clusters * N as f64 * self.segment_numbers() * 3.0;
         [clusters, self.nonempty() * (N * self.rows * 3) as f64]
     }
 }
 
-/// Equation 12: the ratio of uncompressed to compressed size of a cluster.
+/// Equation 12: ratio of uncompressed to compressed size of a cluster.
 fn ratio(members: f64, numbers: f64) -> f64 {
     members * numbers / (N as f64 * (members + numbers))
 }
@@ -253,7 +253,7 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     }
 }
 
-/// The least number of segments below the horizon of a normal, and the mean over all directions.
+/// Minimum number of segments below the horizon of a normal, and the mean over all directions.
 fn below_horizon() -> (f64, f64) {
     let (hats, map) = (Hats::new(HatWidth::OneTexel), CubeMap::new(NORMALS));
     let (mut counts, mut weights) = (Vec::new(), Vec::new());
@@ -271,7 +271,7 @@ fn below_horizon() -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// Figures of the text that other entries use or that are worked out by hand.
+    /// Values of the text that other entries use or that are computed by hand.
     #[test]
     fn sizes_are_those_of_equation_12() {
         assert!((ratio(200.0, 2560.0) - 11.594).abs() < 1e-3);

@@ -8,12 +8,12 @@ use super::{
 
 const PLACE: &str = "section 3";
 
-/// A reflectance with its printed errors: RMS and maximum of the terms, then of each order.
+/// Reflectance with its printed errors: RMS and maximum of the terms, then of each order.
 struct Printed {
     name: &'static str,
     forms: fn() -> Vec<Form>,
     sweep: &'static str,
-    /// With the digits behind the point.
+    /// Errors with their digits after the point.
     errors: [(f64, u8); 10],
 }
 
@@ -102,7 +102,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 }
 
 impl Printed {
-    /// Rows of the values of [`FormErrors::values`].
+    /// Rows for the values of [`FormErrors::values`].
     fn rows(&self, values: &[f64]) -> Vec<PaperRow> {
         let row = |what: String, target: PaperFigure, ours: f64, bound: Bound| {
             PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), bound)

@@ -1,4 +1,4 @@
-//! Readings of the paper's two reflectances, and their errors.
+//! Interpretations of the paper's two reflectances, and their errors.
 
 use super::{HOST, ReproduceError, failed};
 use crate::all_frequency::factor::{
@@ -7,30 +7,31 @@ use crate::all_frequency::factor::{
 };
 use crate::sphere::MAX_ORDER;
 
-/// m.
+/// Number of terms, m.
 pub(super) const TERMS: usize = 10;
 /// Orders of the printed table.
 pub(super) const ORDERS: [usize; 4] = [4, 5, 6, 7];
 
-/// A reading: its name, the reflectance, how it is sampled.
+/// Interpretation: its name, the reflectance, and its sampling.
 pub(super) type Form = (&'static str, Lobe, FactorSampling);
 
-/// What one reading gives.
+/// Errors of one interpretation.
 pub(super) struct FormErrors {
-    /// Of ten terms.
+    /// Errors of ten terms.
     pub(super) terms: ProductErrors,
-    /// Of [`ORDERS`].
+    /// Errors of each of [`ORDERS`].
     pub(super) harmonics: [ProductErrors; 4],
-    /// Functions of the first order whose RMS is not above that of the terms; those of the highest order if none is.
+    /// Number of functions of the first order whose RMS does not exceed that of the terms; that of the highest order if
+    /// there is none.
     pub(super) functions: usize,
 }
 
-/// At texel centers, one sample per pair.
+/// Sampling at texel centers, one sample per pair.
 fn centers() -> FactorSampling {
     FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() }
 }
 
-/// Of Cook and Torrance's model, the textbooks' first.
+/// Interpretations of Cook and Torrance's model, the textbooks' first.
 pub(super) fn cook_torrance() -> Vec<Form> {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     let bare = bare(lobe);
@@ -42,12 +43,12 @@ pub(super) fn cook_torrance() -> Vec<Form> {
     ]
 }
 
-/// The distribution times the reflectance at normal incidence and the cosine alone.
+/// Keeps only the distribution times the reflectance at normal incidence and the cosine.
 pub(super) fn bare(lobe: Lobe) -> Lobe {
     Lobe { denominators: Denominators::Product, fresnel: FresnelForm::Constant, shadowing: Shadowing::None, ..lobe }
 }
 
-/// Of Schlick's model, its own first.
+/// Interpretations of Schlick's model, his own first.
 pub(super) fn schlick() -> Vec<Form> {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);
     let quarter = Lobe { denominators: Denominators::Quarter, ..lobe };
@@ -63,7 +64,7 @@ pub(super) fn schlick() -> Vec<Form> {
 }
 
 impl FormErrors {
-    /// Of a reading.
+    /// Computes the errors of an interpretation.
     pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, ReproduceError> {
         let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
         let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
@@ -84,8 +85,8 @@ impl FormErrors {
         Ok(Self { terms, harmonics: [of(four)?, of(five)?, of(six)?, of(seven)?], functions })
     }
 
-    /// In the order of the printed table: RMS and maximum of the terms, then of each order; then the two comparisons of
-    /// RMS, and the ratio of functions to terms.
+    /// Values in the order of the printed table: RMS and maximum of the terms, then of each order; then the two
+    /// comparisons of RMS, and the ratio of functions to terms.
     pub(super) fn values(&self) -> Vec<f64> {
         let all = std::iter::once(&self.terms).chain(&self.harmonics);
         let [.., six, seven] = &self.harmonics;

@@ -20,5 +20,5 @@ use super::{
     number,
 };
 
-/// Where solvers run.
+/// Name of the host on which solvers run.
 const HOST: &str = "host";

@@ -1,4 +1,4 @@
-//! Models of Table 1, or stand-ins of ours, compressed and coded.
+//! Models of Table 1, or our stand-ins, compressed and encoded.
 
 use super::forms::{Form, TERMS, cook_torrance, schlick};
 use super::{HOST, ReproduceError, failed};
@@ -18,14 +18,14 @@ use crate::transfer::hats::{HatWidth, Hats};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Signal, Tangents, Vertices};
 
-/// A quarter of each face: what is compressed of reduced models.
+/// Segments compressed for reduced models: a quarter of each face.
 const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];
 /// Iterations for each number of representatives on reduced models.
 pub(super) const REDUCED_ITERATIONS: usize = 4;
-/// Bits of the numbers that Haar coefficients alone are coded by: those of the earlier work first.
+/// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
 pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
 
-/// How representatives are coded: the first as the paper says, others in what it leaves open.
+/// Codings of representatives: the first as in the paper, the others vary what it leaves open.
 pub(super) const CODINGS: [Coding; 5] = [
     Coding { name: "16_bits", bits: 16, scale: ScaleOf::Representative },
     Coding { name: "16_bits_step_per_segment", bits: 16, scale: ScaleOf::Segment },
@@ -34,11 +34,11 @@ pub(super) const CODINGS: [Coding; 5] = [
     Coding { name: "steps_of_8_bits", bits: 8, scale: ScaleOf::Representative },
 ];
 
-/// How representatives are coded.
+/// Coding of representatives.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coding {
     pub(super) name: &'static str,
-    /// Of the largest number.
+    /// Bits of the largest number.
     bits: u8,
     scale: ScaleOf,
 }
@@ -49,7 +49,7 @@ impl Coding {
     }
 }
 
-/// A model of Table 1.
+/// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableModel {
     Bunny,
@@ -58,7 +58,7 @@ pub(super) enum TableModel {
     Buddha,
 }
 
-/// Its material there.
+/// Material of a model in Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TableMaterial {
     Diffuse,
@@ -67,7 +67,7 @@ pub(super) enum TableMaterial {
 }
 
 impl TableModel {
-    /// Reduced, it has some 500 to 800 vertices.
+    /// Builds the mesh; a reduced one has some 500 to 800 vertices.
     fn mesh(self, size: ModelSize) -> Result<Mesh, ReproduceError> {
         let built =
             |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
@@ -84,7 +84,7 @@ impl TableModel {
 }
 
 impl TableMaterial {
-    /// By the textbooks' form of the model, ten terms.
+    /// Returns the reflectance in the textbooks' form of the model, with ten terms.
     pub(super) fn reflectance(self) -> Result<Reflectance, ReproduceError> {
         let (_, lobe, sampling): Form = match self {
             Self::Diffuse => return Ok(Reflectance::Diffuse),
@@ -98,7 +98,7 @@ impl TableMaterial {
     }
 }
 
-/// What the vertices of a model see.
+/// Visibility at the vertices of a model.
 pub(super) struct SeenModel {
     vertices: Vertices,
     maps: VisibilityMaps,
@@ -106,39 +106,39 @@ pub(super) struct SeenModel {
     size: ModelSize,
 }
 
-/// What became of a model.
+/// Compressed model.
 #[derive(Clone, Debug)]
 pub(super) struct CompressedModel {
     pub(super) vertices: usize,
-    /// Segments that were compressed.
+    /// Number of compressed segments.
     pub(super) segments: usize,
     pub(super) omega: f64,
     pub(super) clusters: usize,
-    /// Bytes of raw transfer in single precision, of all segments that were compressed.
+    /// Bytes of raw transfer in single precision, of all compressed segments.
     pub(super) raw: f64,
-    /// Weights and representatives in single precision.
+    /// Bytes of weights and representatives in single precision.
     pub(super) clustered: f64,
-    /// By [`CODINGS`].
+    /// Results for each of [`CODINGS`].
     pub(super) coded: Vec<CodedModel>,
-    /// Bytes of quantised Haar coefficients that are not 0, by [`HAAR_BITS`].
+    /// Bytes of non-zero quantised Haar coefficients, for each of [`HAAR_BITS`].
     pub(super) haar: [f64; 3],
-    /// By number of representatives the squared error, as a share of the squares.
+    /// Relative squared error by number of representatives.
     pub(super) error_of: Vec<(usize, f64)>,
 }
 
-/// One coding of it.
+/// Result of one coding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CodedModel {
     /// Bytes of representatives and weights, all numbers stored in 16 bits.
     pub(super) numbers: f64,
     /// Bytes of counts of columns, steps and clusters.
     pub(super) headers: f64,
-    /// As a share of the squares.
+    /// Squared error relative to the sum of squares.
     pub(super) squared_error: f64,
 }
 
 impl SeenModel {
-    /// Casts the rays.
+    /// Computes visibility by ray casting.
     pub(super) fn new(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
         let fail = failed(HOST);
         let mesh = model.mesh(size)?;
@@ -149,7 +149,7 @@ impl SeenModel {
         Ok(Self { vertices, maps, hats: Hats::new(HatWidth::TwoTexels), size })
     }
 
-    /// Compresses and codes.
+    /// Compresses and encodes the transfer.
     pub(super) fn compressed(&self, reflectance: &Reflectance) -> Result<CompressedModel, ReproduceError> {
         let fail = failed(HOST);
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
@@ -232,7 +232,7 @@ impl Work {
     }
 }
 
-/// The squared error of the last fit for each number of representatives but 0.
+/// Squared error of the last fit for each number of representatives except 0.
 fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
     let fits = steps.iter().filter(|step| step.kind == CpcaStepKind::Fitted && step.vectors > 0);
     let mut last: Vec<(usize, f64)> = Vec::new();
@@ -245,8 +245,8 @@ fn last_of_each(steps: &[CpcaStep]) -> Vec<(usize, f64)> {
     last
 }
 
-/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is not 0 once the
-/// largest of the vertex fills integers of so many bits.
+/// Bytes of a segment without clusters: a byte for the row and a value for each coefficient that is non-zero after
+/// quantisation, in which the largest of the vertex fills integers of `bits` bits.
 fn haar_bytes(signal: &Signal, bits: u32) -> f64 {
     let nonzeros = |point: usize| {
         let values = signal.point(point);

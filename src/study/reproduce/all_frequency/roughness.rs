@@ -6,17 +6,17 @@ use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersampl
 use crate::report::{NamedPicture, Table};
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
 
-/// Roughnesses, from sharp to blunt.
+/// Roughnesses, in ascending order.
 const ROUGHNESSES: [f64; 5] = [0.2, 0.25, 0.3, 0.4, 0.5];
-/// Mean FLIP of spheres above which their difference counts as seen: chosen by us, before any was computed.
+/// Mean FLIP of spheres above which their difference counts as visible: our choice, before any was computed.
 const SEEN: f64 = 0.05;
 
-/// What Figure 3's sweep gives.
+/// Results of Figure 3's sweep.
 pub(super) struct Figure3 {
     pub(super) row: PaperRow,
     pub(super) tables: Vec<Table>,
     pub(super) pictures: Vec<NamedPicture>,
-    /// Texels of a map above the horizon.
+    /// Number of texels of a map above the horizon.
     pub(super) inside: usize,
 }
 
@@ -53,7 +53,8 @@ fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), Reprodu
     Ok((table, rows))
 }
 
-/// The largest roughness at which the difference is seen, between two of the sweep by a straight line; 0 if none is.
+/// Largest roughness at which the difference is visible, interpolated linearly between two of the sweep; 0 if there is
+/// none.
 fn threshold(rows: &[SweptRoughness]) -> f64 {
     let Some(last) = rows.iter().rposition(|row| row.flip > SEEN) else { return 0.0 };
     let Some(next) = rows.get(last + 1) else { return rows[last].roughness };

@@ -1,4 +1,4 @@
-//! Table 1 by compressing models: what clusters and codes leave of their transfer.
+//! Table 1 by compressing models: remaining size after clustering and coding of transfer.
 
 use super::models::{CODINGS, CompressedModel, HAAR_BITS, SeenModel, TableMaterial, TableModel};
 use super::{
@@ -12,8 +12,8 @@ use crate::report::{Cell, Table};
 use TableMaterial::{Cook, Diffuse, Schlick};
 use TableModel::{Buddha, Bunny, Teapot, Tweety};
 
-/// A column of the table: omega, size after clustering, what codes leave of that, both together, and the squared error,
-/// in % with the digits behind the point.
+/// Column of the table: omega, size after clustering, relative size after coding, both together, and the squared error,
+/// in % with the digits after the point.
 struct Column {
     name: &'static str,
     model: TableModel,
@@ -90,7 +90,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// A value per row: five for each column, then the least and the largest ratio.
+/// Values of the rows: five for each column, then the smallest and the largest ratio.
 fn values(found: &[CompressedModel], coding: usize, headers: bool) -> Vec<f64> {
     let bytes = |model: &CompressedModel| {
         let coded = &model.coded[coding];
@@ -122,7 +122,7 @@ fn rows(values: &[f64]) -> Vec<PaperRow> {
     targets.into_iter().zip(values).map(|((what, target), ours)| row(what, target, ours)).collect()
 }
 
-/// "Roughly a factor of 10" without clusters, explained by the bits that are not printed.
+/// Row of "roughly a factor of 10" without clusters, explained by the number of bits, which is not printed.
 fn haar(found: &[CompressedModel]) -> (PaperRow, Table) {
     let raw: f64 = found.iter().map(|model| model.raw).sum();
     let factor = |at: usize| raw / found.iter().map(|model| model.haar[at]).sum::<f64>();
@@ -164,7 +164,7 @@ fn table(found: &[CompressedModel]) -> Table {
     table
 }
 
-/// Figure 5 in numbers.
+/// Table of the data of Figure 5.
 fn by_representatives(found: &[CompressedModel]) -> Table {
     let counts: Vec<usize> = found[0].error_of.iter().map(|(vectors, _)| *vectors).collect();
     let headings: Vec<String> =

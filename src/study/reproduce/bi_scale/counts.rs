@@ -1,4 +1,4 @@
-//! What of sections III and IV and of both tables follows from sizes.
+//! Values of sections III and IV and of both tables that follow from sizes.
 
 use super::printed::{PrintedScene, SCENES};
 use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, Standing, number};
@@ -13,7 +13,7 @@ const QUESTION: &str =
 const DENSE: f64 = 1.0;
 const PER_ROW: f64 = 4.0;
 const PER_COLUMN: f64 = 8.0;
-/// Bytes of an entry by rows: place and value of two and one, of four each.
+/// Bytes of an entry stored by rows: position and value of two and one bytes, or of four each.
 const NARROW: f64 = 3.0;
 const WIDE: f64 = 8.0;
 /// Texels along an edge of a patch, view directions along an edge, and bytes of a texel: three channels.
@@ -82,7 +82,7 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     }
 }
 
-/// What is left of computation, from least to most: the conclusion's range against the tables.
+/// Rows on the remaining computation, from minimum to maximum: the conclusion's range against the tables.
 fn range_rows() -> [PaperRow; 2] {
     let left = || SCENES.iter().map(|scene| 100.0 * scene.operations[1] / scene.operations[0]);
     let row = |what: &str, printed, found| {
@@ -97,7 +97,7 @@ fn range_rows() -> [PaperRow; 2] {
 }
 
 impl PrintedScene {
-    /// By rows with so many bytes an entry, and four a row.
+    /// Megabytes of storage by rows with `bytes` bytes per entry, and four per row.
     fn sparse_megabytes(&self, bytes: f64) -> f64 {
         bytes * self.nonzeros + 4e-6 * (self.vertices * self.side * self.side) as f64
     }
@@ -107,7 +107,7 @@ impl PrintedScene {
     }
 }
 
-/// The sizes of bidirectional textures: which scenes have small patches is said of the temple alone.
+/// Row on the size of bidirectional textures: only for the temple is it stated which materials have small patches.
 fn texture_row(scene: &PrintedScene) -> Option<PaperRow> {
     let (counts, megabytes) = scene.textures?;
     let texels: usize = counts.into_iter().zip(PATCHES).map(|(count, side)| count * side * side).sum();

@@ -16,21 +16,21 @@ use crate::geom::Mesh;
 use crate::scene::Camera;
 use crate::transfer::Vertices;
 
-/// The paper's card.
+/// Card of the paper.
 pub(super) const CARD: &str = "gt200";
-/// Directions of the view along an edge.
+/// View directions along an edge.
 const VIEWS: usize = 12;
-/// Texels of a patch. Time depends on reads, not on how many texels there are.
+/// Texels along an edge of a patch. Time depends on the number of reads, not on that of texels.
 const PATCH: usize = 4;
 
-/// A frame without light: time does not depend on values.
+/// Timed frame without light: time does not depend on values.
 pub(super) struct DisplayRun {
     pub(super) counts: DisplayCounts,
     pub(super) time: FrameTime,
     pub(super) pixels: u64,
 }
 
-/// Draws a mesh with so many local directions along an edge into a picture of so many pixels.
+/// Draws a mesh with `side` local directions along an edge into a picture of `width` x `height` pixels.
 pub(super) fn display(
     (mesh, vertices): (&Mesh, &Vertices),
     side: usize,
@@ -58,7 +58,7 @@ pub(super) fn display(
     Ok(DisplayRun { counts: card.counts(), time: time_of(&profile, &log)?, pixels })
 }
 
-/// The time of a log on the card. What the host does is to hand draws over.
+/// Time of a log on the card. The host only submits draws.
 fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, ReproduceError> {
     let host = host_of_table_1().map_err(|error| failed(HOST)(&error))?;
     frame_time(profile, log, &host).map_err(|error| failed(CARD)(&error))

@@ -16,9 +16,9 @@ const HOW: &str = "The stand-in for the bunny with {} vertices, and sizes as if 
 const QUESTION: &str = "the model, and how smooth it is.";
 /// Local directions along an edge.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
-/// Enough pixels to tell costs apart.
+/// Size of the picture: large enough to distinguish costs.
 const PICTURE: [u32; 2] = [160, 120];
-/// The paper's vertices, and megabytes with the fewest and the most directions.
+/// Vertices of the paper's model, and megabytes with the fewest and the most directions.
 const VERTICES: f64 = 3286.0;
 const PRINTED: [f64; 2] = [24.2, 58.5];
 

@@ -1,4 +1,4 @@
-//! Frame rates of both tables: the view changed alone, and light changed too.
+//! Frame rates of both tables: with only the view changing, and with changing light too.
 
 use super::display::{CARD, DisplayRun, display};
 use super::printed::{PrintedScene, SCENES};
@@ -14,11 +14,11 @@ const HOW: &str = "What light costs is the difference of a scene's two rates. On
 const QUESTION: &str = "why the same bunny's view takes a third of the time in table II; how large models stand in the pictures; how many reads of textures missed the caches.";
 const PICTURE: [u32; 2] = [640, 480];
 
-/// Rates of a scene in a table.
+/// Printed rates of a scene in a table.
 struct PrintedFrames {
     scene: &'static PrintedScene,
     place: &'static str,
-    /// Frames a second: the view changed alone, and light changed too.
+    /// Frames per second: with only the view changing, and with changing light too.
     rates: [f64; 2],
 }
 
@@ -35,7 +35,7 @@ const FRAMES: [PrintedFrames; 7] = [
     printed(&SCENES[4], "table 2", [115.8, 32.3]),
     printed(&SCENES[5], "table 2", [48.5, 11.9]),
 ];
-/// How many of them are in table I.
+/// Number of these that are in Table I.
 const IN_TABLE_1: usize = 4;
 
 impl PrintedFrames {
@@ -45,7 +45,7 @@ impl PrintedFrames {
         1.0 / light - 1.0 / view
     }
 
-    /// Operations of a transfer, of one channel.
+    /// Operations of a transfer, for one channel.
     fn operations(&self) -> f64 {
         1e6 * self.scene.operations[1]
     }
@@ -55,7 +55,7 @@ impl PrintedFrames {
     }
 }
 
-/// Operations a second that the transfers of table I are together.
+/// Operations per second over all transfers of Table I.
 fn constant() -> f64 {
     let all = &FRAMES[..IN_TABLE_1];
     all.iter().map(PrintedFrames::operations).sum::<f64>() / all.iter().map(PrintedFrames::transfer).sum::<f64>()
@@ -104,7 +104,7 @@ fn view_row(frames: &PrintedFrames, run: &DisplayRun) -> PaperRow {
     PaperRow::new(what, (CARD, Method::Pipeline), target, (run.time.per_second(), standing), Bound::PREDICTION)
 }
 
-/// "Roughly comparable", and what dominates.
+/// Rows on "roughly comparable", and on the dominant cost.
 fn sentences(shared: &Shared, run: &DisplayRun, constant: f64) -> Result<[PaperRow; 2], ReproduceError> {
     let comparable = PaperFigure {
         origin: Origin::Inferred("\"roughly comparable\"".to_owned()),

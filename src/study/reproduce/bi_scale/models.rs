@@ -1,4 +1,4 @@
-//! Stand-ins for the paper's models: what their vertices see, transfer to so many local directions, biclusters.
+//! Stand-ins for the paper's models: visibility at their vertices, transfer to local directions, biclusters.
 
 use std::cell::OnceCell;
 
@@ -13,10 +13,10 @@ use crate::tracer::HostTracer;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 use crate::transfer::{Tangents, Vertices};
 
-/// Visibility samples along an edge of a light texel, as a power of two.
+/// Base-2 logarithm of the visibility samples along an edge of a light texel.
 pub(super) const LOG2_SAMPLES: u32 = 1;
 
-/// A model with what its vertices see.
+/// Model with the visibility at its vertices.
 #[derive(Debug)]
 pub(super) struct SeenModel {
     pub(super) mesh: Mesh,
@@ -31,7 +31,7 @@ pub(super) struct ClusteredModel {
     pub(super) biclusters: Biclustering,
 }
 
-/// What entries share: the small bunny.
+/// Intermediate results that entries share, for the small bunny.
 #[derive(Debug, Default)]
 pub(in crate::study::reproduce) struct BiScaleShared {
     seen: OnceCell<SeenModel>,
@@ -39,7 +39,7 @@ pub(in crate::study::reproduce) struct BiScaleShared {
 }
 
 impl BiScaleShared {
-    /// The bunny of both tables, seen by its triangles alone.
+    /// Bunny of both tables, with visibility by its triangles alone.
     pub(super) fn bunny(&self) -> Result<&SeenModel, ReproduceError> {
         get_or_try(&self.seen, || SeenModel::new(&TransferModel::BiScaleBunny.mesh(1), Horizon::Geometry))
     }
@@ -61,7 +61,7 @@ impl SeenModel {
         Ok(Self { mesh: mesh.clone(), vertices, maps })
     }
 
-    /// T with so many local directions along an edge.
+    /// Transfer matrix T with `side` local directions along an edge.
     pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, ReproduceError> {
         let directions = LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?;
         transfer_matrix(&self.vertices, &self.maps, &directions).map_err(|error| failed(HOST)(&error))
@@ -76,7 +76,7 @@ impl SeenModel {
 }
 
 impl ClusteredModel {
-    /// Bytes of biclusters: four per row, eight per column.
+    /// Megabytes of the biclusters: four bytes per row, eight per column.
     pub(super) fn megabytes(&self) -> f64 {
         4e-6 * (self.biclusters.row_entries() + 2 * self.biclusters.column_entries()) as f64
     }

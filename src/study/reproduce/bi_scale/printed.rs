@@ -1,26 +1,27 @@
 //! Tables I and II.
 
-/// Where biclusters are made.
+/// Name of the host on which biclusters are computed.
 pub(super) const HOST: &str = "host";
 
-/// A scene of either table.
+/// Scene of either table.
 pub(super) struct PrintedScene {
     pub(super) name: &'static str,
     pub(super) place: &'static str,
     pub(super) vertices: usize,
     /// Local directions along an edge.
     pub(super) side: usize,
-    /// Non-zeros of T in millions.
+    /// Non-zeros of T, in millions.
     pub(super) nonzeros: f64,
     /// Millions of operations, before and after. The scan has "8.4" for 78.4, twice the non-zeros.
     pub(super) operations: [f64; 2],
-    /// What is left of them in %.
+    /// Remaining operations, in %.
     pub(super) operations_left: f64,
-    /// Megabytes before, with their digits given as 0, and after.
+    /// Megabytes before (printed without decimals) and after.
     pub(super) megabytes: [f64; 2],
-    /// What is left of them in %, with its digits.
+    /// Remaining megabytes, in %, with their digits.
     pub(super) megabytes_left: (f64, u8),
-    /// Bidirectional textures with patches of 64 x 64 and of 32 x 32 texels, and their megabytes; Table I alone.
+    /// Numbers of bidirectional textures with patches of 64 x 64 and of 32 x 32 texels, and their megabytes; Table I
+    /// alone.
     pub(super) textures: Option<([usize; 2], f64)>,
 }
 
@@ -99,5 +100,5 @@ pub(super) const SCENES: [PrintedScene; 6] = [
     },
 ];
 
-/// The bunnies of Table II, of which the first is that of Table I.
+/// Bunnies of Table II, of which the first is that of Table I.
 pub(super) const BUNNIES: [&PrintedScene; 3] = [&SCENES[0], &SCENES[4], &SCENES[5]];

@@ -17,7 +17,7 @@ const HOW: &str = "The paper's models are not at hand. Ours are made by code: a 
     Which share of operations is left falls as a model grows, since neighbors become alike. Vertices see what triangles leave free.";
 const QUESTION: &str =
     "the models, and how many of their vertices stand inside of other parts, where they see nothing.";
-/// Edges of reduced models, in edges of whole ones.
+/// Edge length of reduced models, relative to full ones.
 const COARSER: u32 = 4;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
@@ -60,7 +60,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Thousands of values other than 0.
+/// Thousands of non-zero values per vertex.
 fn per_vertex(found: &ClusteredModel, vertices: usize) -> f64 {
     1e-3 * found.nonzeros as f64 / vertices as f64
 }

@@ -1,4 +1,4 @@
-//! Table II on stand-ins: biclusters of models of as many vertices as printed.
+//! Table II on stand-ins: biclusters of models with the printed vertex counts.
 
 use super::models::{ClusteredModel, LOG2_SAMPLES, SeenModel};
 use super::printed::{BUNNIES, PrintedScene};

@@ -1,14 +1,14 @@
-//! Section 9 and what section 3.2 says of it: hemispherical projections.
+//! Section 9 and the related part of section 3.2: hemispherical projections.
 
 use super::{EntryFindings, HOST, PaperRow, ReproduceError, every_digit, failed};
 use crate::report::{Cell, Table};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
-/// The order of the functions that are projected.
+/// Order of the projected functions.
 const ORDER: usize = 5;
 
-/// A projection with the order that it is projected onto, and what is printed: functions that get a coefficient, the
-/// worst and the average error with their digits.
+/// Projection with its target order, and the printed values: functions with a coefficient, worst and average error with
+/// their digits.
 struct Printed {
     name: &'static str,
     projection: HemisphereProjection,
@@ -102,7 +102,7 @@ fn projection_rows(printed: &Printed) -> Result<Vec<PaperRow>, ReproduceError> {
     Ok(rows)
 }
 
-/// The same for other orders, of functions of an order projected onto the same.
+/// Table for other orders, with functions of an order projected to the same order.
 fn orders() -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         "Projections of functions of an order onto the same order, and what the cheapest function to drop costs",
@@ -125,7 +125,7 @@ fn orders() -> Result<Table, ReproduceError> {
 mod tests {
     use super::*;
 
-    /// The text's words for odd and even, taken literally, would give other figures.
+    /// A literal reading of "odd" and "even" in the text would give other values.
     #[test]
     fn odd_and_even_are_told_apart() {
         let literal = error(EvenReflection, [ORDER, 8]).expect("errors");

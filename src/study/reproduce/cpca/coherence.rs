@@ -11,7 +11,7 @@ use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
 
 const PLACE: &str = "section 7";
-/// The signal, its name, and the printed overdraw and frames per second.
+/// Signal, its name, and the printed overdraw and frames per second.
 const PRINTED: [(usize, &str, [f64; 4], [f64; 4]); 2] = [
     (BUDDHA, "Buddha", [1.93, 1.72, 1.61, 1.48], [26.8, 29.6, 29.7, 33.2]),
     (BIRD, "bird", [1.25, 1.23, 1.14, 1.138], [39.3, 39.3, 45.2, 45.3]),

@@ -1,4 +1,4 @@
-//! What is drawn of a mesh in clusters: with neither optimisation of section 5, with each, and with both.
+//! Drawing cost of a mesh in clusters: with neither optimisation of section 5, with each, and with both.
 
 use super::mesh_cost::REGISTERS;
 use super::signals::ComputedSignal;
@@ -8,23 +8,23 @@ use crate::transfer::clustering::Clustering;
 
 /// "Using a 5% error threshold".
 pub(super) const BUDGET: f64 = 0.05;
-/// The columns of the paper's table.
+/// Columns of the paper's table.
 pub(super) const COLUMNS: [&str; 4] = ["original", "rec", "sc", "sc+rec"];
 
-/// What a mesh's clusters cost to draw; everything in the order of [`COLUMNS`].
+/// Drawing cost of a mesh's clusters, in the order of [`COLUMNS`].
 pub(super) struct DrawnClusters {
     /// Triangles drawn per triangle of the mesh.
     pub(super) overdraw: [f64; 4],
-    /// Per vertex the cluster or supercluster that it is drawn with.
+    /// Cluster or supercluster that each vertex is drawn with.
     pub(super) groups: [Vec<u32>; 4],
-    /// What reclassification added, as a share of the squared error.
+    /// Error added by reclassification, relative to the squared error.
     pub(super) added_error: f64,
-    /// Superclusters after reclassification.
+    /// Number of superclusters after reclassification.
     pub(super) superclusters: usize,
 }
 
 impl DrawnClusters {
-    /// By both optimisations, each alone and together.
+    /// Applies both optimisations, alone and together.
     pub(super) fn new(computed: &ComputedSignal, clustering: &Clustering) -> Result<Self, ReproduceError> {
         let triangles = computed.vertices.triangles();
         let rows = computed.paper.size.rows;

@@ -21,7 +21,7 @@ const PLACE: &str = "figure 10";
 /// Name, printed clusters, vectors and squared error, in the order of the figure.
 const ENCODINGS: [(&str, usize, usize, f64); 3] =
     [("PCA", 1, 20, 101_304.0), ("VQ", 1792, 0, 14_799.0), ("CPCA", 256, 8, 294.4)];
-/// Their frames per second.
+/// Printed frames per second.
 const RATES: [f64; 3] = [45.7, 41.8, 45.5];
 
 const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's metric its three encodings hold {} M, {} M and {} M numbers. \
@@ -82,7 +82,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// "Such that rendering performance matched that from CPCA".
+/// Row on "such that rendering performance matched that from CPCA".
 fn matched(at: usize, rates: [f64; 3]) -> PaperRow {
     let percent = |rates: [f64; 3]| 100.0 * rates[at] / rates[2];
     let origin = Origin::Implied(format!("{} / {}", RATES[at], RATES[2]));
@@ -122,7 +122,7 @@ fn line(
     ]
 }
 
-/// "It reduces error better than VQ or PCA for the same storage".
+/// Row on "it reduces error better than VQ or PCA for the same storage".
 fn equal_storage(name: &str, ours: f64) -> PaperRow {
     let origin = Origin::Inferred("section 8 says that the error is less for the same storage".to_owned());
     let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 2, "times", "section 8") };

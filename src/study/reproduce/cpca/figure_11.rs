@@ -85,7 +85,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// The error with a number of vectors, a picture, and what is drawn; with 8 by the clustering that Table 1 has.
+/// Computes the error with a number of vectors, a picture, and the drawing cost; 8 vectors use the clustering of Table
+/// 1.
 fn with(
     computed: &ComputedSignal,
     view: &ModelView<'_>,
@@ -105,7 +106,7 @@ fn with(
     Ok((computed.error(clustering), picture, DrawnClusters::new(computed, clustering)?))
 }
 
-/// How much a figure falls from each number of vectors to the next.
+/// Rows on the decrease of a value from each number of vectors to the next.
 fn falling(name: &str, what: &str, printed: [f64; 4], ours: &[f64]) -> Vec<PaperRow> {
     let row = |at: usize| {
         let what = format!("{name}: {what} with n' = {} over n' = {}", VECTORS[at], VECTORS[at + 1]);

@@ -9,9 +9,9 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
 use crate::report::{Cell, Chart, Scale, Series, Table};
 
-/// The curves.
+/// Numbers of vectors, one per curve.
 const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
-/// Points per cluster at least: 48,668 points have up to 16 k clusters.
+/// Minimum number of points per cluster: 48,668 points have up to 16 k clusters.
 const LEAST_POINTS: usize = 2;
 
 const HOW: &str = "{} points of diffuse transfer of order {} on our smooth model, with shadows; {} to {} clusters. Static principal components, whose \
@@ -19,7 +19,7 @@ const HOW: &str = "{} points of diffuse transfer of order {} on our smooth model
     becomes better with many. Curves are compared at equal storage, the one before interpolated between its points.";
 const CAPTION: &str = "Squared error of all points by numbers stored.";
 
-/// Storage and squared error of a number of clusters.
+/// Storage and squared error for increasing numbers of clusters.
 type Curve = Vec<(f64, f64)>;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
@@ -80,7 +80,7 @@ fn row(what: &str, ours: usize) -> PaperRow {
     PaperRow::new(format!("numbers of vectors that are {what}"), (HOST, Method::Solver), target, ours, Bound::Print)
 }
 
-/// How many curves are above the one before at the least storage that both have, and below it at the largest.
+/// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.
 fn crossings(curves: &[Curve]) -> [usize; 2] {
     let mut found = [0, 0];
     for pair in curves.windows(2) {
@@ -93,7 +93,7 @@ fn crossings(curves: &[Curve]) -> [usize; 2] {
     found
 }
 
-/// The error of a curve at a storage that it has, between points by logarithms.
+/// Error of a curve at a storage within its range, interpolated logarithmically.
 fn at(curve: &Curve, storage: f64) -> Option<f64> {
     let segment = curve.windows(2).find(|pair| (pair[0].0..=pair[1].0).contains(&storage))?;
     let [(s0, e0), (s1, e1)] = [segment[0], segment[1]];

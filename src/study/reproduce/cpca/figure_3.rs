@@ -1,4 +1,4 @@
-//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and vertex by vertex.
+//! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and the error per vertex.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::views::ModelView;
@@ -11,17 +11,17 @@ use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
 use crate::sphere::HarmonicLight;
 use crate::transfer::clustering::CpcaMethod;
 
-/// Clusters of both figures.
+/// Number of clusters of both figures.
 const CLUSTERS: usize = 256;
 /// Vectors of Figure 4, "n = 3".
 const FIGURE_4: usize = 3;
-/// Vectors that rows and the chart go to; static and iterative curves go farther, for comparison.
+/// Maximum number of vectors of the rows and the chart; static and iterative curves extend further, for comparison.
 const VECTORS: usize = 8;
-/// How much farther.
+/// Number of vectors by which they extend further.
 const MORE: usize = 6;
-/// Rounds of redistribution at most.
+/// Maximum number of rounds of redistribution.
 const ROUNDS: usize = 20;
-/// Where the model is seen from, and the tangent of half the field of view.
+/// Position of the eye, and the tangent of half the field of view.
 pub(super) const EYE: ([f32; 3], f32) = ([4.0, -3.0, 1.5], 0.3);
 
 const HOW: &str = "{} points of diffuse transfer of order {} in {} clusters. Vectors gained: how many more the simpler method needs for the same error, \
@@ -74,7 +74,7 @@ fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64
     (0..=VECTORS).map(error).collect()
 }
 
-/// "1-4 additional PCA vectors", "an additional vector", less error: at least 1.
+/// Row on "1-4 additional PCA vectors", "an additional vector", or less error: at least 1.
 fn at_least(what: &str, vectors: usize, (unit, place): (&'static str, &'static str), ours: f64) -> PaperRow {
     let target = match place {
         "figure 4" => PaperFigure {
@@ -87,7 +87,7 @@ fn at_least(what: &str, vectors: usize, (unit, place): (&'static str, &'static s
     PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
-/// The number of vectors at which a curve falls to an error, between numbers by logarithms; the last for less.
+/// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last for lower errors.
 fn reaching(curve: &[f64], error: f64) -> f64 {
     let Some(at) = (1..curve.len()).find(|&at| curve[at] <= error) else { return (curve.len() - 1) as f64 };
     let [above, below] = [curve[at - 1], curve[at]];
@@ -113,7 +113,8 @@ fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
     }
 }
 
-/// Figure 4: the error of each vertex, of the largest of the static clustering, and in a second row the pictures.
+/// Figure 4: the error of each vertex, relative to the largest of the static clustering, and in a second row the
+/// pictures.
 fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, ReproduceError> {
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;

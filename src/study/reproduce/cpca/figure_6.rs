@@ -14,7 +14,7 @@ use crate::transfer::clustering::CpcaMethod;
 const CLUSTERS: [usize; 2] = [64, 32];
 const VECTORS: [usize; 3] = [1, 2, 4];
 const ORDERS: [usize; 2] = [10, 5];
-/// A small light to the side of the blocker: direction, and radius in radians.
+/// Small light to the side of the blocker: direction, and radius in radians.
 const LIGHT: (glam::DVec3, f64) = (glam::DVec3::new(0.6, 0.4, 1.0), 0.15);
 const EYE: ([f32; 3], f32) = ([0.8, -3.4, 3.2], 0.42);
 
@@ -62,7 +62,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// "Iterative PCA adapts cluster shapes to the transfer signal better than static PCA".
+/// Row on "Iterative PCA adapts cluster shapes to the transfer signal better than static PCA".
 fn row(clusters: usize, vectors: usize, ours: f64) -> PaperRow {
     let how = "the caption says that iterative clusters fit better";
     let origin = Origin::Inferred(how.to_owned());
@@ -75,7 +75,7 @@ fn disk() -> Result<HarmonicLight, ReproduceError> {
     HarmonicLight::disk(ORDERS[0], LIGHT.0, LIGHT.1, [40.0, 38.0, 34.0]).map_err(|e| failed(HOST)(&e))
 }
 
-/// The light without its higher bands: transfer of order 10 gives what transfer of order 5 would.
+/// Removes the higher bands of a light: transfer of order 10 then gives the result of order 5.
 fn low_order(light: &HarmonicLight) -> Result<HarmonicLight, ReproduceError> {
     let mut channels = light.channels().clone();
     channels.iter_mut().for_each(|channel| channel[function_count(ORDERS[1])..].fill(0.0));

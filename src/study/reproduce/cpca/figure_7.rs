@@ -20,11 +20,11 @@ use crate::tracer::HostTracer;
 use crate::transfer::brdf::ExitBasis;
 
 const PLACE: &str = "figure 7";
-/// The degree of the rule by which exit radiance is integrated without a projection.
+/// Degree of the rule that integrates exit radiance without a projection.
 const DEGREE: usize = 62;
 
-/// A projection: its mark in the figure, how it is called here, the order of exit radiance, and whether by equation 1
-/// (least squares, with both inverses) or as in Sloan et al. 2002 (zero hemisphere, with neither).
+/// Projection: its mark in the figure, its name here, the order of exit radiance, and `true` for equation 1 (least
+/// squares, with both inverses) or `false` for the method of Sloan et al. 2002 (zero hemisphere, with neither).
 const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
     ("a", "zero hemisphere", 4, false),
     ("b", "least squares", 4, true),
@@ -83,7 +83,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Radiance of every vertex towards an eye, by BRDF and light alone: section 3.1 without harmonics. Shadows alone.
+/// Radiance of every vertex towards an eye from BRDF and light alone: section 3.1 without harmonics, direct light with
+/// shadows only.
 fn exit_radiance(
     computed: &ComputedSignal,
     light: &HarmonicLight,

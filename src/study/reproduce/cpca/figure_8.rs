@@ -1,4 +1,4 @@
-//! Figure 8: glossy Phong models, compressed and not, and how much faster they are drawn.
+//! Figure 8: glossy Phong models, compressed and not, and the speed-up of drawing.
 
 use refsim::device::Profile;
 
@@ -16,7 +16,7 @@ use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
 
 const PLACE: &str = "section 7";
-/// The signal, its name, frames per second of Table 1, and without compression with 25 and with 16 rows.
+/// Signal, its name, frames per second of Table 1, and without compression with 25 and with 16 rows.
 const PRINTED: [(usize, &str, f64, [f64; 2]); 2] =
     [(HEAD, "head", 58.5, [2.9, 5.2]), (GLOSSY_BUDDHA, "Buddha", 42.8, [2.7, 4.7])];
 /// Rows of an uncompressed matrix in section 7.
@@ -26,9 +26,9 @@ const FACTORS: [f64; 2] = [20.0, 16.0];
 /// "A Radeon 9800 runs 20% faster with CPCA".
 const NEWER: &str = "r350";
 const FASTER: f64 = 20.0;
-/// Pairs of cards by the clocks of core and memory in MHz. The profiles are of the Pro cards; the text says neither Pro
-/// nor which. The clocks of the others are those of makers' tables ("AMD ATI Chips Comparison Table": 275 and 540 MHz,
-/// 325 and 580 MHz, data on both edges).
+/// Pairs of cards by the clocks of core and memory in MHz. The profiles are of the Pro cards; the text does not name
+/// the model. The clocks of the others are from manufacturers' tables ("AMD ATI Chips Comparison Table": 275 and 540
+/// MHz, 325 and 580 MHz, data on both edges).
 const CLOCKS: [(&str, [[u64; 2]; 2]); 3] = [
     ("both Pro", [[325, 310], [380, 340]]),
     ("neither Pro", [[275, 270], [325, 290]]),
@@ -104,14 +104,14 @@ fn of_rows(size: TransferSize, rows: usize) -> TransferSize {
     TransferSize { rows, ..size }
 }
 
-/// A card with other clocks, in MHz.
+/// Profile of a card with other clocks, in MHz.
 fn clocked(card: &str, [core, memory]: [u64; 2]) -> Result<Profile, ReproduceError> {
     let mut profile = Profile::named(card)?;
     (profile.rates.core_clock_hz, profile.rates.memory_clock_hz) = (Some(core * 1_000_000), Some(memory * 1_000_000));
     Ok(profile)
 }
 
-/// Rates without compression, but for the one that the host's rate was chosen by.
+/// Rows on rates without compression, except for the one that calibrated the host's rate.
 fn without_compression(name: &str, size: TransferSize, printed: [f64; 2]) -> Result<Vec<PaperRow>, ReproduceError> {
     let mut found = Vec::new();
     for (rows, printed) in ROWS.into_iter().zip(printed) {
@@ -127,14 +127,14 @@ fn without_compression(name: &str, size: TransferSize, printed: [f64; 2]) -> Res
     Ok(found)
 }
 
-/// Compressed over uncompressed, of as many rows as are compared in print.
+/// Row on the ratio of compressed to uncompressed rates, for as many rows as are compared in print.
 fn speed_up(name: &str, (compressed, without, factor): (f64, f64, f64), ours: f64) -> PaperRow {
     let origin = Origin::Implied(format!("{compressed} / {without}, printed as {factor}"));
     let target = PaperFigure { origin, ..PaperFigure::printed(compressed / without, 1, "times", PLACE) };
     rate_row(format!("{name}: faster than without compression, 25 rows"), target, ours, OWN_INPUTS)
 }
 
-/// What the newer card gains, by the clocks of the profiles; what others explain.
+/// Rows on the gain of the newer card by the clocks of the profiles, and a table of other clocks.
 fn newer_card(gains: &[(String, Vec<f64>)]) -> (Vec<PaperRow>, Table) {
     let row = |(what, gains): &(String, Vec<f64>)| {
         let target = PaperFigure::printed(FASTER, 0, "%", PLACE);

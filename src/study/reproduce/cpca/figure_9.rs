@@ -1,4 +1,4 @@
-//! Figure 9: a sum of transfer, below the surface and glossy, in two lighting environments.
+//! Figure 9: sum of subsurface and glossy transfer, in two lighting environments.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
 use crate::report::{Cell, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
-/// A sky with the sun to the side of the model.
+/// Sky with the sun to the side of the model.
 const SKY: ClearSky = ClearSky {
     sun: DVec3::new(1.0, -1.0, 1.0),
     sun_radiance: [5e4, 4.5e4, 4e4],

@@ -1,4 +1,4 @@
-//! What the triangles of a model ask of a card, whatever their clusters.
+//! Cost of a model's triangles on a card, independent of their clusters.
 
 use refsim::device::Profile;
 use refsim::event::vertex_cache_misses;
@@ -11,16 +11,16 @@ pub(super) const CARD: &str = "r300";
 /// Its constant registers: "~256".
 pub(super) const REGISTERS: usize = 256;
 
-/// A mesh as the card sees it.
+/// Mesh in the terms of the card's cost model.
 #[derive(Clone, Copy)]
 pub(super) struct MeshCost {
     pub(super) triangles: u64,
-    /// Vertices that are run for a triangle.
+    /// Vertices processed per triangle.
     pub(super) run_per_triangle: f64,
 }
 
 impl MeshCost {
-    /// Our model of the printed size, its triangles in the order in which they are made.
+    /// Measures our model of the printed size, with its triangles in the order of construction.
     pub(super) fn new(model: TransferModel) -> Result<Self, ReproduceError> {
         let (profile, mesh) = (Profile::named(CARD)?, model.mesh(1));
         let entries = profile.rates.vertex_cache_entries.unwrap_or(0);

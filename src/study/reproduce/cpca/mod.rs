@@ -1,8 +1,8 @@
 //! "Clustered Principal Components": its figures on compression, Table 1, the table of section 7, and the appendix.
 //!
-//! The paper's models and BRDFs are lost. Ours have its counts of vertices, or a sixteenth or less of them with as
-//! small a share of the clusters ([`ModelSize`]), so that as many points share a cluster. What is judged is which of
-//! two errors is larger.
+//! The paper's models and BRDFs are not available. Ours have its vertex counts, or a sixteenth or less of them with the
+//! same fraction of the clusters ([`ModelSize`]), so that the number of points per cluster is the same. The rows
+//! compare which of two errors is larger.
 
 mod appendix;
 mod coherence;
@@ -47,7 +47,7 @@ use super::{
     Standing, Sweep, number,
 };
 
-/// A ratio of two of the paper's values beside that of ours: judged by which of the two is larger.
+/// Row on the ratio of two of the paper's values: the bound is that the same one of the two is larger.
 fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {
     let target = PaperFigure {
         origin: Origin::Implied(format!("{above} / {below}")),
@@ -56,7 +56,7 @@ fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64)
     PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::Order)
 }
 
-/// A figure that follows from others of the paper, every digit of which is computed.
+/// Row on a value that follows from others of the paper, and is computed to every printed digit.
 fn every_digit(
     what: impl Into<String>,
     (value, decimals, unit): (f64, u8, &'static str),

@@ -1,4 +1,4 @@
-//! Frame rates from sizes and overdraw: printed in the table of section 7, or that of our clusters.
+//! Frame rates from sizes and overdraw: printed in the table of section 7, or those of our clusters.
 
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
@@ -14,14 +14,14 @@ use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 
 const PLACE: &str = "section 7";
-/// Both optimisations, in [`COLUMNS`].
+/// Index of both optimisations in [`COLUMNS`].
 const BOTH: usize = 3;
-/// What the host's rate comes from.
+/// Inputs of the modelled rates: calibration of the host's rate, and overdraw.
 const INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate; the printed overdraw";
-/// The same where overdraw is that of our clusters.
+/// Inputs of the modelled rates where overdraw is that of our clusters.
 pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate";
 
-/// The time of a frame of a printed size, of so many groups that are drawn one after the other.
+/// Time of a frame of a printed size, with `groups` groups that are drawn one after the other.
 pub(super) fn modelled(
     card: &Profile,
     mesh: MeshCost,
@@ -39,7 +39,7 @@ pub(super) fn modelled(
     frame_time(card, &counts.log(), &host).map_err(|e| failed(CARD)(&e))
 }
 
-/// The same with both optimisations, by the overdraw of our own clusters.
+/// Time of a frame with both optimisations, with the overdraw of our own clusters.
 pub(super) fn modelled_from_clusters(
     card: &Profile,
     shared: &CpcaShared,
@@ -50,19 +50,19 @@ pub(super) fn modelled_from_clusters(
     modelled(card, shared.mesh_cost(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
-/// Frames a second without compression, when the host multiplies every matrix by the light.
+/// Frames per second without compression, where the host multiplies every matrix by the light.
 pub(super) fn uncompressed(size: TransferSize) -> Result<f64, ReproduceError> {
     let host = host_of_section_7().map_err(|e| failed(HOST)(&e))?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
-/// A frame rate, or a ratio of two, beside ours.
+/// Row on a frame rate, or a ratio of two.
 pub(super) fn rate_row(what: String, target: PaperFigure, ours: f64, from: &'static str) -> PaperRow {
     PaperRow::new(what, (CARD, Method::Pipeline), target, (ours, Standing::Predicted { from }), Bound::PREDICTION)
 }
 
-/// Printed rates beside ours, and where the time goes. Per signal its place, its name, overdraw and rates in the order
-/// of [`COLUMNS`].
+/// Rows on printed rates, and a table of the time per unit. Per signal its index, its name, overdraw and rates in the
+/// order of [`COLUMNS`].
 pub(super) fn rates(
     printed: &[(usize, &str, [f64; 4], [f64; 4])],
     shared: &CpcaShared,

@@ -23,7 +23,7 @@ pub(in crate::study::reproduce) fn findings() -> EntryFindings {
     }
 }
 
-/// Table 1's signals, and the encodings of Figures 10 and 11 that are not among them.
+/// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that are not among them.
 fn sizes() -> Table {
     let mut table = Table::of(
         "Sizes as printed, and what follows from them",

@@ -1,4 +1,4 @@
-//! Signals and clusterings that several entries need.
+//! Signals and clusterings shared by several entries.
 
 use std::cell::OnceCell;
 
@@ -10,7 +10,7 @@ use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::once::get_or_try;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
-/// Signals of [`SIGNALS`] by their places there, with what Table 1 makes of them.
+/// Signals by their index in [`SIGNALS`], with the results of Table 1.
 #[derive(Default)]
 pub(in crate::study::reproduce) struct CpcaShared {
     signals: [OnceCell<ComputedSignal>; SIGNALS.len()],
@@ -24,12 +24,13 @@ const MODELS: [TransferModel; 4] =
     [TransferModel::Bumpy, TransferModel::Smooth, TransferModel::Head, TransferModel::Polygons];
 
 impl CpcaShared {
-    /// A signal.
+    /// Returns a signal.
     pub(super) fn signal(&self, at: usize, models: ModelSize) -> Result<&ComputedSignal, ReproduceError> {
         get_or_try(&self.signals[at], || ComputedSignal::new(&SIGNALS[at], models))
     }
 
-    /// It with its iterative clustering, of as many clusters and vectors as printed or a share of the clusters.
+    /// Returns a signal with its iterative clustering, with the printed numbers of clusters and vectors, or a fraction
+    /// of the clusters.
     pub(super) fn iterative(
         &self,
         at: usize,
@@ -40,13 +41,13 @@ impl CpcaShared {
         Ok((signal, get_or_try(&self.clusterings[at], compress)?))
     }
 
-    /// What is drawn of that clustering.
+    /// Returns the drawing cost of that clustering.
     pub(super) fn drawn(&self, at: usize, models: ModelSize) -> Result<&DrawnClusters, ReproduceError> {
         let (signal, clustering) = self.iterative(at, models)?;
         get_or_try(&self.drawn[at], || DrawnClusters::new(signal, clustering))
     }
 
-    /// A model as the card sees it.
+    /// Returns the cost of a model on the card.
     pub(super) fn mesh_cost(&self, model: TransferModel) -> Result<MeshCost, ReproduceError> {
         match MODELS.iter().position(|&known| known == model) {
             Some(at) => get_or_try(&self.mesh_costs[at], || MeshCost::new(model)).copied(),

@@ -12,9 +12,9 @@ use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions,
 use crate::transfer::file::PrtMeaning;
 use crate::transfer::{Signal, Tangents, Vertices};
 
-/// What our side of the rows is computed on.
+/// Name of the host on which our values are computed.
 pub(super) const HOST: &str = "host";
-/// How many times as long the edges of reduced models are: of diffuse and of glossy transfer.
+/// Edge lengths of reduced models, relative to full ones: for diffuse and for glossy transfer.
 const DIFFUSE_COARSER: u32 = 4;
 const GLOSSY_COARSER: u32 = 6;
 /// Iterations for each number of vectors: "typically 10-20" (section 4.2); fewer for glossy transfer of reduced models.
@@ -22,37 +22,37 @@ const ITERATIONS: usize = 10;
 const REDUCED_ITERATIONS: usize = 4;
 /// "20 VQ iterations were used" (Figure 2).
 const VQ_ITERATIONS: usize = 20;
-/// Reflected at most so often on the bumpy model: "multiple bounce interreflections".
+/// Maximum number of reflections on the bumpy model: "multiple bounce interreflections".
 const BOUNCES: u32 = 2;
-/// Isotropic: the "glossy phong models" of Figure 8.
+/// Isotropic BRDF: the "glossy phong models" of Figure 8.
 const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0 };
-/// Anisotropic, with a Fresnel factor (Figure 7).
+/// Anisotropic BRDF with a Fresnel factor (Figure 7).
 const ANISOTROPIC: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.2, 0.5] };
 const LAMBERT: Brdf = Brdf::Lambert { albedo: 0.8 };
-/// A statuette of marble, about 10 mm high: its triangles are smaller than the mean free path.
+/// Scattering medium, for a marble statuette about 10 mm high: its triangles are smaller than the mean free path.
 const MEDIUM: &str = "marble";
 const MM_PER_UNIT: f64 = 4.0;
 const SOLID_ANGLE: f64 = 0.1;
 
-/// How a model reflects.
+/// Reflection model of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SignalMaterial {
     Diffuse,
     Isotropic,
     Anisotropic,
-    /// Isotropic over a scattering medium.
+    /// Isotropic BRDF over a scattering medium.
     Translucent,
 }
 
-/// A signal with the sizes that are printed.
+/// Signal with its printed sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PaperSignal {
-    /// Model and BRDF as Table 1 names them.
+    /// Model and BRDF as named in Table 1.
     pub(super) name: &'static str,
-    /// Ours in place of the paper's.
+    /// Our stand-in for the paper's model.
     pub(super) model: TransferModel,
     pub(super) material: SignalMaterial,
-    /// As printed.
+    /// Printed sizes.
     pub(super) size: TransferSize,
 }
 
@@ -80,11 +80,11 @@ pub(super) const SIGNALS: [PaperSignal; 8] = [
     signal("bird diffuse, order 5", (Smooth, Diffuse), (48_688, [1, 25]), (256, 3)),
 ];
 
-/// The glossy part of Figure 9, in as many rows as the sum.
+/// Glossy part of Figure 9, in as many rows as the sum.
 pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
     signal("Buddha gloss-iso, 25 rows", (Bumpy, Isotropic), (49_990, [25, 25]), (256, 8));
 
-/// Places in [`SIGNALS`].
+/// Index in [`SIGNALS`].
 pub(super) const GLOSSY_BUDDHA: usize = 0;
 pub(super) const TRANSLUCENT_BUDDHA: usize = 2;
 pub(super) const HEAD: usize = 5;
@@ -94,8 +94,8 @@ pub(super) const POLYGONS: usize = 6;
 pub(super) const DIFFUSE_BIRD: usize = 7;
 
 impl PaperSignal {
-    /// The degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or
-    /// 276 for glossy transfer.
+    /// Degree of the rule of directions over a vertex's hemisphere: 2,016 of them, or for reduced models 496, or 276
+    /// for glossy transfer.
     fn degree(&self, models: ModelSize) -> usize {
         match self.coarser(models) {
             1 => 62,
@@ -104,7 +104,7 @@ impl PaperSignal {
         }
     }
 
-    /// How many times as long the edges of our model are.
+    /// Edge length of our model, relative to the full one.
     fn coarser(&self, models: ModelSize) -> u32 {
         match (models, self.material) {
             (ModelSize::Printed, _) => 1,
@@ -114,7 +114,7 @@ impl PaperSignal {
     }
 }
 
-/// A signal, computed.
+/// Computed signal.
 pub(super) struct ComputedSignal {
     pub(super) paper: &'static PaperSignal,
     pub(super) mesh: Mesh,
@@ -125,12 +125,12 @@ pub(super) struct ComputedSignal {
 }
 
 impl ComputedSignal {
-    /// A signal as Table 1 has it: projected by least squares.
+    /// Computes a signal as in Table 1: projected by least squares.
     pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, ReproduceError> {
         Self::projected(paper, exit_radiance(paper)?, models)
     }
 
-    /// A signal with its exit radiance expressed in another way.
+    /// Computes a signal with another projection of its exit radiance.
     pub(super) fn projected(
         paper: &'static PaperSignal,
         exit: ExitRadiance,
@@ -155,7 +155,7 @@ impl ComputedSignal {
         Ok(Self { paper, meaning: computed.file.meaning, mesh, vertices, signal, models })
     }
 
-    /// A share of so many of the paper's clusters, so that as many points are in each.
+    /// Scales a printed number of clusters to our model, so that the number of points per cluster is the same.
     pub(super) fn clusters(&self, printed: usize) -> usize {
         (printed / self.paper.coarser(self.models).pow(2) as usize).max(1)
     }
@@ -164,7 +164,7 @@ impl ComputedSignal {
         if self.paper.coarser(self.models) < GLOSSY_COARSER { ITERATIONS } else { REDUCED_ITERATIONS }
     }
 
-    /// Compresses the signal to a share of so many of the paper's clusters.
+    /// Compresses the signal to a scaled number of the paper's clusters.
     pub(super) fn compressed(
         &self,
         clusters: usize,
@@ -174,7 +174,7 @@ impl ComputedSignal {
         self.compressed_to(self.clusters(clusters), vectors, method)
     }
 
-    /// Compresses the signal to so many clusters.
+    /// Compresses the signal to `clusters` clusters.
     pub(super) fn compressed_to(
         &self,
         clusters: usize,
@@ -185,9 +185,9 @@ impl ComputedSignal {
         Ok(compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering)
     }
 
-    /// The squared error with 0 to `most` vectors in as many clusters, of which those without vectors are the same.
+    /// Squared error with 0 to `most` vectors, for the clusters of compression without vectors.
     ///
-    /// By section 4.1's formula: a vector less adds its D_i^2.
+    /// By section 4.1's formula: dropping a vector adds its D_i^2.
     pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
         let options = options(clusters, most, (CpcaMethod::Static, VQ_ITERATIONS));
         let clustering = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering;
@@ -202,7 +202,7 @@ impl ComputedSignal {
         Ok(errors)
     }
 
-    /// The squared error with 0 to `most` vectors, added one by one (section 4.2).
+    /// Squared error with 0 to `most` vectors, added one by one (section 4.2).
     pub(super) fn iterative_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
         let options = options(clusters, most, (CpcaMethod::Iterative, self.iterations()));
         let compression = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?;
@@ -210,12 +210,12 @@ impl ComputedSignal {
         Ok((0..=most).filter_map(last).map(|step| step.squared_error).collect())
     }
 
-    /// The sum of all squares.
+    /// Sum of all squares.
     pub(super) fn energy(&self) -> f64 {
         self.signal.values().iter().map(|&value| f64::from(value) * f64::from(value)).sum()
     }
 
-    /// The squared error of all points.
+    /// Squared error of all points.
     pub(super) fn error(&self, clustering: &Clustering) -> f64 {
         clustering.squared_error(&self.signal)
     }
@@ -257,8 +257,8 @@ fn scatterer() -> Result<Scatterer, ReproduceError> {
 mod tests {
     use super::*;
 
-    /// Errors by section 4.1's formula, and those of the steps of one compression, are those of compressions with as
-    /// many vectors.
+    /// Errors by section 4.1's formula, and those of the steps of one compression, equal those of compressions with the
+    /// same number of vectors.
     #[test]
     fn errors_by_vectors_are_those_of_compressions() {
         let computed = ComputedSignal::new(&SIGNALS[DIFFUSE_BIRD], ModelSize::Reduced).expect("a signal");

@@ -11,7 +11,7 @@ use super::{
 use crate::report::{Cell, Table};
 use crate::transfer::clustering::CpcaMethod;
 
-/// Squared errors, static and iterative, of the rows: with the digits behind the point.
+/// Squared errors, static and iterative, of the rows: with the digits after the point.
 #[expect(clippy::approx_constant, reason = "3.14 is a squared error, as printed")]
 const PRINTED: [([f64; 2], u8); 7] = [
     ([563.0, 451.0], 0),
@@ -77,7 +77,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Frame rates, and which of two neighbors in the order of the printed ones is the higher.
+/// Rows on frame rates, and on which of two neighbours in the order of the printed ones is higher.
 fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     let mut table = Table::of(
         "Frames per second, modelled from our overdraw",

@@ -12,13 +12,13 @@ use crate::sphere::HarmonicLight;
 use crate::study::prt::{Lit, Seen, auto_exposure, cluster_color, linear_picture};
 use crate::transfer::clustering::Clustering;
 
-/// Pixels along an edge.
+/// Side of the pictures, in pixels.
 const SIDE: u32 = 160;
 
-/// Below this cosine between view and normal a pixel counts as silhouette.
+/// Cosine between view and normal below which a pixel counts as silhouette.
 pub(super) const RIM: f64 = 0.35;
 
-/// A model under a light, seen by a camera. All pictures are exposed as the one without compression is.
+/// Model under a light, seen by a camera. All pictures have the exposure of the one without compression.
 pub(super) struct ModelView<'a> {
     computed: &'a ComputedSignal,
     light: &'a HarmonicLight,
@@ -28,7 +28,7 @@ pub(super) struct ModelView<'a> {
 }
 
 impl<'a> ModelView<'a> {
-    /// From an eye towards the middle of the model.
+    /// Creates the view from an eye towards the center of the model.
     pub(super) fn new(
         computed: &'a ComputedSignal,
         light: &'a HarmonicLight,
@@ -42,7 +42,7 @@ impl<'a> ModelView<'a> {
         Ok(view)
     }
 
-    /// A picture of a clustering, or of the transfer itself.
+    /// Picture of a clustering, or of the transfer itself.
     pub(super) fn picture(
         &self,
         clustering: Option<&Clustering>,
@@ -52,7 +52,7 @@ impl<'a> ModelView<'a> {
         self.shown(&self.colors(clustering)?, name, caption)
     }
 
-    /// Colors of pixels as a picture.
+    /// Converts colors of pixels to a picture.
     pub(super) fn shown(
         &self,
         colors: &[[f64; 3]],
@@ -63,36 +63,36 @@ impl<'a> ModelView<'a> {
         Ok(NamedPicture::new(name, image, caption))
     }
 
-    /// Exposes pictures so that these colors are well exposed.
+    /// Sets the exposure for these colors.
     pub(super) fn expose(&mut self, colors: &[[f64; 3]]) {
         self.exposure = auto_exposure(colors);
     }
 
-    /// Where the camera stands.
+    /// Position of the eye.
     pub(super) fn eye(&self) -> DVec3 {
         wide(self.camera.eye())
     }
 
-    /// Colors of pixels from radiance of vertices towards the eye.
+    /// Interpolates radiance of vertices towards the eye to colors of pixels.
     pub(super) fn of_vertices(&self, radiance: &[[f64; 3]]) -> Vec<[f64; 3]> {
         self.seen.colors(radiance, [0.0; 3])
     }
 
-    /// Exposes pictures as those of another view are.
+    /// Copies the exposure of another view.
     pub(super) fn exposed_as(mut self, other: &Self) -> Self {
         self.exposure = other.exposure;
         self
     }
 
-    /// The group of each pixel's nearest vertex, each in a color of its own.
+    /// Picture of the group of each pixel's nearest vertex, each in a color of its own.
     pub(super) fn groups(&self, of_vertex: &[u32], (name, caption): (String, String)) -> NamedPicture {
         let color = |vertex: Option<u32>| vertex.map_or([0; 3], |vertex| cluster_color(of_vertex[vertex as usize]));
         NamedPicture::new(name, rgb8(SIDE, SIDE, self.seen.nearest().map(color)), caption)
     }
 
-    /// How far a picture is off another one of the same model and camera: the root mean square of their difference
-    /// over that of the other. `wanted` chooses pixels by the cosine between view and normal, at the vertex that weighs
-    /// most.
+    /// Relative difference of a picture from another one of the same model and camera: root mean square of the
+    /// difference over that of the other. `wanted` selects pixels by the cosine between view and normal, at the vertex
+    /// with the largest weight.
     pub(super) fn difference(
         &self,
         clustering: Option<&Clustering>,
@@ -110,7 +110,7 @@ impl<'a> ModelView<'a> {
         Ok(if whole > 0.0 { (apart / whole).sqrt() } else { 0.0 })
     }
 
-    /// The share of another picture's light that this one lacks, over all pixels and channels.
+    /// Fraction of another picture's light that this one lacks, over all pixels and channels.
     pub(super) fn missing(&self, other: &Self) -> Result<f64, ReproduceError> {
         let sum = |colors: Vec<[f64; 3]>| colors.iter().flatten().sum::<f64>();
         let (ours, theirs) = (sum(self.colors(None)?), sum(other.colors(None)?));
@@ -123,7 +123,7 @@ impl<'a> ModelView<'a> {
         view.normalize_or_zero().dot(vertices.frames()[vertex].normal())
     }
 
-    /// The error of each vertex, as a share of `most`; pale is large.
+    /// Picture of the error of each vertex, relative to `most`; pale is large.
     pub(super) fn error_map(
         &self,
         clustering: &Clustering,
@@ -136,7 +136,7 @@ impl<'a> ModelView<'a> {
         NamedPicture::new(name, false_color::magnitude(SIDE, &map), caption)
     }
 
-    /// Colors of pixels of a clustering, or of the transfer itself.
+    /// Colors of pixels by a clustering, or by the transfer itself.
     pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, ReproduceError> {
         let missing = || failed(HOST)(&"the signal is no transfer");
         let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;

@@ -8,18 +8,20 @@ use crate::radiosity::{FormFactors, Patches, Subdivision, System};
 use crate::report::{Cell, Chart, Scale, Series, Table};
 use crate::study::reproduce::{Bound, EntryChart, Method, PaperFigure, PaperRow, Prose, Setting, Standing, Sweep};
 
-/// Patches; the number hardly matters to how fast iterations converge.
+/// Number of patches; it hardly affects the rate of convergence.
 const CUT: usize = 400;
-/// The residual's length, of the emittance's: far enough that only the slowest part of the error is left.
+/// Norm of the residual, relative to the emittance's: small enough that only the slowest component of the error is
+/// left.
 const TOLERANCE: f64 = 1e-10;
 const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
-/// "About twice as many iterations to converge". As wide as any prediction: 1.65 to 2.35, not whatever rounds to 2.
+/// "About twice as many iterations to converge". The bound is that of any prediction: 1.65 to 2.35, not everything that
+/// rounds to 2.
 const TWICE: f64 = 2.0;
-/// Where the rows count: a residual at which nobody sees the error any more. The paper does not say where its own
-/// solution had converged.
+/// Residual at which iterations are compared: the error is not visible any more. The paper does not state its criterion
+/// of convergence.
 const CONVERGED: f64 = 1e-4;
-/// Residuals down to which iterations are counted, for the sweep.
+/// Residuals at which iterations are counted, for the sweep.
 const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9];
 
 const HOW: &str = "A closed Cornell box without blocks, its form factors in closed form and by contour integrals, solved in f64 from zero. No card \
@@ -78,7 +80,7 @@ fn row(which: String, ours: f64) -> PaperRow {
     PaperRow::new(what, ("-", Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
 }
 
-/// The ratios where solutions have converged, a row per channel, which the sweep over the residual may explain.
+/// Rows on the ratios at convergence, one per channel, which the sweep over the residual may explain.
 fn converged(channels: &[(Solution, Solution)]) -> Vec<PaperRow> {
     let ratios = |share: f64| channels.iter().map(|(jacobi, seidel)| ratio(jacobi, seidel, share)).collect::<Vec<_>>();
     let named = CHANNELS.iter().zip(ratios(CONVERGED));
@@ -90,7 +92,7 @@ fn converged(channels: &[(Solution, Solution)]) -> Vec<PaperRow> {
     rows
 }
 
-/// Jacobi's iterations over Gauss-Seidel's, down to a residual.
+/// Ratio of Jacobi's to Gauss-Seidel's iterations, down to a residual.
 fn ratio(jacobi: &Solution, seidel: &Solution, share: f64) -> f64 {
     needed(jacobi, share) as f64 / needed(seidel, share).max(1) as f64
 }
@@ -107,13 +109,13 @@ fn solve(system: &System, channel: usize, solver: Solver) -> Result<Solution, Re
     system.solve_channel(channel, solver, &options, None).map_err(|e| failed("the host")(&e))
 }
 
-/// Iterations until the residual's length is a share of what it was.
+/// Iterations until the residual's norm falls to a fraction of its initial value.
 fn needed(solution: &Solution, share: f64) -> usize {
     let target = share * share * solution.history[0];
     solution.history.iter().position(|&error| error <= target).unwrap_or(solution.iterations())
 }
 
-/// How much the logarithm of the error falls an iteration, over the last half of the plot.
+/// Decrease of the logarithm of the error per iteration, over the last half of the plot.
 fn slope(solution: &Solution) -> f64 {
     let (half, last) = (solution.iterations() / 2, solution.iterations());
     ln(solution.history[half] / solution.history[last]) / (last - half).max(1) as f64

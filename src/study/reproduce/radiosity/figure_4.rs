@@ -6,10 +6,10 @@ use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, Scale, Series, Table};
 use crate::study::reproduce::{Bound, EntryChart, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
-/// Sizes; the card of the paper had textures of at most 2048 texels a side.
+/// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
 
-/// Milliseconds of an iteration of some size.
+/// Milliseconds of an iteration at some size.
 struct Point {
     patches: u32,
     rgb: f64,
@@ -32,7 +32,7 @@ impl Point {
         f64::from(self.patches) * f64::from(self.patches)
     }
 
-    /// Nanoseconds an element of the matrix.
+    /// Nanoseconds per element of the matrix.
     fn each(&self, ms: f64) -> f64 {
         ms * 1e6 / self.elements()
     }
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         title: "An iteration by the size of the matrix".to_owned(),
         x: "M elements, N x N".to_owned(),
         y: "ms".to_owned(),
-        // On linear axes all but the largest sizes would stand in one corner.
+        // On linear axes all but the largest sizes would be in one corner.
         x_scale: Scale::Logarithmic,
         y_scale: Scale::Logarithmic,
         lines: vec![
@@ -111,7 +111,7 @@ fn table(points: &[Point]) -> Table {
     table
 }
 
-/// Where the host falls behind, between two of the sizes, by a straight line between them.
+/// Size at which the host becomes slower, interpolated linearly between two of the sizes.
 fn crossing(points: &[Point], card: fn(&Point) -> f64) -> Option<f64> {
     let ahead = |p: &Point| p.host / card(p) - 1.0;
     points.windows(2).find(|two| ahead(&two[0]) < 0.0 && ahead(&two[1]) >= 0.0).map(|two| {
@@ -128,7 +128,7 @@ const BELIEF: &str = "In this model the card overtakes the host {} with one texe
     above {} patches, if it does; from their printed rates the host's time would have to grow with the power {} of the number of patches between {} and \
     there, faster than the bytes that it reads.";
 
-/// Where the authors believe the curves to cross.
+/// Size at which the authors expect the curves to cross.
 const BELIEVED: f64 = 2000.0;
 
 fn text(points: &[Point]) -> Vec<Prose> {

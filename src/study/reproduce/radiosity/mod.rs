@@ -16,17 +16,17 @@ pub(super) use figure_3::findings as figure_3;
 pub(super) use figure_4::findings as figure_4;
 pub(super) use rates::findings as rates;
 
-/// The paper's card.
+/// Card of the paper.
 const CARD: &str = "nv35";
-/// Patches of the paper's scene, which it does not print: the least number for which both pairs of printed rates hold
-/// (docs/papers/radiosity.md). What other numbers give is in the table of [`rates`].
+/// Patches of the paper's scene, which are not printed: the smallest number consistent with both pairs of printed rates
+/// (docs/papers/radiosity.md). The table of [`rates`] shows other numbers.
 const PATCHES: u32 = 1540;
 /// Section 3.1: Jacobi iterations per second on the card, and MFLOP/s.
 const PRINTED_CARD: (f64, f64) = (29.7, 141.0);
 /// Gauss-Seidel iterations per second on the host, and MFLOP/s.
 const PRINTED_HOST: (f64, f64) = (40.0, 190.0);
 
-/// An iteration of so many patches on the paper's card, by the pipeline model.
+/// Times an iteration of `patches` patches on the paper's card, by the pipeline model.
 fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, ReproduceError> {
     let timing = Timing { patches: patches as usize, packing, storage, cache: false };
     timed_iteration(&Profile::named(CARD)?, &timing).map_err(|e| failed(CARD)(&e))

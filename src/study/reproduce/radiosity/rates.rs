@@ -1,5 +1,5 @@
-//! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And what the number
-//! of patches decides.
+//! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And their
+//! dependence on the number of patches.
 
 use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
 use crate::radiosity::model;
@@ -9,10 +9,10 @@ use crate::report::{Cell, Table};
 use crate::study::reproduce::{Bound, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
 
 const PLACE: &str = "section 3.1";
-/// Numbers of patches that are compared: six whole blocks; six sides of 16 x 16; the four at which both pairs of rates
-/// hold, with their neighbours; a round number.
+/// Numbers of patches that are compared: six full blocks; six sides of 16 x 16; the four consistent with both pairs of
+/// rates, with their neighbours; a round number.
 const SIZES: [u32; 9] = [1524, 1536, 1539, 1540, 1541, 1542, 1543, 1544, 1600];
-/// What chose the number of patches.
+/// Inputs of the inferred number of patches.
 const CHOSE_N: &str = "141 and 190 MFLOP/s, which chose the number of patches";
 
 const HOW: &str = "Neither the number of patches nor that of passes is printed. Both printed pairs of rates mean {} million operations an iteration; \
@@ -49,7 +49,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     })
 }
 
-/// Bytes of a texel that a texture unit of the card takes in a clock.
+/// Bytes of a texel that a texture unit of the card fetches per clock.
 fn profile_width() -> Result<f64, ReproduceError> {
     let profile = refsim::device::Profile::named(CARD)?;
     crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
@@ -71,7 +71,7 @@ fn rows(paper: &TimedIteration) -> Vec<PaperRow> {
             (paper.per_s, predicted),
             Bound::PREDICTION,
         ),
-        // The paper's own arithmetic: so many operations an iteration, times its rate.
+        // The paper's own arithmetic: operations per iteration, times its rate.
         PaperRow::new(
             "operations of Jacobi, 2 N N times the printed rate",
             (CARD, Method::Equation),
@@ -100,7 +100,7 @@ fn rows(paper: &TimedIteration) -> Vec<PaperRow> {
             (paper.passes as f64, calibrated),
             Bound::Print,
         ),
-        // "Only a fraction (perhaps as little as 10%)": nothing that is much less than all of it contradicts that.
+        // "Only a fraction (perhaps as little as 10%)": any value well below all of it is consistent with that.
         PaperRow::new(
             "bandwidth used, at least; \"perhaps as little as\"",
             (CARD, Method::Pipeline),
@@ -113,12 +113,12 @@ fn rows(paper: &TimedIteration) -> Vec<PaperRow> {
 
 const HOST: &str = "Athlon 2800+";
 
-/// Whether both printed pairs of rates hold for so many patches.
+/// Returns `true` if both printed pairs of rates are consistent with this number of patches.
 fn fits(patches: u32) -> bool {
     [PRINTED_CARD, PRINTED_HOST].iter().all(|(rate, mflops)| model::mflops(patches, *rate).round() == *mflops)
 }
 
-/// What the number of patches decides.
+/// Table of the dependence on the number of patches.
 fn sizes() -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         "What the number of patches decides",
@@ -142,7 +142,7 @@ fn sizes() -> Result<Table, ReproduceError> {
     Ok(table)
 }
 
-/// What an iteration costs in each packing and precision.
+/// Table of the cost of an iteration in each packing and precision.
 fn costs() -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),

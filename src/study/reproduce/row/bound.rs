@@ -3,44 +3,43 @@
 use super::figure::{Origin, PaperFigure};
 use crate::study::reproduce::prose::number;
 
-/// How far a value may be off, stated before it was worked out. What rounding in print may have taken away is allowed
-/// on top.
+/// Tolerance of a value, stated before it was computed. The rounding of the printed value is allowed in addition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bound {
-    /// It reads as printed, rounded to as many digits.
+    /// Equal to the printed value, rounded to as many digits.
     Print,
-    /// By this share of the paper's value.
+    /// Within this fraction of the paper's value.
     Relative(f64),
-    /// By this share of what the paper's value is above another one that the model was calibrated on. Who predicts
-    /// nothing but that other value is outside.
+    /// Within this fraction of the gain of the paper's value over another one that calibrated the model. Predicting
+    /// only that other value is outside.
     Gain {
-        /// The share.
+        /// Fraction of the gain.
         share: f64,
-        /// The other value.
+        /// Value that calibrated the model.
         over: f64,
     },
     /// At least the paper's value.
     AtLeast,
-    /// On the side of 1 that the paper's ratio is on: which of two values is the larger.
+    /// On the same side of 1 as the paper's ratio: the same one of two values is larger.
     Order,
-    /// The text is too vague to be missed.
+    /// Too vague to be tested.
     TooVague,
 }
 
 impl Bound {
-    /// Predictions, all of them, unless a narrower bound can be stated.
+    /// Bound of predictions, unless a narrower one can be stated.
     pub const PREDICTION: Self = Self::Relative(Self::SHARE);
-    /// The share that a prediction may be off by.
+    /// Fraction by which a prediction may differ.
     pub const SHARE: f64 = 0.15;
 
-    /// The least and the largest value within the bound; nothing where everything is.
+    /// Smallest and largest value within the bound; `None` if all values are.
     pub fn interval(&self, target: &PaperFigure) -> Option<[f64; 2]> {
         let around = |by: f64| Some([target.value - by, target.value + by]);
         match *self {
             Self::Print => around(target.rounding()),
             Self::Relative(share) => around(share * target.value.abs() + target.rounding()),
             Self::Gain { share, over } => around(share * (target.value - over).abs() + target.rounding()),
-            // What was inferred was not rounded in print.
+            // Inferred values were not rounded in print.
             Self::AtLeast if matches!(target.origin, Origin::Inferred(_)) => Some([target.value, f64::INFINITY]),
             Self::AtLeast => Some([target.value - target.rounding(), f64::INFINITY]),
             Self::Order if target.value > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
@@ -49,7 +48,7 @@ impl Bound {
         }
     }
 
-    /// The bound in words.
+    /// Formats the bound.
     pub fn text(&self) -> String {
         let percent = |share: f64| number(100.0 * share, 0);
         match *self {
@@ -88,7 +87,7 @@ mod tests {
         assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
     }
 
-    /// Equal values are in no order.
+    /// Equal values have no order.
     #[test]
     fn an_order_is_a_side_of_1() {
         let [more, less] = [target(3.05, 2), target(0.4, 1)];
@@ -96,7 +95,7 @@ mod tests {
         assert_eq!([1.01, 1.0, 0.9].map(|value| admits(Bound::Order, &less, value)), [false, false, true]);
     }
 
-    /// "About twice" is not met by everything that rounds to 2.
+    /// "About twice" is not satisfied by everything that rounds to 2.
     #[test]
     fn about_twice_is_no_wider_than_any_prediction() {
         let twice = target(2.0, 1);
@@ -104,7 +103,7 @@ mod tests {
         assert!(!admits(Bound::PREDICTION, &twice, 2.4));
     }
 
-    /// A prediction that the card brings nothing is outside.
+    /// A prediction that the card brings no gain is outside.
     #[test]
     fn the_calibrated_value_itself_is_outside() {
         let gained = target(147_630.0, 0);

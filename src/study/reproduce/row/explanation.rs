@@ -1,9 +1,9 @@
-//! What explains a row outside its bound.
+//! Explanations of rows outside their bounds.
 
 use crate::study::reproduce::prose::number;
 
-/// A sweep's setting that reaches a figure that the row misses. Made by [`super::Sweep::explain`] alone, from values of
-/// the run.
+/// Setting of a sweep that reaches a value that the row misses. Created by [`super::Sweep::explain`] alone, from values
+/// of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
     pub(super) sweep: &'static str,
@@ -14,22 +14,22 @@ pub struct Explanation {
 }
 
 impl Explanation {
-    /// The sweep's name.
+    /// Name of the sweep.
     pub const fn sweep(&self) -> &'static str {
         self.sweep
     }
 
-    /// The setting at which the row lies within its bound.
+    /// Setting at which the row lies within its bound.
     pub fn at(&self) -> &str {
         &self.at
     }
 
-    /// The row's value there.
+    /// Value of the row at that setting.
     pub const fn value(&self) -> f64 {
         self.value
     }
 
-    /// What reaches the row, in words; the same for all rows that one setting explains.
+    /// Reason in words; the same for all rows that one setting explains.
     pub fn reason(&self) -> String {
         let [held, all] = self.others;
         format!(
@@ -38,7 +38,7 @@ impl Explanation {
         )
     }
 
-    /// In words, with the row's value there.
+    /// Reason in words, with the row's value at the setting.
     pub fn text(&self) -> String {
         format!("{}, this one with {}", self.reason(), number(self.value, u8::from(self.value < 1000.0)))
     }

@@ -1,21 +1,21 @@
-//! A paper's figure and its origin.
+//! Printed values of a paper with their origin.
 
 use crate::report::Cell;
 
-/// Where a figure comes from.
+/// Origin of a value.
 #[derive(Clone, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Origin {
-    /// It stands in the paper.
+    /// Printed in the paper.
     Printed,
-    /// It follows from printed figures by arithmetic: the formula.
+    /// Follows from printed values by arithmetic: the formula.
     Implied(String),
-    /// We concluded it; the paper says neither the figure nor how to work it out.
+    /// Inferred by us: the paper gives neither the value nor a way to compute it.
     Inferred(String),
 }
 
 impl Origin {
-    /// The formula or the conclusion; nothing for what is printed.
+    /// Formula or inference; empty for printed values.
     pub fn how(&self) -> &str {
         match self {
             Self::Printed => "",
@@ -24,23 +24,23 @@ impl Origin {
     }
 }
 
-/// A paper's figure.
+/// Value of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
-    /// The value, in units of `unit`.
+    /// Value, in units of `unit`.
     pub value: f64,
-    /// Digits behind the point, as printed.
+    /// Digits after the point, as printed.
     pub decimals: u8,
-    /// The unit.
+    /// Unit.
     pub unit: &'static str,
-    /// Where it stands.
+    /// Place in the paper.
     pub place: &'static str,
-    /// Whether it is printed, implied or inferred.
+    /// Origin: printed, implied or inferred.
     pub origin: Origin,
 }
 
 impl PaperFigure {
-    /// A figure that stands in the paper.
+    /// Creates a printed value.
     pub const fn printed(value: f64, decimals: u8, unit: &'static str, place: &'static str) -> Self {
         Self { value, decimals, unit, place, origin: Origin::Printed }
     }
@@ -50,7 +50,7 @@ impl PaperFigure {
         (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
     }
 
-    /// The value as it is printed, marked with its origin where that is not print.
+    /// Formats the value as printed, marked with its origin if it is not printed.
     pub fn cell(&self) -> Cell {
         let mark = match self.origin {
             Origin::Printed => "",
@@ -60,13 +60,13 @@ impl PaperFigure {
         Cell::decimals(self.value, self.decimals).marked(mark)
     }
 
-    /// A value of ours beside it: one digit more, but for numbers of so many digits that nobody needs another.
+    /// Formats a value of ours beside it: with one more digit, unless the printed one has many.
     pub fn beside(&self, ours: f64) -> Cell {
         let more = u8::from(self.value.abs() < 1000.0);
         Cell::decimals(ours, self.decimals.saturating_add(more))
     }
 
-    /// The value as it is printed, with its origin where that is not print.
+    /// Formats the value as printed, with its origin if it is not printed.
     pub fn text(&self) -> String {
         self.cell().text()
     }

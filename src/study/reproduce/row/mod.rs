@@ -1,7 +1,7 @@
-//! A figure of a paper beside ours, judged by a bound that was stated beforehand.
+//! Rows: a printed value of a paper and ours, with a bound that was stated beforehand and the verdict.
 //!
-//! A verdict can't be talked into: [`Explanation`]s are made by a [`Sweep`] of the same run alone, and a calibrated
-//! value is kept apart and still has to lie within its bound.
+//! [`Explanation`]s are created only by a [`Sweep`] of the same run, and calibrated values are listed separately and
+//! still have to lie within their bounds.
 
 mod bound;
 mod explanation;
@@ -13,7 +13,7 @@ pub use explanation::Explanation;
 pub use figure::{Origin, PaperFigure};
 pub use sweep::{Setting, Sweep};
 
-/// How our value was computed.
+/// Method by which our value was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Method {
@@ -21,7 +21,7 @@ pub enum Method {
     Equation,
     /// Drawn on an emulated card and timed from clocks, slots and bytes.
     Pipeline,
-    /// A rendering played to the whole engine, its work counted and timed.
+    /// Rendered through the whole engine, with its work counted and timed.
     Engine,
     /// A model of the paper's host.
     #[strum(to_string = "host model")]
@@ -30,26 +30,27 @@ pub enum Method {
     Solver,
 }
 
-/// Whether printed figures went into our value.
+/// Dependence of our value on printed values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Standing {
-    /// This figure had no part in it; what other printed figures had.
+    /// Prediction: this value was not used; other printed ones were.
     Predicted {
-        /// Printed figures that went in; empty for none.
+        /// Printed values that were used; empty for none.
         from: &'static str,
     },
-    /// The figure itself, or one that follows from it, chose a constant of the model: agreement is no evidence.
+    /// Calibration: the value itself, or one that follows from it, determined a constant of the model, so that
+    /// agreement is no evidence.
     Calibrated {
-        /// The printed figures that did.
+        /// Printed values that determined it.
         on: &'static str,
     },
-    /// Counted in a run in which no time and no printed figure takes part.
+    /// Count: from a run that uses no time and no printed value.
     Counted,
 }
 
 impl Standing {
-    /// The printed figures that went into our value.
+    /// Printed values that our value depends on.
     pub const fn inputs(self) -> &'static str {
         match self {
             Self::Predicted { from: inputs } | Self::Calibrated { on: inputs } => inputs,
@@ -58,46 +59,46 @@ impl Standing {
     }
 }
 
-/// How a row came out; tallies list the variants in this order.
+/// Verdict on a row; tallies list the variants in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum RowVerdict {
-    /// Within the bound, and the figure had no part in it.
+    /// Within the bound, and the value was not used.
     Reproduced,
-    /// Within the bound, but the figure chose a constant of the model: no evidence.
+    /// Within the bound, but the value determined a constant of the model: no evidence.
     Calibrated,
-    /// Outside the bound, and a computation of this run reaches it.
+    /// Outside the bound, and a sweep of this run reaches it.
     Explained,
     /// Outside the bound.
     Missed,
-    /// The text is too vague to be missed: no success either.
+    /// The text is too vague to be tested; not a success either.
     #[strum(to_string = "too vague to judge")]
     TooVague,
 }
 
-/// One figure of a paper with ours.
+/// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
-    /// What is measured.
+    /// Measured quantity.
     pub what: String,
-    /// The card, or the host.
+    /// Card or host.
     pub device: &'static str,
-    /// How ours was computed.
+    /// Method by which ours was computed.
     pub method: Method,
-    /// The paper's.
+    /// Value of the paper.
     pub target: PaperFigure,
-    /// Ours, in the unit of the paper's.
+    /// Our value, in the unit of the paper's.
     pub ours: f64,
-    /// Whether printed figures went into ours.
+    /// Dependence of ours on printed values.
     pub standing: Standing,
-    /// The tolerance, stated beforehand.
+    /// Tolerance, stated beforehand.
     pub bound: Bound,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
 }
 
 impl PaperRow {
-    /// A row without explanation.
+    /// Creates a row without explanation.
     pub fn new(
         what: impl Into<String>,
         (device, method): (&'static str, Method),
@@ -108,7 +109,7 @@ impl PaperRow {
         Self { what: what.into(), device, method, target, ours, standing, bound, explanation: None }
     }
 
-    /// Whether a value of ours would lie within the bound; never where the text is too vague.
+    /// Returns `true` if a value of ours would lie within the bound; always `false` where the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
         self.bound.interval(&self.target).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
@@ -118,7 +119,7 @@ impl PaperRow {
         (self.ours - self.target.value) / self.target.value
     }
 
-    /// How it came out.
+    /// Verdict.
     pub fn verdict(&self) -> RowVerdict {
         let calibrated = matches!(self.standing, Standing::Calibrated { .. });
         if matches!(self.bound, Bound::TooVague) {
@@ -132,7 +133,7 @@ impl PaperRow {
         }
     }
 
-    /// The sweep that explains the row, if it is outside its bound.
+    /// Explanation of the row by a sweep, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
         self.explanation.as_ref()
     }

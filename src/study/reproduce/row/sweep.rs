@@ -1,33 +1,33 @@
-//! Sweeps over what the papers do not print: the only thing that can explain a row.
+//! Sweeps over parameters that the papers do not print: the only source of explanations.
 
 use super::{Explanation, PaperRow, Standing};
 use crate::report::{Cell, Table};
 
-/// One setting of the swept parameter, and the rows' values at it.
+/// Setting of the swept parameter, and the rows' values at it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// The setting, as in "2" of a factor.
+    /// Setting, as in "2" of a factor.
     pub at: String,
-    /// A value per row, in the order of the rows and in their units.
+    /// One value per row, in the order of the rows and in their units.
     pub values: Vec<f64>,
 }
 
-/// One thing that a paper does not print, varied, with what it makes of some rows. The rows themselves are worked out
-/// at one of the settings, which was chosen before any of them was.
+/// Variation of a parameter that a paper does not print, with the resulting values of some rows. The rows themselves
+/// are computed at one of the settings, which was chosen beforehand.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// Its name, as rows refer to it.
+    /// Name that rows refer to.
     pub name: &'static str,
-    /// The parameter, with its unit.
+    /// Parameter, with its unit.
     pub parameter: &'static str,
-    /// The settings.
+    /// Settings.
     pub settings: Vec<Setting>,
 }
 
 impl Sweep {
     /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains
-    /// nothing if a row leaves its bound there that is within it now: nobody had such a card or host. Calibrated rows
-    /// are never explained.
+    /// nothing if any row leaves its bound there that is within it now: a single card or host must satisfy all rows.
+    /// Calibrated rows are never explained.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         for setting in &self.settings {
@@ -51,8 +51,8 @@ impl Sweep {
         }
     }
 
-    /// A line per row, a column per setting; what is within its bound is marked. Values are shown by `show`, in its
-    /// unit if it has one.
+    /// Table with a line per row and a column per setting; values within their bounds are marked. Values are converted
+    /// by `show`, to its unit if it has one.
     pub fn table(&self, title: &str, rows: &[PaperRow], show: (Option<&str>, fn(f64) -> f64)) -> Table {
         let (unit, show) = show;
         let settings =

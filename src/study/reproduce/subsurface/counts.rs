@@ -1,4 +1,4 @@
-//! What section 4 counts: nodes, interactions, lookups, textures, instructions, samplers.
+//! Counts of section 4: nodes, interactions, lookups, textures, instructions, samplers.
 
 use super::gather::{GatherCost, VARIANTS};
 use super::{
@@ -9,10 +9,10 @@ use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
 use crate::scene::built::meshes;
 
-/// Table 1's models: their names, faces, and our stand-ins.
+/// Models of Table 1: names, faces, and our stand-ins.
 pub(super) const MODELS: [(&str, u32, &str); 3] =
     [("head", 7232, "stand-in-head"), ("dolphin", 21_952, "stand-in-dolphin"), ("bunny", 69_451, "stand-in-bunny")];
-/// Texels of a link: four half floats.
+/// Bytes per texel of links: four half floats.
 const LINK_BYTES: f64 = 8.0;
 
 const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} links take {} where they are fixed, {} where they are adaptive: \
@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// Nodes of the clustering: 2 T - 1.
+/// Row on the number of nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, faces: u32, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
     let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
@@ -59,7 +59,7 @@ fn nodes(model: &str, faces: u32, stand_in: &'static str) -> Result<PaperRow, Re
     Ok(PaperRow::new(format!("nodes of the clustering, {model}"), ("host", Method::Solver), target, ours, Bound::Print))
 }
 
-/// All pairs and link textures by the size of the atlas.
+/// Table of all pairs and link textures by the size of the atlas.
 fn storage() -> Table {
     let mut table = Table::of(
         "Interactions and link textures in half precision, 16 links",
@@ -79,7 +79,7 @@ fn storage() -> Table {
     table
 }
 
-/// Instructions and samplers of each variant against the card's 1024 and 16.
+/// Table of instructions and samplers of each variant, against the card's limits of 1024 and 16.
 fn programs(costs: &[GatherCost]) -> Table {
     let mut table = Table::of("Programs of pass 2 for 16 links", "variant passes instructions samplers");
     for (variant, cost) in VARIANTS.iter().zip(costs) {

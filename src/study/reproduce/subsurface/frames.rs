@@ -1,5 +1,5 @@
-//! Whole frames: passes 1 and 3 beside pass 2, on stand-ins for the paper's models; what a display makes of them; and
-//! the time of links.
+//! Whole frames: passes 1 and 3 in addition to pass 2, on stand-ins for the paper's models; the frame rate on a
+//! display; and the time of links.
 //!
 //! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
 //! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
@@ -26,20 +26,20 @@ use crate::subsurface::on_card::{
     CardModel, FloatTexels, Light, LightStage, LinkTextures, SubsurfaceCard, SubsurfaceCardOptions, View, pass_times,
 };
 
-/// The card of Figure 7.
+/// Card of Figure 7.
 const OTHER_CARD: &str = "fx5800";
-/// Pixels of the window. The paper does not say.
+/// Size of the window in pixels. The paper does not state it.
 const WINDOW: [u32; 2] = [512, 512];
-/// Frames per second of Figure 7.
+/// Printed frames per second of Figure 7.
 const FIGURE_7: f64 = 40.0;
-/// The time of all links of the larger atlas, in seconds.
+/// Printed time of all links of the larger atlas, in seconds.
 const LINK_SECONDS: f64 = 9.0;
-/// Clocks of one evaluation of R_d on the host of section 3: two exponentials, two roots and two quotients, one after
-/// the other, of 95, 27 and 20 clocks each, from memory of the maker's optimisation guide. A guess.
+/// Clocks of one evaluation of R_d on the host of section 3: two exponentials, two square roots and two quotients in
+/// sequence, of 95, 27 and 20 clocks each, from memory of the manufacturer's optimisation guide. A guess.
 const EVALUATION_CLOCKS: f64 = 2.0 * (95.0 + 27.0 + 20.0);
-/// Its clock (Tom's Hardware).
+/// Its clock in Hz (Tom's Hardware).
 const HOST_HZ: f64 = 2.083e9;
-/// Evaluations of R_d per link.
+/// Evaluations of R_d per link, swept.
 const EVALUATIONS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 8.0];
 
 const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
@@ -52,7 +52,7 @@ const LOCK: &str = "A display of {} Hz shows a finished frame at its next refres
 const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
     printed. The sweep takes more evaluations per link.";
 
-/// Modelled seconds of the passes, in the order of a frame; pass 2 is not among them.
+/// Modelled seconds of the passes, in the order of a frame, without pass 2.
 #[derive(Clone, Copy, Debug)]
 struct FrameCost {
     light: f64,
@@ -61,13 +61,13 @@ struct FrameCost {
 }
 
 impl FrameCost {
-    /// With pass 2.
+    /// Total seconds of a frame, with pass 2.
     fn frame(&self, gather: f64) -> f64 {
         self.light + self.levels + gather + self.view
     }
 }
 
-/// Frames per second on a display, for frames of so many seconds.
+/// Frames per second on a display with vertical synchronisation, for frames of `seconds` seconds.
 fn locked(seconds: f64) -> f64 {
     DISPLAY / (seconds * DISPLAY).ceil().max(1.0)
 }
@@ -121,7 +121,7 @@ fn mesh(stand_in: &'static str) -> Result<Mesh, ReproduceError> {
     meshes::build(stand_in).ok_or_else(missing)
 }
 
-/// The times of passes of one frame: 1 and 3 everywhere; 2 where Table 1's own entry does not judge it.
+/// Rows on the times of the passes of one frame: 1 and 3 always; 2 where Table 1's own entry does not judge it.
 fn passes(
     model: &str,
     side: f64,
@@ -141,7 +141,7 @@ fn passes(
     (1..).zip(shares.into_iter().zip(ours)).filter_map(row).collect()
 }
 
-/// What went into the display's rate.
+/// Inputs of the inferred refresh rate.
 const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
 
 fn rate((model, side, printed, cost): &(&str, f64, PrintedFrame, FrameCost), gather: &GatherCost) -> PaperRow {
@@ -151,15 +151,15 @@ fn rate((model, side, printed, cost): &(&str, f64, PrintedFrame, FrameCost), gat
     PaperRow::new(what, (CARD, Method::Pipeline), target, ours, Bound::PREDICTION)
 }
 
-/// "Full real-time (61 Hz) performance": the first of the rates once more.
+/// Row on "Full real-time (61 Hz) performance": the first of the rates again.
 fn full_real_time(first: &PaperRow) -> PaperRow {
     let target = PaperFigure::printed(61.0, 0, "Hz", "section 5");
     let ours = (first.ours, Standing::Predicted { from: DISPLAYED });
     PaperRow::new("full real-time performance, head", (CARD, Method::Pipeline), target, ours, Bound::PREDICTION)
 }
 
-/// 40 frames per second are no whole fraction of the display's rate: the frame as it is, of the bunny at the smaller
-/// size.
+/// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
+/// without synchronisation, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, ReproduceError> {
     let costs = all_costs(OTHER_CARD)?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
@@ -169,7 +169,7 @@ fn figure_7() -> Result<PaperRow, ReproduceError> {
     Ok(PaperRow::new(what, (OTHER_CARD, Method::Pipeline), target, ours, Bound::PREDICTION))
 }
 
-/// The time of links on a host.
+/// Row on the time of links on a host.
 fn links() -> PaperRow {
     let seconds = |evaluations: f64| evaluations * LINKS as f64 * SIDES[1] * SIDES[1] * EVALUATION_CLOCKS / HOST_HZ;
     let target = PaperFigure::printed(LINK_SECONDS, 0, "s", "section 4.3");
@@ -183,7 +183,7 @@ fn links() -> PaperRow {
     row
 }
 
-/// Passes 1 and 3 of a model on a card.
+/// Cost of passes 1 and 3 of a model on a card.
 fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, ReproduceError> {
     let profile = Profile::named(card)?;
     let mut machine = model_on(profile.clone(), mesh, side).map_err(|e| failed(card)(&e))?;
@@ -199,7 +199,7 @@ fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, Reprodu
     Ok(FrameCost { light, levels, view })
 }
 
-/// A model with links that are all alike: time does not depend on values.
+/// Loads a model with links that are all alike: time does not depend on values.
 fn model_on(
     profile: Profile,
     mesh: &Mesh,
@@ -220,7 +220,7 @@ fn model_on(
     Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
 }
 
-/// A camera whose window the sphere around a mesh fills.
+/// Camera whose window is filled by the bounding sphere of a mesh.
 fn camera(mesh: &Mesh) -> Result<Camera, Box<dyn std::error::Error + Send + Sync>> {
     let [low, high] = mesh.bounds().ok_or("a mesh without faces")?;
     let middle = [0, 1, 2].map(|i| (low[i] + high[i]) / 2.0);
@@ -232,7 +232,7 @@ fn camera(mesh: &Mesh) -> Result<Camera, Box<dyn std::error::Error + Send + Sync
     Ok(Camera::new(eye, middle, [0.0, 0.0, 1.0], 0.25, WINDOW[0], WINDOW[1])?)
 }
 
-/// Modelled passes beside the printed ones.
+/// Table of modelled and printed passes.
 fn table(frames: &[(&str, f64, PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     let mut table = Table::of(
         "A frame on the emulated card in ms, and its periods on the display; printed periods beside",

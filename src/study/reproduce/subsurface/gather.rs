@@ -1,8 +1,8 @@
-//! The modelled time of pass 2 in each variant that the text leaves open.
+//! Modelled time of pass 2 in each variant that the text leaves open.
 //!
 //! The time of a pass over a square is a quadratic in its side: each texel costs the same, quads along the diagonal of
-//! the two triangles are shaded twice, and a draw has a cost of its own. So three small squares say what a large one
-//! takes.
+//! the two triangles are shaded twice, and a draw has a cost of its own. So the time of a large square is extrapolated
+//! from three small ones.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -19,14 +19,14 @@ use crate::subsurface::on_card::{
 
 /// Links per texel in the paper's runs.
 pub(super) const LINKS: usize = 16;
-/// The card of Table 1: "a GeForce FX 5900".
+/// Card of Table 1: "a GeForce FX 5900".
 pub(in crate::study::reproduce) const CARD: &str = "fx5900";
-/// The squares that are timed.
+/// Sides of the timed squares, in texels.
 const SIDES: [u32; 3] = [32, 64, 128];
-/// The place of pass 2 among the times of passes.
+/// Index of pass 2 among the times of passes.
 const GATHER: usize = 2;
 
-/// What the text leaves open of pass 2.
+/// Choices for pass 2 that the text leaves open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Variant {
     pub(super) name: &'static str,
@@ -37,7 +37,7 @@ pub(super) struct Variant {
 
 pub(super) const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
 
-/// All of them, fixed links first.
+/// All variants, those with fixed links first.
 pub(super) const VARIANTS: [Variant; 8] = [
     Variant { name: "fixed, 8-bit map", fixed: true, map: EIGHT, half: false },
     Variant { name: "fixed, 8-bit map, half precision", fixed: true, map: EIGHT, half: true },
@@ -49,14 +49,14 @@ pub(super) const VARIANTS: [Variant; 8] = [
     Variant { name: "adaptive, fp32 map", fixed: false, map: MapFormat::Fp32, half: false },
 ];
 
-/// What a variant takes.
+/// Cost of a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study::reproduce) struct GatherCost {
-    /// Passes.
+    /// Number of passes.
     pub(super) programs: usize,
     /// Instructions of all passes together.
     pub(super) instructions: usize,
-    /// Samplers of the largest.
+    /// Samplers of the largest program.
     pub(super) samplers: usize,
     /// Texture reads per texel.
     pub(super) lookups: f64,
@@ -65,7 +65,7 @@ pub(in crate::study::reproduce) struct GatherCost {
 }
 
 impl GatherCost {
-    /// Seconds over a square of `side` texels: the quadratic through the three that were timed.
+    /// Seconds for a square of `side` texels: the quadratic through the three timed ones.
     pub(super) fn seconds(&self, side: f64) -> f64 {
         let [a, b, c] = SIDES.map(f64::from);
         let term = |t: f64, at: f64, p: f64, q: f64| t * (side - p) * (side - q) / ((at - p) * (at - q));
@@ -74,12 +74,12 @@ impl GatherCost {
     }
 }
 
-/// All variants on a card, in the order of [`VARIANTS`].
+/// Cost of all variants on a card, in the order of [`VARIANTS`].
 pub(in crate::study::reproduce) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, ReproduceError> {
     VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
 }
 
-/// Runs a variant on a card.
+/// Measures a variant on a card.
 fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
@@ -98,7 +98,7 @@ fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceErr
     Ok(found)
 }
 
-/// Texture reads of pass 2 per fragment, all of its draws together.
+/// Texture reads of pass 2 per fragment, over all of its draws.
 fn lookups(log: &[PassEvent]) -> f64 {
     let draws = log.iter().filter(|event| event.pass == PassKind::Gather);
     let draws = draws
@@ -106,7 +106,7 @@ fn lookups(log: &[PassEvent]) -> f64 {
     draws.map(|fragments| fragments.fetches.iter().sum::<u64>() as f64 / fragments.shaded as f64).sum()
 }
 
-/// A square of the medium with links that all lead to its middle: time does not depend on values.
+/// Loads a square of the medium with links that all lead to its middle: time does not depend on values.
 fn square(
     profile: Profile,
     side: u32,

@@ -1,4 +1,4 @@
-//! Section 4 of the radiosity and subsurface paper: what it counts, and the times of its Table 1.
+//! Section 4 of the radiosity and subsurface paper: its counts, and the times of its Table 1.
 
 mod counts;
 mod frames;

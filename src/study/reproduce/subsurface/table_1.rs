@@ -1,7 +1,7 @@
-//! Table 1: frames per second and the shares of the passes.
+//! Table 1: frames per second and the fractions of the passes.
 //!
-//! The frame rates are 60 over whole numbers to two per cent: they are locked to a display, so pass times contain
-//! waits. Only pass 2 at 1024 x 1024 is longer than what it may hide, and alike on all three models.
+//! The frame rates are 60 over integers to two per cent: they are synchronised to a display, so that pass times contain
+//! waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and the same on all three models.
 
 use super::counts::MODELS;
 use super::gather::{GatherCost, VARIANTS, all_costs};
@@ -11,16 +11,16 @@ use super::{
 };
 use crate::report::{Cell, Table};
 
-/// Cards beside the paper's.
+/// Cards in addition to the paper's.
 const OTHER_CARDS: [&str; 3] = ["nv35", "fx5800", "nv30"];
-/// A printed row of Table 1: frames per second, and the shares of the passes in per cent.
+/// Printed row of Table 1: frames per second, and the fractions of the passes in per cent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PrintedFrame {
     pub(super) rate: f64,
     pub(super) shares: [f64; 3],
 }
 
-/// At 512 and at 1024 texels.
+/// Printed rows at 512 and at 1024 texels.
 pub(super) const PRINTED: [[PrintedFrame; 2]; 3] = [
     [PrintedFrame { rate: 61.10, shares: [11.0, 82.0, 7.0] }, PrintedFrame { rate: 15.40, shares: [13.0, 85.0, 2.0] }],
     [PrintedFrame { rate: 30.35, shares: [43.0, 43.0, 14.0] }, PrintedFrame { rate: 15.09, shares: [8.0, 85.0, 7.0] }],
@@ -29,7 +29,7 @@ pub(super) const PRINTED: [[PrintedFrame; 2]; 3] = [
         PrintedFrame { rate: 12.05, shares: [18.0, 68.0, 14.0] },
     ],
 ];
-/// The display that the rates are locked to, in Hz.
+/// Refresh rate of the display that the rates are synchronised to, in Hz.
 pub(super) const DISPLAY: f64 = 60.0;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
@@ -95,7 +95,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// What the rates are multiplied by, and the least and the largest product.
+/// Factor of the rates, and the smallest and the largest product.
 fn locked() -> [String; 3] {
     let products: Vec<(f64, f64)> =
         PRINTED.iter().flatten().map(|printed| ((DISPLAY / printed.rate).round(), printed.rate)).collect();
@@ -106,7 +106,7 @@ fn locked() -> [String; 3] {
     [factors.join(", "), number(least, 1), number(most, 1)]
 }
 
-/// Pass 2 at 1024 x 1024 of each variant on each card.
+/// Table of pass 2 at 1024 x 1024 for each variant on each card.
 fn variants(costs: &[GatherCost]) -> Result<Table, ReproduceError> {
     let mut table = Table::of(
         "Pass 2 of 16 links at 1024 x 1024 in ms, by the pipeline model; the paper's are 55.2 to 56.4",
@@ -123,7 +123,7 @@ fn variants(costs: &[GatherCost]) -> Result<Table, ReproduceError> {
     Ok(table)
 }
 
-/// Table 1 as printed, with what follows from it.
+/// Table 1 as printed, with derived values.
 fn frames() -> Table {
     let mut table = Table::of(
         "Table 1 as printed: frames, and pass 2 as far as shares of whole per cents tell",

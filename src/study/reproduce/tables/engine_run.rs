@@ -1,5 +1,4 @@
-//! One run of the Ray Engine over a renderer's bundles: what it did, and how long that takes on the host and card of
-//! the paper.
+//! Run of the Ray Engine over a renderer's bundles: its work, and its time on the host and card of the paper.
 
 use refsim::device::Profile;
 use refsim::event::{DrawRecord, Event, MipmapRecord};
@@ -15,18 +14,18 @@ use super::workload::{OCTREE, TIMES, Workload};
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
 
-/// The card that computes: fp32, as the simulator of section 5.4.
+/// Computing card: fp32, as the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
 
-/// An engine's run over a workload.
+/// Engine run over a workload.
 pub(super) struct Run {
     pub(super) counts: EngineCounts,
     log: Vec<Event>,
 }
 
 impl Run {
-    /// Plays the bundles to an engine, one after the other, and lets it finish once in the end: secondary rays enter
-    /// the cache while others still wait in it, as they do where a renderer goes on with whatever comes out.
+    /// Submits the bundles to an engine, one after the other, and finishes once at the end: secondary rays enter the
+    /// cache while others still wait in it, as with a renderer that continues with any available results.
     pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, ReproduceError> {
         let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
@@ -46,13 +45,13 @@ impl Run {
 /// Cost model of a run's commands, beside equation 11.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Commands {
-    /// Nothing: equation 11 is all there is.
+    /// No cost besides equation 11.
     Free,
-    /// These figures of the host, and the bus's latencies.
+    /// Guessed costs on the host, and the bus's latencies.
     Cost(QueueFigures),
 }
 
-/// Draws at the measured fill rate, the bus by its rates.
+/// Card model that draws at the measured fill rate, with the bus at its printed rates.
 struct GeForce4 {
     rates: Model,
     free: bool,
@@ -68,7 +67,7 @@ impl Costs for GeForce4 {
     }
 
     fn upload(&self, bytes: u64) -> Picoseconds {
-        // Equation 11 knows nothing of uploads.
+        // Equation 11 has no term for uploads.
         if self.free { Picoseconds::ZERO } else { self.rates.upload(bytes) }
     }
 

@@ -1,4 +1,4 @@
-//! Where the host's time goes.
+//! Breakdown of the host's time.
 
 use refsim::event::Event;
 use refsim::timing::host::{HostCounts, HostModel, HostOperation};
@@ -7,7 +7,8 @@ use super::speed_ups::SpeedUpRun;
 use super::teapot::TeapotRoom;
 use crate::report::{Cell, Table};
 
-/// Microseconds per ray that the host spends on each kind of operation: alone, and in the lines of a table.
+/// Table of the microseconds per ray that the host spends on each kind of operation: alone, and in the lines of a
+/// table.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
     let kinds = HostOperation::ALL.iter().map(|operation| format!("{operation}_us"));
     let headings: Vec<String> = std::iter::once("run".to_owned()).chain(kinds).chain(["sum_us".to_owned()]).collect();
@@ -25,7 +26,7 @@ fn row(what: &str, host: &HostModel, counts: &HostCounts, rays: u64) -> Vec<Cell
     std::iter::once(what.into()).chain(kinds).chain([each(host.time_of_all(counts).seconds())]).collect()
 }
 
-/// The host's operations in a log.
+/// Counts the host's operations in a log.
 fn counted(log: &[Event]) -> HostCounts {
     let mut counts = HostCounts::default();
     for event in log {

@@ -1,10 +1,10 @@
 //! Tables 1 to 5 of the Ray Engine: rays per second of whole renderings.
 //!
-//! The paper's host is known by one figure, the 135,812 rays per second of Table 3's first row; from it the scale of
-//! the host model is calibrated, on our counts for our teapot room. Everything else is predicted: what the engine does
-//! is run and counted, the card takes what equation 11 and its commands take. Scenes, pictures and octree are ours,
-//! since none of the paper's is printed. What such a choice decides is swept: the octree of the host alone
-//! ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]), and what is called a ray on the card
+//! The paper's host is known by one value, the 135,812 rays per second of Table 3's first row; it calibrates the scale
+//! of the host model, on our counts for our teapot room. Everything else is predicted: the engine's work is run and
+//! counted, and the card's time is that of equation 11 and its commands. Scenes, pictures and octree are ours, since
+//! none of the paper's is printed. The influence of such choices is swept: the octree of the host alone
+//! ([`sweeps::host_leaf`]), the costs of commands ([`sweeps::commands`]), and the definition of a ray on the card
 //! ([`shares`]).
 
 mod engine_run;

@@ -13,15 +13,15 @@ use super::sweeps::rates;
 use super::workload::HostOnly;
 use crate::report::{Cell, Table};
 
-/// Guesses that are doubled: of the host's operations, and of the queue's commands.
+/// Names of the guesses that are doubled: of the host's operations, and of the queue's commands.
 fn keys() -> Vec<String> {
     let host = HostOperation::ALL.iter().map(|operation| format!("host.{operation}"));
     let queue = QueueFigures::default().rows().into_iter().filter(|row| row.unit == "ps").map(|row| row.key);
     host.chain(queue).collect()
 }
 
-/// Speed-ups of the lines with each guess doubled; guesses that change nothing are left out. The host is calibrated
-/// anew each time, so that it does the work alone in the same time.
+/// Table of the speed-ups of the lines with each guess doubled; guesses that change nothing are omitted. The host is
+/// calibrated anew each time, so that its time alone is unchanged.
 pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
         .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))

@@ -1,14 +1,14 @@
-//! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two readings of it.
+//! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
 
 use super::super::{Bound, Method, PaperFigure, PaperRow, Setting, Standing, Sweep};
 use super::workload::TIMES;
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
 
-/// A share, from 0 to 1.
+/// Interpretation: a fraction from 0 to 1.
 type Reading = fn(&EngineCounts) -> f64;
 
-/// The readings, by what is counted.
+/// Interpretations with their names.
 const READINGS: [(&str, Reading); 2] = [
     // A ray that met the card at least once, among all rays.
     ("rays", EngineCounts::share_on_card),
@@ -16,14 +16,14 @@ const READINGS: [(&str, Reading); 2] = [
     ("visits", EngineCounts::share_of_visits_on_card),
 ];
 
-/// A printed share with the counts of our run.
+/// Printed fraction with the counts of our run.
 pub(super) struct Share<'a> {
     pub(super) what: &'a str,
     pub(super) printed: f64,
     pub(super) counts: &'a EngineCounts,
 }
 
-/// Rows by the first reading, explained by the second where that reaches them, and the two readings side by side.
+/// Rows by the first interpretation, explained by the second where that reaches them, and a table of both.
 pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<PaperRow>, Table) {
     let row = |share: &Share<'_>| {
         let target = PaperFigure::printed(share.printed, 0, "%", place);
@@ -51,7 +51,7 @@ pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<PaperRow>,
     (rows, table)
 }
 
-/// Printed shares and both readings.
+/// Chart of the printed fractions and both interpretations.
 pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Chart {
     let points =
         |of: &dyn Fn(&Share<'_>) -> f64| (1..).zip(shares).map(|(x, share)| (f64::from(x), of(share))).collect();

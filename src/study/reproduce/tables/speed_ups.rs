@@ -1,5 +1,5 @@
-//! The rows of Tables 3 to 5 together: one host, one card and one driver made them all, so what explains one of them
-//! has to bear the others.
+//! The rows of Tables 3 to 5 together: they share one host, one card and one driver, so that an explanation of one of
+//! them must hold for the others.
 
 use std::rc::Rc;
 
@@ -13,22 +13,22 @@ use crate::report::{Cell, Table};
 
 /// Passes in flight in the asynchronous run.
 const IN_FLIGHT: usize = 4;
-/// Of the printed gain over the host alone.
+/// Bound relative to the printed gain over the host alone.
 const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
 
-/// A row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
+/// Row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
 pub(super) struct SpeedUpRun {
     pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
 }
 
 impl SpeedUpRun {
-    /// The printed speed-up over the host alone, in per cent.
+    /// Printed speed-up over the host alone, in per cent.
     pub(super) fn printed(&self) -> f64 {
         speed_up(self.row.target.value)
     }
 
-    /// Ours.
+    /// Our speed-up over the host alone, in per cent.
     pub(super) fn ours(&self) -> f64 {
         speed_up(self.row.ours)
     }
@@ -42,25 +42,25 @@ pub(crate) struct SpeedUps {
 }
 
 impl SpeedUps {
-    /// The lines of a table.
+    /// Lines of a table.
     pub(super) fn of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
         self.lines.iter().filter(|line| line.row.target.place == place).collect()
     }
 
-    /// The rows of a table with that of the host alone.
+    /// Rows of a table, including that of the host alone.
     pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<PaperRow> {
         std::iter::once(host_alone(room, place))
             .chain(self.of(place).into_iter().map(|line| line.row.clone()))
             .collect()
     }
 
-    /// All rows under each setting of a sweep, as speed-ups.
+    /// Table of all rows under each setting of a sweep, as speed-ups.
     pub(super) fn table(&self, sweep: &Sweep, title: &str) -> Table {
         let rows: Vec<PaperRow> = self.lines.iter().map(|line| line.row.clone()).collect();
         sweep.table(title, &rows, (Some("%"), speed_up))
     }
 
-    /// The speed-ups of a table's lines under each setting of a sweep of all rows.
+    /// Speed-ups of a table's lines under each setting of a sweep of all rows.
     pub(super) fn under(&self, sweep: &Sweep, place: &'static str) -> Vec<(String, Vec<f64>)> {
         let of = |values: &[f64]| {
             let pairs = self.lines.iter().zip(values);
@@ -70,7 +70,7 @@ impl SpeedUps {
     }
 }
 
-/// The printed figures: name, table, rays per second, and the engine's variant.
+/// Printed rows: name, table, rays per second, and the engine's variant.
 fn printed() -> Vec<(String, &'static str, f64, Variant)> {
     let plus = Variant::PLUS_CARD;
     let readback = |readback| Variant { readback, ..plus.clone() };
@@ -94,7 +94,7 @@ fn printed() -> Vec<(String, &'static str, f64, Variant)> {
     lines
 }
 
-/// Runs, times and sweeps.
+/// Computes runs, times and sweeps.
 pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let printed = printed();
     let variants: Vec<Variant> = printed.iter().map(|(.., variant)| variant.clone()).collect();
@@ -113,7 +113,7 @@ pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     Ok(SpeedUps { lines, commands, host_leaf })
 }
 
-/// The first row of Tables 3 to 5: what the host's scale was calibrated on.
+/// First row of Tables 3 to 5, which calibrates the host's scale.
 fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
     let standing = Standing::Calibrated { on: "this figure" };
     let ours = room.work.alone.rays_per_s(&room.host);
@@ -125,7 +125,7 @@ const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% p
      passes_per_1000_rays rays_per_pass triangles_per_pass cells_per_ray host_tests_per_ray card_visits_per_ray \
      forced_per_ray";
 
-/// The speed-ups of some lines over the host alone, and what their engines did.
+/// Table of the speed-ups of some lines over the host alone, with the counters of their engines.
 pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, ReproduceError> {
     let mut table = Table::of(format!("Speed-ups over the host alone, {place}"), COLUMNS);
     for line in lines {

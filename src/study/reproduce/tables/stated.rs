@@ -1,4 +1,4 @@
-//! What all tables state: the printed rate, the open question, how runs are timed.
+//! Values common to all tables: the printed rate, the open question, the timing of runs.
 
 use refsim::timing::host::CPU_ONLY_RAYS_PER_SECOND;
 use refsim::timing::queue::QueueFigures;
@@ -8,7 +8,7 @@ use super::super::prose::{Prose, number};
 use super::engine_run::Commands;
 use super::teapot::TeapotRoom;
 
-/// The printed figures that go into every predicted rate.
+/// Inputs of every predicted rate.
 pub(super) const RATE: Standing = Standing::Predicted {
     from: "135,812 rays/s of the host alone (the host's scale), 286 M/s at ten triangles (the card's fill rate), 250 MB/s (read-back)",
 };
@@ -16,7 +16,7 @@ pub(super) const RATE: Standing = Standing::Predicted {
 /// Rays per second of the host alone, as printed.
 pub(super) const HOST_ALONE: f64 = CPU_ONLY_RAYS_PER_SECOND as f64;
 
-/// Why rows of all tables may be off.
+/// Open question about rows of all tables.
 pub(super) const QUESTION: &str = "which scene, picture and octree the authors had, what their driver's commands cost, and how often their rays met the card: \
     none of it is printed.";
 
@@ -25,18 +25,18 @@ const HOW: &str = "The teapot room is rendered after Whitted at {} x {} pixels, 
     operation, and costs the guessed weights of the host model, scaled so that the host alone casts the {} rays/s of Table 3's first row: \
     the one figure that is calibrated. Draws take the GeForce4's fill rate, read-backs its bus, commands the guesses of every timeline.";
 
-/// How the figures of Tables 3 to 5 come about.
+/// Description of the computation of Tables 3 to 5.
 pub(super) fn how(room: &TeapotRoom) -> Prose {
     let side = || number(f64::from(room.side), 0);
     Prose::new(HOW, [side(), side(), number(HOST_ALONE, 0)])
 }
 
-/// A speed-up over the host alone, in per cent.
+/// Speed-up over the host alone, in per cent.
 pub(super) fn speed_up(rays_per_s: f64) -> f64 {
     100.0 * (rays_per_s / HOST_ALONE - 1.0)
 }
 
-/// How the tables' runs are timed: what commands cost is guessed, and the guesses are those of every timeline.
+/// Cost model of the tables' runs: the guesses are those of every timeline.
 pub(super) fn commands() -> Commands {
     Commands::Cost(QueueFigures::default())
 }

@@ -13,12 +13,12 @@ use super::teapot::TeapotRoom;
 use super::workload::OCTREE;
 use crate::tracer::octree::OctreeParameters;
 
-/// Halves of the guessed costs of commands: once, one and a half times, twice, three times.
+/// Factors of the guessed costs of commands, in halves: 1, 1.5, 2 and 3.
 const HALVES: [u64; 4] = [2, 3, 4, 6];
-/// Triangles of a leaf of the host's octree.
+/// Triangles per leaf of the host's octree.
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
-/// Rays per second of runs; each log is replayed once, however often its run stands in the list.
+/// Rays per second of runs; each distinct run is replayed once.
 pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, ReproduceError> {
     let mut distinct: Vec<&Rc<Run>> = Vec::new();
     for run in runs {
@@ -33,7 +33,7 @@ pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> R
     Ok(runs.iter().filter_map(rate).collect())
 }
 
-/// All costs of commands together, by a factor. The bus and the card stay as they are.
+/// Sweep of all costs of commands by a common factor. The bus and the card are unchanged.
 pub(super) fn commands(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
     let setting = |halves: u64| {
         let values = rates(runs, &room.host, Commands::Cost(scaled(halves)))?;
@@ -53,8 +53,8 @@ fn scaled(halves: u64) -> QueueFigures {
     figures
 }
 
-/// The octree of the host alone, by the triangles of its leaves; the engine keeps its own. The host is calibrated anew
-/// each time, so that it takes the printed time for what it then counts.
+/// Sweep of the octree of the host alone by the triangles of its leaves; the engine keeps its own. The host is
+/// calibrated anew each time, so that its time for the new counts is the printed one.
 pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
     let setting = |most_triangles: usize| {
         let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });

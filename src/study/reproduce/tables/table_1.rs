@@ -1,4 +1,4 @@
-//! Tables 1 and 2: rays per second, and the share of rays on the card, for five scenes and applications.
+//! Tables 1 and 2: rays per second, and the fraction of rays on the card, for five scenes and applications.
 
 use std::rc::Rc;
 
@@ -13,7 +13,7 @@ use super::workload::{Asks, Job, TIMES};
 use super::{HOST_ALONE, QUESTION, RATE, commands, speed_up};
 use crate::report::{Cell, Chart, Series, Table};
 
-/// A line of both tables.
+/// Line of both tables.
 struct PrintedScene {
     what: &'static str,
     tick: &'static str,
@@ -86,7 +86,7 @@ const READINGS: &str = "A printed share of rays on the card is read in two ways:
     the caches of GPU cells that ended on the card, among all visits, of which the rest was forced to the host. The text decides neither. Rows take the \
     first, which was chosen before any of them was worked out.";
 
-/// A scene's run.
+/// Run of a scene.
 struct Ran {
     run: Rc<Run>,
     triangles: usize,
@@ -149,7 +149,7 @@ fn rates(ran: &[Ran]) -> Vec<PaperRow> {
     let by = (TIMES, Method::Engine);
     let row = |(i, (scene, ran)): (usize, (&PrintedScene, &Ran))| {
         let target = PaperFigure::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
-        // The first row's room is the one on which the host was calibrated; of the others no host alone is printed.
+        // The first row's room is the one on which the host was calibrated; for the others no rate of the host alone is printed.
         let gain = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
         let bound = if i == 0 { gain } else { Bound::PREDICTION };
         PaperRow::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)

@@ -44,7 +44,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     })
 }
 
-/// The time per pass that the printed figures and ours leave.
+/// Paragraph on the time per pass implied by the printed values and ours.
 fn passes(lines: &[&SpeedUpRun]) -> Prose {
     let us = |rays_per_s: f64| 1e6 / rays_per_s;
     let [plus, asynchronous, fast] = lines else { return Prose::from("") };
@@ -67,7 +67,7 @@ fn passes(lines: &[&SpeedUpRun]) -> Prose {
     )
 }
 
-/// The largest step of the sweep, of its last row: the infinitely fast card.
+/// Paragraph on the largest step of the sweep, of its last row: the infinitely fast card.
 fn octree(found: &SpeedUps) -> Prose {
     let settings = found.under(&found.host_leaf, PLACE);
     let fast = |values: &[f64]| values.last().copied().unwrap_or(f64::NAN);

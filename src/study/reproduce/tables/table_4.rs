@@ -8,7 +8,7 @@ use super::{QUESTION, how};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 4";
-/// The share of rays on the card, in per cent.
+/// Printed fraction of rays on the card, in per cent.
 const SHARES: [f64; 3] = [78.0, 81.0, 89.0];
 
 const ORDER: &str = "Printed, the widest range brings the fewest rays to the card. Ours can't: a GPU cell is the largest \

@@ -1,4 +1,4 @@
-//! The teapot room of Tables 1 and 3 to 5: rendered once, each run of the engine made once, whichever entries ask.
+//! The teapot room of Tables 1 and 3 to 5: rendered once, with each engine run made once for all entries.
 
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -13,7 +13,7 @@ use super::workload::{CLASSICAL_TEAPOT, Workload};
 use crate::ray_engine::engine::{EngineParameters, Readback};
 use crate::scene::built;
 
-/// How the engine runs.
+/// Parameters of an engine run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Variant {
     pub(super) triangles: RangeInclusive<usize>,
@@ -25,8 +25,8 @@ impl Variant {
     /// "Plus GPU": 5 to 15 triangles, 64 rays (section 6.3).
     pub(super) const PLUS_CARD: Self = Self { triangles: 5..=15, rays: 64, readback: Readback::Synchronous };
 
-    /// The engine of the tables: triangles outside the bucket culled by the vertex program, buckets tested against
-    /// cells, rays put into the tree in random order (section 5.3).
+    /// Parameters of the tables' engine: triangles outside the bucket culled by the vertex program, buckets tested
+    /// against cells, rays inserted into the tree in random order (section 5.3).
     pub(super) fn parameters(&self) -> EngineParameters {
         EngineParameters {
             triangles: self.triangles.clone(),
@@ -40,11 +40,11 @@ impl Variant {
     }
 }
 
-/// The teapot room, rendered classically, and a host that does it alone as fast as the paper's.
+/// The teapot room, rendered classically, and a host calibrated to render it alone as fast as the paper's.
 pub(crate) struct TeapotRoom {
     pub(super) work: Workload,
     pub(super) host: HostModel,
-    /// Pixels on a side of the picture.
+    /// Side of the picture, in pixels.
     pub(super) side: u32,
     runs: RefCell<Vec<(Variant, Rc<Run>)>>,
 }
@@ -57,7 +57,7 @@ impl TeapotRoom {
         Ok(Self { work, host, side, runs: RefCell::default() })
     }
 
-    /// The runs of some variants, in their order.
+    /// Returns the runs of some variants, in their order.
     pub(super) fn runs(&self, wanted: &[Variant]) -> Result<Vec<Rc<Run>>, ReproduceError> {
         let mut missing: Vec<Variant> = Vec::new();
         for variant in wanted {
@@ -65,7 +65,7 @@ impl TeapotRoom {
                 missing.push(variant.clone());
             }
         }
-        // One engine is one thread; the runs don't know of each other.
+        // One thread per engine; the runs are independent.
         let work = &self.work;
         let run = |variant: Variant| Ok((Run::of(work, variant.parameters())?, variant));
         let made: Vec<(Run, Variant)> = missing.into_par_iter().map(run).collect::<Result<_, ReproduceError>>()?;

@@ -11,48 +11,48 @@ use crate::scene::{Camera, Scene, built};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
 
-/// The card that the time is of: "execution rates measured on the GeForce 4".
+/// Card of the modelled time: "execution rates measured on the GeForce 4".
 pub(super) const TIMES: &str = "nv25";
-/// The octree of all runs, of host and engine alike. The paper prints none; this one was chosen before any table was
-/// worked out.
+/// Octree of all runs, of host and engine alike. The paper does not print it; ours was chosen before any table was
+/// computed.
 pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8, most_depth: 10 };
 
-/// The renderer that casts the rays.
+/// Renderer that casts the rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Asks {
     /// Eye rays alone.
     Eyes,
-    /// Whitted's: what the paper calls classical.
+    /// Whitted's ray tracing: "classical" in the paper.
     Classical,
-    /// Distributed ray tracing with so many samples per pixel: Monte Carlo.
+    /// Distributed ray tracing with this many samples per pixel: "Monte Carlo" in the paper.
     MonteCarlo(u32),
 }
 
-/// A scene of Table 1 and how it is rendered.
+/// Scene of Table 1 with its rendering parameters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Job {
     pub(super) scene: &'static str,
     pub(super) view: Option<&'static str>,
     pub(super) asks: Asks,
-    /// Pixels on a side of the picture, which the paper does not say.
+    /// Side of the picture in pixels, which the paper does not state.
     pub(super) side: u32,
 }
 
 /// The teapot room as Tables 3 to 5 render it.
 pub(super) const CLASSICAL_TEAPOT: Job = Job { scene: "teapot-room", view: None, asks: Asks::Classical, side: 256 };
 
-/// The bundles of a picture.
+/// Bundles of a picture.
 #[derive(Clone, Debug)]
 pub(super) struct Workload {
     pub(super) mesh: Mesh,
     /// In the order in which they were cast.
     pub(super) bundles: Vec<Vec<Ray>>,
-    /// The work of a host that casts them without card and ray tree.
+    /// Work of a host that casts them without card and ray tree.
     pub(super) alone: HostOnly,
 }
 
 impl Workload {
-    /// The work of a host that casts the same rays with another octree.
+    /// Returns the work of a host that casts the same rays with another octree.
     pub(super) fn alone_with(&self, octree: OctreeParameters) -> HostOnly {
         let tracer = HostTracer::with_octree(&self.mesh, octree, Sides::Both);
         let mut cost = tracer::HostCounts::default();
@@ -63,7 +63,7 @@ impl Workload {
     }
 }
 
-/// A host tracer that records its rays and counts its work.
+/// Host tracer that records its rays and counts its work.
 struct Recording {
     tracer: HostTracer,
     bundles: Vec<Vec<Ray>>,
@@ -80,7 +80,7 @@ impl Caster for Recording {
 }
 
 impl Job {
-    /// The renderer.
+    /// Runs the renderer and records its workload.
     pub(super) fn workload(&self) -> Result<Workload, ReproduceError> {
         let fail = failed(TIMES);
         let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
@@ -110,7 +110,7 @@ impl Job {
     }
 }
 
-/// A host that casts a workload without card and ray tree: the first row of Table 3.
+/// Work of a host that casts a workload without card and ray tree: the first row of Table 3.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HostOnly {
     pub(super) counts: HostCounts,
@@ -118,7 +118,7 @@ pub(super) struct HostOnly {
 }
 
 impl HostOnly {
-    /// What a host tracer counted.
+    /// Converts the counters of a host tracer.
     pub(super) fn of(cost: &tracer::HostCounts) -> Self {
         let counts = HostCounts::default()
             .with(HostOperation::OctreeCell, cost.traversal.cells)
@@ -126,7 +126,7 @@ impl HostOnly {
         Self { counts, rays: cost.rays }
     }
 
-    /// The host on which this work takes as long as Table 3's first row says: the one constant that is calibrated.
+    /// Calibrates the host so that this work takes the time of Table 3's first row: the only calibrated constant.
     pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, ReproduceError> {
         let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
         model.map_err(|e| failed(TIMES)(&e))

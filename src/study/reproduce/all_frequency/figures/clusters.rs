@@ -17,9 +17,9 @@ use crate::study::prt::cluster_color;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::HaarLight;
 
-/// Representatives that are tried; the paper's are the last.
+/// Numbers of representatives; the paper's is the last.
 const VECTORS: [usize; 4] = [1, 4, 8, 16];
-/// Segments whose clusters are drawn.
+/// Number of segments whose clusters are drawn.
 const SEGMENTS: usize = 3;
 
 const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} \
@@ -74,7 +74,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     Ok(FigureParts { text, rows: vec![row], tables: vec![table], pictures })
 }
 
-/// Clusters of the segments that most vertices see; black where none of the light arrives.
+/// Pictures of the clusters of the segments that most vertices see; black where none of the light arrives.
 fn of_segments(scene: &FigureScene, coded: &CodedTransfer) -> Vec<NamedPicture> {
     let mut largest: Vec<_> = coded.segments.iter().collect();
     largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));

@@ -10,7 +10,7 @@ use crate::study::prt::{CompressionTally, SegmentedCompression, raw_radiance};
 use crate::transfer::light::HaarLight;
 use crate::transfer::visibility::VisibilityMaps;
 
-/// A surface's share of a scene: the vertices of some maps with a reflectance and a color.
+/// Surface of a scene: the vertices of some maps with a reflectance and a color.
 #[derive(Clone, Copy)]
 pub(super) struct Surface<'a> {
     pub(super) scene: &'a FigureScene,
@@ -20,7 +20,7 @@ pub(super) struct Surface<'a> {
 }
 
 impl Surface<'_> {
-    /// Compressed and coded.
+    /// Compresses and encodes the transfer.
     pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
         let compression = SegmentedCompression {
             vertices: &self.scene.vertices,
@@ -34,14 +34,14 @@ impl Surface<'_> {
         compression.run(&mut |_, _, _| ()).map_err(|e| failed(HOST)(&e))
     }
 
-    /// Radiance of the maps' vertices towards the scene's eye from coded transfer.
+    /// Radiance of the maps' vertices towards the scene's eye, from encoded transfer.
     pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
         let shader = Shader::new(coded, Representatives::Sparse);
         let transferred = shader.transferred(&light.singles()).map_err(|e| failed(HOST)(&e))?;
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 
-    /// The same from raw matrices: per vertex of the mesh the rows of T_p.
+    /// Radiance of the vertices from raw matrices: per vertex of the mesh the rows of T_p.
     pub(super) fn raw(&self, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
         let scene = self.scene;
         let at = (&scene.vertices, self.maps);
@@ -55,7 +55,7 @@ impl Surface<'_> {
         self.maps.vertices().iter().map(|&vertex| all[vertex as usize]).collect()
     }
 
-    /// Step 4 with the first rows of T_p of more rows.
+    /// Step 4 with the leading rows of a larger T_p.
     pub(super) fn exit_of_rows(&self, (rows, radiance): (usize, &[[f64; 3]])) -> Vec<[f64; 3]> {
         self.exit(&|vertex, row| radiance[vertex * rows + row])
     }

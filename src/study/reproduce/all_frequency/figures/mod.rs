@@ -1,4 +1,4 @@
-//! Figures 1, 2 and 4 to 7: pictures, and what of them can be counted. Figure 3 stands with the factors.
+//! Figures 1, 2 and 4 to 7: pictures and derived counts. Figure 3 is with the factors.
 
 mod clusters;
 mod lit;

@@ -1,4 +1,4 @@
-//! The models of the figures, as large as printed or smaller.
+//! Models of the figures, in printed or reduced size.
 
 use super::{ModelSize, ReproduceError, failed};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -9,7 +9,7 @@ use crate::scene::built::ground::GROUND_SIDE;
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 
-/// A bird that stands for tweety, and what stands for the Buddha.
+/// Builds a bird as a stand-in for tweety, and the stand-in for the Buddha.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
     TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }
@@ -30,7 +30,7 @@ pub(super) const fn ground(models: ModelSize) -> u32 {
     }
 }
 
-/// Vertices per cluster: with few vertices fewer, so that there are some clusters.
+/// Vertices per cluster: fewer for models with few vertices, so that there are several clusters.
 pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
     match models {
         ModelSize::Printed => 200,
@@ -38,7 +38,7 @@ pub(super) const fn points_per_cluster(models: ModelSize) -> usize {
     }
 }
 
-/// How vertices are shared out, with so many representatives per cluster.
+/// Compression options with `vectors` representatives per cluster.
 pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
     let points_per_cluster = points_per_cluster(models);
     let default = SegmentOptions { points_per_cluster, vectors, ..SegmentOptions::default() };
@@ -48,17 +48,17 @@ pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
     }
 }
 
-/// The anisotropic reflectance of Figures 1 and 7.
+/// Anisotropic reflectance of Figures 1 and 7.
 pub(super) fn schlick() -> Lobe {
     Lobe::schlick(0.2, 0.2, 0.8)
 }
 
-/// The glossy Buddha's.
+/// Reflectance of the glossy Buddha.
 pub(super) fn cook_torrance() -> Lobe {
     Lobe::cook_torrance(0.4, 0.5)
 }
 
-/// A reflectance with its singular vectors for so many terms.
+/// Factors a reflectance by its singular vectors into `terms` terms.
 pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, ReproduceError> {
     let table: ProductTable =
         FactorSampling::default().table(lobe, &mut |_, _| ()).map_err(|e| failed(super::HOST)(&e))?;

@@ -1,9 +1,9 @@
-//! What a figure adds to the entry.
+//! Contribution of a figure to the entry.
 
 use super::{PaperRow, Prose};
 use crate::report::{NamedPicture, Table};
 
-/// What a figure adds to the entry.
+/// Contribution of a figure to the entry.
 #[derive(Default)]
 pub(super) struct FigureParts {
     pub(super) text: Vec<Prose>,

@@ -1,4 +1,4 @@
-//! Figure 7: frame rates by the model, the ground with them; and pictures of the models.
+//! Figure 7: frame rates by the model, including the ground; and pictures of the models.
 
 use glam::DVec3;
 use refsim::device::Profile;
@@ -26,24 +26,24 @@ use crate::transfer::visibility::SegmentCensus;
 
 const PLACE: &str = "figure 7";
 const CARD: &str = "r350";
-/// Teapot, diffuse Buddha, glossy Buddha among the columns of Table 1.
+/// Indices of teapot, diffuse Buddha and glossy Buddha among the columns of Table 1.
 const TEAPOT: usize = 1;
 const BUDDHA: usize = 4;
 const GLOSSY_BUDDHA: usize = 5;
-/// Printed rates.
+/// Printed frame rates.
 const PRINTED: [(&str, usize, f64); 4] = [
     ("diffuse Buddha", BUDDHA, 5.8),
     ("glossy Buddha", GLOSSY_BUDDHA, 1.0),
     ("teapot, light of low frequency", TEAPOT, 1.2),
     ("teapot, light of all frequencies", TEAPOT, 1.2),
 ];
-/// Representatives of a cluster, coefficients and number of segments, vertices of a cluster, channels.
+/// Representatives per cluster, coefficients and number of segments, vertices per cluster, channels.
 const VECTORS: u64 = 16;
 const COEFFICIENTS: u64 = 256;
 const SEGMENTS: u64 = 24;
 const PER_CLUSTER: u64 = 200;
 const CHANNELS: u64 = 3;
-/// Bands of the light of low frequency.
+/// Bands of the low-frequency light.
 const ORDER: usize = 5;
 /// Terms of the glossy models.
 const TERMS: usize = 10;
@@ -53,10 +53,10 @@ const HOW: &str = "Figure 7's rates are Table 1's columns with a ground of {} ve
     side, colors of vertices are sent as bytes, no pixel takes time, {} vertices are run per triangle. Light of low frequency has as many \
     Haar coefficients as any, so the model has one rate for both lights. Pictures are without compression, of {} and {} vertices.";
 
-/// Vertices that run per triangle, of meshes that are not ordered for the card's cache.
+/// Vertices processed per triangle, for meshes that are not ordered for the card's vertex cache.
 const RUN_PER_TRIANGLE: f64 = 1.1;
 
-/// What steps 2 and 3 take of a ground, of which a share of the segments hold transfer.
+/// Cost of steps 2 and 3 for a ground, with a fraction `omega` of non-empty segments.
 fn of_ground(omega: f64) -> (u64, Multiplies) {
     let vertices = u64::from(GROUND_SIDE * GROUND_SIDE);
     let entries = ((vertices * SEGMENTS) as f64 * omega) as u64;
@@ -65,10 +65,11 @@ fn of_ground(omega: f64) -> (u64, Multiplies) {
     (vertices, Multiplies { per_cluster: clusters * per_vector * COEFFICIENTS, per_vertex: entries * per_vector })
 }
 
-/// Half of the segments are above an open ground's horizon.
+/// Fraction of the segments above the horizon of an open ground.
 const OPEN_GROUND: f64 = 0.5;
 
-/// The diffuse Buddha with its ground under light of a share of the coefficients, columns of zero light being skipped.
+/// Cost of the diffuse Buddha with its ground under light with a fraction of non-zero coefficients, where columns of
+/// zero light are skipped.
 pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
     let (own, ground) = (TABLE_1[BUDDHA].multiplies(), of_ground(OPEN_GROUND).1);
     Multiplies {
@@ -77,13 +78,13 @@ pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
     }
 }
 
-/// What the host of Table 1 takes.
+/// Seconds on the host of Table 1.
 pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, ReproduceError> {
     let host = host_of_table_1().map_err(|e| failed(super::HOST)(&e))?;
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
-/// Frames a second with drawing.
+/// Frames per second including drawing.
 fn rate(model: &PrintedModel, omega: f64) -> Result<f64, ReproduceError> {
     let place = ProductPlace::Vertices(VertexColors::Bytes);
     let vertices = 100 * model.vertex_hundreds;
@@ -101,7 +102,7 @@ fn rate(model: &PrintedModel, omega: f64) -> Result<f64, ReproduceError> {
     Ok(frame_time(&profile, &log, &host).map_err(|e| failed(CARD)(&e))?.per_second())
 }
 
-/// A model of Figure 7 on its ground.
+/// Model of Figure 7 on its ground.
 struct Drawn {
     name: &'static str,
     caption: &'static str,

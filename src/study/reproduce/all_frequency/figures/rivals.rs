@@ -1,4 +1,4 @@
-//! Figure 1: ours, spherical harmonics, and wavelets of a fixed view beside the exact picture.
+//! Figure 1: our method, spherical harmonics, and wavelets of a fixed view beside the exact picture.
 
 use glam::DVec3;
 
@@ -19,11 +19,11 @@ use crate::transfer::light::{CubeLight, HaarLight, TruncationPriority};
 use crate::transfer::visibility::VisibilityMaps;
 
 const PLACE: &str = "figure 1";
-/// The order of harmonics.
+/// Order of the harmonics.
 const ORDER: usize = 5;
-/// Light coefficients that a fixed view keeps: \[NRH03\] draws its pictures with a hundred or two.
+/// Light coefficients kept for a fixed view: \[NRH03\] uses a hundred or two.
 const KEPT: [usize; 3] = [100, 200, 800];
-/// Terms and representatives.
+/// Numbers of terms and of representatives.
 const TERMS: usize = 10;
 const VECTORS: usize = 16;
 /// Colors of the model and of the ground.
@@ -34,7 +34,7 @@ const HOW: &str = "Figure 1 draws a bird with {} vertices on a ground with {} un
     arrives, and the reflectance's own coefficients towards the eye. Fixed view: exact transfer for this one eye, and a light cut to \
     a number of wavelets on six faces, by area times magnitude.";
 
-/// All ways to draw a scene, for all its vertices.
+/// Radiance of all vertices of a scene by each method.
 struct Ways {
     exact: Vec<[f64; 3]>,
     others: Vec<(String, Vec<[f64; 3]>)>,
@@ -70,7 +70,7 @@ fn order(what: String, ours: f64) -> PaperRow {
     PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
-/// Model and ground by each method.
+/// Computes model and ground by each method.
 fn ways(scene: &FigureScene, light: &CubeLight, options: SegmentOptions) -> Result<Ways, ReproduceError> {
     let lobe = models::schlick();
     let factors = models::factorization(&lobe, TERMS)?.factors(TERMS);

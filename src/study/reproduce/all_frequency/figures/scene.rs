@@ -1,4 +1,4 @@
-//! A model on a ground, and how pictures of it differ.
+//! Model on a ground, and differences of its pictures.
 
 use glam::{DMat3, DVec3};
 
@@ -19,34 +19,34 @@ use crate::transfer::light::{CubeLight, Decimation, DistantLight};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{Tangents, Vertices};
 
-/// Pixels along an edge.
+/// Side of the pictures, in pixels.
 const SIDE: u32 = 160;
-/// Pixels per degree of whoever looks, FLIP's usual figure.
+/// Pixels per degree of the observer, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
-/// A model on a ground: vertices of the model first.
+/// Model on a ground: vertices of the model first.
 pub(super) struct FigureScene {
     pub(super) vertices: Vertices,
-    /// What vertices of the model see.
+    /// Visibility at the vertices of the model.
     pub(super) of_model: VisibilityMaps,
-    /// What vertices of the ground see.
+    /// Visibility at the vertices of the ground.
     pub(super) of_ground: VisibilityMaps,
     pub(super) hats: Hats,
     pub(super) camera: Camera,
     pub(super) seen: Seen,
 }
 
-/// How a picture differs from the exact one.
+/// Difference of a picture from the exact one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct PictureDifference {
-    /// Root mean square of pixels' differences, as a share of the picture's.
+    /// Root mean square of the pixels' differences, relative to that of the picture.
     pub(super) rms: f64,
-    /// Mean of FLIP, both exposed alike.
+    /// Mean FLIP, with the same exposure of both.
     pub(super) flip: f64,
 }
 
 impl FigureScene {
-    /// Seen from an eye in units of the model's size, from its middle.
+    /// Creates the scene, seen from an eye in units of the model's size, relative to its center.
     pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3) -> Result<Self, ReproduceError> {
         let problem = |reason: &dyn std::fmt::Display| failed(HOST)(reason);
         let (mesh, materials) = on_ground(model, ground).map_err(|e| problem(&e))?;
@@ -116,13 +116,13 @@ impl FigureScene {
     }
 }
 
-/// What stands for the light of St. Peter's: [`HARD_SUN`].
+/// Stand-in for the light of St. Peter's: [`HARD_SUN`].
 pub(super) fn stand_in() -> Result<CubeLight, ReproduceError> {
     let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     cube.map_err(|e| failed(HOST)(&e))
 }
 
-/// The light's harmonics of an order, as radiances of texels; what rings below 0 is 0.
+/// Projects the light to harmonics of an order, as radiances of texels; negative ringing is clipped to 0.
 pub(super) fn of_low_frequency(light: &CubeLight, order: usize) -> Result<CubeLight, ReproduceError> {
     let mut coefficients = vec![[0.0; 3]; function_count(order)];
     let mut y = vec![0.0; coefficients.len()];

@@ -14,9 +14,9 @@ use crate::report::{Cell, Table};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::HaarLight;
 
-/// Terms that are tried.
+/// Numbers of terms.
 const TERMS: [usize; 7] = [1, 2, 4, 6, 8, 10, 16];
-/// The ground is not looked at.
+/// Vertices along an edge of the ground, which is not visible.
 const GROUND: u32 = 2;
 const COLOR: [f64; 3] = [0.9, 0.75, 0.5];
 

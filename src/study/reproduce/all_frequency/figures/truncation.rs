@@ -1,4 +1,4 @@
-//! Figure 6: light cut to a number of coefficients, pictures and flicker.
+//! Figure 6: light truncated to a number of coefficients, pictures and flicker.
 
 use glam::{DMat3, DVec3};
 
@@ -21,21 +21,21 @@ use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, Trunc
 
 const PLACE: &str = "figure 6";
 const SOURCES: u64 = 40;
-/// Angular radii of sources in degrees; the rows have the third.
+/// Angular radii of sources in degrees; the rows use the third.
 const RADII: [f64; 5] = [1.4, 2.0, 3.0, 4.0, 5.0];
 const RADIUS: usize = 2;
-/// Coefficients that are kept.
+/// Numbers of coefficients kept.
 const KEPT: [usize; 5] = [50, 100, 200, 400, 800];
-/// Steps of half a degree around z.
+/// Number of steps of half a degree around z.
 const FRAMES: u32 = 6;
-/// Flicker that counts as seen: one percent of the picture, chosen by us before any was computed.
+/// Threshold of visible flicker: one percent of the picture, chosen by us before any was computed.
 const SEEN: f64 = 0.01;
 
 const HOW: &str = "Figure 6 has a diffuse Buddha of {} vertices under {} disks with radii of {} degrees, spread evenly, of random colors; the light turns by half \
     degrees, {} times. Flicker is the root mean square change from frame to frame of what truncation takes from vertices, over the root mean \
     square of their radiance. Frame rates are modelled for the printed Buddha with its ground, without drawing.";
 
-/// Disks on a spiral over the sphere.
+/// Returns disks on a spiral over the sphere.
 fn sources(degrees: f64) -> Vec<DiskSource> {
     let random = CounterRng::new(6);
     let source = |at: u64| {
@@ -49,7 +49,7 @@ fn sources(degrees: f64) -> Vec<DiskSource> {
     (0..SOURCES).map(source).collect()
 }
 
-/// Coefficients of the sources on six faces.
+/// Projects the sources to coefficients on six faces.
 fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, ReproduceError> {
     let cube = CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle);
     Ok(HaarLight::new(&cube.map_err(|e| failed(HOST)(&e))?, Segmentation::Faces))
@@ -60,7 +60,7 @@ fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, ReproduceError> {
     Ok(cut.light.reprojected(Segmentation::Quarters))
 }
 
-/// What a diffuse vertex makes of light, all segments of it.
+/// Radiance of diffuse vertices under a light, over all segments.
 fn radiance(segments: &[TransferSegment], vertices: usize, light: &HaarLight) -> Vec<[f64; 3]> {
     let mut all = vec![[0.0; 3]; vertices];
     for part in segments {
@@ -79,7 +79,7 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-/// Frame by frame what every vertex has, and what truncation takes of it, by number of coefficients.
+/// Radiance of every vertex per frame, and the error of truncation by number of coefficients.
 struct Turning {
     whole: Vec<Vec<[f64; 3]>>,
     lost: Vec<Vec<Vec<[f64; 3]>>>,
@@ -101,7 +101,7 @@ impl Turning {
         Ok(found)
     }
 
-    /// The root mean square change of what is lost, per number of coefficients.
+    /// Root mean square change of the error between frames, per number of coefficients.
     fn flicker(&self) -> Vec<f64> {
         let none = vec![[0.0; 3]; self.whole[0].len()];
         let steps = self.whole.len() - 1;

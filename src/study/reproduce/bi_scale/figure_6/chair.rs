@@ -1,4 +1,4 @@
-//! The model of Figure 6.
+//! Model of Figure 6.
 
 use super::super::models::SeenModel;
 use super::{HOST, ReproduceError, SCENES, failed};
@@ -7,7 +7,7 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::geom::Mesh;
 use crate::transfer::visibility::Horizon;
 
-/// What stands for the chair, with its transfer to local directions.
+/// Stand-in for the chair, with its transfer to local directions.
 pub(super) struct ChairModel {
     pub(super) seen: SeenModel,
     pub(super) directions: LocalDirections,

@@ -1,4 +1,5 @@
-//! Figure 6: biclusters beside clusters of rows and wavelets, and beside what sections II and IV-A say of other ways.
+//! Figure 6: biclusters compared with clusters of rows and wavelets, and with the other methods of sections II and
+//! IV-A.
 
 mod chair;
 mod pictures;
@@ -24,9 +25,9 @@ use chair::ChairModel;
 use pictures::VertexPictures;
 use sizes::{PLACE, chair_sizes};
 
-/// The order of harmonics of low-frequency bi-scale transfer.
+/// Order of the harmonics of low-frequency bi-scale transfer.
 const ORDER: usize = 5;
-/// A difference that nobody calls severe, in percent of the light that arrives.
+/// Error that is not severe, in percent of the incident light.
 const SLIGHT: f64 = 1.0;
 
 const HOW: &str = "Figure 6 is drawn of a chair with {} vertices that is not at hand; ours is one made by code or, where models are small, a smooth body, and has {}. Each way to store its transfer \
@@ -77,7 +78,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-/// A clear sky with a small sun, and two disks in dim light.
+/// Two lights: a clear sky with a small sun, and two disks in dim light.
 fn lights() -> Result<[LightChannels; 2], ReproduceError> {
     let of = |light: DistantLight| -> Result<LightChannels, ReproduceError> {
         let cube: CubeLight =

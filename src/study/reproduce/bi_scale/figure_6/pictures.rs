@@ -1,4 +1,4 @@
-//! Pictures of a model whose vertices send on the light of their local directions, glossily, as each way gives it.
+//! Pictures of a model with glossy reflection of the light of its vertices' local directions, by each method.
 
 use glam::DVec3;
 
@@ -13,27 +13,27 @@ use crate::study::prt::{LightChannels, Seen, auto_exposure, linear_picture};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::grid::texel_center;
 
-/// Pixels along an edge.
+/// Side of the pictures, in pixels.
 const SIDE: u32 = 160;
-/// Pixels per degree of whoever looks, FLIP's usual figure.
+/// Pixels per degree of the observer, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
-/// A glossy plastic: broad enough that 8 x 8 directions show its lobe.
+/// Glossy plastic, with a lobe broad enough to be resolved by 8 x 8 directions.
 const SURFACE: Brdf = Brdf::Phong { albedo: 0.4, specular: 0.3, exponent: 12.0 };
-/// From where the model is looked at, in units of its size, from its middle.
+/// Position of the eye, in units of the model's size, relative to its center.
 const EYE: DVec3 = DVec3::new(1.6, -2.4, 1.2);
 
-/// Pixels by name.
+/// Named pixels.
 type NamedPixels = (String, Vec<[f64; 3]>);
 
-/// Pictures in the making.
+/// Builder of the pictures.
 pub(super) struct VertexPictures<'a> {
     scene: &'a ChairModel,
     light: &'a LightChannels,
     camera: Camera,
     seen: Seen,
-    /// Per vertex the local direction of the eye.
+    /// Local direction of the eye at each vertex.
     views: Vec<DVec3>,
-    /// Of rows of the matrix, each texel from its own direction; of the matrix; then of the ways.
+    /// Results for rows of the matrix, each texel from its own direction; for the matrix; then for the methods.
     found: Vec<NamedPixels>,
 }
 
@@ -55,7 +55,7 @@ impl<'a> VertexPictures<'a> {
         Ok(pictures)
     }
 
-    /// Light of local directions as a way gives it, channel by channel.
+    /// Adds the light of local directions by a method, channel by channel.
     pub(super) fn add(&mut self, name: &str, product: impl Fn(&[f64]) -> Vec<f64>) {
         let directions = self.scene.directions.directions();
         let local: Vec<Vec<f64>> = self.light.iter().map(|channel| product(channel)).collect();
@@ -71,7 +71,7 @@ impl<'a> VertexPictures<'a> {
         self.found.push((name.to_owned(), self.seen.colors(&colors, [0.0; 3])));
     }
 
-    /// The same without local directions: the light of each texel that a vertex sees, from where it comes.
+    /// Radiance without local directions: the light of each visible texel from its own direction.
     fn of_texels(&self) -> Vec<[f64; 3]> {
         let local = self.scene.directions.directions().len();
         let matrix = &self.scene.matrix;
@@ -90,7 +90,7 @@ impl<'a> VertexPictures<'a> {
         self.seen.colors(&colors, [0.0; 3])
     }
 
-    /// All pictures, exposed alike, and how they differ from that of the matrix.
+    /// Returns all pictures with the same exposure, and a table of their differences from that of the matrix.
     pub(super) fn finish(self) -> Result<(Vec<NamedPicture>, Table), ReproduceError> {
         let exact = &self.found[1].1;
         let exposure = auto_exposure(exact);

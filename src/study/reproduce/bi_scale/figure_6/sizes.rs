@@ -1,4 +1,4 @@
-//! Bytes of the chair by each way, from printed numbers alone.
+//! Bytes of the chair by each method, from printed numbers alone.
 
 use super::super::printed::SCENES;
 use super::{Bound, HOST, Method, PaperFigure, PaperRow, Standing};
@@ -6,16 +6,16 @@ use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
 pub(super) const PLACE: &str = "figure 6";
-/// Printed: clusters of rows, vectors of each, wavelets of a row.
+/// Printed values: clusters of rows, vectors of each, wavelets per row.
 const CLUSTERS: usize = 32;
 const VECTORS: usize = 8;
 const WAVELETS: usize = 12;
-/// Megabytes that are printed for wavelets.
+/// Printed megabytes of wavelets.
 const PRINTED_WAVELETS: f64 = 37.1;
-/// Bytes of a wavelet: two for its number, one for its value.
+/// Bytes of a wavelet: two for its index, one for its value.
 const WAVELET_BYTES: usize = 3;
 
-/// Rows of the chair's matrix.
+/// Number of rows of the chair's matrix.
 fn chair_rows() -> usize {
     SCENES[2].vertices * SCENES[2].side * SCENES[2].side
 }
@@ -24,7 +24,7 @@ fn wavelets(bytes: usize) -> f64 {
     1e-6 * (chair_rows() * WAVELETS * bytes) as f64
 }
 
-/// The size of wavelets, whose bytes are a guess that meets it.
+/// Row on the size of wavelets, with a guessed number of bytes that reproduces it.
 pub(super) fn wavelet_row() -> PaperRow {
     PaperRow::new(
         "chair: wavelets of all rows, three bytes each",
@@ -35,7 +35,7 @@ pub(super) fn wavelet_row() -> PaperRow {
     )
 }
 
-/// Every way with its layouts. What is printed stands beside; the size of clusters cannot be read in the scan.
+/// Table of every method with its layouts, beside the printed values; the size of clusters is illegible in the scan.
 pub(super) fn chair_sizes() -> Table {
     let mut table = Table::of("The chair by printed numbers", "way layout MB MiB MB_printed");
     let nonzeros = 1e6 * SCENES[2].nonzeros;

@@ -1,4 +1,4 @@
-//! A figure's pictures: by transfer, by rays, by light of low frequency, and where errors come from.
+//! Pictures of a figure: by transfer, by rays, by low-frequency light, and of the sources of error.
 
 use glam::DMat3;
 
@@ -11,20 +11,20 @@ use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::report::NamedPicture;
 use crate::study::prt::{BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, linear_picture};
 
-/// The order of harmonics of low-frequency bi-scale transfer.
+/// Order of the harmonics of low-frequency bi-scale transfer.
 pub(super) const ORDER: usize = 5;
 
-/// What a figure shows.
+/// Renderings of a figure.
 pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
-    /// By light of low frequency.
+    /// Picture by low-frequency light.
     pub(super) smooth: Option<Vec<[f64; 3]>>,
-    /// What was drawn.
+    /// Rendering of the model.
     pub(super) rendering: BiScaleRendering,
 }
 
 impl DrawnFigure {
-    /// Draws a model with so many local directions along an edge.
+    /// Draws a model with `side` local directions along an edge.
     pub(super) fn new(
         model: &TexturedModel,
         side: usize,
@@ -48,12 +48,12 @@ impl DrawnFigure {
         Ok(Self { causes, smooth, rendering })
     }
 
-    /// How far a picture lies off that by rays, and off that by rays with the same textures, in percent.
+    /// Errors of a picture relative to that by rays, and to that by rays with the same textures, in percent.
     pub(super) fn errors(&self, picture: &[[f64; 3]]) -> [f64; 2] {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
 
-    /// The pictures, exposed alike; `name` is the beginning of their files' names.
+    /// Returns the pictures with the same exposure; `name` is the prefix of their file names.
     pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
         let model = &self.rendering.model;
         let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
@@ -68,7 +68,7 @@ impl DrawnFigure {
         Ok(shown)
     }
 
-    /// A picture, exposed as that by rays.
+    /// Creates a picture with the exposure of that by rays.
     pub(super) fn picture(
         &self,
         name: &str,
@@ -81,7 +81,7 @@ impl DrawnFigure {
     }
 }
 
-/// The picture of a model by biclusters alone.
+/// Renders a model by biclusters alone.
 pub(super) fn by_transfer(
     model: &TexturedModel,
     side: usize,
@@ -94,7 +94,7 @@ pub(super) fn by_transfer(
     Ok(drawing.shade(&drawing.local(&cube).map_err(fail)?.rows))
 }
 
-/// L~ by low-frequency bi-scale transfer: harmonics on both sides.
+/// Computes L~ by low-frequency bi-scale transfer: harmonics on both sides.
 fn low_frequency(
     rendering: &BiScaleRendering,
     matrix: &SparseMatrix,

@@ -1,4 +1,4 @@
-//! Figure 3: the light directions of a local direction, and the matrix of its vertex.
+//! Figure 3: light directions of a local direction, and the matrix of its vertex.
 
 use super::super::models::SeenModel;
 use super::{Bound, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number};
@@ -11,12 +11,12 @@ use crate::transfer::visibility::Horizon;
 
 const HOW: &str = "Figure 3 is drawn of the vertex that sees least of the light on a bunny with {} vertices, and of the one of its {} local directions to which \
     most light texels belong: {} of {}.";
-/// Columns that share a pixel of the matrix's picture.
+/// Columns per pixel of the matrix's picture.
 const COLUMNS_PER_PIXEL: usize = 8;
-/// Pixels along an edge of a light texel, and of a row of the matrix.
+/// Pixels along an edge of a light texel, and per row of the matrix.
 const SCALE: usize = 3;
 
-/// What Figure 3 adds to the entry.
+/// Contribution of Figure 3 to the entry.
 pub(super) struct MatrixFigure {
     pub(super) text: Prose,
     pub(super) row: PaperRow,
@@ -29,7 +29,7 @@ pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, Reproduc
     let lights = side * side;
     let of_vertex = |vertex: usize| (vertex * lights..(vertex + 1) * lights).map(|row| matrix.row(row).len());
     let vertex = (0..seen.vertices.len()).min_by_key(|&vertex| of_vertex(vertex).sum::<usize>()).unwrap_or_default();
-    // Of equal ones the first.
+    // The first of equals.
     let most = of_vertex(vertex).max().unwrap_or_default();
     let direction = of_vertex(vertex).position(|texels| texels == most).unwrap_or_default();
     let share = 100.0 * matrix.nonzeros() as f64 / (matrix.rows() * matrix.columns()) as f64;
@@ -45,7 +45,7 @@ pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, Reproduc
     Ok(MatrixFigure { text: Prose::new(HOW, sizes), row, pictures: vec![rows.cube(), rows.picture()] })
 }
 
-/// The rows of a vertex, one of them marked.
+/// Rows of a vertex, one of them marked.
 struct Rows<'a> {
     matrix: &'a SparseMatrix,
     first: usize,
@@ -54,7 +54,7 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    /// Figure 3(a): what the vertex sees in grey, what belongs to the marked row in red; the faces side by side.
+    /// Figure 3(a): visibility of the vertex in grey, light of the marked row in red; the faces side by side.
     fn cube(&self) -> NamedPicture {
         let mut texels = vec![[0_u8; 3]; LIGHT_TEXELS];
         for row in self.first..self.first + self.count {
@@ -75,7 +75,7 @@ impl Rows<'_> {
         NamedPicture::new("bi-scale-figure-3-cube", image, caption)
     }
 
-    /// Figure 3(b): the vertex's matrix, each pixel the mean of some columns, the marked row in red.
+    /// Figure 3(b): matrix of the vertex, each pixel the mean of some columns, the marked row in red.
     fn picture(&self) -> NamedPicture {
         let width = LIGHT_TEXELS / COLUMNS_PER_PIXEL;
         let mut shares = vec![0.0; self.count * width];
@@ -98,7 +98,7 @@ impl Rows<'_> {
     }
 }
 
-/// A share as a byte.
+/// Converts a fraction to a byte.
 fn grey(share: f64) -> u8 {
     (share.clamp(0.0, 1.0) * 255.0).round() as u8
 }

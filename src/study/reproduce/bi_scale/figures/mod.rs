@@ -21,7 +21,7 @@ const QUESTION: &str = "the models, their textures, the light and the cameras; w
 /// Local directions along an edge of Table I's scenes, and of the armor.
 const SIDE: usize = 8;
 const ARMOR_SIDE: usize = 12;
-/// Figure 8's.
+/// Local directions along an edge in Figure 8.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
@@ -72,7 +72,7 @@ fn faithful(place: &'static str, model: &str, ours: f64) -> PaperRow {
     PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
-/// Figure 8: what more local directions do to the picture.
+/// Figure 8: effect of more local directions on the picture.
 fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Vec<NamedPicture>), ReproduceError> {
     let mut table =
         Table::of("Figure 8: off the picture by rays, and off that of most directions", "along_an_edge rays_% most_%");

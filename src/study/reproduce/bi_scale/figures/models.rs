@@ -1,4 +1,4 @@
-//! What stands for the models and materials of the figures.
+//! Stand-ins for the models and materials of the figures.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::scene::Material;
 use crate::scene::built::flat_models::{FlatModel, MaterialMesh};
 use crate::scene::built::transfer_models::TransferModel;
 
-/// Places among [`FigureSize::texels`].
+/// Indices into [`FigureSize::texels`].
 const FINE: usize = 0;
 const COARSE: usize = 1;
 
@@ -17,12 +17,12 @@ pub(super) fn bunny(size: FigureSize) -> TexturedModel {
     smooth("bunny", TransferModel::BiScaleBunny, PatchKind::Bumps, size)
 }
 
-/// Figure 5: armor of mail.
+/// Figure 5: mail armor.
 pub(super) fn armor(size: FigureSize) -> TexturedModel {
     smooth("armor", TransferModel::BiScaleArmor, PatchKind::Mail, size)
 }
 
-/// Figure 8: the bunny; of which material is not said, and rough bricks show shadows of the patch.
+/// Figure 8: the bunny; its material is not stated, and rough bricks show shadows of the patch.
 pub(super) fn rough_bunny(size: FigureSize) -> TexturedModel {
     smooth("bunny", TransferModel::BiScaleBunny, PatchKind::Bricks, size)
 }
@@ -42,7 +42,7 @@ pub(super) fn chair(size: FigureSize) -> TexturedModel {
     TexturedModel { name: "chair", model, patches, eye: DVec3::new(1.6, -2.4, 1.2) }
 }
 
-/// Figure 7: a temple of five, of which the eaves have the larger patch.
+/// Figure 7: a temple of five materials, of which the eaves have the larger patch.
 pub(super) fn temple(size: FigureSize) -> TexturedModel {
     let patches = vec![
         (PatchKind::Tiles, COARSE),

@@ -1,4 +1,4 @@
-//! Models with bidirectional textures, as pictures of transfer and of rays need them.
+//! Models with bidirectional textures, for pictures by transfer and by rays.
 
 use glam::DVec3;
 
@@ -17,18 +17,18 @@ use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
 use crate::transfer::visibility::Horizon;
 
-/// How large things are drawn.
+/// Sizes of models, pictures and textures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FigureSize {
-    /// Edges of models are so many times as long as the paper's.
+    /// Edge length of models, relative to the paper's.
     pub(super) coarser: u32,
-    /// Pixels.
+    /// Size of the pictures, in pixels.
     pub(super) picture: [u32; 2],
-    /// Texels along an edge of patches: of fine ones, of others.
+    /// Texels along an edge of patches: of fine ones, and of others.
     pub(super) texels: [usize; 2],
-    /// Directions of the view along an edge.
+    /// View directions along an edge.
     pub(super) views: usize,
-    /// How often patches repeat where texture coordinates grow by 1: so that pictures of so many pixels show them.
+    /// Repetitions of a patch per unit of texture coordinates, so that it is visible at this picture size.
     pub(super) repeat: f64,
 }
 
@@ -41,19 +41,19 @@ impl FigureSize {
     }
 }
 
-/// A model to be drawn.
+/// Model to draw.
 pub(super) struct TexturedModel {
     pub(super) name: &'static str,
     pub(super) model: MaterialMesh,
-    /// The patch of each material, and its place among [`FigureSize::texels`].
+    /// Patch of each material, and its index into [`FigureSize::texels`].
     pub(super) patches: Vec<(PatchKind, usize)>,
-    /// From where it is looked at, in units of its size, from its middle.
+    /// Position of the eye, in units of the model's size, relative to its center.
     pub(super) eye: DVec3,
 }
 
 impl TexturedModel {
-    /// Its transfer to so many local directions along an edge as biclusters, textures and a camera, under a clear sky
-    /// with a sun.
+    /// Computes the transfer to `side` local directions along an edge as biclusters, textures and a camera, under a
+    /// clear sky with a sun.
     pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, ReproduceError> {
         let fail = failed(HOST);
         let MaterialMesh { mesh, material_of, .. } = &self.model;
