@@ -1,16 +1,15 @@
-//! How fast all-frequency transfer is shaded on the host: the paper's teapot by size (51,300 vertices, ten terms,
-//! sixteen representatives, 3,801 clusters, its omega of 61.8 %), all light coefficients, two lanes of processor.
+//! Host speed of shading with all-frequency transfer: data in the sizes of the paper's teapot (51,300 vertices, ten
+//! terms, sixteen representatives, 3,801 clusters, omega of 61.8 %), all light coefficients, two threads.
 //!
-//! Figure to beat: 13 frames per second, ten times the printed 1.3 without drawing, so 77 ms for steps 2 and 3
-//! together; one element is one of their multiplications. Beside it: representatives with their zeros, and equation 13
-//! by plain loops in f64. `density` finds where sparse representatives lose time: one segment, by the share of its
-//! numbers other than 0. In size they lose above two thirds, where three bytes for each of these are more than two for
-//! every number.
+//! Figure to beat: 13 frames per second, ten times the printed 1.3 without drawing, so 77 ms for steps 2 and 3 together;
+//! an element is one of their multiplications. For comparison: dense representatives, and equation 13 in plain f64
+//! loops. `density` finds where sparse representatives lose time: one segment, by the share of its nonzero numbers.
+//! Sparse storage is larger above two thirds, where three bytes per nonzero number exceed two per number.
 //!
-//! Once, on two quiet cores: 46 ms, beside 458 ms of plain loops on one; representatives 23 ms sparse and 61 dense, of
-//! 211 and 645 MB; sparse ones lose no time at any density.
+//! Measured once on two quiet cores: 46 ms, versus 458 ms for plain loops on one; representatives take 23 ms sparse and
+//! 61 dense, with 211 and 645 MB; sparse ones lose no time at any density.
 //!
-//! The numbers are drawn, not computed: compression would take an hour, and a frame does not depend on them.
+//! The data are random, because compression would take an hour and the frame time does not depend on the values.
 //!
 //! `cargo bench -p crossbar-benches --bench all_frequency`
 
@@ -27,14 +26,14 @@ const TERMS: usize = 10;
 const VECTORS: usize = 16;
 const COEFFICIENTS: usize = 256;
 const SEGMENTS: usize = 24;
-/// Clusters of a segment: 3,801 of 24.
+/// Clusters per segment: 3,801 / 24.
 const CLUSTERS: usize = 158;
 /// Vertices with a given segment: 61.8 %.
 const FILLED: usize = 31_703;
-/// What the paper's wavelet column leaves: two fifths.
+/// Density of nonzeros after the paper's wavelet transform: two fifths.
 const DENSITY: f64 = 0.4;
 
-/// A segment at every vertex of a run, its clusters in turn.
+/// A segment that is present at every vertex of a run, with clusters in turn.
 fn segment(segment: usize, filled: usize, clusters: usize, density: f64) -> CodedSegment {
     let random = CounterRng::new(segment as u64);
     let rows = clusters * VECTORS;
@@ -78,7 +77,7 @@ fn main() {
     for (name, held) in [("sparse", Representatives::Sparse), ("dense", Representatives::Dense)] {
         let shader = Shader::new(&teapot, held);
         let Multiplies { per_cluster, per_vertex } = shader.multiplies(&light);
-        // The size stands in the name, so that it is told beside the time.
+        // The size is part of the name, so that it is reported with the time.
         let label = format!("{name}, {} MB", shader.bytes() / 1_000_000);
         group.throughput(Throughput::Elements(per_cluster));
         group.bench_function(BenchmarkId::new("clusters", label), |bench| {

@@ -1,12 +1,12 @@
-//! How fast biclustering and its product are on the host, on one thread: the transfer of the stand-in of the paper's
-//! bunny (3,286 vertices, 6 x 32 x 32 light texels, 8 x 8 local directions).
+//! Host speed of biclustering and of products with biclusters, on one thread: transfer matrix of the stand-in for the
+//! paper's bunny (3,286 vertices, 6 x 32 x 32 light texels, 8 x 8 local directions).
 //!
 //! Figures to beat: light times the biclusters at least three times as fast as light times the matrix row by row, in
-//! f32; biclusters of some ten million non-zeros in 24 s (the paper took 12 minutes). Ratios are of one run. One
-//! element is one non-zero. Once, on a quiet machine: 4.1 s; 1.33 ms beside 4.36 with one channel (3.3 times), 2.7
-//! beside 8.5 with three (3.1 times).
+//! f32; biclusters of some ten million non-zeros in 24 s (the paper took 12 minutes). Ratios are within one run. An
+//! element is one non-zero. Measured once on a quiet machine: 4.1 s; 1.33 ms versus 4.36 with one channel (3.3 times),
+//! 2.7 versus 8.5 with three (3.1 times).
 //!
-//! `cargo bench -p crossbar-benches --bench bi_scale`; `-- --whole` biclusters once and says how long it took.
+//! `cargo bench -p crossbar-benches --bench bi_scale`; `-- --whole` runs biclustering once and prints its duration.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -24,7 +24,7 @@ use crossbar::tracer::HostTracer;
 use crossbar::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 use crossbar::transfer::{Tangents, Vertices};
 
-/// T of a model with edges so many times as long.
+/// Transfer matrix of a model with edges `coarser` times as long.
 fn matrix(coarser: u32) -> SparseMatrix {
     let mesh = TransferModel::BiScaleBunny.mesh(coarser);
     let vertices = Vertices::new(&mesh, Tangents::Texture).expect("vertices");
@@ -39,7 +39,7 @@ fn biclusters(matrix: &SparseMatrix) -> Biclustering {
     bicluster(matrix, BiclusterOptions::default(), &mut |_| ()).expect("quarters")
 }
 
-/// One light of C channels by both ways.
+/// Product with a light of C channels, by biclusters and by rows.
 fn products<const C: usize>(criterion: &mut Criterion, rows: &WideRows, gather: &Gather) {
     let light: Vec<[f32; C]> = (0..6144).map(|texel| [0; C].map(|_: u8| (texel % 97) as f32 / 97.0)).collect();
     let mut group = criterion.benchmark_group(format!("light of {C} channels"));

@@ -1,13 +1,11 @@
-//! How fast the host traces: the octree path beside other people's trees, in the same run, on the same rays.
+//! Host speed of ray casting: our octree versus other crates' trees, in the same run, on the same rays.
 //!
-//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that gives the right answer, with its own
-//! ray-triangle test (once about 5 million rays a second on one thread of such a machine; `obvhs` 8 to 15). Ratios
-//! are of one run.
+//! Figure to beat: the crate `bvh` 0.13, the fastest of its traversals that is correct, with its own ray-triangle test
+//! (measured once: about 5 million rays per second on one thread; `obvhs` 8 to 15). Ratios are within one run.
 //!
-//! `cargo bench -p crossbar-benches --bench host_rays` measures with criterion;
-//! `cargo bench -p crossbar-benches --bench host_rays -- --table` measures in its own way and writes
-//! docs/performance.md. One element is one ray: a primary ray asks for the nearest hit, a shadow ray whether there is
-//! one before the light. Trees are built before.
+//! `cargo bench -p crossbar-benches --bench host_rays` measures with criterion; `cargo bench -p crossbar-benches
+//! --bench host_rays -- --table` measures by repeated short runs and writes docs/performance.md. An element is one ray:
+//! a primary ray finds the nearest hit, a shadow ray any hit before the light. Building the trees is not measured.
 
 mod rooms;
 mod table;
@@ -20,10 +18,10 @@ use std::hint::black_box;
 use std::time::Duration;
 use tracers::Tracer;
 
-/// Threads of the figures.
+/// Thread counts of the figures.
 const THREADS: [usize; 2] = [1, 2];
 
-/// What rays are called, which they are, and what is asked.
+/// Name of a kind of rays, the rays, and the query.
 type Kind = (&'static str, fn(&Room) -> &[Ray], fn(&dyn Tracer, &[Ray]) -> usize);
 const KINDS: [Kind; 2] = [
     ("primary", |room| &room.primary, |tracer, rays| tracer.nearest(rays)),

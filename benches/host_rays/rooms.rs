@@ -1,21 +1,21 @@
-//! What is traced: rooms of the paper's sizes, from within.
+//! Test scenes: rooms of the paper's sizes, seen from within.
 
 use crossbar::geom::{Mesh, Ray, Sides};
 use crossbar::scene::{Scene, built};
 use crossbar::tracer::HostTracer;
 
-/// Pixels along a side of the picture.
+/// Width and height of the image, in pixels.
 const SIDE: u32 = 256;
-/// Shadow rays start so far before what a primary ray hit, in shares of its t, that the surface does not shade itself.
+/// Start offset of shadow rays before the primary hit, relative to its t, to avoid self-shadowing.
 const BEFORE: f32 = 1e-3;
 
-/// A mesh and the rays of a picture of it.
+/// A mesh and the rays of an image of it.
 pub(crate) struct Room {
     pub(crate) name: &'static str,
     pub(crate) mesh: Mesh,
-    /// Through every pixel of the scene's first view.
+    /// Rays through every pixel of the scene's first view.
     pub(crate) primary: Vec<Ray>,
-    /// From what they hit to a light, which is at t = 1.
+    /// Rays from their hits to a light, which is at t = 1.
     pub(crate) shadow: Vec<Ray>,
 }
 
@@ -37,7 +37,7 @@ fn room(name: &'static str, scene: &Scene) -> Room {
     Room { name, mesh, primary, shadow }
 }
 
-/// The first point light; else a corner of the first triangle that shines.
+/// The first point light, or else a corner of the first emitting triangle.
 fn light(scene: &Scene) -> [f32; 3] {
     let shining = || scene.mesh().corners(scene.emitters()[0]).expect("a triangle of the scene")[0];
     scene.point_lights.first().map_or_else(shining, |light| light.position)

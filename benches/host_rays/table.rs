@@ -1,6 +1,6 @@
-//! The table of docs/performance.md. On a shared machine the quickest of many short runs says more than a median of
-//! long ones, so rays are taken a few at a time, by one tracer after the other, again and again; the quickest times
-//! of each tracer are added up.
+//! Measures the table of docs/performance.md. On a shared machine the fastest of many short runs is more reliable than
+//! a median of long ones. So rays are traced in small parts, by each tracer in turn, repeatedly; the fastest times of
+//! each tracer are summed over the parts.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -16,13 +16,13 @@ use crate::{KINDS, Kind, THREADS, rooms};
 
 const BEGIN: &str = "<!-- host rays: begin -->";
 const END: &str = "<!-- host rays: end -->";
-/// Rays that are timed together: less than a millisecond, since longer runs are interrupted and slower tracers with
-/// them.
+/// Rays per timed part: less than a millisecond, because longer runs are more often interrupted, which penalises slower
+/// tracers.
 const PART: usize = 1024;
-/// Times that each tracer takes them.
+/// Number of repetitions per part.
 const ROUNDS: usize = 9;
 
-/// Measures, and puts the figures into the document.
+/// Measures, and writes the figures into the document.
 pub(crate) fn write() -> io::Result<()> {
     let mut out = String::from(
         "Millions of rays a second.\n\n\
@@ -48,7 +48,7 @@ pub(crate) fn write() -> io::Result<()> {
     fs::write(&path, format!("{before}{BEGIN}\n{out}{END}{after}"))
 }
 
-/// Millions of rays a second of each tracer.
+/// Millions of rays per second of each tracer.
 fn measure(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room, kind: Kind) -> Vec<(&'static str, f64)> {
     let (_, rays, trace) = kind;
     let rays: &[Ray] = rays(room);
@@ -67,7 +67,7 @@ fn measure(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room, kind: Kind)
     tracers.iter().zip(seconds).map(|((who, _), seconds)| (*who, rays.len() as f64 / seconds / 1e6)).collect()
 }
 
-/// Ours, and the fastest way of each crate.
+/// Our figure, and that of the fastest traversal of each crate.
 fn line(figures: &[(&'static str, f64)]) -> String {
     let ours = figures[0].1;
     let mut line = format!("| {ours:.2} |");

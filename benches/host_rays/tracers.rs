@@ -1,4 +1,4 @@
-//! Who traces: ours, and the crates' trees in each of the ways that give a first hit.
+//! The ray casters under test: ours, and other crates' trees with each of their first-hit traversals.
 
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::{BHShape, BoundingHierarchy};
@@ -13,15 +13,15 @@ use rayon::prelude::*;
 
 use crate::rooms::Room;
 
-/// Rays that a worker takes at a time.
+/// Number of rays that a worker takes at a time.
 const CHUNK: usize = 256;
 
-/// Traces bundles on the threads of the pool that it is called in.
+/// A ray caster that runs on the current thread pool.
 pub(crate) trait Tracer: Sync {
-    /// Rays that hit anything. The nearest hit of each is found and kept until it is counted.
+    /// Number of rays that hit anything; finds the nearest hit of each.
     fn nearest(&self, rays: &[Ray]) -> usize;
 
-    /// Rays that hit anything before t = 1.
+    /// Number of rays that hit anything before t = 1.
     fn occluded(&self, rays: &[Ray]) -> usize;
 }
 
@@ -49,8 +49,8 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
     ]
 }
 
-/// All of them must see about the same. `bvh` takes triangles for edge-on below an absolute bound, and so misses
-/// small ones.
+/// Asserts that all ray casters see about the same. `bvh` treats triangles below an absolute bound as edge-on, and so
+/// misses small ones.
 pub(crate) fn compare(tracers: &[(&'static str, Box<dyn Tracer>)], room: &Room) {
     let counts = |tracer: &dyn Tracer| [tracer.nearest(&room.primary), tracer.occluded(&room.shadow)];
     let ours = counts(tracers[0].1.as_ref());
@@ -72,10 +72,10 @@ impl Tracer for HostTracer {
     }
 }
 
-/// The crate's own point; it does not say its name again.
+/// The point type of `bvh`, which it does not re-export.
 type Point = <Aabb<f32, 3> as std::ops::Index<usize>>::Output;
 
-/// A triangle in the crate `bvh`.
+/// A triangle for the crate `bvh`.
 #[derive(Clone, Debug)]
 struct Shape {
     corners: [Point; 3],
@@ -147,7 +147,7 @@ impl Boxes {
     }
 
     fn any(&self, ray: &Ray) -> bool {
-        // The crate makes directions unit vectors.
+        // The crate normalises directions.
         let length = ray.direction().iter().map(|x| x * x).sum::<f32>().sqrt();
         let ray = bvh::ray::Ray::new(ray.origin().into(), ray.direction().into());
         let before = |shape: &Shape| Self::distance(&ray, shape) < length;

@@ -1,11 +1,11 @@
-//! How fast the emulated cards are: criterion on modelled time.
+//! Speed of the emulated cards: criterion on modelled time.
 //!
-//! `cargo bench -p crossbar-benches --bench modelled`. What is measured is the timeline of a run in picoseconds, so
-//! every sample is the same, on every machine, and a change is a change of the model. (Criterion's own confidence
-//! intervals are then points.)
+//! `cargo bench -p crossbar-benches --bench modelled`. The measure is the timeline of a run in picoseconds, so all
+//! samples are equal on every machine, and any change is a change of the model. (Criterion's confidence intervals are
+//! points.)
 //!
-//! Figures to beat do not apply; figures to meet are the papers', in `crossbar reproduce`. An element is one fragment
-//! of a crossbar draw: a ray-triangle test.
+//! There is no figure to beat; `crossbar reproduce` compares with the papers' figures. An element is one fragment of a
+//! crossbar draw, i.e. a ray-triangle test.
 
 mod runs;
 
@@ -33,7 +33,7 @@ fn measure(group: &mut Group<'_>, id: BenchmarkId, elements: u64, log: &[Event],
     ModelledTime::measure(group, id, elements, time);
 }
 
-/// Fill against read-back: R rays, T triangles.
+/// Fill versus read-back, by R rays and T triangles.
 fn grid(criterion: &mut Criterion<ModelledTime>) {
     for device in CARDS {
         let (model, mut group) = (model(device), criterion.benchmark_group(format!("R x T, {device}")));
@@ -48,7 +48,7 @@ fn grid(criterion: &mut Criterion<ModelledTime>) {
     }
 }
 
-/// Bytes a ray: ids of one, two and four bytes, and with barycentrics.
+/// Bytes per ray: ids of one, two and four bytes, and with barycentrics.
 fn widths(criterion: &mut Criterion<ModelledTime>) {
     let (model, mut group) = (model("nv20"), criterion.benchmark_group("bytes read back a ray, nv20"));
     for bytes in [1, 2, 4, 16] {
@@ -58,7 +58,7 @@ fn widths(criterion: &mut Criterion<ModelledTime>) {
     group.finish();
 }
 
-/// The same sixteen batches, read back in turn, and one batch later behind a fence.
+/// The same sixteen batches, read back synchronously, and one batch later behind a fence.
 fn asynchrony(criterion: &mut Criterion<ModelledTime>) {
     for device in CARDS {
         let (model, mut group) = (model(device), criterion.benchmark_group(format!("read-back, {device}")));
@@ -70,7 +70,7 @@ fn asynchrony(criterion: &mut Criterion<ModelledTime>) {
     }
 }
 
-/// Textures through the simulated cache, and every line that is asked for from memory.
+/// Textures with the simulated cache, and without a cache.
 fn cache(criterion: &mut Criterion<ModelledTime>) {
     for device in CARDS {
         let (model, mut group) = (model(device), criterion.benchmark_group(format!("texture cache, {device}")));

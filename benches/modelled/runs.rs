@@ -12,29 +12,29 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::cache::TextureCaches;
 
-/// Rows of a bucket: the paper's textures are 64 x 4.
+/// Rows per bucket: the paper's textures are 64 x 4.
 const ROWS: u32 = 4;
 
-/// A run: some batches, one after the other.
+/// A run: several batches in sequence.
 #[derive(Clone, Copy)]
 pub(crate) struct Batches {
     pub(crate) device: &'static str,
-    /// Rays of a batch; a multiple of 4.
+    /// Rays per batch; a multiple of 4.
     pub(crate) rays: u32,
-    /// Triangles that each ray meets.
+    /// Triangles tested per ray.
     pub(crate) triangles: usize,
-    /// Batches.
+    /// Number of batches.
     pub(crate) batches: usize,
-    /// Bytes of a result: 1, 2, 4 or 16.
+    /// Bytes per result: 1, 2, 4 or 16.
     pub(crate) read_back_bytes: u32,
-    /// Whether the host waits for each batch, or for the one before.
+    /// Synchronous: the host waits for each batch; asynchronous: it waits for the previous one.
     pub(crate) mode: ReadBackMode,
-    /// Whether the texture cache is simulated.
+    /// `true` to simulate the texture cache.
     pub(crate) observed: bool,
 }
 
 impl Batches {
-    /// One batch of 256 rays and ten triangles, ids of four bytes.
+    /// One batch of 256 rays and ten triangles, with ids of four bytes.
     pub(crate) fn new(device: &'static str) -> Self {
         Self {
             device,
@@ -47,12 +47,12 @@ impl Batches {
         }
     }
 
-    /// Ray-triangle tests of the run.
+    /// Number of ray-triangle tests of the run.
     pub(crate) fn tests(&self) -> u64 {
         u64::from(self.rays) * self.triangles as u64 * self.batches as u64
     }
 
-    /// What is asked of the card.
+    /// Records the run.
     pub(crate) fn log(&self) -> Vec<Event> {
         let profile = Profile::named(self.device).expect("a card of the project");
         let program = assemble(DUAL_TEXTURED).expect("it assembles");
@@ -76,7 +76,7 @@ impl Batches {
         machine.take_log().into_iter().map(|event| self.narrowed(event)).collect()
     }
 
-    /// Rays up, quads over them, results back.
+    /// Uploads rays, draws quads over them, and reads results back.
     fn batch(&self, machine: &mut Machine, program: &CheckedProgram) -> Option<refsim::event::FenceId> {
         let (width, height) = (self.rays / ROWS, ROWS);
         let target = machine.create_target(TexelFormat::Bgra8, width, height).expect("a target");
@@ -103,7 +103,7 @@ impl Batches {
         }
     }
 
-    /// Targets are of four bytes a pixel; results of another width take as many bytes as they have.
+    /// Changes the bytes of a read-back: targets have four bytes per pixel, results may have another width.
     fn narrowed(&self, event: Event) -> Event {
         match event {
             Event::ReadBack { resource, mode, fence, .. } => {

@@ -1,10 +1,10 @@
-//! How fast matrix radiosity is on the host: an iteration of 4,096 patches on the batch executor beside loops of f32,
-//! and the f64 product of the host's solvers beside nalgebra's.
+//! Host speed of matrix radiosity: an iteration over 4,096 patches on the batch executor versus f32 loops, and the f64
+//! product of the host's solvers versus nalgebra's.
 //!
-//! Figures to beat: the batch executor no slower than ten times the loop, the product level with nalgebra's
-//! matrix-vector product. Ratios are of one run. One element is one texel of the matrix, or one element.
+//! Figures to beat: the batch executor takes at most ten times the loop's time, and the product matches nalgebra's
+//! matrix-vector product. Ratios are within one run. An element is one texel of the matrix, or one element.
 //!
-//! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` for the second alone, which needs less
+//! `cargo bench -p crossbar-benches --bench radiosity`; `-- "f64 product"` runs only the second, which needs less
 //! memory (the first takes 1.5 GB).
 
 use criterion::{BenchmarkId, Criterion, Throughput};
@@ -25,7 +25,7 @@ const PATCHES: usize = 4096;
 /// Sizes of the products.
 const SIZES: [usize; 3] = [512, 1954, 4096];
 
-/// Form factors whose rows sum to 1, no two alike.
+/// Form factors whose rows sum to 1, all different.
 fn factors(size: usize) -> Matrix {
     let random = CounterRng::new(size as u64);
     let mut matrix = Matrix::zeros([size; 2]).expect("a matrix");
@@ -46,8 +46,7 @@ fn system(size: usize) -> System {
     System::new(factors, vec![[0.7, 0.5, 0.3]; size], emittance).expect("a system")
 }
 
-/// Equation 4 as anybody would write it down: a row at a time, three channels and a fourth to fill the register, one
-/// thread.
+/// Straightforward implementation of equation 4: row by row, three channels and one for padding, single-threaded.
 fn plain_step(matrix: &Texels, e: &Texels, b: &Texels) -> Vec<[f32; 4]> {
     (0..matrix.height)
         .map(|i| {
@@ -121,7 +120,7 @@ fn products(criterion: &mut Criterion) {
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     products(&mut criterion);
-    // A filter that leaves the iterations out should not make their matrices.
+    // Avoids building the matrices if a filter excludes the iterations.
     if !std::env::args().any(|argument| argument == "f64 product") {
         iterations(&mut criterion);
     }

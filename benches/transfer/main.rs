@@ -1,9 +1,9 @@
-//! How fast transfer is precomputed on the host: the shadow rays of all vertices, and diffuse transfer from them.
+//! Host speed of transfer precomputation: the shadow rays of all vertices, and diffuse transfer from them.
 //!
-//! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. One element is one ray,
-//! traced or not. Once, on one thread of a shared EPYC (Zen 5), a bumpy body of 49,990 vertices with 1,035 directions
-//! each, 36 % of them blocked: 4.8 s of processor time for 51.7 million rays, so 2.8 s for 30 million; ray by ray
-//! 10.1 s.
+//! Figure to beat: 30 million rays in 5 s on two threads, which is 10 s of processor time. An element is one ray,
+//! traced or not. Measured once, on one thread of a shared EPYC (Zen 5), a bumpy body of 49,990 vertices with 1,035
+//! directions each, 36 % of them blocked: 4.8 s of processor time for 51.7 million rays, so 2.8 s for 30 million; ray
+//! by ray 10.1 s.
 //!
 //! `cargo bench -p crossbar-benches --bench transfer`
 

@@ -1,12 +1,12 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 //!
-//! A draw goes from left to right through the rooms. [`asm`] turns period assembly into an [`isa::Program`];
-//! [`check`](mod@check) judges it by a [`device::Profile`], which says what a card allows and how it computes, and
-//! gives a [`check::Checked`] program or every rule that it breaks; a [`machine::Machine`] holds textures and targets
-//! and obeys draw calls: vertices through a vertex program, [`raster`] from triangles to fragments, [`exec`] for the
-//! pixel program, [`output`] for tests and blending. [`texture`] says what a texel is, [`num`] what a number is, and
-//! [`event`] counts what happened. Nothing in here knows what is drawn: rays, radiosity and transfer are the business
-//! of the crate above.
+//! [`asm`] parses the assembly languages of the period into an [`isa::Program`]. [`check`](mod@check) validates it
+//! against a [`device::Profile`], which holds a card's limits and arithmetic, and returns a [`check::Checked`] program
+//! or all rules that it violates. A [`machine::Machine`] owns textures and render targets and executes draw calls:
+//! vertices through a vertex program, [`raster`] from triangles to fragments, [`exec`] for the pixel program,
+//! [`output`] for tests and blending. [`texture`] says what a texel is, [`num`] what a number is, and [`event`] counts
+//! what happened. Nothing in here knows what is drawn: rays, radiosity and transfer are the business of the crate
+//! above.
 //!
 //! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Two
 //! executors compute them by different means: the scalar one by integers alone, a value at a time, to be read beside

@@ -1,14 +1,15 @@
-//! The batch executor's arithmetic against `num`: two implementations that share no code, equal on every operation.
+//! Tests the batch executor's arithmetic against `num`: two implementations that share no code must be equal for every
+//! operation.
 //!
 //! Formats of up to 7 bits are compared exhaustively under every rounding, overflow, denormal and special-value rule,
-//! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` walks the
+//! and so are sums and products of fp16; wider ones on edge cases and random operands. `CROSSBAR_FULL=1` covers the
 //! whole range, the short form a part of it.
 
 use rayon::prelude::*;
 use refsim::exec::batch::{convert, evaluate, exact_dot};
 use refsim::num::{Denormals, DotOrder, Format, NumberOperation as Op, Overflow, Rounding, Specials, ops};
 
-/// The operations that `num` defines; sines and cosines the batch executor takes from there.
+/// The operations that `num` defines, except sine and cosine, for which the batch executor uses `num` itself.
 fn operations() -> impl Iterator<Item = Op> {
     Op::ALL.into_iter().filter(|&op| !matches!(op, Op::Sin | Op::Cos) && op.evaluate(Format::FP32, [0; 3]).is_some())
 }
@@ -17,7 +18,7 @@ fn is_unary(op: Op) -> bool {
     op.operands() == 1 || op == Op::Scale
 }
 
-/// Compares one operation on the given operands and says where it differs first.
+/// Compares one operation on the given operands; panics at the first difference.
 fn compare(f: Format, op: Op, a: &[u32], b: &[u32], c: &[u32]) {
     if op == Op::Scale {
         for power in [-3i32, -1, 1, 3] {
@@ -54,7 +55,7 @@ fn same(f: Format, what: &str, [a, b, c]: [&[u32]; 3], batch: &[u32], scalar: im
 
 const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
 
-/// The layout under every combination of rules that its kind has.
+/// The layout with every combination of rules of its kind.
 fn variants(base: Format) -> Vec<Format> {
     let mut out = Vec::new();
     for rounding in ROUNDINGS {
@@ -75,7 +76,7 @@ fn variants(base: Format) -> Vec<Format> {
     out
 }
 
-/// A stream of operands: xorshift, seeded by what is compared.
+/// Xorshift generator of operands.
 struct Random(u64);
 
 impl Random {
@@ -90,7 +91,7 @@ impl Random {
         self.0
     }
 
-    /// A pattern: anything, or near an edge, or near a power of two.
+    /// A random pattern: uniform, near an edge, or near a power of two.
     fn pattern(&mut self, f: &Format) -> u32 {
         let r = self.next();
         let any = (self.next() >> 20) as u32 & f.mask();
@@ -186,7 +187,7 @@ fn sixteen_bit_formats_agree_on_all_operands_of_unary_operations() {
     }
 }
 
-/// Sums and products of all pairs of fp16; the short form takes every 997th first operand and every 61st second one.
+/// Sums and products of all pairs of fp16; the short form takes every 997th first and every 61st second operand.
 fn fp16_agrees_on_pairs(rules: &str) {
     let f = layout(&format!("fp16:{rules}"));
     let (first, second) = if full() { (1, 1) } else { (997, 61) };
@@ -198,7 +199,7 @@ fn fp16_agrees_on_pairs(rules: &str) {
     });
 }
 
-/// One test a rule, so that each can be run in full by name.
+/// One test per rule, so that each can be run in full by name.
 macro_rules! fp16_pairs {
     ($($test:ident = $rules:literal,)*) => {
         mod fp16_pairs {
@@ -230,8 +231,8 @@ fn fp16_agrees_on_quotients() {
     }
 }
 
-/// Patterns at the edges of a float format: of its range, of its subnormal numbers, and with mantissas that make ties,
-/// at exponents whose products come to lie at those edges; infinities and NaN with several payloads.
+/// Patterns at the edges of a float format: of its range, of its subnormals, and mantissas that cause ties, at
+/// exponents whose products are near those edges; infinities and NaN with several payloads.
 fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
     let (top, bias) = ((1u32 << exp_bits) - 1, (1u32 << (exp_bits - 1)) - 1);
     let (half, all) = (1u32 << (man_bits - 1), (1u32 << man_bits) - 1);
@@ -249,7 +250,7 @@ fn edges(exp_bits: u32, man_bits: u32) -> Vec<u32> {
     patterns
 }
 
-/// The short form takes every fifth second operand, other ones for each rule.
+/// The short form takes every fifth second operand, different ones for each rule.
 #[test]
 fn wide_floats_agree_at_their_edges() {
     for (exp_bits, man_bits) in [(8, 23), (7, 16), (8, 10), (8, 7), (7, 22), (6, 10), (8, 22), (5, 10)] {
@@ -271,7 +272,7 @@ fn wide_floats_agree_at_their_edges() {
     }
 }
 
-/// NV30's binary32 is the host's up to the largest number; between that and 2^128 it stays finite.
+/// NV30's binary32 equals the host's up to the largest number; between that and 2^128 it stays finite.
 #[test]
 fn single_floats_agree_at_their_largest_and_smallest() {
     let near = |exponent: u32| {

@@ -1,4 +1,4 @@
-//! The assembler on the fixtures and on chosen texts: what is read, where it stands, and what the errors say.
+//! Tests the assembler on the fixtures and on selected texts: results, spans and error messages.
 
 use miette::Diagnostic as _;
 use refsim::asm::{AssembleErrors, ErrorKind, assemble, print};
@@ -82,7 +82,7 @@ fn spans_of_the_fixtures_hold_what_they_name() {
             assert!(whole.contains(i.opcode.info().mnemonic), "{name}: {whole}");
             for span in i.sources.iter().map(|s| s.span).chain(i.destination.map(|d| d.span)) {
                 assert!(span.start >= i.span.start && span.end <= i.span.end, "{name}: {whole}");
-                // An operand's text alone, as an operand, is that operand.
+                // An operand's text, assembled alone, gives that operand.
                 let alone = format!("ps_1_4\nmov r0, {}", slice(&text, span));
                 good(&alone);
             }

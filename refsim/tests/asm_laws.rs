@@ -1,4 +1,4 @@
-//! Laws of the assembler: it reads back what it prints, and nothing that it is given makes it fall over.
+//! Properties of the assembler: it reads back what it prints, and never panics.
 
 #[path = "common/programs.rs"]
 mod programs;
@@ -19,7 +19,7 @@ fn good_texts() -> Vec<String> {
     paths.into_iter().map(read).collect()
 }
 
-/// Everything that must hold of any text whatever.
+/// Properties of any text.
 fn survives(text: &str) {
     match assemble(text) {
         Ok(program) => {

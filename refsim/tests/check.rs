@@ -1,4 +1,5 @@
-//! The checker against the programs of fixtures/shaders/check: for every rule one that keeps it and one that breaks it.
+//! Tests the checker on the programs of fixtures/shaders/check: for every rule a legal program and one that violates
+//! it.
 
 #[path = "common/running.rs"]
 mod running;
@@ -16,7 +17,7 @@ fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../fixtures/shaders/check")
 }
 
-/// The program and the device that its first line names: `// r200: what it shows`.
+/// Loads a program and the device that its first line names: `// r200: purpose`.
 fn load(name: &str) -> (String, Program, Profile) {
     let text = fs::read_to_string(folder().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
     let header = text.lines().next().and_then(|l| l.strip_prefix("// ")).unwrap();
@@ -26,7 +27,7 @@ fn load(name: &str) -> (String, Program, Profile) {
     (text, program, profile)
 }
 
-/// The plainest rendering that shows everything a violation carries.
+/// Renders a violation with all its fields.
 fn render(text: &str, report: &CheckReport) -> String {
     use miette::Diagnostic;
     let mut out = format!("{report}\n");
@@ -45,7 +46,7 @@ fn render(text: &str, report: &CheckReport) -> String {
     out
 }
 
-/// What the checker lets through on a device without limits, the executors have registers for.
+/// On a device without limits, the checker accepts only registers that the executors have.
 #[test]
 fn ideal_devices_end_where_the_register_files_do() {
     let profile = Profile::named("ideal-fp32").unwrap();
@@ -175,8 +176,8 @@ fn every_violation_is_reported_in_one_go() {
 
 #[test]
 fn period_programs_are_not_turned_away_for_the_rules_of_this_house() {
-    // The kernels are legal. The assembler's programs are as long as the tables they walk, and break only these rules:
-    // a constant beyond 1, components never written, a cmp onto itself.
+    // The kernels are legal. The assembler's fixtures only exceed limits and violate these rules: a constant beyond 1,
+    // components never written, a cmp onto itself.
     let careless = [RuleId::MisplacedDefinition, RuleId::UnwrittenRead, RuleId::CmpOrDp4];
     let mut seen = 0;
     let mut wrong = String::new();

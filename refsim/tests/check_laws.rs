@@ -1,4 +1,4 @@
-//! Laws of the checker, on random programs.
+//! Properties of the checker on random programs.
 
 mod common {
     pub(crate) mod programs;
@@ -14,7 +14,7 @@ use refsim::{
 
 const DEVICES: [&str; 6] = ["r200", "nv20", "nv25", "r300", "nv35", "ideal-fp32"];
 
-/// What an executor would stumble over.
+/// Checks everything that executors rely on.
 fn is_safe(program: &Program, facts: &check::Facts) -> Result<(), String> {
     let version = program.version;
     for (index, instruction) in program.instructions.iter().enumerate() {
@@ -76,7 +76,7 @@ fn is_safe(program: &Program, facts: &check::Facts) -> Result<(), String> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
-    /// No program of any shape makes the checker panic, and what it lets through is fit to run.
+    /// No program of valid shape makes the checker panic, and accepted programs are safe to run.
     #[test]
     fn any_program_gets_a_verdict(program in programs::program(), device in 0..DEVICES.len()) {
         let profile = Profile::named(DEVICES[device]).unwrap();
@@ -86,7 +86,7 @@ proptest! {
         }
     }
 
-    /// A version or a limit that a device has, an ideal device has too: what runs on a card runs on an ideal device.
+    /// An ideal device allows every program that a card allows.
     #[test]
     fn ideal_devices_allow_whatever_a_card_allows(program in programs::program(), device in 0..DEVICES.len() - 1) {
         let card = Profile::named(DEVICES[device]).unwrap();
@@ -95,7 +95,7 @@ proptest! {
         }
     }
 
-    /// Well-nested flow control is legal on a device without limits, and safe to run.
+    /// Well-nested flow control is legal and safe on a device without limits.
     #[test]
     fn nested_blocks_are_legal(body in block()) {
         let text = format!("{HEAD}{}{TAIL}", body.concat());
@@ -105,7 +105,7 @@ proptest! {
         prop_assert_eq!(is_safe(&checked, checked.facts()), Ok(()));
     }
 
-    /// With a line missing or doubled a program is still judged, and what passes is still safe.
+    /// With a line removed or doubled, a program is still checked, and accepted programs are safe.
     #[test]
     fn broken_blocks_are_judged(body in block(), at in any::<prop::sample::Index>(), double in any::<bool>()) {
         let mut lines: Vec<&str> = body.iter().flat_map(|b| b.split_inclusive('\n')).collect();
@@ -130,7 +130,7 @@ proptest! {
 const HEAD: &str = "ps_2_a\ndcl t0\ndcl_2d s0\nmov r0, t0\nsetp_gt p0, r0, c0\n";
 const TAIL: &str = "call l3\nmov oC0, r0\nret\nlabel l3\nmul r0, r0, c5\nret\n";
 
-/// Well-nested statements, one or more lines an entry.
+/// Well-nested statements, one or more lines per entry.
 fn block() -> impl Strategy<Value = Vec<String>> {
     let line = prop::sample::select(vec![
         "mul r0, r0, c1\n",

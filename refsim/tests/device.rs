@@ -1,4 +1,4 @@
-//! The profiles: they load, say what they should, and refuse what they do not have.
+//! Tests the profiles: loading, contents, and errors for unknown names.
 
 use refsim::device::{
     ColorIterator, Confidence, ConstantStorage, DeviceError, MadMode, Profile, ResultRange, SignedTexelMinimum,
@@ -24,7 +24,7 @@ fn every_profile_loads_and_every_value_of_every_switch_can_be_set() {
                 changed.set_switch(&switch.name, value).unwrap();
                 let current = changed.switches().iter().find(|s| s.name == switch.name).unwrap();
                 assert_eq!(&current.current, value);
-                // A switch that alters nothing is a lie.
+                // Every value of a switch must change the profile.
                 let differs = changed.rules != profile.rules || changed.limits != profile.limits;
                 assert_eq!(differs, *value != switch.current, "{name} {} {value}", switch.name);
             }
@@ -99,14 +99,14 @@ fn switches_reach_the_formats() {
     r300.set_format(Format::FP16);
     let denormals = r300.switches().iter().find(|s| s.name == "denormals").unwrap();
     assert_eq!(denormals.current, "keep");
-    // A float that wraps does not exist, whatever the switch of the fixed-point card says.
+    // Floats cannot wrap, whatever the switch of the fixed-point card.
     let mut r200 = Profile::named("r200").unwrap();
     r200.set_format(Format::FP24);
     assert!(matches!(r200.set_switch("overflow", "wrap"), Err(DeviceError::SwitchValue { .. })));
     assert_eq!(r200.rules.format, Format::FP24);
 }
 
-/// GL_NV_register_combiners: results end at -1 and 1, sums within an instruction do not. Another format brings its
+/// GL_NV_register_combiners: results are clamped to [-1, 1], sums within an instruction are not. Another format has its
 /// own range.
 #[test]
 fn nv2x_clamps_results_and_not_sums() {
@@ -157,7 +157,7 @@ fn every_format_that_a_profile_lists_exists() {
     }
 }
 
-/// So whatever holds for a card holds for its variants, and no test of arithmetic has to draw on them.
+/// So whatever holds for a card holds for its variants, and arithmetic tests need not run on variants.
 #[test]
 fn variants_differ_from_their_card_in_rates_alone() {
     let variants = Profile::variant_names();

@@ -1,4 +1,4 @@
-//! The log of a machine: what it says, and that it costs nobody anything who did not ask for it.
+//! Tests the log of a machine: its contents, and that it costs nothing unless enabled.
 
 #[path = "common/running.rs"]
 mod running;
@@ -86,7 +86,7 @@ fn everything_is_written_down_in_order() {
             Event::Clear { resource: target, bytes: 1024 },
             Event::Clear { resource: depth, bytes: 512 },
             Event::Host(HostWork { kind: "ray".into(), operations: 64 }),
-            // Everything is new to the first draw; the second changes nothing; the third alpha test and masks.
+            // The first draw sets all state; the second changes nothing; the third changes alpha test and masks.
             Event::StateChange { changes: 29, constants: 0 },
             Event::StateChange { changes: 2, constants: 0 },
             upload,
@@ -98,7 +98,7 @@ fn everything_is_written_down_in_order() {
         ]
     );
     let [first, _, third] = &records[..] else { panic!("three draws") };
-    // The upper left half of 8 x 8 quads, those on the diagonal too; the pixels on it belong to the other half.
+    // Upper left half of 8 x 8 quads, including those on the diagonal; pixels on the diagonal belong to the other half.
     assert_eq!((first.quads, first.counts.fragments.generated), (36, 120));
     assert_eq!(first.targets, [TargetRecord { target, pixel_bytes: 4, written: true, read: false }]);
     let buffer = DepthRecord { buffer: depth, pixel_bytes: 2, test: true, write: true, replaced: false };
@@ -153,9 +153,9 @@ fn registers_are_live_from_their_write_to_their_last_read() {
     let live = |text: &str| work(text, &[], &[]).live_halves;
     assert_eq!(live("ps_2_0\ndcl t0\nmov r0, t0\nmov oC0, r0"), 2);
     assert_eq!(live("ps_2_0\ndcl t0\nmov_pp r0, t0\nmov_pp oC0, r0"), 1);
-    // r1 takes the place of r0; r2 and r3 live together.
+    // r1 replaces r0; r2 and r3 are live together.
     assert_eq!(live("ps_2_0\ndcl t0\nmov r0, t0\nmov r1, r0\nmov r2, r1\nmov r3, r2\nadd r2, r2, r3\nmov oC0, r2"), 4);
-    // Components that nobody reads do not keep a register alive.
+    // Components that are never read do not keep a register live.
     assert_eq!(live("ps_2_0\ndcl t0\nmov r0.xyz, t0\nmov r1.xyz, t0\ndp3 r0.w, r0, r1\nmov oC0, r0.w"), 4);
 }
 
@@ -165,9 +165,9 @@ fn registers_of_opengl_programs_weigh_two_halves_or_one() {
     assert_eq!(live("MOVR R0, f[TEX0];\nMOVR o[COLR], R0;"), 2);
     assert_eq!(live("MOVR H0, f[TEX0];\nMOVR o[COLH], H0;"), 1, "the register counts, not the suffix");
     assert_eq!(live("MOVR R0, f[TEX0];\nMOVH H0, p[0];\nADDR R1, R0, H0;\nMOVR o[COLR], R1;"), 3);
-    // Nothing writes R2, but it is there: zero.
+    // R2 is never written, but it is readable: zero.
     assert_eq!(live("MOVR R0, f[TEX0];\nADDR o[COLR], R0, R2;"), 4);
-    // A write under a condition needs what stood there before.
+    // A conditional write depends on the register's old value.
     assert_eq!(live("MOVR R1, p[0];\nMOVRC R0, f[TEX0];\nMOVR R1 (GT), R0;\nMOVR o[COLR], R1;"), 4);
     let arb = |lines: &str| work(&format!("!!ARBfp1.0\nTEMP a, b;\n{lines}\nEND"), &[], &[]).live_halves;
     assert_eq!(arb("MOV a, fragment.color;\nSWZ b, a, 0, 1, 0, 1;\nMOV result.color, b;"), 2, "SWZ reads nothing here");
@@ -178,6 +178,6 @@ fn fixed_point_is_told_apart() {
     let program =
         work("!!FP1.0\nMULX H0, f[COL0], p[0];\nMULX H1, f[TEX0], p[0];\nADDH o[COLH], H0, H1;\nEND", &[], &[]);
     let fixed: Vec<bool> = program.phases[0].arithmetic.iter().map(|slot| slot.fixed).collect();
-    // Coordinates ask for full precision, whatever the suffix says.
+    // Coordinates force full precision, whatever the suffix.
     assert_eq!(fixed, [true, false, false]);
 }

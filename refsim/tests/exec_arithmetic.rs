@@ -1,5 +1,5 @@
-//! Every arithmetic operation of the scalar executor against the steps that its documentation names, done by hand
-//! with the operations of `num`.
+//! Tests every arithmetic operation of the scalar executor against the steps in its documentation, carried out with the
+//! operations of `num`.
 
 #[path = "common/running.rs"]
 mod running;
@@ -11,7 +11,7 @@ use running::{bits, constants, ideal, into, run, run_vertex};
 
 type V = [u32; 4];
 
-/// The operations by hand, under rules.
+/// Reference operations under a device's rules.
 struct Hand<'a>(&'a Rules, Format);
 
 impl Hand<'_> {
@@ -44,7 +44,7 @@ impl Hand<'_> {
         }
     }
 
-    /// What an operation gives.
+    /// Expected result of an operation.
     fn expected(&self, op: &str, s: &[V; 3]) -> V {
         let f = self.1;
         let [a, b, c] = s;
@@ -82,7 +82,7 @@ impl Hand<'_> {
     }
 }
 
-/// Vectors with components in (-1, 1), by a small generator.
+/// Pseudo-random vectors with components in (-1, 1).
 fn vectors(seed: &mut u64) -> [[f32; 4]; 3] {
     let mut next = || {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

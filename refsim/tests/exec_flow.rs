@@ -1,4 +1,4 @@
-//! Flow control by lane masks, against results worked out by hand.
+//! Tests flow control by lane masks against manually derived results.
 
 #[path = "common/running.rs"]
 mod running;
@@ -7,8 +7,8 @@ use refsim::exec::{Constants, PixelBindings};
 use refsim::raster::FragmentInput;
 use running::{bits, constants, ideal, input, run_quad, run_vertex};
 
-/// Runs a ps_2_a body on four lanes with t0.x = 0, 1, 2, 3 and returns what each lane left in r0.x.
-/// c0.x = 0, c1.x = 1, c2.x = 2, c3.x = 3; i0 = 3 passes, i1 = 0; b0 true, b1 false.
+/// Runs a ps_2_a body on four lanes with t0.x = 0, 1, 2, 3 and returns r0.x of each lane. c0.x = 0, c1.x = 1, c2.x = 2,
+/// c3.x = 3; i0 = 3 passes, i1 = 0; b0 true, b1 false.
 fn lanes(body: &str) -> [f32; 4] {
     let mut host = constants(&[[0.0; 4], [1.0; 4], [2.0; 4], [3.0; 4]]);
     host.int = vec![[3, 0, 0, 0], [0; 4], [300, 0, 0, 0], [-5, 0, 0, 0]];

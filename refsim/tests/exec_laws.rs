@@ -1,4 +1,4 @@
-//! Laws of the scalar executor over random programs, random data and every device.
+//! Properties of the scalar executor over random programs, random data and every device.
 
 #[path = "common/legal.rs"]
 mod legal;
@@ -15,7 +15,7 @@ use refsim::num::Format;
 use refsim::raster::FragmentInput;
 use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
 
-/// The cards and some ideal devices of odd formats.
+/// The cards, and some ideal devices with unusual formats.
 fn profiles() -> Vec<Profile> {
     let mut names: Vec<String> = Profile::card_names().into_iter().map(str::to_owned).collect();
     for format in ["s3.12:rdn:wrap", "s0.7", "e5m10:nvovf:nv", "e2m1", "e7m16:rtz:ftz", "e8m23:sat", "s31.0", "s7.24"] {
@@ -24,7 +24,7 @@ fn profiles() -> Vec<Profile> {
     names.iter().map(|n| Profile::named(n).unwrap()).collect()
 }
 
-/// A number of any kind, everyday ones above all.
+/// A number of any kind, mostly ordinary ones.
 fn number() -> impl Strategy<Value = u32> {
     prop_oneof![
         4 => (-2000i32..2000).prop_map(|n| (n as f32 / 512.0).to_bits()),
@@ -57,7 +57,7 @@ fn inputs(data: &[[u32; 4]]) -> [FragmentInput; 4] {
     out
 }
 
-/// Checks the pieces of a result that every program owes: no bits above the width, no NaN but the canonical one.
+/// Checks a result: no bits above the width, and no NaN but the canonical one.
 fn well_formed(format: Format, value: [u32; 4]) -> bool {
     value.iter().all(|&x| x & !format.mask() == 0 && (!format.is_nan(x) || Some(x) == format.canonical_nan()))
 }
@@ -81,11 +81,11 @@ fn run_pixel(
             prop_assert!(well_formed(profile.rules.format, color), "{color:x?} in {}", profile.rules.format);
         }
     }
-    // Which lanes are covered changes the counts alone.
+    // The set of covered lanes affects the counts only.
     let mut fewer = [0; 16];
     prop_assert_eq!(all, prepared.run(&inputs, 0b0100, &mut fewer, &mut NoObserver).0);
     prop_assert!(fewer.iter().zip(fetches).all(|(&few, many)| few <= many));
-    // Lanes go their own ways: each is what it would be among copies of itself, unless differences are asked for.
+    // Without differences, lanes are independent: each has the result of a quad of copies of itself.
     if !program.instructions.iter().any(|i| matches!(i.opcode, Opcode::Dsx | Opcode::Dsy)) {
         for (lane, input) in inputs.iter().enumerate() {
             let alone = prepared.run(&[*input; 4], 0b1111, &mut [0; 16], &mut NoObserver).0;
@@ -122,7 +122,7 @@ fn run(program: &CheckedProgram, profile: &Profile, data: &[[u32; 4]], host: &Co
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
-    /// Legal programs run on every device that has their version, on any data.
+    /// Legal programs run on every device that has their version, with any data.
     #[test]
     fn legal_programs_run(
         version in select(&Version::ALL[..]),
@@ -136,7 +136,7 @@ proptest! {
         let text = legal::program(version, &choices);
         let program = assemble(&text).map_err(|e| TestCaseError::fail(format!("{text}\n{e:?}")))?;
         let Ok(program) = running::ready(program, profile) else {
-            // A limit of this device; an ideal one takes them all, as tested below.
+            // Rejected by a limit of this device; an ideal one accepts all, as tested below.
             return Ok(());
         };
         let host = Constants { float: constants, int: vec![[2, 0, 1, 0]; 16], boolean: vec![true, false], ..Constants::default() };

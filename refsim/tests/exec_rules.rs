@@ -1,4 +1,4 @@
-//! What the shader models promise: comparisons at the edge, modifiers, co-issue, phases, kills, depth, constants.
+//! Rules of the shader models: comparisons at the boundary, modifiers, co-issue, phases, kills, depth, constants.
 
 #[path = "common/running.rs"]
 mod running;
@@ -20,7 +20,7 @@ fn s(v: [f32; 4]) -> [u32; 4] {
     into(S3_12, v)
 }
 
-/// r200 with constants that keep all their bits.
+/// r200 with constants in full precision.
 fn r200() -> Profile {
     let mut profile = Profile::named("r200").unwrap();
     profile.set_switch("constants", "register").unwrap();
@@ -61,7 +61,7 @@ fn source_modifiers_round_each_step_and_negate_last() {
         let ran = run(&format!("ps_1_4\nmov r0, c0\nmov r1, {source}\nmov r0, r1"), &r200(), &c);
         assert_eq!(ran.value(1), s(expected), "{source}");
     }
-    // Replicated selector first, modifier after.
+    // The replicate selector is applied before the modifier.
     let ran = run("ps_1_4\nmov r0, c0\nmov r1, 1-r0.g\nmov r0, r1", &r200(), &c);
     assert_eq!(ran.value(1), s([0.25; 4]));
     // -(-8) does not exist: it saturates.
@@ -223,8 +223,8 @@ fn projection_divides_in_single_precision_with_one_for_a_zero_divisor() {
     assert_eq!(at([1.0, 3.0, 9.0, 0.0]), [0x1000, 0x1000]);
 }
 
-/// `max(min(result, 1), -1)` after the shift, of texture instructions too; `_sat` comes before it. The clamp shows as
-/// an overflow.
+/// `max(min(result, 1), -1)` after the shift, also for texture instructions; `_sat` precedes it. A clamp raises
+/// overflow.
 #[test]
 fn results_of_nv2x_are_clamped_to_one() {
     let nv25 = Profile::named("nv25").unwrap();
@@ -242,7 +242,7 @@ fn results_of_nv2x_are_clamped_to_one() {
     let text = "ps_1_2\ntex t0\ntexdp3 t1, t0\ntexdp3 t2, t0\nmov r0, t1";
     let ran = with_texture(text, &nv25, &[t, row[0], row[1]], BumpStage::default());
     assert_eq!((ran.value(1), ran.value(2)), (s([1.0; 4]), s([-1.0; 4])));
-    // A vertex program knows nothing of it.
+    // Vertex programs are not affected.
     assert_eq!(nv25.rules.vertex_format, Format::FP32);
 }
 
@@ -330,7 +330,7 @@ fn the_trace_has_flags() {
     let ran = run("ps_1_4\nmov_x8 r0, c0\nmul r0, r0, r0", &r200(), &[[1.0, 0.25, 0.1, 0.0]]);
     let step = ran.steps.iter().find(|s| s.instruction == 1).unwrap();
     assert!(step.flags.contains(Flags::OVERFLOW), "8 * 8 leaves s3.12: {:?}", step.flags);
-    // An inexact coordinate is the read's affair, not that of the instruction after it.
+    // Inexact coordinates are attributed to the read, not to the instruction after it.
     let text = "ps_1_4\ntexcrd r0.rgb, t0\nmov r0.a, c0.a\nmov r1, r0\nmov r0, r1";
     let ran = run_with_coordinates(text, &r200(), &[[0.1; 4]]);
     let flags: Vec<Flags> = ran.steps.iter().map(|s| s.flags).collect();

@@ -1,7 +1,6 @@
-//! Filtered texture reads, which the batch executor makes in rows, with levels of detail and without: the bits of the
-//! scalar executor, for every texel format, kind of texture, address mode, number of weight bits and register format,
-//! at coordinates and derivatives of any kind. Reads at coordinates that are the same for a draw or a triangle, which
-//! it makes once, likewise.
+//! Tests filtered texture reads of the batch executor in rows, with and without level of detail, against the scalar
+//! executor: every texel format, kind of texture, address mode, number of weight bits and register format, at arbitrary
+//! coordinates and derivatives. Also tests reads at coordinates that are constant over a draw or a triangle.
 
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -15,7 +14,7 @@ use refsim::num::Format;
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Pixels a side: a tile and a few more.
+/// Width and height in pixels: a tile and a few more.
 const SIDE: u32 = 18;
 const ONE: u32 = 0x3f80_0000;
 const FORMATS: [&str; 14] = [
@@ -38,28 +37,28 @@ const MODES: [AddressMode; 4] = [AddressMode::Wrap, AddressMode::Mirror, Address
 const KINDS: [TextureKind; 5] =
     [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
 
-/// Where a read's coordinates and its level of detail come from.
+/// Source of a read's coordinates and of its level of detail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Lookup {
-    /// Coordinates per pixel, the level of detail from neighbours.
+    /// Coordinates per pixel, level of detail from neighbouring pixels.
     Implicit,
     /// Coordinates and derivatives per pixel.
     Gradients,
     /// The first pixel's coordinates, as a constant of the draw.
     Constant,
-    /// Coordinates that are constant over each of two quads; derivatives too, as a program's constants.
+    /// Coordinates that are constant over each of two quads, and derivatives as a program's constants.
     PerTriangle,
 }
 
-/// A read of one texture at coordinates that lie in another, a texel per pixel.
+/// A read of a texture at coordinates stored in another texture, one texel per pixel.
 #[derive(Clone, Debug)]
 struct Read {
     texture: Image,
     state: SamplerState,
     lookup: Lookup,
-    /// Single precision, row by row.
+    /// Single-precision patterns, row by row.
     coordinates: Vec<[u32; 4]>,
-    /// Likewise: x and y of both directions, or those of one that the other permutes.
+    /// The same: x and y of both directions, or those of one, which the other permutes.
     derivatives: Vec<[u32; 4]>,
     register: &'static str,
     weight_bits: u8,
@@ -67,12 +66,12 @@ struct Read {
     minimum: SignedTexelMinimum,
 }
 
-/// Coordinates between texels and far beyond, some of no size at all.
+/// Coordinates between texels, far outside, and non-finite.
 fn coordinate() -> impl Strategy<Value = u32> {
     prop_oneof![
         6 => (-2.5f32..2.5).prop_map(f32::to_bits),
         3 => (-20.0f32..20.0).prop_map(f32::to_bits),
-        // Texel centres and edges, and next to them.
+        // Texel centres and edges, and their neighbours.
         4 => (-24i32..24, 1u32..10, -1i32..2).prop_map(|(i, n, ulps)| {
             (i as f32 / (2 * n) as f32).to_bits().wrapping_add_signed(ulps)
         }),
@@ -100,7 +99,7 @@ fn texture(kind: TextureKind) -> impl Strategy<Value = Image> {
                 state ^= state << 13;
                 state ^= state >> 7;
                 state ^= state << 17;
-                // Some codes at the ends of their range, infinities and NaN among them.
+                // Includes codes at the ends of their range, infinities and NaN.
                 *byte =
                     if state & 7 == 0 { [0, 0xff, 0x7f, 0x80][(state >> 3 & 3) as usize] } else { (state >> 16) as u8 };
             }
@@ -113,7 +112,7 @@ fn read() -> impl Strategy<Value = Read> {
     select(KINDS.to_vec()).prop_flat_map(|kind| {
         let state = (
             [select(MODES.to_vec()), select(MODES.to_vec()), select(MODES.to_vec())],
-            // Some nearest: of cubes, of volumes, of a level that is not the first.
+            // Includes nearest reads: of cube maps, volumes, and levels other than the first.
             prop_oneof![4 => Just(Filter::Linear), 1 => Just(Filter::Nearest)],
             [coordinate(), coordinate(), coordinate(), coordinate()],
             0u8..4,
@@ -142,7 +141,7 @@ fn read() -> impl Strategy<Value = Read> {
     })
 }
 
-/// Derivatives of nothing, of parts of a texel, of a whole texture and more.
+/// Derivatives of zero, fractions of a texel, whole textures and more.
 fn derivative() -> impl Strategy<Value = u32> {
     prop_oneof![
         // 2^-9 to 8, of either sign.
@@ -152,14 +151,14 @@ fn derivative() -> impl Strategy<Value = u32> {
     ]
 }
 
-/// Reads whose level of detail may decide.
+/// Reads that may depend on the level of detail.
 fn leveled() -> impl Strategy<Value = Read> {
     let filter = || select(vec![Filter::Nearest, Filter::Linear]);
     let mip = select(vec![MipFilter::None, MipFilter::Nearest, MipFilter::Linear, MipFilter::Linear]);
     let lookup =
         select(vec![Lookup::Implicit, Lookup::Gradients, Lookup::Gradients, Lookup::Constant, Lookup::PerTriangle]);
     let bias = prop_oneof![2 => Just(0), 3 => (-3.0f32..3.0).prop_map(f32::to_bits), 1 => coordinate()];
-    // Smooth coordinates, so that neighbours ask for few levels.
+    // Smooth coordinates, so that neighbouring pixels need few levels.
     let slope = (any::<bool>(), [-0.1f32..0.1, -0.1..0.1, -0.1..0.1], [-0.1f32..0.1, -0.1..0.1, -0.1..0.1]);
     let pixels = (SIDE * SIDE) as usize;
     let derivatives = proptest::collection::vec([derivative(), derivative(), derivative(), derivative()], pixels);
@@ -185,7 +184,7 @@ fn vertex(x: f32, y: f32, s: f32, t: f32) -> Vertex {
     vertex
 }
 
-/// The program, which goes through the register format on its way from coordinates to the read.
+/// The program, which computes coordinates in the register format.
 fn text(read: &Read) -> String {
     let side = match read.texture.kind() {
         TextureKind::D1 => "1D",
@@ -205,7 +204,7 @@ fn text(read: &Read) -> String {
     format!("!!FP1.0\nTEX R0, f[TEX0], TEX0, 2D;\n{lookup}\nMOVR o[COLR], R1;\nEND")
 }
 
-/// Two quads, one beside the other; TEX1 is constant over each.
+/// Two adjacent quads; TEX1 is constant over each.
 fn quads(read: &Read) -> Vec<Vertex> {
     let half = |left: f32, place: [u32; 4]| {
         let corners = [(left, 1.0), (left + 1.0, 1.0), (left + 1.0, -1.0), (left, -1.0)];
@@ -304,7 +303,7 @@ fn textures_without_a_table_are_filtered_alike() {
         let read =
             Read { texture, state, lookup, coordinates, derivatives, register, weight_bits: 8, lod_bits: 8, minimum };
         agrees(&read);
-        // Nearest texels, which are decoded in rows of their own.
+        // Nearest texels, which have their own decoding in rows.
         let nearest = SamplerState { min: Filter::Nearest, mag: Filter::Nearest, ..read.state };
         for register in ["fp32", "fp16", "fp24:rdn", "fp32:rna:ftz", "s3.12"] {
             agrees(&Read { state: nearest, register, ..read.clone() });

@@ -1,5 +1,5 @@
-//! Targets of one row of quads, which the batch executor walks in flat tiles, and textures that are too large for its
-//! tables: the bits and counts of the scalar executor.
+//! Tests targets with a single row of quads, for which the batch executor uses flat tiles, and textures that are too
+//! large for its tables, against the scalar executor's bits and counts.
 
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -12,7 +12,7 @@ use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthFor
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Image, Region, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Numbers in [0, 1), always the same.
+/// Deterministic numbers in [0, 1).
 struct Numbers(u32);
 
 impl Numbers {
@@ -22,7 +22,7 @@ impl Numbers {
     }
 }
 
-/// Looks at its neighbours and its place, and reads texture 0.
+/// A program that takes differences, reads its position, and reads texture 0.
 const PROGRAM: &str = "!!FP1.0
 TEX R0, f[TEX0], TEX0, 2D;
 DDX R1, f[TEX1];
@@ -32,7 +32,7 @@ MADR R0.xy, f[WPOS], {0.001}.x, R0;
 MOVR o[COLR], R0;
 END";
 
-/// Looks at nobody, so that tiles of a single row will do; some fragments are given up.
+/// A program without differences, so that tiles may have a single row; kills some fragments.
 const APART: &str = "!!FP1.0
 TEX R0, f[TEX0], TEX0, 2D;
 SLTRC RC.x, R0, {0.3}.x;
@@ -42,7 +42,7 @@ MADR R0, f[TEX1], R0.yzwx, R0;
 MOVR o[COLR], R0;
 END";
 
-/// What is drawn where.
+/// Parameters of a draw.
 struct Case {
     size: [u32; 2],
     scissor: Option<Region>,

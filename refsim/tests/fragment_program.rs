@@ -1,4 +1,4 @@
-//! OpenGL's fragment programs: the facts of the two specifications, on the scalar executor.
+//! Tests OpenGL fragment programs on the scalar executor against the two specifications.
 
 mod fragment_program {
     mod agree;
@@ -24,7 +24,7 @@ fn nv35() -> Profile {
     Profile::named("nv35").unwrap()
 }
 
-/// Runs `!!FP1.0` statements, then writes R0 out, with `p[0]` on.
+/// Runs `!!FP1.0` statements with parameters from `p[0]` on, then writes R0 out.
 fn run(statements: &str, values: &[[f32; 4]]) -> Ran {
     run_with(statements, &constants(values), &FragmentInput::default())
 }
@@ -34,12 +34,12 @@ fn run_with(statements: &str, host: &Constants, input: &FragmentInput) -> Ran {
     run_quad(&text, &nv35(), &PixelBindings::new(host), &[*input; 4])
 }
 
-/// The colour that is left in lane 0.
+/// Final colour of lane 0.
 fn color(ran: &Ran) -> [f32; 4] {
     ran.results[0].colors[0].map(f32::from_bits)
 }
 
-/// What one instruction makes of `p[0]`, as bits.
+/// Result of one instruction on `p[0]`, as bits.
 fn one(instruction: &str, value: [f32; 4]) -> [u32; 4] {
     run(&format!("{instruction};"), &[value]).results[0].colors[0]
 }
@@ -78,7 +78,7 @@ fn condition_codes_are_tested_as_the_table_says() {
 fn condition_codes_start_as_equal_and_change_only_where_something_is_written() {
     let ran = run("MOVR R0 (EQ), p[0];", &[[5.0; 4]]);
     assert_eq!(color(&ran), [5.0; 4]);
-    // The mask keeps y, z and w equal; then the condition keeps x less.
+    // The mask keeps y, z and w "equal"; then the condition keeps x "less".
     let ran = run(
         "MOVRC R1.x, p[0]; MOVRC R1 (GE), p[1]; MOVR R0 (LT), {1,1,1,1}; MOVR R0 (GT), {2,2,2,2};",
         &[[-1.0; 4], [3.0; 4]],
@@ -149,7 +149,7 @@ fn words_keep_their_bits() {
 #[test]
 fn packing_rounds_to_the_nearest_step() {
     let word = |name: &str, value: [f32; 4]| {
-        // The word leaves through UP4UB, a byte a component.
+        // UP4UB unpacks the word, one byte per component.
         run(&format!("{name} R1.x, p[0]; UP4UB R0, R1.x;"), &[value]).results[0].colors[0]
     };
     let bytes = |b: [u8; 4]| b.map(|k| (f32::from(k) / 255.0).to_bits());

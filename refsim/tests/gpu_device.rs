@@ -1,4 +1,4 @@
-//! The host side of the GPU executor: buffers go there and back, shaders run, faults are errors.
+//! Tests the host side of the GPU executor: buffer transfers, shaders, errors.
 
 #[path = "common/adapter.rs"]
 mod adapter;

@@ -1,4 +1,4 @@
-//! Draws on a GPU against the reference: targets, depth buffers and counts are equal to the last bit.
+//! Tests draws on a GPU against the reference: targets, depth buffers and counts must be bit-identical.
 
 #[path = "common/adapter.rs"]
 mod adapter;
@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     ])
 }
 
-/// Numbers from a seed.
+/// Pseudo-random numbers.
 struct Dice(u64);
 
 impl Dice {
@@ -69,7 +69,7 @@ fn vertices(dice: &mut Dice, count: usize) -> Vec<Vertex> {
         .collect()
 }
 
-/// The same memory on both machines.
+/// Two machines with the same memory.
 struct Pair {
     reference: Machine,
     device: Machine,
@@ -130,7 +130,7 @@ fn copy(profile: &Profile) -> CheckedProgram {
     checked("ps_2_0\ndcl t0\nmov oC0, t0", profile)
 }
 
-/// State of a random draw.
+/// Pipeline state of a random draw.
 struct State {
     alpha: Option<AlphaTest>,
     depth: DepthState,
@@ -195,7 +195,7 @@ fn triangles(gpu: &Arc<Gpu>) {
     }
 }
 
-/// Every target format, every depth format, all of the output stage, in formats of every kind.
+/// Every target and depth format and the whole output stage, in number formats of every kind.
 fn output_stage(gpu: &Arc<Gpu>) {
     for (number, device) in ["fp32", "fp16", "fp24", "s3.12", "s7.24", "e4m3"].into_iter().enumerate() {
         let mut profile = ideal(device);
@@ -263,13 +263,13 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     pair.device.update_texture(first, &image).unwrap_err();
     let released = [pair.reference.release_texture(first), pair.device.release_texture(first)];
     assert_eq!(released[0], released[1], "what is released is what was drawn");
-    // Takes the place of the first on the GPU.
+    // Reuses the first one's memory on the GPU.
     let third = pair.target(TexelFormat::Rgba16f, 33, 17, bits([0.125; 4]));
     draw(&mut pair, third);
     pair.same(&[second, third], None, "a new target");
 }
 
-/// Programs with texture reads, constants, kill, depth of their own; samplers that are unbound.
+/// Programs with texture reads, constants, kill and depth output; unbound samplers.
 fn programs(gpu: &Arc<Gpu>) {
     agree(
         gpu,
@@ -283,7 +283,7 @@ fn programs(gpu: &Arc<Gpu>) {
     );
 }
 
-/// A short agreement for drivers that compile slowly.
+/// A short comparison for drivers that compile slowly.
 fn short_programs_agree_on_any_driver(gpu: &Arc<Gpu>) {
     agree(
         gpu,
@@ -326,7 +326,7 @@ fn texture(dice: &mut Dice) -> Image {
     Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
 }
 
-/// More steps than a record holds, with blending over what another triangle left: traced as the reference traces it.
+/// A trace with more steps than a record holds, and blending over another triangle, equals the reference's.
 fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     let profile = ideal("fp16");
     let text = "ps_2_a\ndcl t0\nmov r0, t0\nrep i0\nadd r0, r0, c0\nif_gt r0.x, c0.y\nmul r0, r0, c0.z\nendif\nendrep\n\
@@ -362,7 +362,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
             assert_eq!((a, parts), (b, None), "{pixel:?}");
         }
     }
-    // Nothing was drawn; and what was drawn is what the trace finds.
+    // Nothing was drawn, and a draw gives what the trace found.
     pair.same(&[target], Some(depth), "before");
     pair.draw(&call, "after a trace");
     pair.same(&[target], Some(depth), "after");

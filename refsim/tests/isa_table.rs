@@ -56,7 +56,7 @@ fn operands_fit_their_class() {
     assert_eq!(readers.collect::<Vec<_>>(), [&Opcode::TexKill]);
 }
 
-/// Direct3D's tables of instructions a version, as counts.
+/// Number of instructions per version in Direct3D's tables.
 #[test]
 fn versions_have_as_many_operations_as_the_reference_lists() {
     let count = |v| Opcode::ALL.iter().filter(|o| o.info().available(v)).count();

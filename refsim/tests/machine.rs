@@ -1,4 +1,4 @@
-//! The emulated card from the outside: draws into targets, counts, errors, threads.
+//! Tests the emulated card through its public interface: draws, counts, errors, threads.
 
 #[path = "machine/mipmaps.rs"]
 mod mipmaps;
@@ -21,7 +21,7 @@ use running::{bits, checked, constants, ideal};
 
 /// Corners of a quad over a whole target of `n` x `n` pixels whose coordinates hit texel centres of an n x n texture.
 fn screen(n: u32) -> Vec<Vertex> {
-    // Half a pixel up and left, because Direct3D 9 has pixel centres at integers.
+    // Shifted up and left by half a pixel, because Direct3D 9 has pixel centres at integers.
     let step = 1.0 / n as f32;
     let corner = |x: f32, y: f32, u: f32, v: f32| Vertex {
         position: bits([x - step, y + step, 0.5, 1.0]),
@@ -88,7 +88,7 @@ fn ps_1_4_and_ps_2_0_copy_a_texture_through_a_full_screen_quad() {
     }
 }
 
-/// More values that must be kept than sixteen bits can number.
+/// More live values than sixteen bits can index.
 #[test]
 fn programs_of_any_length_agree() {
     let steps = "mul r0,r0,t0\nmad r1,r0,v0,r1\n".repeat(17_000);
@@ -133,7 +133,7 @@ fn random_quads(count: usize) -> Vec<Vertex> {
     out
 }
 
-/// Draws quads with depth test and blending, all in one call or each in its own.
+/// Draws quads with depth test and blending, in one call or one call each.
 fn draw_quads(
     machine: &mut Machine,
     program: &CheckedProgram,
@@ -197,7 +197,8 @@ fn the_crossbar_draws_instances_in_order() {
     let depth = machine.create_depth(DepthFormat::Float32, 20, 20).unwrap();
     let corners =
         [[-1.05, 1.05, 0.0, 1.0], [0.95, 1.05, 0.0, 1.0], [0.95, -0.95, 0.0, 1.0], [-1.05, -0.95, 0.0, 1.0]].map(bits);
-    // The depth goes down and up again; the nearest is instance 9000 of 12,000, and of equal ones the last drawn wins.
+    // The depth decreases and increases again; the nearest is instance 9000 of 12,000, and of equal ones the last drawn
+    // wins.
     let count = 12_000;
     let colors: Vec<[u32; 4]> = (0..count)
         .map(|i: i32| bits([i as f32 / count as f32, 0.0, 0.0, 0.25 + (i - 9000).abs() as f32 / 32_768.0]))
@@ -211,7 +212,7 @@ fn the_crossbar_draws_instances_in_order() {
             AttributeStream { register: 1, step: StepRate::Instance, data: &colors },
         ],
     };
-    // 2x2 pixels, so that the test is quick.
+    // 2x2 pixels, for speed.
     let vertices = VertexSource::Program { program: &vs, constants: &host, streams };
     let mut call = DrawCall::new(vertices, Primitive::QuadList, &ps, &host, target);
     call.scissor = Some(Region { x: 15, y: 15, width: 2, height: 2 });
@@ -311,7 +312,7 @@ fn resources_can_be_changed_cleared_and_released() {
     assert!(machine.release_depth(depth).is_err());
 }
 
-/// Draws copies of a texture; executors may keep what they decode, but never longer than the texture holds it.
+/// Draws copies of a texture: executors may cache decoded contents only until the texture changes.
 #[test]
 fn a_changed_texture_is_read_as_it_is_now() {
     let profile = Profile::named("r300").unwrap();

@@ -1,7 +1,7 @@
-//! docs/numbers.md held against the emulator: its sections rebuilt from the text alone, in host arithmetic, on random
-//! probes.
+//! Tests docs/numbers.md against the emulator: reimplements its sections from the text alone, in host arithmetic, and
+//! compares on random inputs.
 //!
-//! Nothing here is taken from the rooms that it tests but their types; tables are read out of the page itself.
+//! Uses only types of the modules under test; tables are parsed from the page itself.
 
 #[path = "numbers_page/blending.rs"]
 mod blending;
@@ -21,12 +21,12 @@ mod texels;
 /// The page.
 const PAGE: &str = include_str!("../../docs/numbers.md");
 
-/// Probes of a test: fifty times as many in the full form.
+/// Number of probes of a test: fifty times as many in the full form.
 fn probes(short: usize) -> usize {
     if std::env::var_os("CROSSBAR_FULL").is_some() { 50 * short } else { short }
 }
 
-/// Random numbers, the same on every computer.
+/// Deterministic random numbers.
 struct Random(u64);
 
 impl Random {
@@ -44,12 +44,12 @@ impl Random {
         from[self.below(from.len())]
     }
 
-    /// Evenly between two numbers.
+    /// Uniform between two numbers.
     fn between(&mut self, low: f32, high: f32) -> f32 {
         low + (high - low) * ((self.next() >> 40) as f32 / 16_777_216.0)
     }
 
-    /// A single of any kind: near 0 and 1, a multiple of 1/255, any pattern, a special one.
+    /// A single of any kind: near 0 or 1, a multiple of 1/255, any pattern, or a special one.
     fn single(&mut self) -> f32 {
         match self.below(6) {
             0 => self.between(-1.5, 1.5),
@@ -67,7 +67,7 @@ fn power(n: i32) -> f64 {
     f64::from_bits(((n + 1023) as u64) << 52)
 }
 
-/// A pattern with its NaN made the page's one.
+/// The bits of a number, with canonical NaN.
 fn clean(x: f32) -> u32 {
     if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
 }

@@ -1,4 +1,4 @@
-//! Proofs of the output room: comparisons, depth formats, blending laws, masks, and that tiles change nothing.
+//! Tests of `refsim::output`: comparisons, depth formats, blending properties, masks, and independence of tiles.
 
 mod output {
     mod blending;

@@ -1,5 +1,5 @@
-//! Triangles of a few pixels, whose fragments the batch executor packs into the lanes of a batch: the bits and counts
-//! of the scalar executor, in the order of submission, whatever the program looks at and whatever comes after it.
+//! Tests small triangles, whose fragments the batch executor packs into the lanes of a batch, against the scalar
+//! executor's bits and counts, for all kinds of programs and output state.
 
 use refsim::asm::assemble;
 use refsim::check::check;
@@ -39,7 +39,7 @@ impl Random {
     }
 }
 
-/// Programs that look at nobody, at their neighbours, that kill, that have a depth of their own, that branch.
+/// Programs without and with differences, with kill, depth output, and branches.
 const PROGRAMS: [&str; 7] = [
     "ps_2_0\ndcl t0\ndcl t1\ndcl_2d s0\ntexld r0, t0, s0\nmad r0, r0, t1, t0\nmov oC0, r0\n",
     "!!FP1.0\nTEX R0, f[TEX0], TEX0, 2D;\nDDX R1, f[TEX1];\nDDY R2, f[TEX1];\nMADR R0, R1, R2, R0;\n\
@@ -53,7 +53,7 @@ const PROGRAMS: [&str; 7] = [
      texkill t0\nendif\nmov oC0, r0\n",
 ];
 
-/// A draw of many triangles of a few pixels, and some that are larger.
+/// A draw of many small triangles, and some larger ones.
 struct Fine {
     size: [u32; 2],
     program: &'static str,
@@ -190,7 +190,7 @@ fn fine_triangles_are_drawn_alike() {
     assert!(passed > 50 * cases, "{passed} fragments reach a target");
 }
 
-/// The first fragment of many small triangles that does not end is the one that is reported.
+/// The first fragment of many small triangles that exceeds the step budget is the one reported.
 #[test]
 fn overruns_in_fine_triangles_are_reported_alike() {
     let mut r = Random(7);

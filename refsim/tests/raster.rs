@@ -1,5 +1,5 @@
-//! Proofs of the raster room: the fill rule as a law over random meshes, interpolation against host floats, clipping,
-//! and that no bit pattern makes it panic.
+//! Tests of `refsim::raster`: the fill rule on random meshes, interpolation compared with host floats, clipping, and
+//! robustness against arbitrary bit patterns.
 
 mod raster {
     mod clipping;

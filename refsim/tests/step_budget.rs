@@ -1,5 +1,5 @@
-//! Step budgets: programs that would run for years end with an error that says where, programs that fit are not
-//! touched.
+//! Tests step budgets: programs that would run for years end with an error that names the location; programs within the
+//! budget are unaffected.
 
 #[path = "common/running.rs"]
 mod running;
@@ -14,10 +14,10 @@ use refsim::raster::{Primitive, Vertex};
 use refsim::texture::TexelFormat;
 use running::{bits, checked, constants, ideal, input, run_quad};
 
-/// Side of the targets: more than one tile.
+/// Width and height of the targets: more than one tile.
 const SIDE: u32 = 18;
 
-/// The executors of this computer.
+/// The executors available on this host.
 fn executors() -> Vec<ExecutorKind> {
     let mut all = vec![ExecutorKind::Scalar, ExecutorKind::Batch];
     #[cfg(feature = "wgpu")]
@@ -48,7 +48,7 @@ fn corners() -> Vec<Vertex> {
     vec![corner(0.0, 0.0), corner(1.0, 0.0), corner(1.0, 1.0), corner(0.0, 1.0)]
 }
 
-/// Draws the quad; the bytes of the target afterwards, which was cleared to 0.25.
+/// Draws the quad into a target cleared to 0.25; returns the target's bytes.
 fn draw(text: &str, host: &Constants, budget: u32, kind: ExecutorKind) -> (Result<(), MachineError>, Vec<u8>) {
     let mut profile = ideal("fp32");
     profile.limits.set_step_budget(budget);
@@ -71,13 +71,13 @@ fn host() -> Constants {
     Constants { int: vec![[255, 0, 0, 0], [3, 0, 0, 0], [0; 4]], boolean: vec![true, false], ..constants(&[[1.0; 4]]) }
 }
 
-/// Loops of 255 passes, `deep` of them one in the other.
+/// `deep` nested loops of 255 iterations.
 fn nested(deep: usize) -> String {
     let (open, close) = ("rep i0\n".repeat(deep), "endrep\n".repeat(deep));
     format!("ps_2_a\nmov r0, c0\n{open}add r0, r0, c0\n{close}mov oC0, r0")
 }
 
-/// Fifteen subroutines of which each calls the next four times, and the main program the first: 4^15 calls.
+/// Fifteen subroutines, each calling the next four times, and the main program calling the first: 4^15 calls.
 fn call_tree() -> String {
     let mut text = String::from("ps_2_a\nmov r0, c0\ncall l0\nmov oC0, r0\nret\n");
     for label in 0..16 {
@@ -114,7 +114,7 @@ fn what_would_never_end_is_an_error_with_its_place() {
     assert_eq!(ideal("fp32").limits.step_budget(refsim::isa::Stage::Pixel), DEFAULT_STEP_BUDGET);
 }
 
-/// Steps by hand.
+/// Steps counted manually.
 #[test]
 fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     // `mov`, then three times three passes of `add` and `endrep` with `rep` and `endrep` around, `mov`.
@@ -145,8 +145,8 @@ fn a_budget_that_is_reached_is_enough_and_one_less_is_not() {
     }
 }
 
-/// Fragments that need more the further down and right they are: the first of those that need too much is named,
-/// whichever executor meets another one first.
+/// Fragments need more steps the further down and right they are: the first one that exceeds the budget is reported,
+/// whichever the executor meets first.
 #[test]
 fn the_first_fragment_that_needs_too_much_is_named() {
     let text = "ps_2_a\ndef c1, 1, 0, 0, 0\ndef c2, 6, 11, 0, 0\ndcl t0\nmov r0, c1.y\nrep i0\nif_gt t0.x, c2.x\nif_gt \
@@ -159,8 +159,8 @@ fn the_first_fragment_that_needs_too_much_is_named() {
     }
     assert!(found.iter().all(|error| *error == found[0]), "{found:?}");
     let (ProgramPlace::Pixel { x, y }, instruction, _) = place(&found[0]) else { panic!("{found:?}") };
-    // From row 11 on nobody breaks off soon. The first triangle has the upper right half with the diagonal. Three
-    // passes of eight steps after the first two, and four more.
+    // From row 11 on no lane breaks early. The first triangle is the upper right half, including the diagonal. Three
+    // iterations of eight steps after the first two, and four more.
     assert_eq!((x, y, instruction), (11, 11, 6));
 }
 
@@ -194,7 +194,7 @@ fn vertices_have_a_budget_too() {
     }
 }
 
-/// The steps that a card would execute are counted without walking through them.
+/// The work of a card's program is counted without executing it.
 #[test]
 fn counting_the_work_of_a_program_is_one_pass() {
     let host = host();
@@ -212,7 +212,8 @@ fn counting_the_work_of_a_program_is_one_pass() {
     }
 }
 
-/// Which fragment of a quad runs long changes nothing for the others: helper lanes are cut off without an error.
+/// A fragment that exceeds the budget does not affect the other lanes of its quad; helper lanes are stopped without an
+/// error.
 #[test]
 fn lanes_have_budgets_of_their_own() {
     let host = host();

@@ -1,5 +1,5 @@
-//! Proofs of the texture room: decoding and filtering against big rationals, addressing against a naive model, stores
-//! exhaustively, and that no bit pattern makes it panic.
+//! Tests of `refsim::texture`: decoding and filtering compared with big rationals, addressing with a naive model,
+//! stores exhaustively, and robustness against arbitrary bit patterns.
 
 mod texture {
     mod addressing;

@@ -1,4 +1,4 @@
-//! The texture cache against a simulator that shares nothing with it, and draws under observation.
+//! Tests the texture cache against an independent simulator, and on observed draws.
 
 #[path = "common/running.rs"]
 mod running;
@@ -16,7 +16,8 @@ use refsim::timing::{Level, Model, TimingError};
 use running::{bits, checked};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Misses by definition: a line is there if fewer than `ways` different lines of its set were used since its last use.
+/// Misses by definition: a line is present if fewer than `ways` different lines of its set were used since its last
+/// use.
 fn misses_by_definition(addresses: &[u64], bytes: u64, line: u64, ways: u64) -> u64 {
     let sets = bytes / line / ways;
     let mut used: BTreeMap<u64, usize> = BTreeMap::new();
@@ -39,7 +40,7 @@ fn misses(addresses: &[u64], bytes: u64, line: u64, ways: u64) -> u64 {
     addresses.iter().filter(|&&a| !cache.access(a)).count() as u64
 }
 
-/// Walks that stay near where they are, with jumps.
+/// Random walks with jumps.
 fn addresses() -> impl Strategy<Value = Vec<u64>> {
     let step = prop_oneof![4 => -64_i64..64, 1 => -4096_i64..4096];
     prop::collection::vec(step, 1..300).prop_map(|steps| {
@@ -61,7 +62,7 @@ proptest! {
         prop_assert_eq!(misses(&walk, bytes, line, ways), misses_by_definition(&walk, bytes, line, ways));
     }
 
-    /// Whatever the shape, no line misses less often than once, and one that holds everything misses no more.
+    /// Whatever the shape, each line misses at least once, and a cache that holds everything misses no more.
     #[test]
     fn a_cache_that_holds_all_lines_has_compulsory_misses_only(walk in addresses(), line in 4_u32..8) {
         let line = 1 << line;
@@ -72,7 +73,7 @@ proptest! {
         }
     }
 
-    /// Inclusion: of two fully associative caches the larger holds whatever the smaller does.
+    /// Inclusion property: of two fully associative caches the larger contains all lines of the smaller.
     #[test]
     fn a_larger_cache_never_misses_more(walk in addresses(), small in 1_u64..20, more in 0_u64..20) {
         let full = |lines: u64| misses(&walk, lines * 32, 32, lines);
@@ -112,7 +113,7 @@ fn image(format: TexelFormat, n: u32, levels: u32) -> Image {
     image
 }
 
-/// What a draw leaves: counts, bits, record.
+/// Results of a draw: counts, bits, record.
 struct Drawn {
     events: DrawEvents,
     bits: Vec<u8>,
@@ -136,7 +137,7 @@ fn draw(
     }
     let id = machine.create_texture(texture.clone()).unwrap();
     let other = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
-    // Of its own: what one sampler has fetched, another of the same texture need not.
+    // A separate texture: lines fetched through one sampler hit through another one of the same texture.
     let third = machine.create_texture(image(TexelFormat::Rgba8, 16, 1)).unwrap();
     let target = machine.create_target(TexelFormat::Bgra8, 64, 64).unwrap();
     let (vertices, host) = (screen(scale), Constants::default());
@@ -156,7 +157,7 @@ fn traffic(drawn: &Drawn) -> Vec<SamplerTraffic> {
     drawn.record.samplers.iter().map(|s| s.traffic.unwrap()).collect()
 }
 
-/// Observation changes no bit and no count, and sees the same whoever would have drawn.
+/// Observation changes no bits or counts, and its result does not depend on the executor.
 #[test]
 fn watching_changes_nothing_and_depends_on_nobody() {
     let linear =
@@ -179,7 +180,7 @@ fn watching_changes_nothing_and_depends_on_nobody() {
     }
 }
 
-/// The cost of not having a cache: a line for each texel.
+/// The cost without a cache: one line per texel.
 #[test]
 fn without_a_cache_every_access_is_a_line() {
     let model = Model::new(Level::Pipeline, &Profile::named("r200").unwrap()).unwrap();
@@ -194,8 +195,8 @@ fn without_a_cache_every_access_is_a_line() {
     }
 }
 
-/// One texel a pixel, each pixel once: every line is asked for eight times, once for each texel of it, and comes once,
-/// or twice where the quad's two triangles share it.
+/// One texel per pixel, each pixel once: every line is requested eight times, once per texel, and fetched once, or
+/// twice where it is shared by the quad's two triangles.
 #[test]
 fn a_copy_moves_the_texture_once() {
     let texture = image(TexelFormat::Rgba8, 64, 1);
@@ -203,9 +204,9 @@ fn a_copy_moves_the_texture_once() {
     let seen = traffic(&watched)[0];
     assert_eq!((seen.accesses, seen.distinct), (64 * 64, 64 * 64 * 4 / 32));
     assert!(seen.misses[1] <= seen.distinct + 64, "{seen:?}");
-    // Unfiltered, a fragment touches one texel for each fetch.
+    // Unfiltered, a fetch touches one texel.
     let linear = SamplerState { min: Filter::Linear, mag: Filter::Linear, ..SamplerState::NEAREST_CLAMP };
-    // At texel centres the neighbours weigh nothing; between them four texels do.
+    // At texel centres the neighbours have no weight; between centres four texels have.
     assert_eq!(traffic(&draw(ExecutorKind::Scalar, 1, true, (&texture, linear), 1.0))[0].accesses, 64 * 64);
     let between = traffic(&draw(ExecutorKind::Scalar, 1, true, (&texture, linear), 0.5))[0];
     assert_eq!(between.accesses, 4 * 64 * 64);

@@ -1,4 +1,4 @@
-//! More work never takes less time, on any card, by either model.
+//! More work never takes less time, on any card, in either model.
 
 use proptest::prelude::*;
 use refsim::asm::assemble;
@@ -29,7 +29,7 @@ fn program(lines: &[usize]) -> Arc<ProgramWork> {
     Arc::new(ProgramWork::new(&assemble(&text).expect("every line is one"), FlowConstants::default()))
 }
 
-/// What can grow.
+/// Quantities that can increase.
 #[derive(Clone, Debug)]
 struct Work {
     lines: Vec<usize>,

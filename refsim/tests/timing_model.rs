@@ -1,4 +1,4 @@
-//! The timing models on draws of which every count is known.
+//! Tests the timing models on draws with known counts.
 
 #[path = "common/running.rs"]
 mod running;
@@ -23,7 +23,7 @@ fn screen() -> [Vertex; 4] {
     })
 }
 
-/// A quad over an n x n target with depth test and write, the program's first samplers bound to n x n textures.
+/// A quad over an n x n target with depth test and write; the program's first samplers are bound to n x n textures.
 fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) -> DrawRecord {
     let profile = Profile::named(device).unwrap();
     let program = checked(text, &profile);
@@ -49,8 +49,8 @@ fn draw(device: &str, text: &str, n: u32, samplers: usize, format: TexelFormat) 
 
 const DUAL: &str = "ps_1_1\ntex t0\ntex t1\nmul r0, t0, t1";
 
-/// 20 bytes a pixel (two texels, a colour, a depth read and written) are more than the pipelines can hide: 368 Mpixel/s
-/// of the printed 390 on the GeForce3, 520 of the implied 527 on the GeForce4.
+/// 20 bytes per pixel (two texels, a colour, a depth read and written) exceed what the pipelines can hide: 368 Mpixel/s
+/// versus the printed 390 on the GeForce3, 520 versus the implied 527 on the GeForce4.
 #[test]
 fn dual_texturing_is_bound_by_memory() {
     for (device, expected, printed) in [("nv20", 368_000_000, 390.0), ("nv25", 520_000_000, 527.3)] {
@@ -62,7 +62,7 @@ fn dual_texturing_is_bound_by_memory() {
         assert_eq!(clocks.traffic.total() - vertices, u64::from(n * n) * 20, "{device}");
         assert_eq!(clocks.bottleneck(), Bottleneck::Memory);
         assert_eq!(clocks.textures, clocks.arithmetic, "one clock for two reads, one for one multiply");
-        // The rate in the middle of a long run: nothing fixed, no vertices.
+        // Steady-state rate: without fixed costs and vertices.
         let bandwidth = Profile::named(device).unwrap().rates.memory_bytes_per_s.unwrap();
         assert_eq!(bandwidth / 20, expected);
         let rate = f64::from(n * n)
@@ -77,7 +77,7 @@ fn the_rates_level_is_equation_11() {
     let record = draw("nv20", DUAL, 128, 2, TexelFormat::Rgba8);
     let model = Model::new(Level::Rates, &Profile::named("nv20").unwrap()).unwrap();
     let cost = model.draw(&record);
-    // 16384 / 390 MHz and 4 bytes a pixel at 250 MB/s, each rounded up to a picosecond.
+    // 16384 / 390 MHz and 4 bytes per pixel at 250 MB/s, each rounded up to a picosecond.
     assert_eq!(cost.total, Picoseconds((16_384 * 1_000_000_u64).div_ceil(390)));
     assert_eq!(model.read_back(4 * 16_384), Picoseconds(4 * 16_384 * 4_000));
     assert_eq!(cost.bottleneck, Bottleneck::Rate);
@@ -104,17 +104,18 @@ fn the_units_count_what_the_program_says() {
         let clocks = model(device).fragment(&record.pixel);
         (clocks.arithmetic.0, clocks.textures.0, clocks.total().0)
     };
-    // Two phases: 2 pairs + 1, and 2 + 1 texture instructions at two a clock.
+    // Two phases: 2 pairs + 1, and 2 + 1 texture instructions at two per clock.
     let two = "ps_1_4\ntexld r0, t0\ntexcrd r1.rgb, t1\nmul r0.rgb, r0, r1\n+mov r0.a, r0.a\nadd r0, r0, r0\nphase\n\
                texld r1, r0\nmul r0.rgb, r0, r1\n+mov r0.a, r1.a";
     assert_eq!(fragment("r200", two), (3, 2, 3));
-    // NV30: the same program takes turns, the dependent read at one a clock, two more registers than fp32 runs free.
+    // NV30: the same program alternates, with the dependent read at one per clock and two more registers than run at
+    // full speed.
     assert_eq!(fragment("nv30", two), (3, 2, 5));
-    // A vec3 and a scalar that do not need each other: one slot on r300, two on nv30.
+    // An independent vec3 and scalar: one slot on r300, two on nv30.
     let split = "ps_2_0\ndcl t0\ndcl_2d s0\ntexld r0, t0, s0\nmul r1.xyz, r0, r0\nmov r1.w, r0.w\nmov oC0, r1";
     assert_eq!(fragment("r300", split), (2, 1, 2));
     assert_eq!(fragment("nv30", split), (3, 1, 4));
-    // Six live registers are two steps beyond two: half as much again, twice.
+    // Six live registers are two steps beyond two: each step adds half the clocks.
     let wide = "ps_2_0\ndcl t0\ndcl t1\nmov r0, t0\nmov r1, t1\nmul r2, r0, r1\nmul r3, r0, r2\nmul r4, r1, r3\nmul r5, r2, r4\n\
                 mad r0, r0, r1, r2\nmad r0, r0, r3, r4\nadd r0, r0, r5\nmov oC0, r0";
     assert_eq!(fragment("nv30", wide).0, 20);
@@ -141,7 +142,7 @@ fn a_guess_can_be_scaled_and_nothing_else() {
     assert!(matches!(model.with_scaled("rates.draw_clocks", 0, 1), Err(TimingError::Scale { .. })));
 }
 
-/// Clocks of a fragment: arithmetic, textures, in all.
+/// Clocks of a fragment: arithmetic, textures, total.
 fn clocks(device: &str, lines: &str) -> (u64, u64, u64) {
     let profile = Profile::named(device).unwrap();
     let program = assemble(&format!("!!FP1.0\n{lines}\nEND")).unwrap();
@@ -161,7 +162,7 @@ fn fixed_point_goes_beside_the_float_unit_of_nv30() {
     };
     assert_eq!(clocks("nv30", &lines("X")), (1, 1, 2));
     assert_eq!(clocks("nv30", &lines("H")), (6, 1, 7));
-    // The NV35 has a second float unit in place of the others.
+    // The NV35 has a second float unit instead of fixed-point units.
     assert_eq!(clocks("nv35", &lines("X")), (3, 1, 3));
     assert_eq!(clocks("nv35", &lines("H")), (3, 1, 3));
 }
@@ -181,7 +182,7 @@ fn nv30_does_three_operations_or_five_multiplications_in_fixed_point_a_clock() {
     assert_eq!([16, 17, 21, 22].map(|n| behind("MULX H0, H0, p[0]", n)), [4, 5, 5, 6]);
 }
 
-/// The worked example of docs/timing.md: the levels of a 1024 x 1024 map of 8 bits.
+/// The worked example of docs/timing.md: levels of a 1024 x 1024 map with 8 bits.
 #[test]
 fn mip_levels_are_drawn_one_after_the_other() {
     let mut machine = Machine::new(Profile::named("nv35").unwrap(), ExecutorKind::Batch);
@@ -191,11 +192,11 @@ fn mip_levels_are_drawn_one_after_the_other() {
     let cost = |level| Model::new(level, machine.profile()).unwrap().mipmaps(&record);
     // 1.8 Gpixel/s.
     assert_eq!(cost(Level::Rates).total, Picoseconds((349_525 * 10_000_u64).div_ceil(18)));
-    // Level 1: four texels read and one written for each of 512 x 512, at 27.2 GB/s and 450 MHz.
+    // Level 1: four texels read and one written per texel of 512 x 512, at 27.2 GB/s and 450 MHz.
     let first = 5_u64 * 4 * 512 * 512 * 450;
     assert_eq!(first.div_ceil(27_200), 86_739);
     let pipeline = cost(Level::Pipeline);
-    // 300 clocks of each level are fixed; from 4 x 4 texels on set-up of two triangles is the longest of the rest.
+    // Each level has 300 fixed clocks; from 4 x 4 texels on, set-up of two triangles dominates the rest.
     let moved: u64 = (0..8).map(|k| (first >> (2 * k)).div_ceil(27_200)).sum();
     assert_eq!(pipeline.core_clocks, Clocks(10 * 300 + moved + 2 * 4));
     assert_eq!(pipeline.bottleneck, Bottleneck::Memory);
@@ -204,7 +205,7 @@ fn mip_levels_are_drawn_one_after_the_other() {
 
 const TRANSFORM: &str = "vs_1_1\ndcl_position v0\nmov oPos, v0\nmul r0, v0, c1\nmov oD0, c2";
 
-/// A row of triangles by index, each vertex used three times in a row or far apart; constants c0 to c2.
+/// Indexed triangles, each vertex used three times in a row or far apart; constants c0 to c2.
 fn indexed(order: &[u32], constants: &[[f32; 4]]) -> Vec<Event> {
     let profile = Profile::named("r300").unwrap();
     let (vertex, pixel) = (checked(TRANSFORM, &profile), checked("ps_2_0\ndcl v0\nmov oC0, v0", &profile));
@@ -227,8 +228,7 @@ fn only_draw(log: &[Event]) -> &DrawRecord {
     log.iter().find_map(|e| if let Event::Draw(draw) = e { Some(&**draw) } else { None }).expect("one draw")
 }
 
-/// Three instructions and 16 bytes a vertex that is run: once each along a strip, again wherever 16 others came
-/// between.
+/// Three instructions and 16 bytes per vertex processed: once each along a strip, and again after 16 others.
 #[test]
 fn vertices_that_left_the_cache_are_run_again() {
     let strip: Vec<u32> = (0..38).flat_map(|n| [n, n + 1, n + 2]).collect();
@@ -242,7 +242,7 @@ fn vertices_that_left_the_cache_are_run_again() {
         assert_eq!(clocks.vertices, Clocks((3 * run[1]).div_ceil(4)), "four vertex units");
         assert_eq!(clocks.traffic.vertices, 16 * run[1]);
     }
-    // Twelve vertices around and around: too many for half the cache of 16, and not for all of it.
+    // Twelve vertices in a cycle: too many for half of the 16-entry cache, but not for all of it.
     let twelve: Vec<u32> = (0..4).flat_map(|_| 0..12).collect();
     let log = indexed(&twelve, &[]);
     assert_eq!(only_draw(&log).vertices_run, [48, 12, 12]);
@@ -251,7 +251,7 @@ fn vertices_that_left_the_cache_are_run_again() {
     assert_eq!(model.clocks(only_draw(&log)).vertices, Clocks(9));
 }
 
-/// Constants that differ: from 0 at first. Four clocks each, or their bytes over the bus.
+/// Only constants that change are sent; they start at 0. Four clocks each, or their bytes over the bus.
 #[test]
 fn constants_are_sent_where_they_differ() {
     let changed = |constants: &[[f32; 4]]| match indexed(&[0, 1, 2], constants).first() {

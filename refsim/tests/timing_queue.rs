@@ -1,4 +1,4 @@
-//! The command queue: worked examples to the picosecond, and the laws that every list of commands obeys.
+//! The command queue: worked examples, exact to the picosecond, and properties of every list of commands.
 
 #[path = "timing_queue/examples.rs"]
 mod examples;
@@ -13,7 +13,7 @@ use refsim::timing::queue::{Fence, Queue, QueueFigures, ReadBackMode, ResourceId
 use refsim::timing::timeline::{Timeline, Unit};
 use refsim::timing::{DrawCost, Picoseconds};
 
-/// The cost of a draw: front end, shader, memory, and how long the pipeline fills.
+/// Cost of a draw: front end, shader, memory, and pipeline fill.
 fn cost(front_end: u64, shader: u64, memory: u64, fill: u64) -> DrawCost {
     DrawCost {
         front_end: Picoseconds(front_end),
@@ -24,7 +24,7 @@ fn cost(front_end: u64, shader: u64, memory: u64, fill: u64) -> DrawCost {
     }
 }
 
-/// Commands cost nothing; the queue is long.
+/// Commands are free and the queue is long.
 fn free() -> QueueFigures {
     QueueFigures::default().without_overhead()
 }
@@ -34,7 +34,7 @@ fn spans(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     timeline.spans().iter().filter(|span| span.unit == unit).map(|span| (span.start.0, span.end.0)).collect()
 }
 
-/// A command of a made-up program; resources are 0 to 3.
+/// A command of an artificial program; resources are 0 to 3.
 #[derive(Clone, Debug)]
 enum Command {
     Host(u64),
@@ -48,14 +48,14 @@ enum Command {
     },
     ReadBack(u64, u64),
     SetFence,
-    /// Of the fence set last, if there is one.
+    /// Of the last fence set, if any.
     Test,
     Finish,
     FinishAll,
 }
 
 impl Command {
-    /// All durations so many times as long.
+    /// The command with durations multiplied by `by`.
     fn scaled(&self, by: u64) -> Self {
         match self.clone() {
             Self::Host(time) => Self::Host(time * by),
@@ -68,7 +68,7 @@ impl Command {
         }
     }
 
-    /// The same on a card that needs no time; buses and host as they are.
+    /// The same on an infinitely fast card, with unchanged buses and host.
     fn on_infinitely_fast_card(&self) -> Self {
         match self {
             Self::State(_) | Self::Clear(..) | Self::Draw { .. } => self.scaled(0),
@@ -81,7 +81,7 @@ fn ids(names: &[u64]) -> Vec<ResourceId> {
     names.iter().map(|name| ResourceId(*name)).collect()
 }
 
-/// Gives the commands; what the tests of fences said, and the timeline.
+/// Submits the commands; returns the results of fence tests, and the timeline.
 fn play(commands: &[Command], figures: QueueFigures, mode: ReadBackMode) -> (Vec<bool>, Timeline) {
     let mut queue = Queue::new(figures);
     let mut fence: Option<Fence> = None;

@@ -1,4 +1,4 @@
-//! The texts of the pixel kernel and of the one that follows pixels are valid modules.
+//! The texts of the pixel kernel and of the trace kernel are valid modules.
 
 use refsim::exec::wgsl::parts::{self, Parts};
 use refsim::exec::wgsl::{follow, kernel, program, texture};

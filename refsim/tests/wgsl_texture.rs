@@ -1,5 +1,5 @@
-//! Texture reads of the GPU text against the texture room, bit for bit: every texel format, kind of texture, filter,
-//! address mode and level of detail, with coordinates at and beyond every edge.
+//! Texture reads of the WGSL library compared with `refsim::texture`, bit for bit: every texel format, kind of texture,
+//! filter, address mode and level of detail, with coordinates at and beyond every edge.
 
 #[path = "common/adapter.rs"]
 mod adapter;

@@ -1,4 +1,4 @@
-//! The fill rate of a GeForce3, in its own time: `cargo run --release -p refsim-criterion --example full_screen_quad`.
+//! Fill rate of a GeForce3 in modelled time: `cargo run --release -p refsim-criterion --example full_screen_quad`.
 
 use refsim::machine::{DrawCall, VertexSource};
 use refsim::raster::{Primitive, full_screen_quad};

@@ -1,7 +1,7 @@
 //! Criterion benchmarks in modelled time.
 //!
-//! [`ModelledTime::on_card`] records what a [`Machine`] does and gives its time by the card's timeline, which
-//! [`ModelledTime::bench`] hands to criterion: what is measured is the emulated card, not the emulator.
+//! [`ModelledTime::on_card`] records a run on a [`Machine`] and returns its duration on the card's timeline, and
+//! [`ModelledTime::bench`] reports it to criterion. So the benchmark measures the emulated card, not the emulator.
 //!
 //! ```no_run
 //! use refsim::{device::Profile, texture::TexelFormat};
@@ -17,8 +17,8 @@
 //! # }
 //! ```
 //!
-//! Logs that are there already go through [`ModelledTime::of`], benchmarks of several kinds through
-//! [`ModelledTime::criterion`] and [`ModelledTime::measure`].
+//! For recorded logs see [`ModelledTime::of`]; to combine several kinds of benchmarks see [`ModelledTime::criterion`]
+//! and [`ModelledTime::measure`].
 
 use std::thread;
 use std::time::Duration;
@@ -31,31 +31,31 @@ use refsim::machine::{ExecutorKind, Machine, MachineError};
 use refsim::timing::replay::{Options, ReplayError, replay};
 use refsim::timing::{Level, Model, Picoseconds, TimingError};
 
-/// Why a run has no modelled time.
+/// Error of measuring a run in modelled time.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// The device has no time.
+    /// The device lacks timing figures.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// The machine refuses what it is asked.
+    /// The machine returned an error.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// What was recorded cannot be replayed.
+    /// The recorded log cannot be replayed.
     #[error(transparent)]
     Replay(#[from] ReplayError),
 }
 
-/// Picoseconds of a timeline, as criterion measures them. There is no clock to start: benchmarks hand over what they
-/// found (`Bencher::iter_custom`).
+/// Measurement of criterion in picoseconds of a timeline. There is no clock to start: benchmarks report their result
+/// through `Bencher::iter_custom`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelledTime;
 
-/// Host time of an iteration. Criterion chooses how many iterations to ask for by the host's clock: iterations that
-/// take no time at all are doubled until their count and their picoseconds overflow.
+/// Host time to spend per iteration. Criterion chooses the number of iterations by the host's clock; if iterations took
+/// no time, it would double their number until count and picoseconds overflow.
 const HOST_TIME: Duration = Duration::from_micros(100);
 
-/// [`ModelledTime::criterion`] before the command line.
+/// [`ModelledTime::criterion`] without command line arguments.
 fn settings() -> Criterion<ModelledTime> {
     Criterion::default()
         .with_measurement(ModelledTime)
@@ -66,13 +66,13 @@ fn settings() -> Criterion<ModelledTime> {
 }
 
 impl ModelledTime {
-    /// Criterion in modelled time. Every sample is the same one, so that ten are enough; arguments of the command line
-    /// are heeded.
+    /// Creates a criterion instance for modelled time. All samples are equal, so ten are enough; command line arguments
+    /// are applied.
     pub fn criterion() -> Criterion<Self> {
         settings().configure_from_args()
     }
 
-    /// How long `run` takes on `card`: clocks of each unit, drawn by the batch executor.
+    /// Duration of `run` on `card`, by the pipeline model; drawn with the batch executor.
     ///
     /// # Errors
     /// [`RunError`].
@@ -87,7 +87,7 @@ impl ModelledTime {
         Ok(Self::of(&machine.take_log(), &model, &Options::default())?)
     }
 
-    /// Reports a run that does `elements` things, fragments for example, as the benchmark `name` of `group`.
+    /// Reports a run of `elements` items, for example fragments, as the benchmark `name` of `group`.
     pub fn bench(group: &str, name: &str, elements: u64, run: Picoseconds) {
         let mut criterion = Self::criterion();
         let mut group = criterion.benchmark_group(group);
@@ -95,8 +95,8 @@ impl ModelledTime {
         group.finish();
     }
 
-    /// Adds a run that does `elements` things to a group. Criterion's estimate is `run` without variance, for runs of
-    /// up to 90 s.
+    /// Adds a run of `elements` items to a group. Criterion's estimate is `run` without variance, for runs of up to 90
+    /// s.
     pub fn measure(group: &mut BenchmarkGroup<'_, Self>, id: BenchmarkId, elements: u64, run: Picoseconds) {
         group.throughput(Throughput::Elements(elements));
         group.bench_function(id, |bencher| {
@@ -107,10 +107,10 @@ impl ModelledTime {
         });
     }
 
-    /// How long a recorded run takes: the makespan of its timeline.
+    /// Duration of a recorded run: the makespan of its timeline.
     ///
     /// # Errors
-    /// If the log is not one that a machine has recorded.
+    /// If the log is not a valid recording of a machine.
     pub fn of(log: &[Event], model: &Model, options: &Options<'_>) -> Result<Picoseconds, ReplayError> {
         Ok(replay(log, model, options)?.timeline.makespan())
     }
@@ -145,7 +145,7 @@ impl Measurement for ModelledTime {
 
 struct Formatter;
 
-/// Picoseconds in a unit of readable size.
+/// Factor and unit for a readable number of picoseconds.
 fn unit(typical: f64) -> (f64, &'static str) {
     match typical {
         t if t < 1e3 => (1.0, "ps"),
@@ -169,7 +169,7 @@ impl ValueFormatter for Formatter {
             Throughput::Bits(n) => (n, "Mbit/s modelled"),
             Throughput::Elements(n) | Throughput::ElementsAndBytes { elements: n, .. } => (n, "Melem/s modelled"),
         };
-        // Picoseconds to things a second, in millions.
+        // Converts picoseconds to millions of items per second.
         values.iter_mut().for_each(|v| *v = count as f64 / *v * 1e6);
         unit
     }
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn criterion_estimates_the_time_of_the_run_without_variance() {
-        // The GeForce3's full-screen quad, a run below a nanosecond, one of a minute.
+        // The GeForce3's full-screen quad, a run below a nanosecond, and one of a minute.
         for time in [85_710_000, 7, 60_000_000_000_000] {
             let folder = tempfile::tempdir().expect("a folder");
             let mut criterion = settings().output_directory(folder.path());

@@ -1,10 +1,10 @@
-//! A place in a text, and the errors found so far.
+//! Cursor over the tokens of a text, with the errors found so far.
 
 use super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError};
 use super::lexer::{Dialect, Token, TokenKind, lex};
 use super::limits::{MAX_ERRORS, MAX_STATEMENTS};
 
-/// The tokens of a text, how many of them were read, and what was wrong with them.
+/// The tokens of a text, the position of the next one, and the errors found so far.
 pub(super) struct Cursor<'a> {
     tokens: Vec<Token<'a>>,
     pub(super) at: usize,
@@ -13,7 +13,7 @@ pub(super) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// The start of `text` from byte `from` on.
+    /// Creates a cursor at byte `from` of `text`.
     pub(super) fn new(text: &'a str, from: usize, dialect: Dialect) -> Self {
         let (tokens, errors) = lex(text, from, dialect);
         Self { tokens, at: 0, statements: 0, errors }
@@ -23,7 +23,7 @@ impl<'a> Cursor<'a> {
         self.peek_at(0)
     }
 
-    /// The token `ahead` places on; the end for ever after the last.
+    /// The token `ahead` positions after the next; past the end the end token.
     pub(super) fn peek_at(&self, ahead: usize) -> Token<'a> {
         self.tokens[(self.at + ahead).min(self.tokens.len() - 1)]
     }
@@ -38,7 +38,7 @@ impl<'a> Cursor<'a> {
         (self.peek().kind == kind).then(|| self.next())
     }
 
-    /// Takes the next token if it is this mark.
+    /// Consumes the next token if it is this mark.
     pub(super) fn accept_mark(&mut self, mark: &str) -> bool {
         let found = self.peek().text == mark;
         if found {
@@ -47,7 +47,7 @@ impl<'a> Cursor<'a> {
         found
     }
 
-    /// Takes the next token, which must be this mark.
+    /// Consumes the next token, which must be this mark.
     pub(super) fn expect(&mut self, mark: &str, help: &str) -> Parsed<()> {
         if self.accept_mark(mark) {
             return Ok(());
@@ -55,13 +55,13 @@ impl<'a> Cursor<'a> {
         Err(self.unexpected(&format!("`{mark}`"), help))
     }
 
-    /// The next token is not what has to stand there.
+    /// Error: the next token is not the expected one.
     pub(super) fn unexpected(&self, expected: &str, help: &str) -> SyntaxError {
         let token = self.peek();
         token.error(ErrorKind::UnexpectedToken, expected, help)
     }
 
-    /// One of these words after a point, if it stands there.
+    /// Consumes a point and one of these words, if they come next.
     pub(super) fn after_point(&mut self, words: &[&'static str]) -> Option<&'static str> {
         let word = self.tokens.get(self.at + 1).filter(|_| self.peek().text == ".")?.text;
         let found = words.iter().copied().find(|w| *w == word)?;
@@ -69,7 +69,7 @@ impl<'a> Cursor<'a> {
         Some(found)
     }
 
-    /// The end of the token before the current one.
+    /// End of the token before the current one.
     pub(super) fn last_end(&self) -> u32 {
         self.tokens[self.at.saturating_sub(1)].span.end
     }
@@ -81,14 +81,15 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// After an error in OpenGL's text: skips to the next statement.
+    /// Skips to the next statement, for recovery after an error in an OpenGL program.
     pub(super) fn skip_statement(&mut self) {
         while self.peek().kind != TokenKind::End && !self.accept_mark(";") {
             self.next();
         }
     }
 
-    /// Whether another statement is to be read. Too many errors or statements are an error themselves.
+    /// Returns `true` if another statement is to be parsed. Exceeding the limit of errors or statements is an error
+    /// itself.
     pub(super) fn goes_on(&mut self) -> bool {
         let token = self.peek();
         let (kind, limit, what) = if self.errors.len() >= MAX_ERRORS {

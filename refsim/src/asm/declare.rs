@@ -1,4 +1,4 @@
-//! Definitions (`def`, `defi`, `defb`) and declarations (`dcl`).
+//! Parsing of definitions (`def`, `defi`, `defb`) and declarations (`dcl`).
 
 use super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use super::lexer::{Token, TokenKind};
@@ -6,7 +6,7 @@ use super::parser::Parser;
 use super::{number, word};
 use crate::isa::{ConstantDef, ConstantValue, Declaration, Register, RegisterFile, Span, Usage};
 
-/// How a usage's suffix is spelt, number aside. One table for reading and printing.
+/// Suffix of a usage, and its index if it has one. Used for parsing and printing.
 pub(super) fn usage_suffix(usage: Usage) -> (&'static str, Option<u8>) {
     match usage {
         Usage::Plain => ("", None),
@@ -64,7 +64,7 @@ fn values_in_words(count: usize) -> String {
 }
 
 impl<'a> Parser<'a> {
-    /// Reads a declaration whose word, `dcl` and its suffixes, is taken.
+    /// Parses a declaration; its word, `dcl` with suffixes, has been consumed.
     pub(super) fn declaration(&mut self, token: Token<'a>) {
         let hints = self.declaration_hints(&token);
         let destination = if self.at_list_end() {
@@ -118,7 +118,7 @@ impl<'a> Parser<'a> {
         Ok((found.unwrap_or(Usage::Plain), partial_precision, centroid))
     }
 
-    /// Reads a definition whose word is taken.
+    /// Parses a definition; its word has been consumed.
     pub(super) fn definition(&mut self, token: Token<'a>) {
         let lower = token.text.to_ascii_lowercase();
         let (file, wanted) = match lower.as_str() {
@@ -173,7 +173,7 @@ impl<'a> Parser<'a> {
         ))
     }
 
-    /// The values of a definition, integers as their bits, and whether all were well formed.
+    /// Parses the values of a definition, integers as their bits; also returns `true` if all were well formed.
     fn values(&mut self, file: RegisterFile) -> (Vec<u32>, bool) {
         let mut values = Vec::new();
         let mut good = true;
@@ -237,7 +237,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reports what follows a complete list in the same line, and skips it.
+    /// Skips surplus text after a complete list in the same line; reports it if `report`.
     fn end_list(&mut self, report: bool, name: &str, help: &str) {
         if self.at_list_end() {
             return;

@@ -1,10 +1,10 @@
-//! What can be wrong with a program text.
+//! Syntax errors of program texts.
 
 use crate::isa::Span;
 use miette::{Diagnostic, LabeledSpan};
 use std::fmt;
 
-/// The kind of a syntax error.
+/// Kind of a syntax error.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
 pub enum ErrorKind {
@@ -17,94 +17,94 @@ pub enum ErrorKind {
     /// The list of errors was cut at [`super::MAX_ERRORS`].
     #[error("too many errors")]
     TooManyErrors,
-    /// A `/*` without its `*/`.
+    /// A `/*` without `*/`.
     #[error("unclosed comment")]
     UnclosedComment,
     /// The text doesn't start with a version token.
     #[error("missing shader version")]
     MissingVersion,
-    /// The version token names no version that we know.
+    /// The version token is unknown.
     #[error("unknown shader version")]
     UnknownVersion,
     /// A version token after the first.
     #[error("second shader version")]
     RepeatedVersion,
-    /// A token that can start or continue no statement.
+    /// A token that cannot start or continue a statement.
     #[error("misplaced text")]
     UnexpectedToken,
-    /// No version has such an instruction.
+    /// An instruction that no version has.
     #[error("unknown instruction")]
     UnknownOpcode,
-    /// The instruction has no such modifier or comparison.
+    /// A modifier or comparison that the instruction does not have.
     #[error("unknown instruction modifier")]
     UnknownInstructionModifier,
-    /// A modifier twice, or two modifiers of a kind.
+    /// A repeated modifier, or two modifiers of one kind.
     #[error("repeated modifier")]
     RepeatedModifier,
-    /// `_sat` and its kin on an instruction that writes nothing.
+    /// A result modifier (`_sat` etc.) on an instruction without destination.
     #[error("modifier without a destination")]
     ModifierWithoutDestination,
-    /// `setp` without `_gt` and so on.
+    /// `setp` without a comparison (`_gt` etc.).
     #[error("missing comparison")]
     MissingComparison,
     /// Too few or too many operands.
     #[error("wrong number of operands")]
     OperandCount,
-    /// Something else stands where an operand should.
+    /// A token that is not an operand.
     #[error("malformed operand")]
     MalformedOperand,
-    /// No version has such a register.
+    /// A register that no version has.
     #[error("unknown register")]
     UnknownRegister,
-    /// A register that needs a number and has none.
+    /// A register without its number.
     #[error("missing register number")]
     MissingRegisterNumber,
-    /// A register number or usage index beyond all reason.
+    /// A register number or usage index out of range.
     #[error("register number out of range")]
     RegisterNumber,
-    /// A swizzle that isn't one to four letters of one set.
+    /// A swizzle that is not one to four letters of one set.
     #[error("malformed swizzle")]
     Swizzle,
-    /// A mask with repeated, unordered or foreign letters.
+    /// A mask with repeated, unordered or invalid letters.
     #[error("malformed write mask")]
     Mask,
-    /// No such source modifier.
+    /// An unknown source modifier.
     #[error("unknown source modifier")]
     UnknownSourceModifier,
-    /// Source modifiers that cannot stand together.
+    /// Source modifiers that cannot be combined.
     #[error("source modifiers that do not combine")]
     SourceModifierClash,
     /// A source modifier on a destination.
     #[error("source modifier on a destination")]
     ModifierOnDestination,
-    /// Malformed text between brackets.
+    /// A malformed relative address in brackets.
     #[error("malformed relative address")]
     RelativeAddress,
-    /// Malformed text between the parentheses in front of an instruction.
+    /// A malformed predicate in front of an instruction.
     #[error("malformed predicate")]
     Predicate,
-    /// `+` or a predicate in front of something that takes none.
+    /// `+` or a predicate in front of a statement that allows none.
     #[error("misplaced prefix")]
     MisplacedPrefix,
-    /// A value that is no number, integer or truth value.
+    /// A value that is not a number, integer or boolean.
     #[error("malformed value")]
     MalformedValue,
-    /// A value that the constant cannot hold.
+    /// A value out of range for the constant.
     #[error("value out of range")]
     ValueRange,
     /// Too few or too many values in a `def`.
     #[error("wrong number of values")]
     ValueCount,
-    /// A definition of something that is no constant register.
+    /// A definition whose register is not a constant.
     #[error("not a constant register")]
     NotAConstant,
-    /// A name that cannot be given, or one that nobody gave.
+    /// An invalid new name, or an undefined one.
     #[error("misused name")]
     Name,
-    /// A program without its `END`.
+    /// A program without `END`.
     #[error("missing end")]
     MissingEnd,
-    /// An `OPTION` that changes what a program means and is not known.
+    /// An unknown `OPTION`.
     #[error("unknown option")]
     UnknownOption,
     /// An unknown suffix of `dcl`.
@@ -113,25 +113,25 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
-    /// The kind's name as it stands in diagnostics, `asm::unknown_instruction` for example.
+    /// The code in diagnostics, for example `asm::unknown_instruction`.
     pub fn code(self) -> String {
         format!("asm::{}", self.to_string().replace(' ', "_"))
     }
 }
 
-/// One syntax error.
+/// A syntax error.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{kind}: expected {expected}, found {found}")]
 pub struct SyntaxError {
-    /// What kind of error it is.
+    /// Kind of the error.
     pub kind: ErrorKind,
-    /// Where it stands, in bytes of the text.
+    /// Location, in bytes of the text.
     pub span: Span,
-    /// What would have been right.
+    /// The expected input.
     pub expected: String,
-    /// What stands there.
+    /// The input found.
     pub found: String,
-    /// What to do.
+    /// Advice.
     pub help: String,
 }
 
@@ -162,9 +162,9 @@ impl Diagnostic for SyntaxError {
     }
 }
 
-/// Every syntax error of a text; never empty.
+/// All syntax errors of a text; never empty.
 ///
-/// No source is attached. To show the text, wrap the errors with its name and contents
+/// Carries no source text. To render the text, attach its name and contents
 /// (`miette::Report::new(errors).with_source_code(NamedSource::new(name, text))`).
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error("{}", summary(.errors))]
@@ -182,10 +182,10 @@ fn summary(errors: &[SyntaxError]) -> String {
     }
 }
 
-/// The result of reading one part of a statement.
+/// Result of parsing a part of a statement.
 pub(super) type Parsed<T> = Result<T, SyntaxError>;
 
-/// A piece of the text as error messages show it: in backticks, cut at 40 characters.
+/// Quotes text for error messages: in backticks, truncated to 40 characters.
 pub(super) fn quote(text: &str) -> String {
     match text.char_indices().nth(40) {
         Some((cut, _)) => format!("`{}...`", text[..cut].escape_debug()),

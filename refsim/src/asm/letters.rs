@@ -1,9 +1,9 @@
-//! The letters behind a register's point.
+//! Swizzle and mask letters.
 
 use super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use crate::isa::{Mask, Span, Swizzle};
 
-/// Reads a swizzle's letters: one to four of `xyzw` or of `rgba`, the last repeated.
+/// Parses a swizzle: one to four letters of `xyzw` or of `rgba`; the last one is repeated.
 pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
     let bad = || {
         SyntaxError::new(
@@ -21,7 +21,7 @@ pub(super) fn swizzle(letters: &str, span: Span) -> Parsed<Swizzle> {
     Ok(Swizzle(lanes))
 }
 
-/// The component numbers of one to four letters of one set.
+/// Component numbers of one to four letters of one set.
 pub(super) fn components(letters: &str) -> Option<Vec<u8>> {
     if letters.is_empty() || letters.len() > 4 {
         return None;
@@ -35,7 +35,7 @@ pub(super) fn components(letters: &str) -> Option<Vec<u8>> {
     })
 }
 
-/// Reads the letters of a mask: some of `xyzw` or of `rgba`, in this order.
+/// Parses a mask: letters of `xyzw` or of `rgba`, in this order.
 pub(super) fn mask(letters: &str, span: Span) -> Parsed<Mask> {
     let bad = |help: &str| {
         SyntaxError::new(
@@ -52,7 +52,7 @@ pub(super) fn mask(letters: &str, span: Span) -> Parsed<Mask> {
     mask_of(&components).ok_or_else(|| bad("a destination takes a mask, no swizzle: put the swizzle on the sources"))
 }
 
-/// The mask of components, which must rise.
+/// The mask of components in ascending order; `None` for another order.
 pub(super) fn mask_of(components: &[u8]) -> Option<Mask> {
     components.is_sorted_by(|a, b| a < b).then(|| Mask(components.iter().fold(0, |bits, c| bits | 1 << c)))
 }

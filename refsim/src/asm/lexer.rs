@@ -1,10 +1,9 @@
-//! Text to tokens, for both languages. Never fails: what fits nowhere becomes a token that the parser refuses in its
-//! place.
+//! Lexer of both languages. It never fails: invalid input becomes a token that the parser rejects.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use crate::isa::Span;
 
-/// The language of a text.
+/// Language of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dialect {
     /// A statement per line; comments start with `;` or `//`, or stand between `/*` and `*/`.
@@ -13,7 +12,7 @@ pub(super) enum Dialect {
     OpenGl,
 }
 
-/// The kinds of token.
+/// Kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TokenKind {
     /// Letters, digits and underscores (in OpenGL also `$`), not starting with a digit; a version token with its dots.
@@ -29,7 +28,7 @@ pub(super) enum TokenKind {
     CloseParen,
     OpenBracket,
     CloseBracket,
-    /// Punctuation that only OpenGL has: one of `;|{}=`, or `..`.
+    /// Punctuation of OpenGL only: one of `;|{}=`, or `..`.
     OpenGlMark,
     Newline,
     /// A character that no program contains.
@@ -38,7 +37,7 @@ pub(super) enum TokenKind {
     End,
 }
 
-/// A token and its place.
+/// A token and its location.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'a> {
     pub(super) kind: TokenKind,
@@ -47,7 +46,7 @@ pub(super) struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// The token as error messages name it.
+    /// The token as quoted in error messages.
     pub(super) fn found(&self) -> String {
         match self.kind {
             TokenKind::Newline => "the end of the line".to_owned(),
@@ -56,13 +55,13 @@ impl Token<'_> {
         }
     }
 
-    /// The token is not what belongs there.
+    /// Error: the token is not the expected one.
     pub(super) fn error(&self, kind: ErrorKind, expected: impl Into<String>, help: impl Into<String>) -> SyntaxError {
         SyntaxError::new(kind, self.span, expected, self.found(), help)
     }
 }
 
-/// Splits `text` from byte `from` on; it must not be longer than [`super::MAX_TEXT`].
+/// Tokenizes `text` from byte `from` on; its length must not exceed [`super::MAX_TEXT`].
 pub(super) fn lex(text: &str, from: usize, dialect: Dialect) -> (Vec<Token<'_>>, Vec<SyntaxError>) {
     let mut lexer = Lexer { text, at: from, dialect, tokens: Vec::new(), errors: Vec::new() };
     while lexer.at < text.len() {
@@ -168,7 +167,7 @@ impl Lexer<'_> {
         self.push(TokenKind::Word, len);
     }
 
-    /// Takes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens.
+    /// Consumes everything that could belong to a number, so that `1.5x` is one malformed number and not two tokens.
     fn number(&mut self) {
         if self.dialect == Dialect::OpenGl {
             return self.opengl_number();
@@ -189,8 +188,8 @@ impl Lexer<'_> {
         self.push(TokenKind::Number, len);
     }
 
-    /// The longest number of OpenGL's grammar: digits, a point, digits, an exponent. `0..3` is three tokens, `3.14.x`
-    /// a number and its component; `1.x` is `1.` and a letter, which malforms it as in `1.5x` and `1.5.5`.
+    /// Consumes the longest number of OpenGL's grammar: digits, a point, digits, an exponent. `0..3` is three tokens,
+    /// `3.14.x` a number and its component; `1.x` is `1.` and a letter, a malformed number like `1.5x` and `1.5.5`.
     fn opengl_number(&mut self) {
         let rest = self.rest();
         let at = |i: usize| rest.get(i).copied().unwrap_or(0);

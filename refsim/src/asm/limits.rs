@@ -1,14 +1,14 @@
-//! How much of a text is read.
+//! Limits of the assembler.
 
-/// The longest program text that [`assemble`](super::assemble) reads, in bytes.
+/// Maximum length of a program text for [`assemble`](super::assemble), in bytes.
 pub const MAX_TEXT: usize = 1 << 20;
-/// The most instructions, constants and declarations together that a program may have.
+/// Maximum total number of instructions, constants and declarations of a program.
 pub const MAX_STATEMENTS: usize = 1 << 16;
-/// How many syntax errors are reported before the assembler gives up on a text.
+/// Maximum number of syntax errors reported.
 pub const MAX_ERRORS: usize = 1000;
-/// The highest register number that can be written; what a version really has is the checker's business.
+/// Highest register number accepted; the checker enforces the version's limits.
 pub const MAX_REGISTER: u16 = u16::MAX;
-/// The most operands that an instruction foreign to its version may have.
+/// Maximum number of operands of an instruction that its version lacks.
 pub const MAX_OPERANDS: usize = 8;
-/// The longest number, in characters.
+/// Maximum length of a number, in characters.
 pub const MAX_NUMBER: usize = 128;

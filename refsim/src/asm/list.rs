@@ -1,4 +1,4 @@
-//! Lists of operands and values: commas, ends, and going on after an error.
+//! Lists of operands and values: commas, ends, and error recovery.
 
 use super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use super::lexer::TokenKind;
@@ -7,7 +7,7 @@ use super::word;
 use crate::isa::{Destination, Source};
 
 impl Parser<'_> {
-    /// Whether the current token ends an operand list (without a comma before it).
+    /// Returns `true` if the current token ends an operand list (without a comma before it).
     pub(super) fn at_list_end(&self) -> bool {
         let token = self.peek();
         match token.kind {
@@ -17,8 +17,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes the comma between two items of a list, if there is one, and the line ends after it when the list goes
-    /// on in the next line.
+    /// Consumes an optional comma between two items, and line ends after it if the list continues in the next line.
     pub(super) fn comma(&mut self, first: bool) -> Parsed<()> {
         let Some(comma) = self.accept(TokenKind::Comma) else {
             return Ok(());
@@ -34,7 +33,7 @@ impl Parser<'_> {
             TokenKind::Plus => self.peek_at(ahead + 1).kind != TokenKind::Number,
             TokenKind::Number | TokenKind::Minus | TokenKind::Bang => false,
             TokenKind::Comma | TokenKind::OpenParen | TokenKind::Newline | TokenKind::End => true,
-            // Nonsense: the operand's own error says more, if it is in this line.
+            // The operand's own error is more specific, if it is in this line.
             _ => ahead > 0,
         };
         if !ends && !first {
@@ -50,8 +49,8 @@ impl Parser<'_> {
         ))
     }
 
-    /// Reads a destination, if there should be one, and sources to the end of the list. `None` after an error,
-    /// which is then recorded.
+    /// Parses a destination, if `has_destination`, and sources to the end of the list. `None` after an error, which is
+    /// recorded.
     pub(super) fn operands(&mut self, has_destination: bool) -> Option<(Option<Destination>, Vec<Source>)> {
         let mut destination = None;
         let mut sources = Vec::new();

@@ -1,18 +1,17 @@
-//! Period assembly: text to [`Program`] and back.
+//! Assembly languages of the period: parsing text into a [`Program`], and printing it.
 //!
-//! [`assemble`] reads what programmers of 2001 to 2004 wrote: any case, commas where they please, `//`, `;` and
-//! `/* */` comments, DirectX 8 spellings (`ps.1.4`), selectors before or after modifiers. It judges *shape* only:
-//! a program with `r99` or forty instructions too many assembles, and the checker says what is wrong with it. What
-//! has no shape (an unknown word, a malformed operand, a wrong operand count) is a syntax error, and one call finds
-//! them all.
+//! [`assemble`] accepts what programmers of 2001 to 2004 wrote: any case, optional commas, `//`, `;` and `/* */`
+//! comments, DirectX 8 spellings (`ps.1.4`), selectors before or after modifiers. It checks *syntax* only: a program
+//! with `r99` or forty instructions too many assembles, and the checker rejects it. An unknown word, a malformed
+//! operand or a wrong operand count is a syntax error; one call finds all of them.
 //!
-//! [`print()`] writes one canonical spelling of any program, such that `assemble(&print(&p)) == Ok(p)`.
+//! [`print()`] writes a canonical form of any program, such that `assemble(&print(&p)) == Ok(p)`.
 //!
-//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) have parsers of their own (`gl`), and give the same program.
+//! OpenGL's fragment programs (`!!FP1.0`, `!!ARBfp1.0`) have their own parsers (`gl`) and result in the same type.
 //!
-//! Two spellings are ours, because period text cannot say them: `def` takes `0x` and eight hexadecimal digits as the
-//! bits of a float (so that infinities and NaNs can be printed), and a constant's value may end in `f`.
-//! Source: Direct3D 9 "Assembly Shader Syntax" pages, DirectX 8.1 "Pixel Shader Assembler Reference".
+//! There are two extensions of the period's syntax: `def` accepts `0x` and eight hexadecimal digits as the bits of a
+//! float (so that infinities and NaNs can be printed), and a constant's value may end in `f`. Source: Direct3D 9
+//! "Assembly Shader Syntax" pages, DirectX 8.1 "Pixel Shader Assembler Reference".
 
 mod cursor;
 mod declare;
@@ -33,7 +32,7 @@ pub use limits::{MAX_ERRORS, MAX_NUMBER, MAX_OPERANDS, MAX_REGISTER, MAX_STATEME
 
 use crate::isa::{Program, Register, Span};
 
-/// Reads a program.
+/// Parses a program.
 ///
 /// ```
 /// let program = refsim::asm::assemble("ps.1.1\ntex t0 // the texture\nMUL_x2 r0 t0, v0\n").expect("a program");
@@ -44,7 +43,7 @@ use crate::isa::{Program, Register, Span};
 /// ```
 ///
 /// # Errors
-/// Every syntax error of the text, in the order of the text, up to [`MAX_ERRORS`].
+/// All syntax errors of the text, in order, up to [`MAX_ERRORS`].
 pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     if text.len() > MAX_TEXT {
         return Err(AssembleErrors {
@@ -63,14 +62,14 @@ pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     parser::Parser::new(text).run()
 }
 
-/// The canonical text of a program, which [`assemble`] reads back to an equal one: in small letters for Direct3D's
-/// versions, as the extensions write them for OpenGL's.
+/// Prints a program in canonical form, which [`assemble`] parses back to an equal one: in lower case for Direct3D's
+/// versions, in the extensions' case for OpenGL's.
 pub fn print(program: &Program) -> String {
     if program.version.is_fragment_program() { gl::print(program) } else { print::print(program) }
 }
 
-/// A register as the program writes it: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are called
-/// `R0` and so on, as [`print()`] declares them.
+/// Name of a register in program text: `r0`, `R0`, `f[TEX0]`, `result.color`. Temporaries of `!!ARBfp1.0` are named
+/// `R0` and so on, as declared by [`print()`].
 pub fn register_name(program: &Program, register: &Register) -> String {
     match program.version.is_fragment_program() {
         true => gl::register_name(program, register),

@@ -1,4 +1,4 @@
-//! Values of definitions: decimals to bits and back.
+//! Parsing and printing of values in definitions.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use super::limits::MAX_NUMBER;
@@ -32,7 +32,7 @@ fn check_length(text: &str, span: Span) -> Result<(), SyntaxError> {
     ))
 }
 
-/// The fp32 bits of a `def`'s value, rounded to nearest even. `text` carries its sign.
+/// Parses a value of `def` as fp32 bits, rounded to nearest even. `text` includes the sign.
 pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     check_length(text, span)?;
     if text.contains(['x', 'X']) {
@@ -55,7 +55,7 @@ pub(super) fn float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     }
 }
 
-/// A number of OpenGL's programs, without its sign: as [`float`], but for the `f` at the end, which they have not.
+/// Parses an unsigned number of an OpenGL program: as [`float`], but without a trailing `f`.
 pub(super) fn opengl_float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     let hexadecimal = text.contains(['x', 'X']);
     if hexadecimal || text.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
@@ -64,12 +64,12 @@ pub(super) fn opengl_float(text: &str, span: Span) -> Result<u32, SyntaxError> {
     Err(malformed("a decimal number", text, span))
 }
 
-/// The shortest text that [`float`] reads back to `bits`.
+/// The shortest text that [`float`] parses back to `bits`.
 pub(super) fn float_text(bits: u32) -> String {
     if Format::FP32.is_finite(bits) { to_decimal(&Format::FP32, bits) } else { format!("0x{bits:08x}") }
 }
 
-/// An integer of a `defi`. `text` carries its sign.
+/// Parses an integer of `defi`. `text` includes the sign.
 pub(super) fn integer(text: &str, span: Span) -> Result<i32, SyntaxError> {
     check_length(text, span)?;
     let digits = text.strip_prefix(['-', '+']).unwrap_or(text);

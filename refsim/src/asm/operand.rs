@@ -1,4 +1,4 @@
-//! Operands: registers with their addresses, swizzles, masks and modifiers.
+//! Parsing of operands: registers with addresses, swizzles, masks and modifiers.
 
 use super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use super::letters::{components, mask, swizzle};
@@ -8,7 +8,7 @@ use super::parser::Parser;
 use super::word;
 use crate::isa::{Destination, Mask, Modifier, Predicate, Register, RegisterFile, Relative, Source, Span, Swizzle};
 
-/// A source modifier written after the register.
+/// A source modifier after the register.
 #[derive(Clone, Copy)]
 enum SourceSuffix {
     Bias,
@@ -18,7 +18,7 @@ enum SourceSuffix {
     Dw,
 }
 
-/// A source modifier written in front of the register.
+/// A source modifier in front of the register.
 #[derive(Clone, Copy)]
 enum SourcePrefix {
     Negate,
@@ -26,10 +26,10 @@ enum SourcePrefix {
     Not,
 }
 
-/// A register with everything that was written around it.
+/// A register with its modifiers and selector.
 struct NamedRegister<'a> {
     register: Register,
-    /// The words of modifiers, in the order of the text.
+    /// Modifier words, in the order of the text.
     modifiers: Vec<(&'a str, Span)>,
     /// The letters after the point.
     selector: Option<(&'a str, Span)>,
@@ -39,7 +39,7 @@ fn is_file(letters: &str) -> Option<RegisterFile> {
     RegisterFile::DIRECT3D.iter().copied().find(|f| f.prefix().eq_ignore_ascii_case(letters))
 }
 
-/// A register number; `None` where it exceeds [`MAX_REGISTER`].
+/// Parses a register number; `None` if it exceeds [`MAX_REGISTER`].
 fn number(digits: &str) -> Option<u16> {
     let digits = digits.trim_start_matches('0');
     match digits.len() {
@@ -150,7 +150,7 @@ impl<'a> Parser<'a> {
         token.error(ErrorKind::MalformedOperand, expected, help)
     }
 
-    /// A destination, without the modifiers that its instruction's word carries.
+    /// Parses a destination, without the modifiers that belong to its instruction's word.
     pub(super) fn destination(&mut self) -> Parsed<Destination> {
         let start = self.peek();
         if matches!(start.kind, TokenKind::Minus | TokenKind::Bang | TokenKind::Number) {
@@ -188,7 +188,7 @@ impl<'a> Parser<'a> {
         )
     }
 
-    /// A source.
+    /// Parses a source.
     pub(super) fn source(&mut self) -> Parsed<Source> {
         let start = self.peek().span.start;
         let prefix = match self.peek().kind {
@@ -225,7 +225,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// A register that nothing but its number belongs to: for definitions.
+    /// Parses a register without modifiers or selector, for definitions.
     pub(super) fn bare_register(&mut self) -> Parsed<Register> {
         let start = self.peek();
         let named = self.named()?;
@@ -241,7 +241,7 @@ impl<'a> Parser<'a> {
         Ok(named.register)
     }
 
-    /// A register, its address, its selector and its suffixes, the latter two in either order.
+    /// Parses a register and its address, then selector and suffixes in either order.
     fn named(&mut self) -> Parsed<NamedRegister<'a>> {
         let token = self.peek();
         if token.kind != TokenKind::Word {
@@ -274,7 +274,7 @@ impl<'a> Parser<'a> {
         Ok(NamedRegister { register: register.0, modifiers, selector })
     }
 
-    /// The register that `token`, already taken, starts, and whether brackets followed.
+    /// Parses the register that starts with `token`, which has been consumed; also returns `true` if brackets followed.
     fn register(&mut self, token: Token<'a>) -> Parsed<(Register, bool)> {
         let name = word::base(token.text);
         let span = Span::new(token.span.start, token.span.start + name.len() as u32);
@@ -314,7 +314,7 @@ impl<'a> Parser<'a> {
         token.error(ErrorKind::RelativeAddress, expected, "write `c[a0.x + 3]`, `c3[a0.x]` or `c[aL + 3]`")
     }
 
-    /// `[a0.x + 3]` and its kin: sums of numbers and one address register at most.
+    /// `[a0.x + 3]` etc.: a sum of numbers and at most one address register.
     fn address(&mut self, register: &mut Register) -> Parsed<()> {
         self.next();
         loop {

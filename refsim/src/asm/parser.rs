@@ -1,4 +1,4 @@
-//! Tokens to a program: statements, and what is in front of them.
+//! Parser of Direct3D programs: statements and their prefixes.
 
 use std::ops::{Deref, DerefMut};
 
@@ -12,8 +12,8 @@ use crate::isa::{
     Source, Span, Version,
 };
 
-/// The state of reading one text. A part that reads badly returns its error; the statement records it, skips
-/// to where the next part can start, and goes on, so that one slip hides no other.
+/// Parser of one text. A part that fails to parse returns its error; the statement records it, skips to a token where
+/// the next part can start, and continues, so that no error hides another.
 pub(super) struct Parser<'a> {
     cursor: Cursor<'a>,
     version: Option<(Version, Span)>,
@@ -36,7 +36,7 @@ impl DerefMut for Parser<'_> {
     }
 }
 
-/// What a statement may have in front.
+/// Prefix of a statement.
 #[derive(Clone, Copy)]
 struct StatementPrefix {
     coissue: bool,
@@ -45,7 +45,7 @@ struct StatementPrefix {
 }
 
 impl<'a> Parser<'a> {
-    /// A parser of a text.
+    /// Creates a parser.
     pub(super) fn new(text: &'a str) -> Self {
         let from = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         Self {
@@ -57,7 +57,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Reads the whole program.
+    /// Parses the whole program.
     pub(super) fn run(mut self) -> Result<Program, AssembleErrors> {
         self.skip_newlines();
         self.read_version();
@@ -83,7 +83,7 @@ impl<'a> Parser<'a> {
 
     // ---- tokens ----
 
-    /// Takes the current token unless it ends the line, and returns it.
+    /// Consumes and returns the current token, unless it ends the line.
     pub(super) fn next_in_line(&mut self) -> Token<'a> {
         let token = self.peek();
         if token.kind != TokenKind::Newline {
@@ -217,7 +217,7 @@ impl<'a> Parser<'a> {
         let mnemonic = match word::mnemonic(&token) {
             Ok(mnemonic) => mnemonic,
             Err(error) => {
-                // The operands of a known instruction are still worth reading, for their own errors.
+                // The operands of a known instruction are parsed anyway, for their own errors.
                 let known = error.kind != ErrorKind::UnknownOpcode;
                 self.record(error);
                 if known && let Some(row) = word::row(token.text) {

@@ -1,4 +1,4 @@
-//! A program to its canonical text.
+//! Printer of Direct3D programs in canonical form.
 
 use super::declare::usage_suffix;
 use super::{number, word};
@@ -9,12 +9,12 @@ use std::fmt::Write;
 
 const LETTERS: [char; 4] = ['x', 'y', 'z', 'w'];
 
-/// The canonical text of a program: one statement a line, definitions before declarations in their places among the
-/// instructions, small letters (but for the register names that Direct3D writes otherwise), `xyzw`, the modifiers
-/// in the order shift, `_sat`, `_pp`, the shortest decimals.
+/// Prints a program in canonical form: one statement per line, definitions before declarations at their positions among
+/// the instructions, lower case (except for registers whose names Direct3D writes otherwise), `xyzw`, modifiers in the
+/// order shift, `_sat`, `_pp`, shortest decimals.
 ///
-/// [`super::assemble`] reads it back to an equal program, if the program can be written at all: its definitions and
-/// declarations are in rising order of position, its masks are not empty, its shifts are -3 to 3.
+/// [`super::assemble`] parses the result back to an equal program, if the program is printable: definitions and
+/// declarations in ascending order of position, masks not empty, shifts from -3 to 3.
 pub(super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let mut constants = program.constants.iter().peekable();
@@ -121,7 +121,7 @@ fn source(out: &mut String, s: &Source) {
         Modifier::Negate => ("-", ""),
         Modifier::Invert => ("1-", ""),
         Modifier::Not => ("!", ""),
-        // No Direct3D text of the period says this.
+        // Not part of Direct3D's syntax.
         Modifier::Absolute => ("", "_abs"),
         Modifier::AbsoluteNegate => ("-", "_abs"),
         Modifier::Bias => ("", "_bias"),
@@ -137,7 +137,7 @@ fn source(out: &mut String, s: &Source) {
     swizzle(out, s.swizzle);
 }
 
-/// The fewest letters: nothing for the identity, and no repetition of the last.
+/// Prints as few letters as possible: none for the identity, and no repetition of the last.
 fn swizzle(out: &mut String, s: Swizzle) {
     if s == Swizzle::IDENTITY {
         return;

@@ -1,10 +1,10 @@
-//! Words: mnemonics with their suffixes, and what was meant by an unknown one.
+//! Mnemonics with their suffixes, and suggestions for unknown ones.
 
 use super::error::{ErrorKind, SyntaxError, quote};
 use super::lexer::Token;
 use crate::isa::{Comparison, DestinationRule, OpInfo, Opcode, Span};
 
-/// An instruction's first word, taken apart.
+/// A parsed mnemonic with its suffixes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mnemonic {
     pub(super) opcode: Opcode,
@@ -14,12 +14,12 @@ pub(super) struct Mnemonic {
     pub(super) partial_precision: bool,
 }
 
-/// The table's rows under a mnemonic (two for `if` and `break`).
+/// The opcode table's rows with a mnemonic (two for `if` and `break`).
 fn rows(base: &str) -> impl Iterator<Item = &'static OpInfo> {
     Opcode::ALL.iter().map(|opcode| opcode.info()).filter(move |info| info.mnemonic.eq_ignore_ascii_case(base))
 }
 
-/// The first row under a word's base.
+/// The first row for a word without its suffixes.
 pub(super) fn row(word: &str) -> Option<&'static OpInfo> {
     rows(base(word)).next()
 }
@@ -29,18 +29,18 @@ pub(super) fn base(word: &str) -> &str {
     word.split('_').next().unwrap_or(word)
 }
 
-/// Whether the word can start a statement, whatever its suffixes.
+/// Returns `true` if the word can start a statement, whatever its suffixes.
 pub(super) fn starts_statement(word: &str) -> bool {
     let base = base(word);
     is_definition(word) || base.eq_ignore_ascii_case("dcl") || rows(base).next().is_some()
 }
 
-/// Whether the word is `def`, `defi` or `defb`.
+/// Returns `true` for `def`, `defi` and `defb`.
 pub(super) fn is_definition(word: &str) -> bool {
     ["def", "defi", "defb"].iter().any(|d| word.eq_ignore_ascii_case(d))
 }
 
-/// Whether the word is shaped as a version token is.
+/// Returns `true` if the word has the form of a version token.
 pub(super) fn is_version(word: &str) -> bool {
     let bytes = word.as_bytes();
     bytes.len() > 2
@@ -48,7 +48,7 @@ pub(super) fn is_version(word: &str) -> bool {
         && matches!(bytes[2], b'_' | b'.')
 }
 
-/// The parts of a word after its first, each with its span, underscore included.
+/// The suffixes of a word, each with its span including the underscore.
 pub(super) fn suffixes<'a>(token: &Token<'a>) -> impl Iterator<Item = (&'a str, Span)> + use<'a> {
     let mut start = token.span.start as usize;
     let mut parts = token.text.split('_');
@@ -62,7 +62,7 @@ pub(super) fn suffixes<'a>(token: &Token<'a>) -> impl Iterator<Item = (&'a str, 
 
 const SHIFTS: [(&str, i8); 6] = [("x2", 1), ("x4", 2), ("x8", 3), ("d2", -1), ("d4", -2), ("d8", -3)];
 
-/// The suffix of a shift, `_x2` for 1 for example; empty for 0 and for what no program can say.
+/// Suffix of a shift, for example `_x2` for 1; empty for 0 and for shifts without a suffix.
 pub(super) fn shift_suffix(shift: i8) -> &'static str {
     match shift {
         1 => "_x2",
@@ -75,7 +75,7 @@ pub(super) fn shift_suffix(shift: i8) -> &'static str {
     }
 }
 
-/// Takes an instruction's word apart.
+/// Parses a mnemonic with its suffixes.
 pub(super) fn mnemonic(token: &Token<'_>) -> Result<Mnemonic, SyntaxError> {
     let base = base(token.text);
     let Some(first) = rows(base).next() else {
@@ -186,7 +186,7 @@ fn unknown_opcode(token: &Token<'_>, base: &str) -> SyntaxError {
     )
 }
 
-/// The mnemonic that is one slip (two, for long words) from `word`, if there is one.
+/// The mnemonic within edit distance 1 (2 for long words) of `word`, if any.
 fn nearest(word: &str) -> Option<&'static str> {
     if word.len() > 16 {
         return None;
@@ -203,7 +203,7 @@ fn nearest(word: &str) -> Option<&'static str> {
         .map(|(_, name)| name)
 }
 
-/// Insertions, deletions and replacements of bytes between two words.
+/// Edit distance (Levenshtein) of two words, in bytes.
 fn distance(a: &str, b: &str) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, x) in a.bytes().enumerate() {

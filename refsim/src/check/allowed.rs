@@ -1,9 +1,9 @@
-//! Which figure holds: the device's, the version's, or none.
+//! Effective limits: the device's, the shader version's, or none.
 
 use crate::device::Profile;
 use crate::isa::{Stage, Version};
 
-/// A limit that can stand in a profile. The names are the fields of [`crate::device::Limits`].
+/// A limit that profiles can state. Variants correspond to the fields of [`crate::device::Limits`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Limit {
     TextureInstructions,
@@ -22,19 +22,19 @@ pub(super) enum Limit {
     StaticFlowCount,
 }
 
-/// A limit, where it comes from (device or version), and its key in the profile.
+/// An effective limit, its origin (device or version), and its key in the profile.
 #[derive(Clone, Debug)]
 pub(super) struct Allowed {
     pub(super) value: u32,
     /// `` `r200` `` or `` `ps_1_4` ``
     pub(super) owner: String,
     pub(super) key: &'static str,
-    /// Whether the device, not the version, says it.
+    /// `true` if the limit comes from the device, `false` if from the version.
     pub(super) by_device: bool,
 }
 
 impl Allowed {
-    /// What to say about where the figure is.
+    /// Help text that names the origin of the limit.
     pub(super) fn help(&self, advice: &str) -> String {
         let Self { key, owner, .. } = self;
         if self.by_device {
@@ -46,7 +46,7 @@ impl Allowed {
 }
 
 impl Limit {
-    /// The key in a profile, and the device's figure. Figures of the pixel pipeline say nothing about vertex programs.
+    /// Key in a profile, and the device's figure. Figures of the pixel pipeline don't apply to vertex programs.
     fn of_device(self, profile: &Profile, stage: Stage) -> (&'static str, Option<u32>) {
         macro_rules! figure {
             ($name:ident) => {
@@ -75,8 +75,8 @@ impl Limit {
         (key, figure.filter(|_| stages == stage))
     }
 
-    /// The version's figure: Direct3D 9, "Registers" and "Instructions" pages of each version, and its page on flow
-    /// control nesting limits.
+    /// The version's limit. Source: Direct3D 9, pages "Registers" and "Instructions" of each version, and the page on
+    /// flow control nesting limits.
     #[rustfmt::skip]
     fn of_version(self, version: Version) -> Option<u32> {
         use Version::{ArbFp1_0, Fp1_0, Ps1_1, Ps1_2, Ps1_3, Ps1_4, Ps2_0, Ps2A, Ps2B, Vs1_1, Vs2_0};
@@ -109,7 +109,7 @@ impl Limit {
             (Self::LoopDepth | Self::CallDepth, Ps2A | Ps2B) => 4,
             (Self::LoopDepth | Self::CallDepth, Vs2_0) => 1,
             (Self::StaticFlowCount, Vs2_0) => 16,
-            // GL_NV_fragment_program: at least so many.
+            // GL_NV_fragment_program: minimum.
             (Self::Instructions, Fp1_0) => 1024,
             (Self::Constants, Fp1_0) => 64,
             (Self::TextureCoordinates, Fp1_0 | ArbFp1_0) => 8,
@@ -118,7 +118,7 @@ impl Limit {
         })
     }
 
-    /// What even an ideal device has an end of, because the executors' register files do.
+    /// Limits of the emulator itself, from the size of the executors' register files; they apply to ideal devices too.
     fn of_emulator(self, stage: Stage) -> Option<u32> {
         match (self, stage) {
             (Self::Temporaries, _) => Some(32),
@@ -130,7 +130,7 @@ impl Limit {
         }
     }
 
-    /// The figure for one of OpenGL's programs: the device's own where it has one, or else the extension's.
+    /// The limit of an OpenGL program: the device's own if it states one, else the extension's minimum.
     fn of_fragment(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let l = &profile.limits;
         let arb = version == Version::ArbFp1_0;
@@ -148,9 +148,9 @@ impl Limit {
         Some(Allowed { value, owner: format!("`{}`", version.token()), key, by_device: false })
     }
 
-    /// The figure that holds for programs of `version` on the device; `None`: no limit.
+    /// The effective limit for programs of `version` on the device; `None`: no limit.
     ///
-    /// The smaller of the device's and the version's, except that what `ps_2_x` leaves to the device (slots,
+    /// The smaller of the device's and the version's limit, except that what `ps_2_x` leaves to the device (slots,
     /// temporaries, nesting) is the device's alone.
     pub(super) fn allowed(self, profile: &Profile, version: Version) -> Option<Allowed> {
         let stage = version.stage();
@@ -174,7 +174,7 @@ impl Limit {
                     | Self::LoopDepth
                     | Self::CallDepth
             );
-        // A device's figure speaks for what the version limits at all: four levels of dependent reads are nothing to
+        // A device's figure applies only where the version has a limit: four levels of dependent reads don't concern
         // ps_1_4, which has phases.
         match (device, of_version) {
             (Some(d), Some(v)) if d <= v || left_to_device => Some(by(d, &profile.name, true)),

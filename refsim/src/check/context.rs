@@ -1,4 +1,4 @@
-//! What all passes share: the program, the device, and the violations so far.
+//! State shared by all passes: the program, the device, and the violations so far.
 
 use super::allowed::{Allowed, Limit};
 use super::{RuleId, Violation, Warning};
@@ -9,9 +9,9 @@ use crate::isa::{
 
 /// The number of registers of a file.
 pub(super) enum Count {
-    /// A figure of the profile or the version.
+    /// A limit of the profile or the version.
     Limited(Allowed),
-    /// A number that follows from the version alone.
+    /// A number fixed by the version.
     Fixed(u32),
 }
 
@@ -31,9 +31,9 @@ pub(super) struct Context<'a> {
     pub(super) version: Version,
     pub(super) violations: Vec<Violation>,
     pub(super) warnings: Vec<Warning>,
-    /// Whether the version has instruction `i` and it has its operands: what later passes may rely on.
+    /// `true` for instruction `i` if the version has it and its operands are present; later passes rely on it.
     pub(super) sound: Vec<bool>,
-    /// For each instruction the one that ends or continues its block, its loop, or its subroutine.
+    /// For each instruction the index of the one that ends or continues its block, loop or subroutine.
     pub(super) jump: Vec<Option<usize>>,
     phase_marker: Option<usize>,
 }
@@ -54,7 +54,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Notes a violation, which may say more than its message.
+    /// Records a violation; returns it for adding details.
     pub(super) fn breach(&mut self, rule: RuleId, span: Span, message: impl Into<String>) -> &mut Violation {
         self.violations.push_mut(Violation::new(rule, span, message))
     }
@@ -63,14 +63,13 @@ impl<'a> Context<'a> {
         self.sound.get(index).copied().unwrap_or(false)
     }
 
-    /// The instructions that the version has and that have their operands, with their places.
+    /// Sound instructions with their indices.
     pub(super) fn instructions(&self) -> impl Iterator<Item = (usize, &'a Instruction)> + use<'a> {
         let sound = self.sound.clone();
         self.program.instructions.iter().enumerate().filter(move |(i, _)| sound[*i])
     }
 
-    /// The phase of instruction `index`: 1 or 2 in ps_1_4, where a program without a marker is all phase 2; 1
-    /// elsewhere.
+    /// Phase of instruction `index`: 1 or 2 in ps_1_4 (all 2 in a program without a marker), 1 in other versions.
     pub(super) fn phase(&self, index: usize) -> u8 {
         match (self.version, self.phase_marker) {
             (Version::Ps1_4, Some(marker)) if index < marker => 1,
@@ -87,12 +86,12 @@ impl<'a> Context<'a> {
         limit.allowed(self.profile, self.version)
     }
 
-    /// Whether limits that come from the version alone (ports, tokens) hold: not on ideal devices.
+    /// Returns `true` if limits that come from the version alone (ports, tokens) apply: not on ideal devices.
     pub(super) fn version_limits(&self) -> bool {
         self.profile.limits.version_limits
     }
 
-    /// How many registers of `file` there are. `None`: no such file in the version.
+    /// Number of registers in `file`; `None` if the version has no such file.
     pub(super) fn count(&self, file: RegisterFile) -> Option<Count> {
         use RegisterFile as F;
         let version = self.version;
@@ -118,7 +117,7 @@ impl<'a> Context<'a> {
             F::PositionOut | F::FogOut | F::PointSizeOut => fixed(1, vertex),
             F::DiffuseOut => fixed(2, vertex),
             F::TexCoordOut => fixed(8, vertex),
-            // `fragment` counts these.
+            // `fragment` checks the registers of OpenGL programs.
             F::Half | F::FogIn | F::WindowPosition | F::HalfColorOut | F::Discard | F::HalfDiscard => None,
         }
     }
@@ -140,7 +139,7 @@ impl<'a> Context<'a> {
     }
 }
 
-/// Whether the version has the instruction and the instruction has its operands.
+/// Returns `true` if the version has the instruction and its operands are present.
 fn is_sound(instruction: &Instruction, version: Version) -> bool {
     let info = instruction.opcode.info();
     let Some(sources) = info.source_count(version) else { return false };
@@ -149,17 +148,17 @@ fn is_sound(instruction: &Instruction, version: Version) -> bool {
         && instruction.comparison.is_some() == info.comparison
 }
 
-/// Whether the operation reads textures or coordinates, kills, or replaces depth.
+/// Returns `true` for operations of class [`OpcodeClass::Texture`].
 pub(super) fn is_texture(opcode: Opcode) -> bool {
     opcode.info().class == OpcodeClass::Texture
 }
 
-/// Whether the operation computes.
+/// Returns `true` for operations of class [`OpcodeClass::Arithmetic`].
 pub(super) fn is_arithmetic(opcode: Opcode) -> bool {
     opcode.info().class == OpcodeClass::Arithmetic
 }
 
-/// Whether a file holds numbers that arithmetic can use.
+/// Returns `true` if the file holds numbers for arithmetic.
 pub(super) fn is_numeric(file: RegisterFile) -> bool {
     matches!(file, RegisterFile::Temp | RegisterFile::Input | RegisterFile::Texture | RegisterFile::Constant)
 }

@@ -1,8 +1,8 @@
-//! V11, V12, V48, V49, V57: what is read must have been written.
+//! V11, V12, V48, V49, V57: reads of unwritten registers.
 //!
-//! Straight code is followed exactly. Where paths meet, a component counts as written if one of them writes it; on
-//! entering a loop everything that the loop writes counts as written, on entering a subroutine everything that the
-//! program writes: no legal program is turned away.
+//! Straight-line code is analysed exactly. Where paths join, a component counts as written if one of them writes it. On
+//! entry to a loop everything that the loop writes counts as written, on entry to a subroutine everything that the
+//! program writes. So no legal program is rejected.
 
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ impl Written {
 pub(super) fn check(context: &mut Context<'_>) {
     let mut written = Written::default();
     let sound: Vec<bool> = context.sound.to_vec();
-    // What is no instruction of the version is V03's to report; here it still writes what it names.
+    // V03 reports instructions that the version lacks; here they still write their destination.
     let all: Vec<(usize, &Instruction)> = context.program.instructions.iter().enumerate().collect();
     let mut at = 0;
     let mut loop_end = 0;
@@ -44,7 +44,7 @@ pub(super) fn check(context: &mut Context<'_>) {
         }
         match instruction.opcode {
             Opcode::Phase if context.phase_marker() == Some(index) => forget_alpha(&mut written),
-            // Once for the outermost loop: it holds the inner ones.
+            // Once for the outermost loop, which contains the inner ones.
             Opcode::Rep | Opcode::Loop if index >= loop_end => {
                 loop_end = context.jump[index].unwrap_or(index);
                 for (_, i) in all.iter().filter(|(i, _)| (index..loop_end).contains(i)) {
@@ -91,8 +91,8 @@ fn write(written: &mut Written, version: Version, instruction: &Instruction) {
     let mask = if whole { Mask::ALL } else { destination.mask };
     let mut mask = mask.0;
     if instruction.opcode == Opcode::TexCrd {
-        // The fourth component, and the third with _dw, is left in no defined state; of a register only what is there
-        // is passed on.
+        // texcrd leaves the fourth component (and the third with _dw) undefined; from a register it copies only
+        // components that were written.
         let source = instruction.sources.first().filter(|s| s.register.file == RegisterFile::Temp);
         if let Some(source) = source {
             let there = written.get(source.register.file, source.register.index);
@@ -104,7 +104,7 @@ fn write(written: &mut Written, version: Version, instruction: &Instruction) {
     written.add(register.file, register.index, mask);
 }
 
-/// Whether reading this file needs an earlier write.
+/// Returns `true` if reads of this file need an earlier write.
 fn is_followed(version: Version, file: RegisterFile) -> bool {
     match file {
         RegisterFile::Temp | RegisterFile::Address | RegisterFile::Predicate => true,
@@ -125,7 +125,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
         if !is_followed(version, file) {
             continue;
         }
-        // The address of texld in ps_1_4 is V22's; texcrd passes on what there is, as long as there is something.
+        // V22 covers the address of texld in ps_1_4; texcrd copies what is written, but something must be.
         let passes = instruction.opcode == Opcode::TexCrd && written.get(file, first) & Mask::RGB.0 != 0;
         if version == Version::Ps1_4 && (instruction.opcode == Opcode::TexLd || passes) {
             continue;
@@ -141,7 +141,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
     if let Some(destination) = instruction.destination {
         let register = destination.register;
         let mask = destination_reads(instruction.opcode);
-        // In ps_1_1 to 1_3 texkill takes coordinates, not the register's contents.
+        // In ps_1_1 to 1_3 texkill tests the coordinates, not the register's contents.
         if mask.0 != 0 && register.file == RegisterFile::Temp {
             need(context, written, register.file, register.index, mask.0, destination.span, RuleId::UnwrittenRead);
         }
@@ -157,7 +157,7 @@ fn swizzled(swizzle: Swizzle, lanes: Mask) -> u8 {
     lanes.components().fold(0, |mask, lane| mask | 1 << (swizzle.0[lane] & 3))
 }
 
-/// The components that the lanes see; _dz and _dw look at their divisor too.
+/// Components that the lanes read; _dz and _dw also read their divisor.
 fn through(source: &Source, lanes: Mask) -> u8 {
     let divisor = match source.modifier {
         Modifier::Dz => 0b0100,
@@ -185,7 +185,7 @@ fn need(
     if missing == 0 {
         return;
     }
-    // Said once, not at every read that follows.
+    // Marks them as written, so that later reads don't repeat the report.
     written.add(file, index, missing);
     let exists = context.count(file).is_some_and(|c| u32::from(index) < c.value());
     if !exists {
@@ -202,7 +202,7 @@ fn need(
     context.breach(rule, span, message).label("read here").help(help);
 }
 
-/// V12 and V48: what must have been written at the end.
+/// V12 and V48: registers that must be written at the end.
 fn results(context: &mut Context<'_>, written: &Written) {
     let (rule, file, name) = match context.version {
         v if v.is_ps_1_x() => (RuleId::UnwrittenResult, RegisterFile::Temp, "r0"),

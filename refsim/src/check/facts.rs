@@ -1,4 +1,4 @@
-//! What executors want to know of a legal program, worked out once.
+//! Properties of a legal program, derived once for the executors.
 
 use std::ops::Deref;
 
@@ -7,26 +7,25 @@ use super::context::{Context, is_texture};
 use super::slots::{self, SlotCount};
 use crate::isa::{DestinationRule, Opcode, Program, RegisterFile, TextureTarget, Usage, Version};
 
-/// Facts about a legal program.
+/// Derived properties of a legal program.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Facts {
     /// The phase of each instruction: 1 or 2 in ps_1_4 (all 2 without a marker), 1 elsewhere.
     pub phase: Vec<u8>,
-    /// The index of `phase`.
+    /// Index of the `phase` instruction.
     pub phase_marker: Option<usize>,
-    /// The next instruction of a jump, by instruction index: from `if` to its `else` or `endif`, from `else` to
-    /// `endif`, from `rep` and `loop` to their end and back, from `break` to the end of its loop, from `call` to its
-    /// `label`.
+    /// Jump target of each instruction: from `if` to its `else` or `endif`, from `else` to `endif`, from `rep` and
+    /// `loop` to their end and back, from `break` to the end of its loop, from `call` to its `label`.
     pub jump: Vec<Option<usize>>,
-    /// The index of the first `label`, where the main program has ended; the number of instructions if there is none.
+    /// Index of the first `label`, which ends the main program; the number of instructions if there is none.
     pub main_end: usize,
-    /// Whether there is flow control.
+    /// `true` if the program has flow control.
     pub has_flow: bool,
     /// One more than the highest `r#`, matrix rows included.
     pub temporaries: u16,
-    /// One more than the highest `c#` named or defined, matrix rows included; relative addresses may go beyond.
+    /// One more than the highest `c#` named or defined, matrix rows included; relative addressing may exceed it.
     pub constants: u16,
-    /// Whether constants are addressed relatively.
+    /// `true` if constants are addressed relatively.
     pub relative_constants: bool,
     /// Bit `n`: the program reads coordinate set or texture register `t#n` (pixel).
     pub texture_registers: u32,
@@ -38,22 +37,22 @@ pub struct Facts {
     pub sampler_usage: [Option<Usage>; 16],
     /// Bit `n`: the program writes colour output `n`; ps_1_x writes output 0.
     pub color_outputs: u32,
-    /// Whether the program replaces depth.
+    /// `true` if the program writes depth.
     pub writes_depth: bool,
-    /// Whether the program can kill a fragment.
+    /// `true` if the program can kill fragments.
     pub kills: bool,
-    /// Whether the program takes derivatives, in `dsx`, `dsy` or to choose a mip map.
+    /// `true` if the program takes derivatives, explicitly (`dsx`, `dsy`) or to select a mip level.
     pub uses_derivatives: bool,
     /// Bit `n`: a vertex program writes `oT#n`.
     pub texcoord_outputs: u32,
     /// Bit `n`: a vertex program writes `oD#n`.
     pub diffuse_outputs: u32,
-    /// Slots by phase; the second entry is for phase 2 of ps_1_4 only.
+    /// Slots per phase; the second entry is for phase 2 of ps_1_4 only.
     pub slots: [SlotCount; 2],
 }
 
-/// A program that was found legal for a device. Only [`super::check`] makes one, so code that takes one may rely on
-/// everything that the rules say.
+/// A program that is legal for a device. Only [`super::check`] creates one, so code that takes one may rely on all
+/// rules.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checked<T> {
     inner: T,
@@ -72,17 +71,17 @@ impl<T> Checked<T> {
         &self.warnings
     }
 
-    /// What was worked out about the program.
+    /// Derived properties of the program.
     pub fn facts(&self) -> &Facts {
         &self.facts
     }
 
-    /// The device for which it was found legal.
+    /// Name of the device for which the program is legal.
     pub fn device(&self) -> &str {
         &self.device
     }
 
-    /// The program again, without the guarantee.
+    /// Returns the program without the guarantee.
     pub fn into_inner(self) -> T {
         self.inner
     }
@@ -162,7 +161,7 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
             RegisterFile::TexCoordOut => facts.texcoord_outputs |= bit(register.index),
             RegisterFile::DiffuseOut => facts.diffuse_outputs |= bit(register.index),
             RegisterFile::Texture if is_texture(opcode) => {
-                // In ps_1_1 to 1_3 the destination names the coordinate set, and the stage if one is sampled.
+                // In ps_1_1 to 1_3 the destination selects the coordinate set, and the stage if one is sampled.
                 facts.texture_registers |= bit(register.index);
             }
             _ => {}
@@ -178,7 +177,7 @@ fn note(facts: &mut Facts, context: &Context<'_>, instruction: &crate::isa::Inst
     facts.uses_derivatives |= fetch || matches!(opcode, Opcode::Dsx | Opcode::Dsy);
 }
 
-/// What a read's kind of texture is among Direct3D's.
+/// The Direct3D sampler type of an OpenGL texture target.
 fn usage(target: TextureTarget) -> Usage {
     match target {
         TextureTarget::D1 | TextureTarget::D2 | TextureTarget::Rect => Usage::Sampler2d,
@@ -187,7 +186,7 @@ fn usage(target: TextureTarget) -> Usage {
     }
 }
 
-/// Whether the operation samples the stage of its destination's number.
+/// Returns `true` if the operation samples the stage with its destination's number.
 fn samples_stage(version: Version, opcode: Opcode) -> bool {
     use Opcode as O;
     match opcode {

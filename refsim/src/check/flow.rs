@@ -1,4 +1,4 @@
-//! V52 to V57: flow control. Fills in [`Context::jump`], which executors follow.
+//! V52 to V57: flow control. Fills in [`Context::jump`], which the executors use.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::allowed::Limit;
 use super::context::Context;
 use crate::isa::{Instruction, Modifier, Opcode, OpcodeClass, RegisterFile, Relative, Source, Span, Swizzle, Version};
 
-/// A block that is open.
+/// An open block.
 struct OpenBlock {
     opcode: Opcode,
     start: usize,
-    /// Where the jump of the opening instruction, or of `else`, is to be filled in.
+    /// Instruction whose jump target is pending: the opening one, or `else`.
     patch: usize,
     breaks: Vec<usize>,
-    /// Whether a computed value decides which fragments run it.
+    /// `true` if a computed value decides which fragments execute the block.
     dynamic: bool,
     has_else: bool,
 }
@@ -29,7 +29,7 @@ impl OpenBlock {
 struct Call {
     at: usize,
     label: u16,
-    /// The subroutine that the call stands in, by label; none: the main program.
+    /// The subroutine that contains the call, by label; `None`: the main program.
     within: Option<u16>,
     dynamic: bool,
 }
@@ -38,11 +38,11 @@ struct Walk {
     blocks: Vec<OpenBlock>,
     labels: BTreeMap<u16, usize>,
     calls: Vec<Call>,
-    /// The label of the subroutine that the walk is in.
+    /// Label of the current subroutine.
     section: Option<u16>,
-    /// Whether the section's `ret` has been seen.
+    /// `true` once the section's `ret` was found.
     ended: bool,
-    /// Gradients: instruction, subroutine, whether fragments may have parted within the section.
+    /// Gradients: instruction, subroutine, and `true` if fragments may have diverged within the section.
     gradients: Vec<(usize, Option<u16>, bool)>,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     static_count(context);
 }
 
-/// `p0.x` or `!p0.x` (V55 where it is neither that nor `b#`).
+/// Returns `true` for `b#`, `p0.x` and `!p0.x` (other operands violate V55).
 fn is_condition(source: &Source, version: Version) -> bool {
     let plain = matches!(source.modifier, Modifier::None | Modifier::Not);
     match source.register.file {
@@ -83,7 +83,7 @@ fn is_condition(source: &Source, version: Version) -> bool {
     }
 }
 
-/// V55: operands of flow control, and V07 for labels and the rest was done with the operands.
+/// V55: operands of flow control. V07 for labels and other registers is checked with the operands.
 fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     use RegisterFile as F;
     let version = context.version;
@@ -144,7 +144,7 @@ fn step(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &
             let within_dynamic = walk.blocks[at..].iter().any(|b| b.dynamic);
             walk.blocks[at].breaks.push(index);
             if computed || within_dynamic {
-                // From here on fragments may have parted.
+                // From here on fragments may have diverged.
                 walk.blocks[at].dynamic = true;
                 dynamic_depth(context, walk, instruction, u32::from(computed));
             }
@@ -190,7 +190,7 @@ fn dynamic_depth(context: &mut Context<'_>, walk: &Walk, instruction: &Instructi
 /// V53, [`RuleId::NestingDepth`].
 fn depth(context: &mut Context<'_>, limit: Limit, found: u32, what: &str, span: Span) {
     let Some(allowed) = context.limit(limit) else { return };
-    // One report at the first level that is too deep says it for all deeper ones.
+    // Reported at the first level that is too deep only.
     if found == allowed.value + 1 {
         let message = format!("{what} nested {found} deep, {} allows {}", allowed.owner, allowed.value);
         let advice = "unroll, or select with cmp";
@@ -233,7 +233,7 @@ fn label(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: 
     walk.ended = false;
 }
 
-/// Blocks still open at the end of a section, and a subroutine without its end.
+/// Reports blocks still open at the end of a section, and a subroutine without its end.
 fn close(context: &mut Context<'_>, walk: &mut Walk) {
     for block in walk.blocks.drain(..) {
         let span = context.program.instructions[block.start].span;
@@ -242,7 +242,7 @@ fn close(context: &mut Context<'_>, walk: &mut Walk) {
     }
 }
 
-/// An instruction that is not flow control: addresses through aL, gradients.
+/// Checks an instruction that is not flow control: addressing through aL, and gradients.
 fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction: &Instruction) {
     let in_loop = walk.section.is_some() || walk.blocks.iter().any(|b| b.opcode == Opcode::Loop);
     for source in &instruction.sources {
@@ -262,7 +262,7 @@ fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction:
     }
 }
 
-/// V54 for calls, V53 for their depth, V56 through them.
+/// V54 for calls, V53 for their depth, V56 for gradients in called subroutines.
 fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     let program = context.program;
     let span = |at: usize| program.instructions[at].span;
@@ -270,7 +270,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
         let at = walk.section.and_then(|s| walk.labels.get(&s)).copied().unwrap_or(0);
         context.breach(RuleId::Subroutines, span(at), "the last subroutine does not end with `ret`");
     }
-    // Callers stand before what they call, so one pass in the order of the text knows every caller first.
+    // Callers precede callees, so one pass in the order of the text visits every caller first.
     let mut depths: BTreeMap<u16, u32> = BTreeMap::new();
     let mut parted: BTreeMap<u16, bool> = BTreeMap::new();
     for call in &walk.calls {
@@ -307,7 +307,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     }
 }
 
-/// V53 for vs_2_0: static flow instructions in all.
+/// V53 for vs_2_0: total static flow instructions.
 fn static_count(context: &mut Context<'_>) {
     let Some(allowed) = context.limit(Limit::StaticFlowCount) else { return };
     let counted =
@@ -325,7 +325,7 @@ fn static_count(context: &mut Context<'_>) {
     }
 }
 
-/// V57: where a predicate may stand. Whether it was set is the data flow's.
+/// V57: instructions that may be predicated. `dataflow` checks that the predicate is set.
 fn predicates(context: &mut Context<'_>) {
     for (_, instruction) in context.instructions() {
         let Some(predicate) = instruction.predicate else { continue };

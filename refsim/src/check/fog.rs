@@ -1,6 +1,8 @@
-//! Fog of `!!ARBfp1.0` as instructions of the program: GL_ARB_fragment_program, "Fog Application Options".
+//! Expansion of the fog options of `!!ARBfp1.0` into instructions. Source: GL_ARB_fragment_program, "Fog Application
+//! Options".
 //!
-//! The program's color goes into a temporary instead, and at its end
+//! The program's color is redirected to a temporary, and instructions that blend it with the fog color are appended;
+//! for `ARB_fog_exp`:
 //!
 //! ```text
 //! MOV result.color.w, t.w;               issued together with the next: alpha is not fogged
@@ -9,16 +11,16 @@
 //! LRP result.color.xyz, t.w, t, state.fog.color;
 //! ```
 //!
-//! follow, or what the other modes ask for. The specification counts as much: three instructions for `ARB_fog_exp`,
-//! four for `ARB_fog_exp2`, two for `ARB_fog_linear`, and one temporary, one attribute and two parameters each. What
-//! breaks a limit with them is reported, at the option. A program that writes no color is not fogged.
+//! They count towards the limits as in the specification: three instructions for `ARB_fog_exp`, four for
+//! `ARB_fog_exp2`, two for `ARB_fog_linear`, and one temporary, one attribute and two parameters each. A limit exceeded
+//! because of them is reported at the option. Programs that write no color are not fogged.
 
 use crate::isa::{
     Destination, FIRST_NAMED, FogMode, FogOption, FragmentPart, Instruction, Mask, Modifier, Opcode, Parameter,
     ParameterSource, Program, Register, RegisterFile, Source, StateBinding, Swizzle,
 };
 
-/// The program without its fog option: with the instructions that the option stands for.
+/// Replaces the program's fog option by instructions.
 pub(super) fn expand(mut program: Program) -> Program {
     let Some(fog) = program.fog.take() else { return program };
     let color = Register::new(RegisterFile::ColorOut, 0);
@@ -38,7 +40,7 @@ pub(super) fn expand(mut program: Program) -> Program {
     program
 }
 
-/// One more than the highest that the program names.
+/// One more than the highest temporary that the program uses.
 fn free_temporary(program: &Program) -> u16 {
     let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
     let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
@@ -51,7 +53,7 @@ fn parameter(program: &mut Program, binding: StateBinding, fog: FogOption) -> Re
     if let Some(known) = program.parameters.iter().find(|p| p.source == source) {
         return known.register;
     }
-    // The assembler leaves two numbers free.
+    // The assembler leaves two numbers free for these.
     let register = Register::new(RegisterFile::Constant, FIRST_NAMED + program.parameters.len() as u16);
     program.parameters.push(Parameter { name: binding.to_string(), register, source, span: fog.span });
     register

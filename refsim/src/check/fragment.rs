@@ -1,5 +1,5 @@
 //! OpenGL's fragment programs. Sources: GL_NV_fragment_program for `!!FP1.0`, GL_ARB_fragment_program for `!!ARBfp1.0`.
-//! Temporaries start at zero there, so nothing has to be written before it is read.
+//! Temporaries start at zero, so reads need no earlier write.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,10 +11,10 @@ use crate::isa::{
     Source, Span, Spelling, Version,
 };
 
-/// Registers of full and half precision that there are names for.
+/// Numbers of full- and half-precision temporaries that have names.
 const FULL: u16 = 32;
 const HALF: u16 = 64;
-/// What all registers of a program may weigh together, one of half precision weighing 1.
+/// Maximum total weight of a program's registers; a half-precision register weighs 1.
 const MAX_WEIGHT: u32 = 64;
 
 pub(super) fn check(context: &mut Context<'_>) {
@@ -56,7 +56,7 @@ fn all_registers(instruction: &Instruction) -> impl Iterator<Item = (Register, S
     written.into_iter().chain(instruction.sources.iter().map(|s| (s.register, s.span)))
 }
 
-/// V07: the registers there are.
+/// V07: register numbers.
 fn registers(context: &mut Context<'_>, instruction: &Instruction) {
     for (register, span) in all_registers(instruction) {
         let figure = |context: &Context<'_>, limit: Limit, emulated: u32| {
@@ -95,11 +95,10 @@ fn written_name(register: Register, number: u16) -> String {
     }
 }
 
-/// V42: operands of scalar instructions name one component.
+/// V42: operands of scalar instructions select one component.
 fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     let Some(spelling) = Spelling::of(instruction.opcode).filter(|s| s.opcode.is_scalar()) else { return };
-    // A number that stands in the text for all components is as good as one component in !!FP1.0; in !!ARBfp1.0 it has
-    // its suffix, `0.5.x`.
+    // In !!FP1.0 a literal for all components counts as one component; in !!ARBfp1.0 it has a suffix, `0.5.x`.
     let plain = |register: &Register| {
         if context.version == Version::ArbFp1_0 {
             return false;
@@ -120,7 +119,7 @@ fn operands(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V60: the suffixes that the instruction can have.
+/// V60: suffixes of the instruction.
 fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
     let Some(spelling) = Spelling::of(instruction.opcode) else { return };
     let part = &instruction.fragment;
@@ -140,7 +139,7 @@ fn suffixes(context: &mut Context<'_>, instruction: &Instruction) {
     context.breach(RuleId::InvalidSuffix, instruction.span, message).help("see the extension's table of instructions");
 }
 
-/// V61: packed words are of full precision.
+/// V61: packed words have full precision.
 fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     let half = match instruction.opcode {
         Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
@@ -157,7 +156,7 @@ fn packing(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V62: one attribute and one constant an instruction.
+/// V62: one attribute and one constant per instruction.
 fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     if !context.version_limits() {
         return;
@@ -185,8 +184,8 @@ fn distinct(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V63: the colour goes out in one precision, depth through z, and something goes out of `!!FP1.0`. `!!ARBfp1.0` leaves
-/// undefined what a program does not write; here the target keeps what it holds.
+/// V63: colour is written in one precision and depth through z, and a `!!FP1.0` program writes something. `!!ARBfp1.0`
+/// leaves unwritten outputs undefined; here the target keeps its contents.
 fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     let find = |file| all.iter().filter_map(|i| i.destination).find(move |d| d.register.file == file);
     let (full, half) = (find(RegisterFile::ColorOut), find(RegisterFile::HalfColorOut));
@@ -208,7 +207,7 @@ fn outputs(context: &mut Context<'_>, all: &[&Instruction]) {
     }
 }
 
-/// V64: a texture image unit is read as one kind of texture.
+/// V64: each texture image unit is read with one texture target.
 fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
     let mut known = BTreeMap::new();
     for instruction in all {
@@ -224,7 +223,7 @@ fn targets(context: &mut Context<'_>, all: &[&Instruction]) {
     }
 }
 
-/// V65: what the registers weigh.
+/// V65: total weight of the registers.
 fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
     if !context.version_limits() {
         return;
@@ -251,8 +250,8 @@ fn weight(context: &mut Context<'_>, all: &[&Instruction]) {
     violation.figure(MAX_WEIGHT, weight).help("use fewer temporaries, or H# (weight 1) instead of R# (weight 2)");
 }
 
-/// V66: texture indirections of ARB programs. A read begins a new one if its coordinates were computed, or its
-/// destination was touched, since the last began.
+/// V66: texture indirections of ARB programs. A read begins a new one if, since the last began, its coordinates were
+/// computed or its destination was used.
 fn indirections(context: &mut Context<'_>, all: &[&Instruction]) {
     let Some(allowed) = context.limit(Limit::DependentReads) else { return };
     let mut touched: BTreeSet<Register> = BTreeSet::new();

@@ -1,13 +1,13 @@
-//! The checker: a program and a device go in, a [`Checked`] program or a list of everything wrong with it comes out.
+//! The checker: validates a program for a device, and returns a [`Checked`] program or a list of all violations.
 //!
-//! [`check`] finds *every* violation of the rules [`RuleId`] in one go, each with its place in the text, what was found
-//! and what is allowed, and the profile key of the figure that decides. Executors take only [`Checked`] programs and
-//! rely on it: register numbers are in range, operands are there, blocks close, labels exist, subroutines do not
-//! recurse, and nothing is read that was not written on any path.
+//! [`check`] reports *every* violation of the rules [`RuleId`] in one pass, each with its location, the value found,
+//! the value allowed, and the profile key of the limit. Executors take only [`Checked`] programs and rely on their
+//! properties: register numbers are in range, operands are present, blocks are closed, labels exist, subroutines do not
+//! recurse, and every register read is written on some path.
 //!
-//! Where the sources leave a rule open the checker takes the strict reading if a card could not run the program, and
-//! the lenient one otherwise. Reads of unwritten components are followed exactly through straight code; through
-//! branches, loops and calls a component counts as written if some path may have written it.
+//! Where the sources leave a rule open, the checker is strict if a card could not run the program, and lenient
+//! otherwise. Reads of unwritten components are found exactly in straight-line code; across branches, loops and calls a
+//! component counts as written if some path may have written it.
 
 mod allowed;
 mod context;
@@ -39,11 +39,10 @@ use crate::device::Profile;
 use crate::isa::{Program, Stage, Version};
 use context::Context;
 
-/// Judges a program for a device.
+/// Checks a program for a device.
 ///
-/// What is legal but not what the text says comes with the [`Checked`] program as [`Warning`]s. A fog option of
-/// OpenGL's becomes instructions before the program is judged, so that limits hold with them; executors know nothing
-/// of it.
+/// The [`Checked`] program carries [`Warning`]s for legal code that does not do what its text says. OpenGL fog options
+/// are expanded into instructions first, so that limits apply to them and executors need no support for them.
 ///
 /// # Errors
 /// All violations, in the order of the text.

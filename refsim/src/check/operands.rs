@@ -1,4 +1,4 @@
-//! V07, V13 to V17, V34, V35, V45, V47: rules of operands that hold in every instruction.
+//! V07, V13 to V17, V34, V35, V45, V47: operand rules that apply to every instruction.
 
 use super::RuleId;
 use super::context::{Context, Count, is_arithmetic, is_numeric, is_texture};
@@ -32,7 +32,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-/// V07. Returns whether the register exists.
+/// V07. Returns `true` if the register exists.
 pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, span: Span) -> bool {
     let (file, index, version) = (register.file, u32::from(register.index), context.version);
     let prefix = file.prefix();
@@ -68,7 +68,7 @@ pub(super) fn number_in_range(context: &mut Context<'_>, register: Register, spa
     false
 }
 
-/// V45, and the form of an address in the versions that have it.
+/// V45, and the form of relative addresses in versions that have them.
 fn relative(context: &mut Context<'_>, source: &Source) {
     let Some(relative) = source.register.relative else { return };
     let (version, span) = (context.version, source.span);
@@ -90,7 +90,7 @@ fn relative(context: &mut Context<'_>, source: &Source) {
     }
 }
 
-/// V13, and the rules that name a destination of their own.
+/// V13, and other rules on the file of a destination.
 fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destination: &Destination) {
     use RegisterFile as F;
     let (version, opcode) = (context.version, instruction.opcode);
@@ -127,7 +127,7 @@ fn destination_file(context: &mut Context<'_>, instruction: &Instruction, destin
     }
 }
 
-/// V14, V20, V25, V40, V41 as far as the mask goes.
+/// V14, and the mask rules of V20, V25, V40 and V41.
 fn mask(context: &mut Context<'_>, instruction: &Instruction, destination: &Destination) {
     let (version, opcode, mask) = (context.version, instruction.opcode, destination.mask);
     let texture = is_texture(opcode);
@@ -208,7 +208,7 @@ fn result_modifiers(context: &mut Context<'_>, instruction: &Instruction, destin
     }
 }
 
-/// V28, V29, V31, V40, V43, V47: the files that sources can be of. What flow control takes is [`super::flow`]'s.
+/// V28, V29, V31, V40, V43, V47: register files of sources. [`super::flow`] checks the operands of flow control.
 fn source_file(context: &mut Context<'_>, index: usize, instruction: &Instruction, k: usize) {
     use RegisterFile as F;
     let (version, opcode) = (context.version, instruction.opcode);
@@ -261,7 +261,7 @@ fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source
     let alpha_only = instruction.destination.is_some_and(|d| d.mask == Mask::ALPHA);
     let texture = is_texture(opcode);
     let (rule, allowed, expected): (RuleId, bool, &str) = match version {
-        // The two selectors of texld and texcrd are V23's and V24's.
+        // V23 and V24 check the selectors of texld and texcrd.
         Version::Ps1_4 if texture => {
             let xyz = matches!(swizzle.0, [0, 1, 2, 2 | 3]);
             (RuleId::InvalidSwizzle, xyz || swizzle.0 == [0, 1, 3, 3], ".xyz or .xyw")
@@ -286,8 +286,8 @@ fn swizzle(context: &mut Context<'_>, instruction: &Instruction, source: &Source
     }
 }
 
-/// V16, V35, V40: source modifiers. `_dz`, `_dw` on texture reads of ps_1_4 and `_bx2` on those of ps_1_1 to 1_3 are
-/// left to V24 and V33.
+/// V16, V35, V40: source modifiers. V24 checks `_dz` and `_dw` on texture reads of ps_1_4, V33 checks `_bx2` on those
+/// of ps_1_1 to 1_3.
 fn source_modifier(context: &mut Context<'_>, instruction: &Instruction, source: &Source) {
     use Modifier as M;
     let (version, modifier) = (context.version, source.modifier);

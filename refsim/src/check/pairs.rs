@@ -15,7 +15,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             pair(context, index, instruction);
         }
     }
-    // A malformed co-issued instruction was reported for its operands; its `+` is reported all the same.
+    // Operand checks have reported a malformed co-issued instruction; its `+` is checked anyway.
     for (index, instruction) in context.program.instructions.iter().enumerate() {
         if instruction.coissue && !context.is_sound(index) && !context.version.is_ps_1_x() {
             context.breach(RuleId::MalformedPair, instruction.span, format!("{} has no co-issue", context.version));
@@ -23,7 +23,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     }
 }
 
-/// How many different registers of a file one instruction can read.
+/// Number of different registers of a file that one instruction can read.
 fn read_ports(version: Version, file: RegisterFile) -> Option<u32> {
     use RegisterFile as F;
     Some(match (version, file) {
@@ -57,7 +57,7 @@ const FILES: [RegisterFile; 4] =
     [RegisterFile::Temp, RegisterFile::Input, RegisterFile::Texture, RegisterFile::Constant];
 
 fn ports(context: &mut Context<'_>, instruction: &Instruction) {
-    // sincos of ps_2_0 and vs_2_0 names two constants by definition.
+    // sincos of ps_2_0 and vs_2_0 reads two constants by definition.
     if instruction.opcode == Opcode::SinCos {
         return;
     }
@@ -74,7 +74,7 @@ fn ports(context: &mut Context<'_>, instruction: &Instruction) {
     }
 }
 
-/// V09 and V10 for the pair whose second instruction stands at `index`.
+/// V09 and V10 for the pair whose second instruction is at `index`.
 fn pair(context: &mut Context<'_>, index: usize, second: &Instruction) {
     let version = context.version;
     if !version.is_ps_1_x() {

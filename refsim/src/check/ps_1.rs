@@ -1,4 +1,4 @@
-//! V18, V19, V31, V32, V33: rules of ps_1_1 to ps_1_3 alone.
+//! V18, V19, V31, V32, V33: rules of ps_1_1 to ps_1_3 only.
 
 use super::RuleId;
 use super::context::{Context, is_texture};
@@ -51,7 +51,7 @@ fn counts(context: &mut Context<'_>) {
     }
 }
 
-/// A matrix product that waits for its next row.
+/// An incomplete matrix product.
 struct Pending {
     rows: u8,
     done: u8,

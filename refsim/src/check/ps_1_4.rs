@@ -1,4 +1,4 @@
-//! V21 to V27, V30: rules of ps_1_4 alone. V28 and V29 are among the operands.
+//! V21 to V27, V30: rules of ps_1_4 only. V28 and V29 are checked with the operands.
 
 use std::collections::BTreeMap;
 
@@ -102,7 +102,7 @@ fn depth(context: &mut Context<'_>) {
     }
 }
 
-/// V27; the mask is among the operands, co-issue among the pairs.
+/// V27; its mask is checked with the operands, its co-issue with the pairs.
 fn bump(context: &mut Context<'_>) {
     let mut found = 0;
     for (index, instruction) in context.instructions() {
@@ -121,7 +121,7 @@ fn bump(context: &mut Context<'_>) {
     }
 }
 
-/// V22 (the part about what was computed) and V30.
+/// V22 (computed addresses) and V30.
 fn loads(context: &mut Context<'_>) {
     let mut phase = 0;
     let mut loaded: Vec<u16> = Vec::new();
@@ -177,7 +177,7 @@ fn address(context: &mut Context<'_>, instruction: &Instruction, late: bool) {
         .help("compute the address in phase 1 and read it in phase 2");
 }
 
-/// The stage that a load samples is the number of its destination: it must exist too.
+/// A load samples the stage with its destination's number, which must exist.
 fn stages(context: &mut Context<'_>) {
     let Some(allowed) = context.limit(super::allowed::Limit::Samplers) else { return };
     for (_, instruction) in context.instructions() {
@@ -185,7 +185,7 @@ fn stages(context: &mut Context<'_>) {
             continue;
         };
         let stage = u32::from(destination.register.index);
-        // Beyond the temporaries it has been reported as a register.
+        // Numbers beyond the temporaries are reported as registers already.
         let is_register = context.count(RegisterFile::Temp).is_some_and(|c| stage < c.value());
         if stage >= allowed.value && is_register {
             let message = format!("`texld` samples stage {stage}, {} has {} stages", allowed.owner, allowed.value);

@@ -1,4 +1,4 @@
-//! V36, V38, V39, V42 to V44, V50, V59: rules of ps_2_0 and up, some of them shared with vertex programs.
+//! V36, V38, V39, V42 to V44, V50, V59: rules of ps_2_0 and up; some are shared with vertex programs.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     dependent_reads(context);
 }
 
-/// The rules on single instructions that pixel programs share with vertex programs.
+/// Rules on single instructions that apply to pixel and vertex programs.
 pub(super) fn shared(context: &mut Context<'_>, instruction: &Instruction) {
     scalars(context, instruction);
     if instruction.opcode == Opcode::SinCos {
@@ -92,7 +92,7 @@ fn matrix(context: &mut Context<'_>, instruction: &Instruction) {
     let last = u32::from(register.index) + u32::from(rows) - 1;
     let count = context.count(register.file).map_or(0, |c| c.value());
     let prefix = register.file.prefix();
-    // A first row that does not exist was reported as a register.
+    // A nonexistent first row is reported as a register already.
     if u32::from(register.index) < count && last >= count {
         let message =
             format!("`{name}` reads `{prefix}{last}` for its last row, the last one is `{prefix}{}`", count - 1);
@@ -194,8 +194,7 @@ fn outputs(context: &mut Context<'_>) {
     }
 }
 
-/// V38: the level of a texture read is one more than that of the register that gives its coordinates; a value has the
-/// highest level among what it was computed from.
+/// V38: a texture read is one level above its coordinates; a computed value has the highest level of its operands.
 fn dependent_reads(context: &mut Context<'_>) {
     let Some(allowed) = context.limit(Limit::DependentReads) else { return };
     let mut levels: BTreeMap<u16, u32> = BTreeMap::new();

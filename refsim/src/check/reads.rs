@@ -1,13 +1,13 @@
-//! Which components the result of an instruction depends on: the opcode table's answer, and what texture reads add.
+//! Components that an instruction reads: the opcode table's answer, refined for texture reads.
 
 use crate::isa::{Instruction, Mask, Opcode, Usage, Version};
 
-/// The rows of a matrix operation's second source.
+/// Number of rows of a matrix operation's second source.
 pub fn matrix_rows(opcode: Opcode) -> Option<u16> {
     opcode.matrix().map(|(rows, _)| rows)
 }
 
-/// The lanes of source `index` that the instruction looks at, before the swizzle sends them to components.
+/// Lanes of source `index` that the instruction reads, before swizzling.
 ///
 /// `sampler` is the declared type of the sampler of a ps_2_x texture read.
 pub fn source_lanes(version: Version, instruction: &Instruction, index: usize, sampler: Option<Usage>) -> Mask {
@@ -52,7 +52,7 @@ fn coordinates(sampler: Option<Usage>) -> u8 {
     }
 }
 
-/// The components of the destination that the instruction *reads*: `texkill`'s three, `texdepth`'s two.
+/// Components of the destination operand that the instruction *reads*: three in `texkill`, two in `texdepth`.
 pub fn destination_reads(opcode: Opcode) -> Mask {
     match opcode {
         Opcode::TexKill => Mask(0b0111),

@@ -8,30 +8,30 @@ use super::allowed::Allowed;
 use super::{RuleId, WarningId};
 use crate::isa::{Span, Version};
 
-/// One breach of one rule.
+/// A violation of a rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Violation {
     /// The rule.
     pub rule: RuleId,
-    /// The place in the program text.
+    /// Location in the program text.
     pub span: Span,
-    /// The sentence: what was found, and what is allowed.
+    /// Message: what was found and what is allowed.
     pub message: String,
-    /// What to write at the place.
+    /// Label at the location.
     pub label: String,
-    /// What to do about it; names the profile key where a figure decides.
+    /// Advice; names the profile key if a limit is exceeded.
     pub help: String,
-    /// The profile key of the figure that decides, `limits.temporaries` for example.
+    /// Profile key of the exceeded limit, for example `limits.temporaries`.
     pub key: Option<&'static str>,
-    /// The figure.
+    /// The limit.
     pub limit: Option<u32>,
-    /// What the program has instead.
+    /// The program's value.
     pub found: Option<u32>,
 }
 
 impl Violation {
-    /// A violation without a figure; the label repeats the rule.
+    /// Creates a violation without a limit and with a default label.
     pub(super) fn new(rule: RuleId, span: Span, message: impl Into<String>) -> Self {
         Self {
             rule,
@@ -55,13 +55,13 @@ impl Violation {
         self
     }
 
-    /// The figure, and what the program has instead.
+    /// Sets the limit and the program's value.
     pub(super) fn figure(&mut self, limit: u32, found: u32) -> &mut Self {
         (self.limit, self.found) = (Some(limit), Some(found));
         self
     }
 
-    /// The figure that `allowed` is.
+    /// Sets limit, key and help from `allowed`.
     pub(super) fn exceeds(&mut self, found: u32, allowed: &Allowed, advice: &str) {
         self.key = Some(allowed.key);
         self.figure(allowed.value, found).help(allowed.help(advice));
@@ -82,22 +82,22 @@ impl Diagnostic for Violation {
     }
 }
 
-/// Something legal that does not do what its text says. The program runs as the card would run it.
+/// Legal code that does not do what its text says. The program runs as the card would run it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// Which warning.
+    /// Kind of warning.
     pub id: WarningId,
-    /// The place in the program text.
+    /// Location in the program text.
     pub span: Span,
-    /// The sentence: what was found, and what becomes of it.
+    /// Message: what was found, and what happens instead.
     pub message: String,
-    /// What to do about it.
+    /// Advice.
     pub help: &'static str,
 }
 
-/// Everything that is wrong with a program for a device: never empty.
+/// All violations of a program for a device; never empty.
 ///
-/// The report knows places, not the text; attach the text with [`miette::Report::with_source_code`] to see them.
+/// The report holds locations, not the text; attach the text with [`miette::Report::with_source_code`] to render them.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[error(
     "the {version} program is not legal on `{device}`: {} violation{}",

@@ -1,4 +1,4 @@
-//! THE tables of rules and warnings: name, code in messages and documents, sentence.
+//! Tables of the rules and warnings: name, code and sentence of each.
 
 use strum::VariantArray;
 
@@ -15,7 +15,7 @@ macro_rules! rules {
         }
 
         impl $Id {
-            /// Every one, in the order of the codes.
+            /// All of them, in the order of the codes.
             pub const ALL: &'static [Self] = Self::VARIANTS;
 
             /// The code in messages and documents.
@@ -23,7 +23,7 @@ macro_rules! rules {
                 match self { $(Self::$name => stringify!($code)),* }
             }
 
-            /// What it says, in a sentence.
+            /// The sentence that states it.
             pub const fn text(self) -> &'static str {
                 match self { $(Self::$name => $text),* }
             }
@@ -38,9 +38,8 @@ macro_rules! rules {
 }
 
 rules! {
-    /// A rule of the checker, named after its breach or what it is about. V01 to V46 are Direct3D's and the cards';
-    /// from V47 on they are what the executors need besides to run a program without surprises, from V60 on OpenGL's.
-    /// docs/devices.md has them with examples.
+    /// A rule of the checker, named after its violation or its subject. V01 to V46 are rules of Direct3D and the cards,
+    /// V47 to V59 are further requirements of the executors, and V60 on are OpenGL's. See docs/devices.md for examples.
     RuleId:
     UnsupportedVersion V01 "the device runs the program's version";
     MisplacedDefinition V02 "constants are defined before the first instruction, once each";

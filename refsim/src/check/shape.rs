@@ -1,4 +1,4 @@
-//! V01, V02, V03, V06, V12 and the operand counts of V47: what can be seen without looking into instructions.
+//! V01, V02, V03, V05, V06 and the operand counts of V47: rules on the program as a whole.
 
 use super::context::Context;
 use super::{RuleId, Warning, WarningId};
@@ -52,7 +52,7 @@ fn constants(context: &mut Context<'_>) {
             context.breach(RuleId::MisplacedDefinition, def.span, format!("`{register}` is defined twice"));
         }
         if let (ConstantValue::Float(values), true) = (def.value, context.version.is_ps_1_x()) {
-            // The bits of a magnitude above 1, infinity or NaN.
+            // True for magnitudes above 1, infinity and NaN.
             if values.iter().any(|v| v & 0x7fff_ffff > 0x3f80_0000) {
                 context.warnings.push(Warning {
                     id: WarningId::ClampedConstant,

@@ -1,4 +1,4 @@
-//! V04: the instruction slots.
+//! V04: instruction slots.
 
 use super::RuleId;
 use super::allowed::Limit;
@@ -61,8 +61,8 @@ fn budget(context: &mut Context<'_>, phase: u8, limit: Limit, what: &str, slots:
     context.breach(RuleId::TooManyInstructions, span, message).label(label).exceeds(used, &allowed, advice);
 }
 
-/// What an instruction costs where it stands: the second of a pair only what it costs more than the first, a predicate
-/// and a cube map extra in ps_2_x.
+/// Slots of an instruction in context: the second of a pair adds only what it costs more than the first, and in ps_2_x
+/// predicates and cube maps cost extra.
 fn cost(context: &Context<'_>, index: usize, instruction: &Instruction) -> SlotCost {
     let version = context.version;
     let mut cost = instruction.opcode.info().slot_cost(version);
@@ -84,7 +84,7 @@ fn cost(context: &Context<'_>, index: usize, instruction: &Instruction) -> SlotC
     cost
 }
 
-/// The slots of each phase; only the first entry is used by versions without phases.
+/// Slots per phase; versions without phases use the first entry only.
 pub(super) fn counts(context: &Context<'_>) -> [SlotCount; 2] {
     let mut counts = [SlotCount::default(); 2];
     for (index, instruction) in context.instructions() {

@@ -1,4 +1,4 @@
-//! V58 and the rules that vertex programs share with ps_2_0. V48 and V49 are followed by the data flow.
+//! V58, and the rules that vertex programs share with ps_2_0. `dataflow` checks V48 and V49.
 
 use super::RuleId;
 use super::context::Context;

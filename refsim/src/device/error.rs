@@ -1,24 +1,24 @@
-//! What can be wrong with a request for a device.
+//! Errors of looking up devices, switches and their values.
 
 use crate::num::FormatError;
 
-/// A device, switch or value that does not exist. Lists are separated by spaces.
+/// A device, switch or value does not exist. Lists are separated by spaces.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum DeviceError {
-    /// No profile has this name.
+    /// There is no profile with this name.
     #[error("unknown device `{name}`; expected one of {known}")]
     #[diagnostic(
         code(device::unknown),
         help("`ideal-` takes any number format, for example `ideal-fp32` or `ideal-s3.12:rtz`")
     )]
     UnknownDevice { name: String, known: String },
-    /// The part of `ideal-<format>` after the dash is no number format.
+    /// The part of `ideal-<format>` after the dash is not a number format.
     #[error("device `{name}`: expected a number format after `ideal-`")]
     #[diagnostic(code(device::ideal_format))]
     IdealFormat { name: String, source: FormatError },
-    /// The device has no switch of this name.
+    /// The device has no switch with this name.
     #[error("device `{device}` has no switch `{name}`; expected one of {allowed}")]
     #[diagnostic(code(device::unknown_switch), help("`crossbar devices {device}` lists the switches"))]
     UnknownSwitch { device: String, name: String, allowed: String },
@@ -26,7 +26,7 @@ pub enum DeviceError {
     #[error("switch `{switch}` of device `{device}`: expected one of {allowed}, found `{value}`")]
     #[diagnostic(code(device::switch_value), help("`crossbar devices {device}` lists the switches"))]
     SwitchValue { device: String, switch: String, value: String, allowed: String },
-    /// A profile's data are not what the emulator expects.
+    /// The profile's file is malformed.
     #[error("profile `{device}`: {problem}")]
     #[diagnostic(code(device::profile), help("mend refsim/src/device/profiles/{device}.toml"))]
     Profile { device: String, problem: String },

@@ -1,4 +1,4 @@
-//! Figures: a value, where it is from, and how sure we are of it.
+//! Figures: a value with its source and confidence.
 
 use std::{collections::BTreeMap, fmt};
 
@@ -6,17 +6,17 @@ use serde::Deserialize;
 
 use super::DeviceError;
 
-/// How sure we are of a figure.
+/// Confidence in a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Confidence {
-    /// From a maker's document or a specification.
+    /// From a manufacturer's document or a specification.
     Documented,
-    /// Somebody measured it on the card.
+    /// Measured on the card.
     Measured,
     /// Calculated from documented or measured figures; the source says how.
     Derived,
-    /// No source was found: our choice.
+    /// No source was found: our assumption.
     Guess,
 }
 
@@ -31,22 +31,22 @@ impl fmt::Display for Confidence {
     }
 }
 
-/// One line of the table that `crossbar devices NAME` prints.
+/// A row of the table that `crossbar devices NAME` prints.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FigureRow {
     /// Path in the profile, as error messages name it: `limits.temporaries`.
     pub key: String,
-    /// The value as text; several are separated by spaces.
+    /// The value as text; multiple values are separated by spaces.
     pub value: String,
-    /// The unit, empty where there is none.
+    /// The unit; empty if there is none.
     pub unit: String,
-    /// Where the value is from.
+    /// Source of the value.
     pub source: String,
-    /// How sure we are.
+    /// Confidence in the value.
     pub confidence: Confidence,
 }
 
-/// A figure as a profile's TOML writes it. One with `values` is a switch.
+/// A figure as stored in a profile's TOML. A figure with `values` is a switch.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawFigure {
@@ -62,7 +62,7 @@ pub(super) struct RawFigure {
 }
 
 impl RawFigure {
-    /// The value as the text that rows and switches show.
+    /// The value as text, as shown in rows and switches.
     pub(super) fn text(&self) -> String {
         match &self.value {
             toml::Value::String(s) => s.clone(),
@@ -85,7 +85,7 @@ impl RawFigure {
     }
 }
 
-/// A section of a profile; figures are taken out of it, and what is left over is an error.
+/// A section of a profile. Reading a figure removes it; figures left over are an error.
 pub(super) struct Section<'a> {
     pub(super) device: &'a str,
     pub(super) name: &'static str,
@@ -97,20 +97,20 @@ impl Section<'_> {
         DeviceError::Profile { device: self.device.to_owned(), problem: format!("{}.{key}: {problem}", self.name) }
     }
 
-    /// A whole number, if the section has it.
+    /// Removes and returns a non-negative integer, if the section has it.
     pub(super) fn number<T: TryFrom<i64>>(&mut self, key: &str) -> Result<Option<T>, DeviceError> {
         let Some(figure) = self.figures.remove(key) else { return Ok(None) };
         let value = figure.value.as_integer().and_then(|v| T::try_from(v).ok());
         value.map(Some).ok_or_else(|| self.problem(key, "expected a whole number that is not negative"))
     }
 
-    /// A yes or no; no where the section does not have it.
+    /// Removes and returns a boolean; `false` if the section lacks it.
     pub(super) fn flag(&mut self, key: &str) -> Result<bool, DeviceError> {
         let Some(figure) = self.figures.remove(key) else { return Ok(false) };
         figure.value.as_bool().ok_or_else(|| self.problem(key, "expected true or false"))
     }
 
-    /// A list of names; empty where the section does not have it.
+    /// Removes and returns a list of names; empty if the section lacks it.
     pub(super) fn names(&mut self, key: &str) -> Result<Vec<String>, DeviceError> {
         let Some(figure) = self.figures.remove(key) else { return Ok(Vec::new()) };
         let words = figure
@@ -120,12 +120,12 @@ impl Section<'_> {
         words.ok_or_else(|| self.problem(key, "expected a list of names"))
     }
 
-    /// A text, if the section has it.
+    /// Removes and returns a text, if the section has it.
     pub(super) fn text(&mut self, key: &str) -> Option<String> {
         self.figures.remove(key).map(|f| f.text())
     }
 
-    /// An error if figures are left that nobody asked for.
+    /// Returns an error if unread figures are left.
     pub(super) fn finish(self) -> Result<(), DeviceError> {
         match self.figures.keys().next() {
             Some(key) => Err(self.problem(key, "no such figure")),

@@ -1,12 +1,11 @@
-//! Device profiles: the cards as data.
+//! Device profiles: descriptions of the cards as data.
 //!
-//! A profile is a TOML file in `profiles/`, embedded in the library. It says how a card computes ([`Rules`]: what
-//! executors obey), what it allows ([`Limits`]: what [`crate::check`] obeys) and how fast it is ([`Rates`], [`Bus`]:
-//! what the timing model obeys). Every figure carries its source and how sure we are of it; what nobody has published
-//! is a *switch*, a figure with several allowed values whose default is marked as a guess, so that a study can run all
-//! of them. docs/devices.md is the guided tour.
+//! A profile is a TOML file in `profiles/`, embedded in the library. It holds a card's arithmetic ([`Rules`], for the
+//! executors), limits ([`Limits`], for [`crate::check`]) and speeds ([`Rates`], [`Bus`], for the timing model). Every
+//! figure has a source and a confidence. An unpublished property is a *switch*: a figure with several allowed values
+//! whose default is marked as a guess, so that a study can compare all of them. See docs/devices.md.
 //!
-//! Besides the cards there is `ideal-<format>` for any number format: no limits, no time, the rules of r300.
+//! In addition there is `ideal-<format>` for any number format: without limits or timing, and with the rules of r300.
 
 mod error;
 mod figure;

@@ -1,4 +1,4 @@
-//! A profile, read from its TOML.
+//! A profile, and its construction from TOML.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow
 use crate::isa::Version;
 use crate::num::{DotOrder, Format};
 
-/// The cards, by age.
+/// The cards, by release date.
 const CARDS: [(&str, &str); 8] = [
     ("nv20", include_str!("profiles/nv20.toml")),
     ("r200", include_str!("profiles/r200.toml")),
@@ -26,12 +26,12 @@ const CARDS: [(&str, &str); 8] = [
     ("nv35", include_str!("profiles/nv35.toml")),
     ("gt200", include_str!("profiles/gt200.toml")),
 ];
-/// Cards that differ from another in clocks alone, by age: their files state what differs from their `base`.
+/// Cards that differ from another card in clocks only, by release date: their files override figures of their `base`.
 const VARIANTS: [(&str, &str); 2] =
     [("fx5800", include_str!("profiles/fx5800.toml")), ("fx5900", include_str!("profiles/fx5900.toml"))];
 const IDEAL: &str = include_str!("profiles/ideal.toml");
 
-/// Switches that alter limits, not rules.
+/// Switches that change limits instead of rules.
 const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
 
 /// A profile's file.
@@ -40,7 +40,7 @@ const LIMIT_SWITCHES: [&str; 2] = ["ray-textures", "instruction-slots"];
 struct RawProfile {
     name: String,
     title: String,
-    /// The card that has all figures which are not stated here.
+    /// The card whose figures apply where this file states none.
     base: Option<String>,
     versions: Option<RawFigure>,
     #[serde(default)]
@@ -58,7 +58,7 @@ struct RawProfile {
 }
 
 impl RawProfile {
-    /// The file with what its base states besides.
+    /// Parses a file and fills in the figures of its base.
     fn read(text: &str) -> Result<Self, String> {
         let mut own: Self = toml::from_str(text).map_err(|e| e.to_string())?;
         let Some(name) = &own.base else { return Ok(own) };
@@ -81,7 +81,7 @@ impl RawProfile {
     }
 }
 
-/// A device: its arithmetic, its limits, its speed.
+/// A device: its arithmetic, limits and speeds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Profile {
     /// Name on the command line, `r200` for example.
@@ -94,14 +94,14 @@ pub struct Profile {
     pub limits: Limits,
     /// Speeds, for the timing model.
     pub rates: Rates,
-    /// The way to the host.
+    /// Connection to the host.
     pub bus: Bus,
     switches: Vec<Switch>,
     figures: Vec<FigureRow>,
 }
 
 impl Profile {
-    /// The profile of a card, or `ideal-<format>` for any number format string.
+    /// Returns the profile of a card, or of `ideal-<format>` for any number format string.
     ///
     /// ```
     /// use refsim::device::Profile;
@@ -112,9 +112,8 @@ impl Profile {
     /// assert!(Profile::named("ideal-s3.12").is_ok());
     /// ```
     ///
-    /// # Errors
-    /// [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if what follows `ideal-`
-    /// is no format.
+    /// # Errors [`DeviceError::UnknownDevice`] with the names that exist; [`DeviceError::IdealFormat`] if the part
+    /// after `ideal-` is not a number format.
     pub fn named(name: &str) -> Result<Self, DeviceError> {
         if let Some((_, text)) = CARDS.iter().chain(&VARIANTS).find(|(card, _)| *card == name) {
             return Self::from_toml(name, text);
@@ -130,22 +129,22 @@ impl Profile {
         Err(DeviceError::UnknownDevice { name: name.chars().take(60).collect(), known: Self::all_names().join(" ") })
     }
 
-    /// The names of the cards, by age, of their variants, and `ideal-<format>` to stand for the rest.
+    /// Names of the cards and their variants, by release date, and `ideal-<format>` as placeholder for the rest.
     pub fn all_names() -> Vec<&'static str> {
         Self::card_names().into_iter().chain(Self::variant_names()).chain(["ideal-<format>"]).collect()
     }
 
-    /// The names of cards that draw and check what another one does, at other clocks: `fx5900` is an `nv35`.
+    /// Names of the cards that equal another one except for their clocks: `fx5900` is an `nv35`.
     pub fn variant_names() -> Vec<&'static str> {
         VARIANTS.iter().map(|(name, _)| *name).collect()
     }
 
-    /// The names of the cards, by age, without [`Profile::variant_names`]: no two of them are alike.
+    /// Names of the cards, by release date, without [`Profile::variant_names`]: no two of them are alike.
     pub fn card_names() -> Vec<&'static str> {
         CARDS.iter().map(|(name, _)| *name).collect()
     }
 
-    /// Every figure of the profile with source and confidence, switches at their current value.
+    /// All figures of the profile, switches with their current value.
     pub fn figures(&self) -> Vec<FigureRow> {
         let mut rows = self.figures.clone();
         for row in &mut rows {
@@ -161,16 +160,15 @@ impl Profile {
         rows
     }
 
-    /// The open questions of the device.
+    /// The switches of the device.
     pub fn switches(&self) -> &[Switch] {
         &self.switches
     }
 
     /// Sets a switch.
     ///
-    /// # Errors
-    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with what is allowed. The profile is
-    /// unchanged then.
+    /// [`DeviceError::UnknownSwitch`] or [`DeviceError::SwitchValue`], each with the allowed values; the profile is
+    /// unchanged.
     pub fn set_switch(&mut self, name: &str, value: &str) -> Result<(), DeviceError> {
         let Some(index) = self.switches.iter().position(|s| s.name == name) else {
             let allowed: Vec<&str> = self.switches.iter().map(|s| s.name.as_str()).collect();
@@ -203,8 +201,8 @@ impl Profile {
         Ok(())
     }
 
-    /// Replaces the format of pixel registers and pixel arithmetic, all its rules included: what studies sweep over.
-    /// `_pp` is ignored from then on, and results have the format's own range.
+    /// Replaces the format of pixel registers and pixel arithmetic with all its rules, for parameter sweeps. Also
+    /// disables `_pp` and clamps results to the format's own range only.
     pub fn set_format(&mut self, format: Format) {
         self.rules.format = format;
         self.rules.result_range = ResultRange::Format;
@@ -212,7 +210,7 @@ impl Profile {
         self.refresh_format_switches();
     }
 
-    /// After a new format, the switches that alter it show what it says.
+    /// Updates the switches that depend on the format to show the new one.
     fn refresh_format_switches(&mut self) {
         let format = self.rules.format;
         for switch in &mut self.switches {
@@ -232,8 +230,8 @@ impl Profile {
             self.limits.instructions = value.parse().ok();
             return;
         }
-        // Of two 16-bit channels R200 has one format; whether its codes are signed is the question. `wide` adds what
-        // the card lacks: four channels.
+        // R200 has one format of two 16-bit channels; it is open whether its codes are signed. `wide` adds a
+        // four-channel format that the card lacks.
         let formats = &mut self.limits.texture_formats;
         formats.retain(|f| !["rg16", "rg16s", "rgba16", "rgba16s"].contains(&f.as_str()));
         let added: &[&str] = match value {
@@ -296,7 +294,7 @@ impl Profile {
         Ok(profile)
     }
 
-    /// Whether programs of this version run on the device.
+    /// Returns `true` if the device runs programs of this version.
     pub fn supports(&self, version: Version) -> bool {
         self.limits.versions.contains(&version)
     }
@@ -332,7 +330,7 @@ fn switches(rules: &BTreeMap<String, RawFigure>) -> Vec<Switch> {
     .collect()
 }
 
-/// The rules of a profile's file. Every rule must be stated: a default that nobody wrote down has no source.
+/// Reads the rules of a profile's file. Every rule must be stated, because a default would have no source.
 fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
     let mut rules = Rules {
         format: Format::FP32,

@@ -1,8 +1,8 @@
-//! The rules of a device for executors, resolved to plain values.
+//! Arithmetic rules of a device, resolved to plain values for the executors.
 
 use crate::num::{DotOrder, Format};
 
-/// An enumeration whose variants have names in profiles, switches and reports.
+/// Defines an enumeration whose variants have names in profiles, switches and reports.
 macro_rules! named_choice {
     ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $variant:ident = $text:literal),* $(,)? }) => {
         $(#[$meta])*
@@ -18,7 +18,7 @@ macro_rules! named_choice {
                 match self { $(Self::$variant => $text),* }
             }
 
-            /// The choice of this name.
+            /// Parses a name.
             pub fn from_name(text: &str) -> Option<Self> {
                 Self::ALL.iter().copied().find(|c| c.name() == text)
             }
@@ -27,7 +27,7 @@ macro_rules! named_choice {
 }
 
 named_choice! {
-    /// How `a*b + c` is rounded.
+    /// Rounding of `a*b + c`.
     MadMode {
         /// The product is rounded, then the sum.
         TwoRoundings = "two-roundings",
@@ -37,7 +37,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// How `lrp d, s0, s1, s2` is computed; every step is rounded.
+    /// Evaluation order of `lrp d, s0, s1, s2`; every step is rounded.
     LrpMode {
         /// `s0 * (s1 - s2) + s2`, the last two steps as one `mad`.
         SubMulAdd = "sub-mul-add",
@@ -47,7 +47,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// What `texcrd` does with a coordinate beyond the range of the register.
+    /// Treatment of coordinates beyond the register range in `texcrd`.
     TexcrdOverflow {
         /// Saturates.
         Clamp = "clamp",
@@ -57,9 +57,9 @@ named_choice! {
 }
 
 named_choice! {
-    /// What `texdepth` divides by.
+    /// Denominator of `texdepth`.
     TexdepthDenominator {
-        /// `r5.g` as it is.
+        /// `r5.g`, unclamped
         Raw = "raw",
         /// `min(r5.g, 1)`
         Min1 = "min1",
@@ -67,7 +67,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// Which components `texkill` looks at in ps_2_x (in ps_1_x it is always the first three).
+    /// Components that `texkill` tests in ps_2_x (in ps_1_x always the first three).
     TexkillComponents {
         /// x, y and z
         Three = "3",
@@ -77,7 +77,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// What the most negative code of a signed texel means.
+    /// Value of the most negative code of a signed texel.
     SignedTexelMinimum {
         /// -1, as its neighbour.
         Clamp = "clamp",
@@ -87,7 +87,7 @@ named_choice! {
 }
 
 named_choice! {
-    /// How a value is rounded into a target, a generated mip level or a depth buffer of fractions.
+    /// Rounding into a fixed-point target, generated mip level or depth buffer.
     TargetRounding {
         /// To the nearest step, halves away from zero.
         Nearest = "nearest",
@@ -97,9 +97,9 @@ named_choice! {
 }
 
 named_choice! {
-    /// How a constant is stored on its way to the register.
+    /// Storage format of constants before they are read into registers.
     ConstantStorage {
-        /// Converted to the register format, once.
+        /// Converted to the register format directly.
         Register = "register",
         /// As sign and 8-bit magnitude `k / 255` (nearest, halves away from zero), clamped to [-1, 1], then converted.
         Snorm8 = "snorm8",
@@ -107,22 +107,21 @@ named_choice! {
 }
 
 named_choice! {
-    /// What every result of a pixel program is clamped to when it is written into a register, after shift and
-    /// saturation.
+    /// Clamp of the results of a pixel program when they are written to a register, after shift and saturation.
     ResultRange {
-        /// Nothing but the range of the register format.
+        /// To the range of the register format only.
         Format = "format",
-        /// [-1, 1]: sums and products within an instruction go beyond it, registers do not.
+        /// [-1, 1]: intermediate sums and products may exceed it, registers may not.
         One = "one",
     }
 }
 
-/// In what precision the colours `v#` reach the pixel program. They are clamped to [0, 1] first.
+/// Precision of the interpolated colours `v#`, which are first clamped to [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ColorIterator {
     /// Rounded to the nearest `k / (2^bits - 1)`, then converted to the register format. 1 to 16 bits.
     Unorm(u8),
-    /// Converted to the register format without a step between.
+    /// Converted to the register format directly.
     Full,
 }
 
@@ -135,7 +134,7 @@ impl ColorIterator {
         }
     }
 
-    /// The choice of this name.
+    /// Parses a name.
     pub fn from_name(text: &str) -> Option<Self> {
         if text == "full" {
             return Some(Self::Full);
@@ -145,25 +144,25 @@ impl ColorIterator {
     }
 }
 
-/// How a device computes. Executors read nothing else of a profile; two devices with equal rules give equal bits.
+/// Arithmetic rules of a device. Executors read no other part of a profile; devices with equal rules give equal bits.
 ///
 /// Every field is a figure or a switch of the profile, under `rules.*`; docs/devices.md has the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// Pixel registers and pixel arithmetic.
     pub format: Format,
-    /// The clamp of results on their way into a pixel register.
+    /// Clamp of results written to a pixel register.
     pub result_range: ResultRange,
-    /// Arithmetic of instructions with `_pp`: the sources are converted into it, the operation is done in it, and the
-    /// result is converted to `format`. `None`: the hint is ignored.
+    /// Arithmetic of instructions with `_pp`: sources are converted to this format, the operation is done in it, and
+    /// the result is converted to `format`. `None`: the hint is ignored.
     pub partial: Option<Format>,
     /// Vertex registers and vertex arithmetic.
     pub vertex_format: Format,
-    /// The format in which attributes are interpolated over a primitive, before delivery in `format`.
+    /// Format in which attributes are interpolated over a primitive, before conversion to `format`.
     pub iterator_format: Format,
     /// Precision of the colours `v#`.
     pub color_iterator: ColorIterator,
-    /// How constants `c#` of pixel programs are stored.
+    /// Storage of constants `c#` of pixel programs.
     pub constant_storage: ConstantStorage,
     /// Rounding within `mad`.
     pub mad: MadMode,
@@ -171,19 +170,19 @@ pub struct Rules {
     pub dot: DotOrder,
     /// Rounding within `lrp`.
     pub lrp: LrpMode,
-    /// Coordinates beyond the register range.
+    /// Coordinates beyond the register range in `texcrd`.
     pub texcrd_overflow: TexcrdOverflow,
     /// The denominator of `texdepth`.
     pub texdepth_denominator: TexdepthDenominator,
-    /// What `texkill` tests in ps_2_x.
+    /// Components that `texkill` tests in ps_2_x.
     pub texkill_components: TexkillComponents,
-    /// The most negative signed texel.
+    /// Value of the most negative signed texel.
     pub signed_texel_minimum: SignedTexelMinimum,
-    /// Whether 0 times anything, infinity and NaN too, is 0 in pixel arithmetic.
+    /// `true` if 0 times anything, including infinity and NaN, is 0 in pixel arithmetic.
     pub zero_times_anything: bool,
-    /// Rounding into colour targets of unsigned fractions.
+    /// Rounding into unsigned normalised colour targets.
     pub target_rounding: TargetRounding,
-    /// Rounding of the means that fill generated mip levels.
+    /// Rounding of the averages that fill generated mip levels.
     pub mipmap_rounding: TargetRounding,
     /// Rounding into integer depth buffers.
     pub depth_rounding: TargetRounding,

@@ -1,4 +1,4 @@
-//! Switches, and how the text of a rule becomes a value.
+//! Switches, and the parsing of rule values.
 
 use super::figure::Confidence;
 use super::rules::{
@@ -7,27 +7,27 @@ use super::rules::{
 };
 use crate::num::{Denormals, DotOrder, Format, Overflow, Rounding};
 
-/// An open question of the hardware: a rule with several allowed values.
+/// A switch: an unpublished property of the hardware, with several allowed values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Switch {
     /// Name, as [`super::Profile::set_switch`] takes it.
     pub name: String,
     /// The allowed values.
     pub values: Vec<String>,
-    /// The value that holds now.
+    /// The current value.
     pub current: String,
-    /// The value of the profile's file.
+    /// The default, from the profile's file.
     pub default: String,
     /// The reason for the default.
     pub source: String,
-    /// How sure we are of the default.
+    /// Confidence in the default.
     pub confidence: Confidence,
-    /// What the switch decides.
+    /// Description of what the switch controls.
     pub meaning: String,
 }
 
-/// The rules that every profile must state, in the order in which they are applied: `format` first, then what alters
-/// it.
+/// Names of the rules that every profile must state, in the order in which they are applied: `format` first, then those
+/// that modify it.
 pub(super) const RULES: [&str; 21] = [
     "format",
     "result-range",
@@ -52,10 +52,10 @@ pub(super) const RULES: [&str; 21] = [
     "lod-fraction-bits",
 ];
 
-/// The rules that a profile may state besides: they alter `format` (and `partial`).
+/// Names of optional rules: they modify `format` (and `partial`).
 pub(super) const FORMAT_RULES: [&str; 3] = ["rounding", "overflow", "denormals"];
 
-/// Rounding by its format suffix.
+/// Format suffix of a rounding rule.
 pub(super) fn rounding_name(rounding: Rounding) -> &'static str {
     match rounding {
         Rounding::NearestEven => "rne",
@@ -65,7 +65,7 @@ pub(super) fn rounding_name(rounding: Rounding) -> &'static str {
     }
 }
 
-/// Overflow rule by its format suffix.
+/// Format suffix of an overflow rule.
 pub(super) fn overflow_name(overflow: Overflow) -> &'static str {
     match overflow {
         Overflow::Saturate => "sat",
@@ -75,7 +75,7 @@ pub(super) fn overflow_name(overflow: Overflow) -> &'static str {
     }
 }
 
-/// Denormal rule by its format suffix.
+/// Format suffix of a denormal rule.
 pub(super) fn denormals_name(denormals: Denormals) -> &'static str {
     match denormals {
         Denormals::Keep => "keep",
@@ -119,7 +119,7 @@ fn bits(value: &str) -> Option<u8> {
     value.parse().ok().filter(|b| *b <= 8)
 }
 
-/// Sets one rule from its text; `None` if the text means nothing for it.
+/// Sets one rule from its text; `None` if the text is not a value of the rule.
 pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
     match name {
         "format" => rules.format = value.parse().ok()?,

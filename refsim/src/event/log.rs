@@ -1,132 +1,132 @@
-//! The log of a machine: the host's calls in order.
+//! Log of a machine: the host's calls in order.
 
 use super::{DrawEvents, ProgramWork, SAMPLERS, SamplerTraffic};
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Names something in the memory of one card, as its handles number them.
+/// Identifies a resource in the card's memory; numbered as in its handle.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ResourceId {
-    /// A texture or a colour target: a target is a texture.
+    /// A texture or a colour target (which is a texture).
     Texture(usize),
     /// A depth buffer.
     Depth(usize),
 }
 
-/// Names a fence of one machine (NV_fence).
+/// Identifies a fence of one machine (NV_fence).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FenceId(pub u32);
 
-/// Whether the host waits for what it reads back.
+/// Synchronisation of a read-back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ReadBackMode {
-    /// The host waits until the last byte is there.
+    /// The host waits until all bytes have arrived.
     Synchronous,
-    /// The host goes on; a fence tells when the bytes are there.
+    /// The host continues; a fence signals the arrival of the bytes.
     Asynchronous,
 }
 
-/// Work of the host between two calls, counted.
+/// Operations of the host between two calls.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HostWork {
-    /// Which kind of operation, as the host model names it.
+    /// Kind of operation, as named by the host model.
     pub kind: Cow<'static, str>,
-    /// How many of them.
+    /// Number of operations.
     pub operations: u64,
 }
 
-/// One thing that the host asked of the card, or did itself.
+/// A call of the host, or work that it does itself.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// Data went to the card.
+    /// Data sent to the card.
     Upload {
-        /// Where to.
+        /// Destination.
         resource: ResourceId,
-        /// How many bytes.
+        /// Size in bytes.
         bytes: u64,
     },
-    /// The next draw runs under other state than the last.
+    /// The next draw uses other state than the last.
     StateChange {
-        /// How many pieces of state differ: each program, each program's constants, each sampler, targets, depth
+        /// Number of state groups that differ: each program, each program's constants, each sampler, targets, depth
         /// buffer, depth test, alpha test, blending, write masks, viewport with scissor and culling, bump state.
         changes: u32,
-        /// How many float constants of four numbers differ, in both programs: what goes to the card.
+        /// Number of float constants (of four numbers) that differ in either program; these are sent to the card.
         constants: u32,
     },
-    /// A target or depth buffer was filled with one value.
+    /// A target or depth buffer filled with one value.
     Clear {
-        /// Which.
+        /// The target or depth buffer.
         resource: ResourceId,
-        /// Its size.
+        /// Its size in bytes.
         bytes: u64,
     },
     /// A draw.
     Draw(Box<DrawRecord>),
-    /// The mip levels of a texture were filled from its level 0.
+    /// Mip levels generated from level 0 of a texture.
     GenerateMipmaps(MipmapRecord),
-    /// Data came back from the card.
+    /// Data read back from the card.
     ReadBack {
-        /// Where from.
+        /// Source.
         resource: ResourceId,
-        /// How many bytes.
+        /// Size in bytes.
         bytes: u64,
-        /// Whether the host waited.
+        /// Synchronisation.
         mode: ReadBackMode,
-        /// The fence behind an asynchronous read-back: it is passed when the last byte has come.
+        /// Fence of an asynchronous read-back, passed when the last byte has arrived.
         fence: Option<FenceId>,
     },
-    /// A fence was put behind everything asked so far.
+    /// A fence set after all previous calls.
     SetFence(FenceId),
-    /// The host looked whether a fence is passed.
+    /// The host tests whether a fence is passed.
     TestFence(FenceId),
-    /// The host waited until a fence was passed.
+    /// The host waits for a fence.
     FinishFence(FenceId),
-    /// The host worked on its own.
+    /// Work of the host itself.
     Host(HostWork),
 }
 
-/// How texels of one level are combined.
+/// Filter within a mip level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FilterKind {
     /// One texel.
     #[default]
     Nearest,
-    /// Two along each axis, where texels are magnified, minified or both.
+    /// Linear interpolation between two texels per axis, under magnification, minification or both.
     Linear,
 }
 
-/// How levels are combined.
+/// Filter between mip levels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum MipKind {
-    /// One level, always the same.
+    /// Always the same level.
     #[default]
     None,
-    /// One level, the nearest.
+    /// The nearest level.
     Nearest,
-    /// Two levels.
+    /// Interpolation between two levels.
     Linear,
 }
 
-/// A texture as a draw had it bound.
+/// A texture bound in a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerRecord {
-    /// The sampler, in ps_1_x the stage.
+    /// The sampler (ps_1_x: the stage).
     pub sampler: u8,
     /// The texture.
     pub texture: ResourceId,
     /// Name of the texel format.
     pub format: &'static str,
-    /// Bytes of a texel.
+    /// Bytes per texel.
     pub texel_bytes: u32,
     /// Bytes of the whole texture, mip levels included.
     pub texture_bytes: u64,
     /// Filter within a level.
     pub filter: FilterKind,
-    /// Filter between levels; `None` too where the texture has a single level.
+    /// Filter between levels; `None` also for textures with a single level.
     pub mip: MipKind,
-    /// What became of the texels touched, if that was observed.
+    /// Cache traffic of its texels, if observed.
     pub traffic: Option<SamplerTraffic>,
 }
 
@@ -135,11 +135,11 @@ pub struct SamplerRecord {
 pub struct TargetRecord {
     /// The target.
     pub target: ResourceId,
-    /// Bytes of a pixel.
+    /// Bytes per pixel.
     pub pixel_bytes: u32,
-    /// Whether fragments that pass write it.
+    /// `true` if passing fragments write it.
     pub written: bool,
-    /// Whether they read it first, for blending or for a partial write mask.
+    /// `true` if they read it first, for blending or a partial write mask.
     pub read: bool,
 }
 
@@ -148,27 +148,27 @@ pub struct TargetRecord {
 pub struct DepthRecord {
     /// The depth buffer.
     pub buffer: ResourceId,
-    /// Bytes of a pixel.
+    /// Bytes per pixel.
     pub pixel_bytes: u32,
-    /// Whether depth is tested.
+    /// `true` if depth is tested.
     pub test: bool,
-    /// Whether the depth of a fragment that passes is stored.
+    /// `true` if passing fragments write their depth.
     pub write: bool,
-    /// Whether the pixel program decides the depth.
+    /// `true` if the pixel program writes the depth.
     pub replaced: bool,
 }
 
-/// One generated mip level.
+/// A generated mip level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MipmapLevel {
     /// Width, height, and slices or faces, in texels.
     pub extents: [u32; 3],
-    /// Different texels of the level before that were read.
+    /// Number of different texels of the previous level that are read.
     pub texels_read: u64,
 }
 
 impl MipmapLevel {
-    /// Texels of the level, each written once.
+    /// Number of texels of the level; each is written once.
     pub fn texels_written(&self) -> u64 {
         self.extents.iter().map(|&extent| u64::from(extent)).product()
     }
@@ -179,19 +179,19 @@ impl MipmapLevel {
 pub struct MipmapRecord {
     /// The texture.
     pub texture: ResourceId,
-    /// Bytes of a texel.
+    /// Bytes per texel.
     pub texel_bytes: u32,
-    /// The levels from 1 on, each made from the one before.
+    /// The levels from 1 on, each generated from the previous one.
     pub levels: Vec<MipmapLevel>,
 }
 
 impl MipmapRecord {
-    /// Texels read, over all levels.
+    /// Total number of texels read.
     pub fn texels_read(&self) -> u64 {
         self.levels.iter().map(|level| level.texels_read).sum()
     }
 
-    /// Texels written, over all levels.
+    /// Total number of texels written.
     pub fn texels_written(&self) -> u64 {
         self.levels.iter().map(MipmapLevel::texels_written).sum()
     }
@@ -200,33 +200,33 @@ impl MipmapRecord {
 /// One draw: its counts, programs, textures and targets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DrawRecord {
-    /// What happened.
+    /// Event counts.
     pub counts: DrawEvents,
-    /// Vertices that the card processes: an indexed vertex once more each time that it has left the cache of finished
-    /// vertices. By size of that cache: half of what the profile states, that, twice that. All vertices once where
-    /// there are no indices or no such cache is stated.
+    /// Vertices processed by the card, given post-transform caches of half the size that the profile states, that size,
+    /// and twice that size: an indexed vertex is processed again each time it has left the cache. Equal to the number
+    /// of vertices without indices, or if the profile states no cache.
     pub vertices_run: [u64; 3],
-    /// Two-by-two quads that ran the pixel program, once for each triangle that covers a pixel of them. A card shades
-    /// whole quads: the lanes outside the triangle cost what the others do.
+    /// Number of 2x2 quads that ran the pixel program, per triangle that covers at least one of their pixels. Cards
+    /// shade whole quads, so lanes outside the triangle cost as much as those inside.
     pub quads: u64,
     /// The pixel program.
     pub pixel: Arc<ProgramWork>,
-    /// The vertex program, if vertices did not come transformed.
+    /// The vertex program; `None` if vertices came transformed.
     pub vertex: Option<Arc<ProgramWork>>,
-    /// The textures, by rising sampler.
+    /// The bound textures, in ascending order of the sampler.
     pub samplers: Vec<SamplerRecord>,
     /// The colour targets.
     pub targets: Vec<TargetRecord>,
     /// The depth buffer.
     pub depth: Option<DepthRecord>,
-    /// Whether there was an alpha test.
+    /// `true` if the alpha test was enabled.
     pub alpha_test: bool,
-    /// Whether targets were blended into.
+    /// `true` if blending was enabled.
     pub blend: bool,
 }
 
 impl DrawRecord {
-    /// What the draw reads: its textures, and targets and depth buffer where they are read.
+    /// Resources that the draw reads: textures, and targets and depth buffer if read.
     pub fn reads(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.samplers.iter().map(|s| s.texture).collect();
         out.extend(self.targets.iter().filter(|t| t.read).map(|t| t.target));
@@ -234,19 +234,19 @@ impl DrawRecord {
         out
     }
 
-    /// What the draw writes: targets, and the depth buffer where it is written.
+    /// Resources that the draw writes: targets, and the depth buffer if written.
     pub fn writes(&self) -> Vec<ResourceId> {
         let mut out: Vec<_> = self.targets.iter().filter(|t| t.written).map(|t| t.target).collect();
         out.extend(self.depth.iter().filter(|d| d.test && d.write).map(|d| d.buffer));
         out
     }
 
-    /// Whether the textures were observed: then every bound sampler has its traffic.
+    /// `true` if texture reads were observed; then every bound sampler has traffic counts.
     pub fn is_observed(&self) -> bool {
         self.samplers.iter().all(|s| s.traffic.is_some())
     }
 
-    /// Texel reads of a sampler (0 to 15).
+    /// Number of texel reads of a sampler (0 to 15).
     pub fn fetches(&self, sampler: u8) -> u64 {
         let index = usize::from(sampler).min(SAMPLERS - 1);
         self.counts.fragments.fetches.get(index).copied().unwrap_or_default()

@@ -1,11 +1,11 @@
 //! Counters and logs of draws: the only input of the timing model.
 //!
-//! Counts are sums of whole numbers, so they are the same for every thread count and every executor. They say how
-//! much work a card would have had, never how long it took: that is the timing model's question.
+//! Counts are integer sums, so they are the same for every thread count and executor. They measure the work of a card;
+//! [`crate::timing`] derives durations from them.
 //!
-//! A machine that is asked to ([`crate::machine`]'s `record`) writes down every upload, draw, read-back and fence as an
-//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] says what its programs are made of ([`ProgramWork`]),
-//! what it read and wrote, and, if textures were observed, what became of every texel that its fragments touched
+//! A machine with recording enabled (see [`crate::machine`]) logs every upload, draw, read-back and fence as an
+//! [`Event`], in the order of the calls. A draw's [`DrawRecord`] holds its instruction mix ([`ProgramWork`]), the
+//! resources it read and wrote, and, if textures were observed, the cache traffic of its texel reads
 //! ([`SamplerTraffic`]).
 
 mod counts;

@@ -1,4 +1,4 @@
-//! The instruction mix of a program, as the issue units of a card see it.
+//! Instruction mix of a program, in terms of a card's issue units.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,25 @@ use crate::isa::{
     RegisterFile, Source, Stage, Version,
 };
 
-/// Passes through a loop, at most: as executors have it.
+/// Maximum number of iterations of a loop, as in the executors.
 const MAX_PASSES: u64 = 255;
 
-/// One arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
+/// An arithmetic slot: an instruction, or a pair of one colour and one alpha instruction issued together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ArithmeticSlot {
     /// The instruction (the first of the pair).
     pub opcode: Opcode,
-    /// The second instruction of the pair: what the program says (ps_1_x), or what a card with a vector and a scalar
-    /// unit could pair by itself ([`Self::independent`]).
+    /// The second instruction of the pair: co-issued by the program (ps_1_x), or a candidate for pairing by a card with
+    /// a vector and a scalar unit ([`Self::independent`]).
     pub partner: Option<Opcode>,
-    /// Whether the pair is not the program's own: two neighbours, one writing colour alone, the other alpha alone, that
-    /// do not need each other.
+    /// `true` if the program does not co-issue the pair itself: two adjacent independent instructions, one writing only
+    /// colour, the other only alpha.
     pub independent: bool,
-    /// Whether it is computed in fixed point: X of `!!FP1.0`.
+    /// `true` for fixed-point arithmetic (X of `!!FP1.0`).
     pub fixed: bool,
-    /// Slots by the opcode table, of the longer of the two.
+    /// Slots by the opcode table; of a pair, the larger number.
     pub slots: u16,
-    /// How often a fragment (a vertex) comes here, loops unrolled.
+    /// Executions per fragment or vertex, with loops unrolled.
     pub times: u64,
 }
 
@@ -34,15 +34,15 @@ pub struct ArithmeticSlot {
 pub struct TextureSlot {
     /// The instruction.
     pub opcode: Opcode,
-    /// The sampler that it reads; `None` if it reads no texel (`texcrd`, `texkill`, `texm3x2pad`...).
+    /// The sampler read; `None` for instructions that read no texel (`texcrd`, `texkill`, `texm3x2pad`...).
     pub sampler: Option<u8>,
-    /// Whether its coordinates are computed by the program; false if they are interpolated.
+    /// `true` if the coordinates are computed, `false` if they are interpolated.
     pub dependent: bool,
-    /// How often a fragment comes here.
+    /// Executions per fragment.
     pub times: u64,
 }
 
-/// The work of one phase. Only ps_1_4 programs have two; in the others all is one phase.
+/// The work of one phase. Only ps_1_4 programs have two; others have one.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PhaseWork {
     /// The arithmetic slots, in order.
@@ -51,32 +51,33 @@ pub struct PhaseWork {
     pub textures: Vec<TextureSlot>,
 }
 
-/// What a program is made of.
+/// The instruction mix of a program.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ProgramWork {
     /// Its version.
     pub version: Version,
     /// Its phases, in order.
     pub phases: Vec<PhaseWork>,
-    /// Temporaries live at once, at most, counted in halves: 2 for one in full precision, 1 for one that only `_pp`
-    /// instructions write; of `!!FP1.0` 2 for `R#`, 1 for `H#`.
+    /// Maximum number of temporaries live at once, counted in halves: 2 for full precision, 1 for temporaries written
+    /// by `_pp` instructions only; in `!!FP1.0` 2 for `R#` and 1 for `H#`.
     pub live_halves: u32,
-    /// Instructions of flow control, once each.
+    /// Number of flow control instructions, each counted once.
     pub flow: u32,
 }
 
-/// Integer and boolean constants, by which static flow goes: what the host set; what the program defines wins.
+/// Integer and boolean constants set by the host, for static flow control; the program's own definitions take
+/// precedence.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FlowConstants<'a> {
-    /// `i0` on.
+    /// Values of `i0` and up.
     pub int: &'a [[i32; 4]],
-    /// `b0` on.
+    /// Values of `b0` and up.
     pub boolean: &'a [bool],
 }
 
 impl ProgramWork {
-    /// Takes a program apart. Loops are unrolled by their constants and calls followed; of branches on a constant the
-    /// one taken counts, of branches on a computed value both, as on cards that predicate.
+    /// Analyses a program. Loops are unrolled by their constants and calls are followed. Of a branch on a constant only
+    /// the branch taken counts; of a branch on a computed value both count, as on cards that use predication.
     pub fn new(program: &Program, constants: FlowConstants<'_>) -> Self {
         let times = executions(program, constants);
         let marker = program.phase_marker();
@@ -105,19 +106,19 @@ impl ProgramWork {
         Self { version: program.version, phases, live_halves: live_halves(program), flow }
     }
 
-    /// Arithmetic slots that a fragment or vertex executes, pairs of the program's own as one.
+    /// Arithmetic slots executed per fragment or vertex; a pair co-issued by the program counts once.
     pub fn arithmetic_slots(&self) -> u64 {
         let slots = self.phases.iter().flat_map(|p| &p.arithmetic);
         slots.map(|s| s.times.saturating_mul(s.slots.into())).fold(0, u64::saturating_add)
     }
 
-    /// Texture instructions that a fragment executes.
+    /// Texture instructions executed per fragment.
     pub fn texture_slots(&self) -> u64 {
         self.phases.iter().flat_map(|p| &p.textures).map(|s| s.times).fold(0, u64::saturating_add)
     }
 }
 
-/// The arithmetic slot that begins at `at`, and how many instructions it takes up.
+/// The arithmetic slot that begins at `at`, and its number of instructions.
 fn arithmetic(program: &Program, at: usize, times: u64) -> (ArithmeticSlot, usize) {
     let code = &program.instructions;
     let instruction = &code[at];
@@ -144,7 +145,7 @@ fn arithmetic(program: &Program, at: usize, times: u64) -> (ArithmeticSlot, usiz
     (alone, 1)
 }
 
-/// Whether a card with a vector and a scalar unit can issue two neighbours together.
+/// Returns `true` if a card with a vector and a scalar unit can issue two adjacent instructions together.
 fn can_pair(first: &Instruction, second: &Instruction) -> bool {
     let (Some(a), Some(b)) = (first.destination, second.destination) else { return false };
     if first.predicate.is_some() || second.predicate.is_some() {
@@ -176,7 +177,7 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
         Some(sampler) if program.version.reads_coordinates() => Some(sampler.register.index),
         _ => instruction.destination.map(|d| d.register.index),
     };
-    // From ps_1_4 on a source names the coordinates; before, what reads another stage's result depends on it.
+    // From ps_1_4 on the source gives the coordinates; before, a read is dependent if it uses another stage's result.
     let dependent = match instruction.sources.first() {
         None => false,
         Some(_) if program.version.is_ps_1_1_to_1_3() => true,
@@ -186,14 +187,14 @@ fn texture(program: &Program, at: usize, times: u64) -> TextureSlot {
     TextureSlot { opcode, sampler, dependent: dependent && reads, times }
 }
 
-/// How often each instruction is executed: one pass over the text, however deep loops and calls are nested.
+/// Number of executions of each instruction; one pass over the text, however deep loops and calls are nested.
 fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
     let code = &program.instructions;
     let label = |i: &Instruction| i.sources.first().map(|s| s.register.index);
     let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
     let labels: BTreeMap<_, _> = labels.map(|(at, i)| (label(i), at)).collect();
     let mut times = vec![0u64; code.len()];
-    // How often each subroutine is called, by its label. Calls lead forward: all are known when the walk comes there.
+    // Number of calls of each subroutine, by label. Calls lead forward, so it is final when the walk reaches the label.
     let mut called = vec![0u64; code.len()];
     let (mut now, mut open) = (1u64, Vec::<OpenBranch>::new());
     for (at, instruction) in code.iter().enumerate() {
@@ -235,13 +236,13 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
     times
 }
 
-/// An open block: how often what is around it is executed; of `if`, the branch taken if a constant decides.
+/// An open block: the number of executions of its surroundings and, for `if` on a constant, the branch taken.
 struct OpenBranch {
     outside: u64,
     taken: Option<bool>,
 }
 
-/// Passes through a loop.
+/// Number of iterations of a loop.
 fn passes(program: &Program, constants: FlowConstants<'_>, instruction: &Instruction) -> u64 {
     let files = instruction.sources.iter().map(|s| s.register);
     let Some(register) = files.into_iter().find(|r| r.file == RegisterFile::ConstantInt) else { return 1 };
@@ -265,11 +266,11 @@ fn truth(program: &Program, constants: FlowConstants<'_>, source: Option<&Source
     Some(value != (source.modifier == Modifier::Not))
 }
 
-/// Temporaries that a program can name: 64 of `r#`, and 64 of half precision after them.
+/// Number of temporaries that a program can name: 64 `r#`, followed by 64 of half precision.
 const TEMPORARIES: usize = 2 * FULL;
 const FULL: usize = 64;
 
-/// Where a temporary stands among them; `None` for every other register.
+/// Index of a temporary in that order; `None` for other registers.
 fn temporary(register: Register) -> Option<usize> {
     let number = usize::from(register.index);
     match register.file {
@@ -279,11 +280,12 @@ fn temporary(register: Register) -> Option<usize> {
     }
 }
 
-/// Temporaries live at once, in halves, taking the program as a straight line (loops do not lengthen lives).
+/// Maximum number of live temporaries, in halves; treats the program as straight-line code, i.e. ignores that loops
+/// extend live ranges.
 fn live_halves(program: &Program) -> u32 {
     let mut full = [false; TEMPORARIES];
     if program.version.is_fragment_program() {
-        // What nothing writes is zero, and takes its place all the same.
+        // Unwritten temporaries are zero, and still occupy a register.
         full[..FULL].fill(true);
     }
     for destination in program.instructions.iter().filter_map(|i| i.destination) {
@@ -314,7 +316,7 @@ fn live_halves(program: &Program) -> u32 {
         let sources = instruction.sources.iter().enumerate();
         for (index, source, slot) in sources.filter_map(|(i, s)| Some((i, s, temporary(s.register)?))) {
             let lanes = match instruction.opcode.info().class {
-                // What a read looks at depends on the texture.
+                // The components read depend on the texture type.
                 OpcodeClass::Texture => Mask::ALL,
                 _ => instruction.opcode.lanes_read(index, written),
             };

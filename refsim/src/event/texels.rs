@@ -1,4 +1,4 @@
-//! Texel reads in order, and the interface of their observers.
+//! Texel reads in order, and the interface for observing them.
 
 use std::fmt;
 
@@ -7,38 +7,38 @@ use std::fmt;
 pub struct TexelTouch {
     /// The sampler.
     pub sampler: u8,
-    /// First byte in the memory of the card.
+    /// Byte address in the card's memory.
     pub address: u64,
-    /// Bytes of the texel, 1 to 16. A texel never lies across a boundary of its own size rounded up to a power of two.
+    /// Texel size in bytes, 1 to 16. A texel never crosses a boundary of its size rounded up to a power of two.
     pub bytes: u32,
 }
 
-/// What became of the texels that one sampler touched in one draw.
+/// Cache traffic of one sampler in one draw.
 ///
-/// An access is one texel for one fragment: a bilinear read makes four. A request is one cache line for one access.
+/// An access is one texel of one fragment, so a bilinear read makes four. A request is one cache line of one access.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SamplerTraffic {
     /// Texels read.
     pub accesses: u64,
-    /// Cache lines asked for.
+    /// Cache lines requested.
     pub requests: u64,
-    /// Requests that the cache had to fetch from memory, at half the cache's size, at its size, and at twice its size.
+    /// Requests that missed, with caches of half the profile's size, its size, and twice its size.
     pub misses: [u64; 3],
-    /// Different lines asked for: what a cache without limit would fetch.
+    /// Number of different lines requested: the misses of an unlimited cache.
     pub distinct: u64,
 }
 
-/// Told of every texel that the covered fragments of a draw touch, in the order of the card: primitive by primitive,
-/// tile by tile within, quad by quad, instruction by instruction, lane by lane.
+/// Observes every texel read by the covered fragments of a draw, in the card's order: by primitive, then tile, quad,
+/// instruction and lane.
 ///
-/// The timing model's texture cache is one. An observer cannot change a pixel.
+/// Implemented by the timing model's texture cache. Observers cannot change pixels.
 pub trait TexelObserver: fmt::Debug + Send + Sync {
-    /// A draw begins.
+    /// Called when a draw begins.
     fn begin(&mut self);
 
-    /// A texel is touched.
+    /// Called for every texel read.
     fn touch(&mut self, texel: &TexelTouch);
 
-    /// The draw has ended: what became of the touches, by sampler.
+    /// Called when the draw ends; returns the traffic by sampler.
     fn end(&mut self) -> [SamplerTraffic; super::SAMPLERS];
 }

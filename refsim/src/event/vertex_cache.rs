@@ -1,9 +1,9 @@
-//! How often a card runs its vertex program for an indexed draw: finished vertices are kept for a while.
+//! Post-transform vertex cache: number of vertex program executions of an indexed draw.
 
-/// How many of these vertices, each below `vertices`, are not among the `entries` last ones that came into a cache of
-/// finished vertices: what is used again keeps its place in the row, and the first in goes out first.
+/// Number of misses of the indices, each below `vertices`, in a first-in, first-out cache of `entries` transformed
+/// vertices. A hit does not change the order of eviction.
 pub fn vertex_cache_misses(indices: &[u32], vertices: usize, entries: u64) -> u64 {
-    // How many had come in when this one did, itself included; 0 for none yet.
+    // Per vertex, the miss count when it last entered, including itself; 0 if it never did.
     let mut came = vec![0_u64; vertices];
     let mut misses = 0;
     for &index in indices {
@@ -22,7 +22,7 @@ mod tests {
     use proptest::prelude::*;
     use std::collections::VecDeque;
 
-    /// The definition: a row of entries, the oldest of which leaves.
+    /// Reference implementation with an explicit queue.
     fn by_definition(indices: &[u32], entries: usize) -> u64 {
         let mut row = VecDeque::new();
         let mut misses = 0;
@@ -48,7 +48,7 @@ mod tests {
         }
     }
 
-    /// A strip of triangles as a list: two new vertices for the first pair, then one a triangle.
+    /// A triangle strip as a list: two new vertices for the first pair, then one per triangle.
     #[test]
     fn a_strip_runs_each_vertex_once() {
         let strip: Vec<u32> = (0..100).flat_map(|first| [first, first + 1, first + 2]).collect();

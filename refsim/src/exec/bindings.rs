@@ -1,10 +1,10 @@
-//! What a pixel program is run with: constants, textures, stage state.
+//! Inputs of a pixel program apart from its fragment: constants, textures, stage state.
 
 use super::Constants;
 use crate::event::SAMPLERS;
 use crate::texture::{Filter, Image, MipFilter, SamplerState};
 
-/// Texture stages with bump state (ps_1_x).
+/// Number of texture stages with bump state (ps_1_x).
 pub const BUMP_STAGES: usize = 8;
 
 /// A texture bound to a sampler.
@@ -12,18 +12,19 @@ pub const BUMP_STAGES: usize = 8;
 pub struct SamplerBinding<'a> {
     /// The texture.
     pub image: &'a Image,
-    /// How it is sampled.
+    /// Sampler state.
     pub state: SamplerState,
 }
 
 impl SamplerBinding<'_> {
-    /// Whether a read's result can depend on the level of detail; if not, executors need not compute it.
+    /// Returns `true` if a read can depend on the level of detail; otherwise executors need not compute it.
     pub fn needs_detail(&self) -> bool {
         let levels = self.state.mip != MipFilter::None && self.image.levels().len() > 1;
         levels || self.state.min != self.state.mag
     }
 
-    /// Whether every read takes the nearest texel of level 0, so that [`crate::texture::fetch_nearest`] serves.
+    /// Returns `true` if every read takes the nearest texel of level 0, so that [`crate::texture::fetch_nearest`]
+    /// applies.
     pub fn is_plain(&self) -> bool {
         let nearest = self.state.min == Filter::Nearest && self.state.mag == Filter::Nearest;
         let single =
@@ -43,37 +44,36 @@ pub struct BumpStage {
     pub luminance_offset: u32,
 }
 
-/// Projected textures of a texture stage (`D3DTTFF_PROJECTED`): what `tex`, `texbem` and `texbeml` divide the
-/// coordinates of their stage by before anything else, in single precision. ps_1_4 has `_dz` and `_dw` instead,
-/// ps_2_0 `texldp`.
+/// Texture projection of a stage (`D3DTTFF_PROJECTED`): the divisor of the coordinates in `tex`, `texbem` and
+/// `texbeml`, applied first and in single precision. ps_1_4 uses `_dz` and `_dw` instead, ps_2_0 `texldp`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Projection {
-    /// Nothing.
+    /// No division.
     #[default]
     #[serde(skip)]
     None,
-    /// The third (`D3DTTFF_COUNT3`): the first two are divided.
+    /// By the third component (`D3DTTFF_COUNT3`): the first two are divided.
     Z,
-    /// The fourth (`D3DTTFF_COUNT4`): the first three are divided.
+    /// By the fourth component (`D3DTTFF_COUNT4`): the first three are divided.
     W,
 }
 
-/// Everything that a pixel program reads besides its fragment.
+/// All inputs of a pixel program apart from its fragment.
 #[derive(Clone, Copy, Debug)]
 pub struct PixelBindings<'a> {
     /// Constants set by the host.
     pub constants: &'a Constants,
-    /// Textures; an unbound sampler reads as (0, 0, 0, 1).
+    /// Textures; an unbound sampler reads (0, 0, 0, 1).
     pub samplers: [Option<SamplerBinding<'a>>; SAMPLERS],
     /// Bump state of the stages.
     pub bump: [BumpStage; BUMP_STAGES],
-    /// Projected textures of the stages.
+    /// Texture projection of the stages.
     pub projections: [Projection; BUMP_STAGES],
 }
 
 impl<'a> PixelBindings<'a> {
-    /// Constants alone: no textures, no bump state.
+    /// Bindings with constants only: no textures, no bump state.
     pub fn new(constants: &'a Constants) -> Self {
         Self {
             constants,

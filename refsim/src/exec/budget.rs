@@ -1,40 +1,41 @@
-//! The step budget: how many instructions one pixel or vertex may execute.
+//! The step budget: the maximum number of instructions executed per pixel or vertex.
 //!
-//! A step is one instruction that a lane executes, flow control included; the two of a co-issued pair are one step,
-//! `phase` is none. A lane that has used up its budget is cut off in front of its next instruction: it writes nothing
-//! more and runs nothing more. What it computed is no result, so a fragment or vertex that is cut off is an
-//! [`Overrun`]. A helper lane that is cut off is not: it is no fragment.
+//! A step is one instruction executed by a lane, flow control included. A co-issued pair is one step, `phase` is none.
+//! A lane that has used up its budget is stopped before its next instruction and executes nothing more. Its results are
+//! incomplete, so a fragment or vertex that is stopped is an error ([`Overrun`]). A stopped helper lane is not an
+//! error.
 //!
-//! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which end a program after so many instructions "to
-//! prevent hangs"; docs/decisions/0011.
+//! Source: GL_NV_vertex_program2 and GL_NV_fragment_program2, which terminate a program after a number of instructions
+//! "to prevent hangs"; docs/decisions/0011.
 
 use super::{FlowMap, ResolvedConstants};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program};
 
-/// Passes of a loop at most: the range of a card's loop counter. Larger counts are cut, negative ones are 0.
+/// Maximum number of loop iterations: the range of a card's loop counter. Larger counts are clamped, negative ones are
+/// 0.
 pub(crate) const MAX_LOOP_PASSES: i32 = 255;
 
-/// A fragment that did not end within its step budget.
+/// A fragment that exceeded its step budget.
 ///
-/// They order as they are reported: by the triangle, then by row, then by column.
+/// Ordered by triangle, then row, then column; the first one is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Overrun {
-    /// The triangle, as the executor was given it.
+    /// Index of the triangle, as passed to the executor.
     pub triangle: u32,
     /// Row of the pixel.
     pub y: u32,
     /// Column of the pixel.
     pub x: u32,
-    /// The instruction that was one too many, from 0.
+    /// Index of the first instruction beyond the budget, from 0.
     pub instruction: usize,
 }
 
-/// The budget if the program may exceed it; `None` where every path is shorter and steps need not be counted.
+/// Returns the budget if the program may exceed it; `None` if every path is shorter, so that steps need not be counted.
 pub(crate) fn enforced(program: &Program, flow: &FlowMap, constants: &ResolvedConstants, budget: u32) -> Option<u32> {
     (most_steps(program, flow, constants) > u64::from(budget)).then_some(budget)
 }
 
-/// Whether a program without flow control is longer than the step budget, so that every fragment or vertex exceeds it.
+/// Returns `true` if a program without flow control is longer than the budget, so that every invocation exceeds it.
 pub(crate) fn straight_exceeds(program: &Program, budget: u32) -> bool {
     let is_step = |at: usize| {
         let instruction = &program.instructions[at];
@@ -44,17 +45,17 @@ pub(crate) fn straight_exceeds(program: &Program, budget: u32) -> bool {
     count > budget as usize && (0..count).filter(|&at| is_step(at)).count() > budget as usize
 }
 
-/// Whether an instruction is issued together with the one before it.
+/// Returns `true` if an instruction is co-issued with the one before it.
 fn is_partner(program: &Program, at: usize) -> bool {
     let before = at.checked_sub(1).and_then(|before| program.instructions.get(before));
     program.instructions[at].coissue && before.is_some_and(|i| i.opcode.info().class == OpcodeClass::Arithmetic)
 }
 
-/// The steps of the longest way through a program, or more: branches on booleans count as if they could go either way,
-/// and loops as if never left early. Exact for programs without flow control. One pass over the text.
+/// Upper bound on the steps of a program: branches on booleans may go either way, and loops are never left early. Exact
+/// for programs without flow control. One pass over the text.
 pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &ResolvedConstants) -> u64 {
     let code = &program.instructions;
-    // Calls lead forward, so subroutines are known before what calls them.
+    // Calls lead forward, so processing labels backward finds every callee first.
     let mut starts: Vec<usize> = (0..code.len()).filter(|&at| code[at].opcode == Opcode::Label).collect();
     let mut after = vec![0u64; code.len()];
     let mut end = code.len();
@@ -65,17 +66,17 @@ pub(crate) fn most_steps(program: &Program, flow: &FlowMap, constants: &Resolved
     of_section(program, 0..end, flow, constants, &after)
 }
 
-/// An open block on the way through a section.
+/// An open block.
 struct Open {
-    /// Steps in front of it.
+    /// Steps before the block.
     before: u64,
-    /// Passes, of a loop.
+    /// Number of iterations, for loops.
     passes: u64,
-    /// Steps of the way through `if` where the walk is past `else`.
+    /// Steps of the `if` branch, once `else` was passed.
     taken: u64,
 }
 
-/// The most steps of the instructions `section`, given those of the subroutines behind them by their labels.
+/// Upper bound on the steps of `section`, given those of later subroutines by label.
 fn of_section(
     program: &Program,
     section: std::ops::Range<usize>,
@@ -103,7 +104,7 @@ fn of_section(
             }
             Opcode::EndIf | Opcode::EndRep | Opcode::EndLoop => {
                 if let Some(block) = open.pop() {
-                    // `else` is a step of the lanes before it, `endif` of those in front of it.
+                    // `else` is a step of the lanes in the `if` branch, `endif` of those that arrive at it.
                     let inside = steps.max(block.taken).saturating_mul(block.passes);
                     steps = block.before.saturating_add(inside);
                 }
@@ -117,11 +118,11 @@ fn of_section(
             _ => {}
         }
     }
-    // Unclosed blocks: a checked program has none.
+    // Unclosed blocks don't occur in checked programs.
     open.iter().rev().fold(steps, |steps, block| block.before.saturating_add(steps))
 }
 
-/// The integer constant that a loop instruction counts by.
+/// Integer constant of a loop instruction: count, start, step.
 pub(crate) fn loop_counter(instruction: &Instruction, constants: &ResolvedConstants) -> [i32; 4] {
     let counter = match instruction.opcode {
         Opcode::Loop => instruction.sources.get(1),

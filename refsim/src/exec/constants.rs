@@ -1,4 +1,4 @@
-//! Constants on their way from the host to the registers: clamped, stored, converted once a draw, for every executor.
+//! Conversion of constants from host values to register contents, once per draw and shared by all executors.
 
 use crate::device::{ConstantStorage, Rules};
 use std::collections::BTreeMap;
@@ -7,34 +7,35 @@ use super::FixedFunctionState;
 use crate::isa::{ConstantValue, FIRST_LITERAL, FIRST_NAMED, Parameter, ParameterSource, Program, RegisterFile};
 use crate::num::{self, Format};
 
-/// Integer and boolean constant registers, of each.
+/// Number of integer constant registers, and of boolean ones.
 const FLOW_CONSTANTS: usize = 16;
-/// Float constants that a program may name at most (vs_2_0).
+/// Number of float constants of Direct3D programs (vs_2_0).
 const FLOAT_CONSTANTS: usize = 256;
-/// Float constants that an OpenGL fragment program may name at most, those that stand in its text among them.
+/// Number of float constants of an OpenGL fragment program, including literals.
 const FRAGMENT_CONSTANTS: usize = FIRST_LITERAL as usize + 4096;
 /// 1.0 in single precision.
 const FP32_ONE: u32 = 0x3f80_0000;
 
-/// The constants of one stage as the host sets them. What is not set is zero; what the program defines itself
-/// (`def`, `defi`, `defb`) wins.
+/// Constants of one stage, set by the host. Unset ones are zero; definitions in the program (`def`, `defi`, `defb`)
+/// take precedence.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Constants {
-    /// `c0` on, as single precision patterns. Those beyond c255 are not reachable (c511 in OpenGL's fragment programs).
+    /// Values of `c0` and up, as single-precision patterns. Those beyond c255 (c511 in OpenGL fragment programs) are
+    /// ignored.
     pub float: Vec<[u32; 4]>,
-    /// `i0` to `i15`.
+    /// Values of `i0` to `i15`.
     pub int: Vec<[i32; 4]>,
-    /// `b0` to `b15`.
+    /// Values of `b0` to `b15`.
     pub boolean: Vec<bool>,
-    /// The constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), single precision patterns. A
-    /// name that the program does not declare is passed over.
+    /// Values of constants that an OpenGL program declares by name ([`crate::isa::Parameter`]), as single-precision
+    /// patterns. Names that the program does not declare are ignored.
     pub named: BTreeMap<String, [u32; 4]>,
-    /// The state that `!!ARBfp1.0` reads as `state.*`; OpenGL's default state if there is none.
+    /// State that `!!ARBfp1.0` reads as `state.*`; `None`: OpenGL's default state.
     pub state: Option<Box<FixedFunctionState>>,
 }
 
 impl Constants {
-    /// The value of a constant that has no number.
+    /// The value of a parameter.
     pub(crate) fn parameter(&self, parameter: &Parameter) -> [u32; 4] {
         match (parameter.source, &self.state) {
             (ParameterSource::Named(default), _) => self.named.get(&parameter.name).copied().unwrap_or(default),
@@ -44,10 +45,10 @@ impl Constants {
     }
 }
 
-/// Constants as instructions read them.
+/// Constants in the form that instructions read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ResolvedConstants {
-    /// `c#` in the register format; as many as are set or defined, the rest being zero.
+    /// `c#` in the register format, up to the last one set or defined; the rest are zero.
     pub float: Vec<[u32; 4]>,
     /// `i#`
     pub int: [[i32; 4]; FLOW_CONSTANTS],
@@ -56,8 +57,8 @@ pub struct ResolvedConstants {
 }
 
 impl ResolvedConstants {
-    /// The constants of a pixel program: clamped to [-1, 1] in ps_1_x, then stored as the device stores constants,
-    /// then converted into the register format.
+    /// Constants of a pixel program: clamped to [-1, 1] in ps_1_x, then rounded to the device's storage format, then
+    /// converted to the register format.
     pub fn pixel(program: &Program, rules: &Rules, host: &Constants) -> Self {
         let clamp = program.version.is_ps_1_x();
         Self::resolve(program, host, |bits| {
@@ -69,7 +70,7 @@ impl ResolvedConstants {
         })
     }
 
-    /// The constants of a vertex program, converted into the vertex format.
+    /// Constants of a vertex program, converted to the vertex format.
     pub fn vertex(program: &Program, rules: &Rules, host: &Constants) -> Self {
         Self::resolve(program, host, |bits| num::ops::convert(&Format::FP32, rules.vertex_format, bits).bits)
     }
@@ -128,21 +129,21 @@ impl ResolvedConstants {
     }
 }
 
-/// A single precision pattern clamped to [-1, 1]; NaN stays.
+/// Clamps a single-precision pattern to [-1, 1]; NaN is unchanged.
 fn clamped_to_one(bits: u32) -> u32 {
     let magnitude = bits & 0x7fff_ffff;
     if magnitude > FP32_ONE && magnitude <= 0x7f80_0000 { (bits & 0x8000_0000) | FP32_ONE } else { bits }
 }
 
-/// A single precision pattern stored as sign and 8-bit magnitude `k / 255`, k to the nearest with halves away from
-/// zero, clamped to [-1, 1], and then rounded into `format`. NaN is stored as 0.
+/// Rounds a single-precision pattern to sign and 8-bit magnitude `k / 255` (halves away from zero), clamped to [-1, 1],
+/// then rounds it into `format`. NaN gives 0.
 fn snorm8(format: Format, bits: u32) -> u32 {
     let k = unorm_steps(bits & 0x7fff_ffff, 255);
     num::from_ratio(format, bits >> 31 == 1 && k != 0, u128::from(k), 255).bits
 }
 
-/// The single precision pattern `bits`, clamped to [0, 1], as the nearest of `steps + 1` evenly spaced integers from 0
-/// to `steps` (below 2^24), halves up. NaN gives 0.
+/// Clamps a single-precision pattern to [0, 1] and rounds it to `k / steps` (halves up; `steps` below 2^24); returns k.
+/// NaN gives 0.
 pub fn unorm_steps(bits: u32, steps: u32) -> u32 {
     let magnitude = bits & 0x7fff_ffff;
     if bits >> 31 == 1 || magnitude > 0x7f80_0000 {
@@ -166,8 +167,8 @@ pub fn unorm_steps(bits: u32, steps: u32) -> u32 {
     u32::try_from(doubled >> (down + 1)).unwrap_or(steps)
 }
 
-/// A colour `v#` as the pixel program gets it: the interpolated single precision value clamped to [0, 1], taken
-/// through the colour iterator's precision, converted into the register format. NaN gives 0.
+/// Converts an interpolated colour to the value of `v#`: clamped to [0, 1], rounded to the colour iterator's precision,
+/// converted to the register format. NaN gives 0.
 pub fn delivered_color(rules: &Rules, bits: u32) -> u32 {
     use crate::device::ColorIterator;
     match rules.color_iterator {

@@ -1,13 +1,13 @@
-//! The jump structure of a program, resolved once and shared by the executors.
+//! Jump targets of a program, resolved once and shared by the executors.
 
 use std::collections::BTreeMap;
 
 use crate::isa::{Opcode, Program};
 
-/// Where each instruction of a program leads.
+/// Jump target of each instruction of a program.
 ///
-/// Matching is by nesting alone. A checked program nests properly; were one not to, an unmatched jump leads to the
-/// end of the program, so that executors need no error path.
+/// Blocks are matched by nesting. In checked programs they always match; an unmatched jump would lead to the end of the
+/// program, so that executors need no error path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FlowMap {
     targets: Vec<usize>,
@@ -22,7 +22,7 @@ impl FlowMap {
         let end = code.len();
         let mut targets = vec![end; end];
         let mut open: Vec<usize> = Vec::new();
-        // The first label of a number counts.
+        // The first label with a number counts.
         let labels = code.iter().enumerate().rev().filter(|(_, i)| i.opcode == Opcode::Label);
         let labels: BTreeMap<_, _> = labels.map(|(at, i)| (i.sources.first().map(|s| s.register.index), at)).collect();
         for (at, instruction) in code.iter().enumerate() {
@@ -57,18 +57,18 @@ impl FlowMap {
         Self { targets, coissued, main_end }
     }
 
-    /// Where instruction `at` leads: from `if` to its `else` or `endif`, from `else` to its `endif`, from `rep` and
-    /// `loop` to their end and back, from a call to its label. The length of the program for everything else.
+    /// Jump target of instruction `at`: from `if` to its `else` or `endif`, from `else` to its `endif`, from `rep` and
+    /// `loop` to their end and back, from a call to its label. The length of the program for all other instructions.
     pub fn target(&self, at: usize) -> usize {
         self.targets.get(at).copied().unwrap_or(self.targets.len())
     }
 
-    /// Whether instruction `at + 1` is issued together with instruction `at`.
+    /// Returns `true` if instruction `at + 1` is co-issued with instruction `at`.
     pub fn pairs_with_next(&self, at: usize) -> bool {
         self.coissued.get(at + 1).copied().unwrap_or(false)
     }
 
-    /// Where the main program ends: at its first label, or with its text.
+    /// End of the main program: the first label, or the end of the text.
     pub fn main_end(&self) -> usize {
         self.main_end
     }

@@ -1,20 +1,20 @@
-//! In which formats an OpenGL fragment program computes: shared by the executors.
+//! Number formats of OpenGL fragment programs, shared by the executors.
 
 use crate::device::Rules;
 use crate::isa::{Precision, RegisterFile};
 use crate::num::{Format, Overflow, Specials};
 
-/// The formats behind the suffixes R, H and X.
+/// Formats of the precision suffixes R, H and X.
 ///
-/// Source: GL_NV_fragment_program. R is the device's register format, fp32 on its cards; H is the format of `_pp`, fp16
-/// with the extension's own infinities where a device has none; X is fx12. All round alike, as the device says.
+/// Source: GL_NV_fragment_program. R is the device's register format, fp32 on its cards. H is the format of `_pp`; on
+/// devices without one, fp16 with the extension's overflow rule. X is fx12. All use the device's rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FragmentFormats {
-    /// `R#`, `o[COLR]`, `o[DEPR]`, and what is interpolated.
+    /// `R#`, `o[COLR]`, `o[DEPR]`, and interpolated values.
     pub full: Format,
     /// `H#`, `o[COLH]`.
     pub half: Format,
-    /// Operations with X; no register has it.
+    /// Operations with X; no register has this format.
     pub fixed: Format,
 }
 
@@ -24,7 +24,7 @@ impl FragmentFormats {
         Self::of_registers(rules.format, rules.partial)
     }
 
-    /// The formats of a device with these for registers and `_pp` instructions.
+    /// The formats for the given register format and format of `_pp` instructions.
     pub fn of_registers(format: Format, partial: Option<Format>) -> Self {
         let rounding = format.rounding;
         let half = Format::FP16.with_rounding(rounding).with_overflow(Overflow::Nv30).with_specials(Specials::Nv);
@@ -40,7 +40,7 @@ impl FragmentFormats {
         }
     }
 
-    /// The format of the numbers in a register file.
+    /// The format of a register file.
     pub const fn of_file(&self, file: RegisterFile) -> Format {
         if file.is_half() { self.half } else { self.full }
     }

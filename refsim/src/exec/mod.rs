@@ -1,12 +1,15 @@
-//! Executors of checked programs, which compute the same bits by different means.
+//! Executors of checked programs. They compute the same bits by different means.
 //!
-//! - [`scalar`] is the reference: one value at a time, integers alone, readable beside the Direct3D shader reference.
-//! - [`batch`] runs whole tiles in vector code of the host; [`wgsl`] writes shaders, which `gpu` runs on a GPU of the
-//!   host. Both start from `lower`: a program as a graph of values.
+//! - [`scalar`] is the reference: it processes one value at a time in integer arithmetic, and follows the Direct3D
+//!   shader reference.
+//! - [`batch`] processes tiles with the host's SIMD instructions.
+//! - [`wgsl`] generates shaders, which `gpu` runs on a GPU of the host.
 //!
-//! `tests/agree` holds them together. What they all share is no arithmetic: the jump structure ([`FlowMap`]), constants
-//! as registers hold them ([`ResolvedConstants`]), bindings, what the machine says of a draw ([`TileDraw`]), and what
-//! is reported of a fragment ([`FragmentResult`], [`Shading`]).
+//! The latter start from `lower`, which translates a program to a graph of values.
+//!
+//! `tests/agree` compares the executors. They share no arithmetic, only the jump targets ([`FlowMap`]), register
+//! contents of constants ([`ResolvedConstants`]), bindings, parameters of a draw ([`TileDraw`]), and result types
+//! ([`FragmentResult`], [`Shading`]).
 
 pub mod batch;
 mod bindings;
@@ -43,18 +46,18 @@ use crate::device::Rules;
 use crate::isa::Program;
 use crate::texture::SampleRules;
 
-/// A program that the checker has passed. Executors take no other.
+/// A program that passed the checker. Executors accept no other.
 ///
-/// It may run on another device than the one it was checked for: limits are the checker's business, and executors hold
-/// whatever any version can name.
+/// It may run on another device than the one it was checked for: limits concern the checker only, and executors support
+/// every register that a version can name.
 pub type CheckedProgram = Checked<Program>;
 
-/// The program within.
+/// Returns the program.
 pub(crate) fn program(checked: &CheckedProgram) -> &Program {
     checked
 }
 
-/// What a device says about sampling, out of its rules.
+/// The device's sampling rules.
 pub fn sample_rules(rules: &Rules) -> SampleRules {
     SampleRules {
         format: rules.format,

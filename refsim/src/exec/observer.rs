@@ -1,4 +1,4 @@
-//! Observers of a running program: executed instructions and texture reads.
+//! Observers of program execution: executed instructions and texture reads.
 
 use crate::isa::Mask;
 use crate::num::Flags;
@@ -13,38 +13,38 @@ pub struct Step {
     pub lane: usize,
     /// Components written; none for instructions without a destination register.
     pub mask: Mask,
-    /// What was written, patterns of the register format; components outside the mask mean nothing.
+    /// Values written, as patterns of the register format; components outside the mask are undefined.
     pub value: [u32; 4],
-    /// Exceptions raised by the instruction's arithmetic: both instructions' for the first of a co-issued pair.
+    /// Exceptions raised by the instruction; for a co-issued pair both instructions' exceptions are in the first step.
     pub flags: Flags,
 }
 
-/// One read of a bound texture by one covered lane.
+/// A read of a bound texture by a covered lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TextureRead {
     /// The sampler.
     pub sampler: usize,
-    /// Where, single precision patterns.
+    /// Coordinates, as single-precision patterns.
     pub coordinates: [u32; 4],
     /// Level of detail.
     pub lod: Lod,
 }
 
-/// Called for every instruction that an executor runs. The default does nothing and costs nothing.
+/// Observer of an executor. The default does nothing at no cost.
 pub trait Observer {
-    /// Whether [`Self::executed`] is called at all.
+    /// Enables calls of [`Self::executed`].
     const ACTIVE: bool = true;
-    /// Whether [`Self::reads`] is called at all.
+    /// Enables calls of [`Self::reads`].
     const READS: bool = false;
 
-    /// A lane has executed an instruction.
+    /// Called when a lane has executed an instruction.
     fn executed(&mut self, step: &Step);
 
-    /// A covered lane reads a bound texture: instruction by instruction, lane by lane.
+    /// Called when a covered lane reads a bound texture, in order of instructions, then lanes.
     fn reads(&mut self, _: &TextureRead) {}
 }
 
-/// Observes nothing.
+/// Observer that does nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoObserver;
 
@@ -54,7 +54,7 @@ impl Observer for NoObserver {
     fn executed(&mut self, _: &Step) {}
 }
 
-/// Keeps the steps of one lane, in the order they ran.
+/// Records the steps of one lane, in order of execution.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
     /// The observed lane.
@@ -64,7 +64,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// An empty trace of a lane.
+    /// Creates an empty trace of a lane.
     pub fn of_lane(lane: usize) -> Self {
         Self { lane, steps: Vec::new() }
     }

@@ -1,8 +1,8 @@
-//! State of OpenGL's fixed pipeline, which `!!ARBfp1.0` reads as constants.
+//! Fixed-function OpenGL state that `!!ARBfp1.0` reads as constants.
 //!
-//! What programs can name but no call sets (inverses, products, 1 / (end - start)) is computed here, by
-//! [`FixedFunctionState::value`], as the driver did: in double precision, in one fixed order, rounded once.
-//! Defaults: the OpenGL 1.4 specification, tables of state variables.
+//! Derived values (inverses, products, 1 / (end - start)) are computed by [`FixedFunctionState::value`], as by the
+//! driver: in double precision, in a fixed order, rounded once. Defaults: the OpenGL 1.4 specification, tables of state
+//! variables.
 
 use crate::isa::{LightingColor, MAX_LIGHTS, MAX_PROGRAM_MATRICES, MAX_TEXTURE_UNITS, MaterialFace, StateBinding};
 use crate::isa::{MatrixForm, StateMatrix};
@@ -12,12 +12,12 @@ const ONE: u32 = 0x3f80_0000;
 const BLACK: [u32; 4] = [0, 0, 0, ONE];
 const WHITE: [u32; 4] = [ONE; 4];
 
-/// `glMaterial`. Colors are red, green, blue, alpha; all numbers single precision patterns.
+/// State of `glMaterial`. Colors are red, green, blue, alpha; all numbers are single-precision patterns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MaterialState {
     /// Ambient, diffuse and specular color.
     pub colors: [[u32; 4]; 3],
-    /// Light that the surface emits.
+    /// Emitted light.
     pub emission: [u32; 4],
     /// Exponent of the specular highlight.
     pub shininess: u32,
@@ -30,25 +30,25 @@ impl Default for MaterialState {
     }
 }
 
-/// `glLight`. Positions and directions are in eye space, as the driver holds them; single precision patterns.
+/// State of `glLight`, single-precision patterns. Positions and directions are in eye space, as stored by the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightState {
     /// Ambient, diffuse and specular color.
     pub colors: [[u32; 4]; 3],
-    /// Position; a direction where w is 0.
+    /// Position; a direction if w is 0.
     pub position: [u32; 4],
     /// Constant, linear and quadratic attenuation.
     pub attenuation: [u32; 3],
-    /// Direction of the spot.
+    /// Spot direction.
     pub spot_direction: [u32; 3],
-    /// Exponent of the spot.
+    /// Spot exponent.
     pub spot_exponent: u32,
-    /// Half the angle of the spot's cone in degrees: 0 to 90, or 180 for no spot.
+    /// Spot cutoff: half the cone angle in degrees, 0 to 90, or 180 for no spot.
     pub spot_cutoff: u32,
 }
 
 impl LightState {
-    /// What light `number` is at first: light 0 is white, the others are black.
+    /// Default state of light `number`: light 0 is white, the others are black.
     pub fn new(number: usize) -> Self {
         let color = if number == 0 { WHITE } else { BLACK };
         Self {
@@ -62,26 +62,26 @@ impl LightState {
     }
 }
 
-/// `glFog`, single precision patterns.
+/// State of `glFog`, single-precision patterns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FogState {
     /// Color.
     pub color: [u32; 4],
-    /// Density, of exponential fog.
+    /// Density of exponential fog.
     pub density: u32,
-    /// Where linear fog begins.
+    /// Start distance of linear fog.
     pub start: u32,
-    /// Where linear fog hides everything.
+    /// End distance of linear fog, where it is opaque.
     pub end: u32,
 }
 
-/// A matrix by rows, which multiplies columns from the left; single precision patterns.
+/// A matrix by rows, for multiplication with column vectors; single-precision patterns.
 pub type MatrixRows = [[u32; 4]; 4];
 
-/// All of the state that `!!ARBfp1.0` can name.
+/// The complete state that `!!ARBfp1.0` can name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FixedFunctionState {
-    /// Materials of front and back.
+    /// Front and back material.
     pub materials: [MaterialState; 2],
     /// Lights.
     pub lights: [LightState; MAX_LIGHTS as usize],
@@ -91,15 +91,15 @@ pub struct FixedFunctionState {
     pub texture_environment: [[u32; 4]; MAX_TEXTURE_UNITS as usize],
     /// Fog.
     pub fog: FogState,
-    /// Window depth of the near and of the far plane.
+    /// Window depth of the near and far plane.
     pub depth_range: [u32; 2],
-    /// From object space to eye space.
+    /// Transform from object space to eye space.
     pub modelview: MatrixRows,
-    /// From eye space to clip space.
+    /// Transform from eye space to clip space.
     pub projection: MatrixRows,
-    /// Of texture coordinates.
+    /// Texture coordinate transforms.
     pub texture: [MatrixRows; MAX_TEXTURE_UNITS as usize],
-    /// The application's own.
+    /// Program matrices, for use by the application.
     pub program: [MatrixRows; MAX_PROGRAM_MATRICES as usize],
 }
 
@@ -122,10 +122,10 @@ impl Default for FixedFunctionState {
 }
 
 impl FixedFunctionState {
-    /// What a program reads as `binding`, single precision patterns. Numbers beyond the state's count as its last.
+    /// The value of `binding`, as single-precision patterns. Indices beyond the state are clamped to the last one.
     ///
-    /// What OpenGL leaves undefined follows from IEEE arithmetic: the inverse of a singular matrix and 1 / (end -
-    /// start) of equal ends hold infinities and NaN, and so does the half vector of a light without direction.
+    /// Cases that OpenGL leaves undefined follow IEEE arithmetic: the inverse of a singular matrix, 1 / (end - start)
+    /// with equal ends, and the half vector of a light without direction contain infinities or NaN.
     pub fn value(&self, binding: StateBinding) -> [u32; 4] {
         let light = |n: u8| &self.lights[usize::from(n).min(self.lights.len() - 1)];
         match binding {
@@ -170,7 +170,7 @@ impl FixedFunctionState {
         }
     }
 
-    /// The scene's ambient light times the ambient color, and the emission.
+    /// Scene ambient times material ambient, plus emission.
     fn scene_color(&self, material: &MaterialState) -> [u32; 4] {
         let [ambient, diffuse, _] = material.colors;
         let sum = |c: usize| single(double(self.ambient[c]) * double(ambient[c]) + double(material.emission[c]));
@@ -223,18 +223,18 @@ fn double(bits: u32) -> f64 {
     num::to_f64(&Format::FP32, bits)
 }
 
-/// To nearest even; NaN is the positive quiet one, whatever sign the host gives it.
+/// Rounds to nearest even; NaN becomes the positive quiet one, whatever its sign on the host.
 fn single(value: f64) -> u32 {
     if value.is_nan() { 0x7fc0_0000 } else { (value as f32).to_bits() }
 }
 
-/// The cosine of an angle in degrees, within 6e-8.
+/// Cosine of an angle in degrees, with an error below 6e-8.
 fn cosine(degrees: u32) -> u32 {
     let radians = single(double(degrees) * (std::f64::consts::PI / 180.0));
     num::ops::cos(Format::FP32, radians).bits
 }
 
-/// Half way between the direction to a light and that to a viewer at infinity, (0, 0, 1).
+/// Half vector between the direction to a light and that to a viewer at infinity, (0, 0, 1).
 fn half_vector(position: [u32; 4]) -> [u32; 4] {
     let normalized = |[x, y, z]: [f64; 3]| {
         let length = (x * x + y * y + z * z).sqrt();
@@ -254,7 +254,7 @@ fn formed(matrix: [[f64; 4]; 4], form: MatrixForm) -> [[f64; 4]; 4] {
     }
 }
 
-/// The adjugate over the determinant.
+/// Inverse as the adjugate divided by the determinant.
 fn inverse(m: &[[f64; 4]; 4]) -> [[f64; 4]; 4] {
     let cofactor = |row: usize, column: usize| {
         let other = |skipped: usize| -> [usize; 3] { std::array::from_fn(|i| i + usize::from(i >= skipped)) };

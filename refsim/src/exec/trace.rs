@@ -1,7 +1,7 @@
 //! Per-pixel execution traces: the [`PixelTracer`] interface between the machine and the executors.
 //!
-//! A trace is made beside a draw, never during one, so that drawing pays nothing for it: the machine finds the
-//! triangles that cover the pixel and hands each to a [`PixelTracer`] with the pixel's targets.
+//! Traces are made independently of draws, so that drawing pays nothing: the machine finds the triangles that cover the
+//! pixel and passes each to a [`PixelTracer`] with the pixel's targets.
 
 use super::{FragmentResult, Overrun, Step};
 use crate::isa::{Instruction, Mask, OpcodeClass, Program, Register, RegisterFile};
@@ -9,38 +9,38 @@ use crate::num::{Format, ops};
 use crate::output::{FragmentFate, TargetTile};
 use crate::raster::{FragmentInput, TriangleSetup};
 
-/// What an executor did with one fragment.
+/// Execution of a fragment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Shading {
-    /// What the rasteriser gave the program, single precision; what the program cannot read is zero. NaN is canonical.
+    /// Inputs from the rasteriser, single precision; inputs that the program cannot read are zero. NaNs are canonical.
     pub input: FragmentInput,
-    /// The input registers that hold interpolated values, as instructions read them: patterns of the register format.
+    /// Input registers with interpolated values as read by instructions, in the register format.
     pub delivered: Vec<(Register, [u32; 4])>,
-    /// The instructions that wrote, read texels, killed or decided depth, in the order they ran. Components outside a
+    /// The executed instructions that write registers, read texels, kill or write depth, in order. Components outside a
     /// step's mask are zero; `oDepth` has one component, the lowest of its mask. Only the scalar executor knows flags.
     pub steps: Vec<Step>,
-    /// What the program left behind.
+    /// Output of the program.
     pub output: FragmentResult,
-    /// What became of the fragment.
+    /// Outcome of the fragment.
     pub fate: FragmentFate,
 }
 
-/// Shades single fragments and reports every step.
+/// Executes single fragments and records every step.
 pub trait PixelTracer: Send + Sync {
-    /// Draws the fragment of a triangle into the one pixel of `tile`, which the triangle covers.
+    /// Draws the fragment of a triangle into the single pixel of `tile`, which the triangle must cover.
     ///
     /// # Errors
-    /// If the fragment does not end within the step budget; it is of triangle 0 then.
+    /// If the fragment exceeds the step budget; its triangle is reported as 0.
     fn follow(&self, triangle: &TriangleSetup, tile: &mut TargetTile) -> Result<Shading, Overrun>;
 }
 
-/// Whether an instruction is one of those that steps are made of.
+/// Returns `true` if an instruction produces a step.
 pub(crate) fn makes_step(instruction: &Instruction) -> bool {
     let class = instruction.opcode.info().class;
     instruction.destination.is_some() && matches!(class, OpcodeClass::Arithmetic | OpcodeClass::Texture)
 }
 
-/// The mask of a step whose instruction wrote these components; of `oDepth`, the lowest of its destination's.
+/// Mask of a step whose instruction writes these components; for `oDepth` the lowest of its destination.
 pub(crate) fn written_mask(instruction: &Instruction, components: impl Iterator<Item = u8>) -> Mask {
     match instruction.destination {
         Some(d) if d.register.file == RegisterFile::DepthOut => Mask(d.mask.0 & d.mask.0.wrapping_neg()),
@@ -48,7 +48,7 @@ pub(crate) fn written_mask(instruction: &Instruction, components: impl Iterator<
     }
 }
 
-/// A step as a [`Shading`] holds it.
+/// Converts a step to the form in [`Shading`].
 pub(crate) fn as_written(mut step: Step, program: &Program) -> Step {
     let destination = program.instructions.get(step.instruction).and_then(|i| i.destination);
     if destination.is_some_and(|d| d.register.file == RegisterFile::DepthOut) {
@@ -63,7 +63,7 @@ pub(crate) fn as_written(mut step: Step, program: &Program) -> Step {
     step
 }
 
-/// Inputs with NaN made canonical: executors that compute in host floats keep no payload.
+/// Makes NaNs in the inputs canonical, because executors with host floats keep no payload.
 pub(crate) fn canonical(mut input: FragmentInput) -> FragmentInput {
     let clean = |x: &mut u32| *x = ops::convert(&Format::FP32, Format::FP32, *x).bits;
     input.t.iter_mut().chain(&mut input.v).flatten().for_each(clean);

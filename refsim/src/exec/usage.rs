@@ -1,10 +1,9 @@
-//! What a program reads and writes, found by looking at its text: shared by the executors.
+//! Inputs and outputs of a program, found from its text; shared by the executors.
 
 use crate::isa::{Opcode, Program, Register, RegisterFile};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
-/// The components that a pixel program can read, those of the window position among them. The others need not be
-/// interpolated; a program cannot tell.
+/// Components that a pixel program can read, including the window position. Others need not be interpolated.
 pub fn inputs_read(program: &Program) -> ComponentMask {
     let mut mask = ComponentMask::NONE;
     let mut set = |number: u16| {
@@ -30,7 +29,7 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
                 _ => {}
             }
         }
-        // The eye ray lies in the fourth components of the two stages before.
+        // The eye ray is in the fourth components of the two previous stages.
         if let (Opcode::TexM3x3VSpec, Some(destination)) = (instruction.opcode, instruction.destination) {
             set(destination.register.index.saturating_sub(1));
             set(destination.register.index.saturating_sub(2));
@@ -47,7 +46,7 @@ pub fn inputs_read(program: &Program) -> ComponentMask {
     if position { mask.with_position() } else { mask }
 }
 
-/// The input registers of a pixel program that arithmetic reads in the register format, of those that it reads at all.
+/// Input registers that a pixel program reads in the register format.
 pub(crate) fn registers_delivered(program: &Program) -> Vec<Register> {
     let reads = inputs_read(program);
     let colors = (0u16..2).map(|n| (RegisterFile::Input, n, COLOR_COMPONENT + 4 * usize::from(n)));
@@ -58,8 +57,8 @@ pub(crate) fn registers_delivered(program: &Program) -> Vec<Register> {
     all.filter(|&(_, _, first)| reads.has(first)).map(|(file, n, _)| Register::new(file, n)).collect()
 }
 
-/// Which colours a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it,
-/// whether or not flow control gets there; ps_1_x writes colour 0.
+/// Colours that a pixel program writes: bit `i` for `oC#i`. A colour counts as written if an instruction names it, even
+/// if flow control skips it; ps_1_x writes colour 0.
 pub fn colors_written(program: &Program) -> u8 {
     if program.version.is_ps_1_x() {
         return 1;

@@ -1,5 +1,4 @@
-//! What OpenGL's fragment programs say besides Direct3D's words: precision, condition codes, texture targets,
-//! spellings.
+//! Syntax that only OpenGL fragment programs have: precision suffixes, condition codes, texture targets, mnemonics.
 //!
 //! Sources: the extension specifications GL_NV_fragment_program (`!!FP1.0`) and GL_ARB_fragment_program (`!!ARBfp1.0`).
 //! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]`
@@ -16,7 +15,7 @@ pub const FIRST_NAMED: u16 = 512;
 /// The first `c#` of constants that stand in the text.
 pub const FIRST_LITERAL: u16 = 1024;
 
-/// The suffix that says in which format an instruction computes.
+/// Precision suffix of an instruction: the format in which it computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Precision {
     /// `R`: the format of `R#`, fp32 on the cards.
@@ -41,7 +40,7 @@ impl Precision {
     }
 }
 
-/// What is asked of a condition code: less than, equal to, greater than zero, or unordered (NaN).
+/// Test of a condition code: less than, equal to or greater than zero, or unordered (NaN).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "UPPERCASE")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]
@@ -79,15 +78,15 @@ impl ConditionTest {
 /// `(GT.x)` after a destination, or the operand of `KIL`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Condition {
-    /// What must hold.
+    /// The test that must hold.
     pub test: ConditionTest,
-    /// Of which condition code, for each lane.
+    /// The condition code component that each lane tests.
     pub swizzle: Swizzle,
-    /// Where it stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
-/// Which kind of texture a read asks for.
+/// The texture target of a fetch.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "UPPERCASE")]
@@ -118,37 +117,37 @@ impl TextureTarget {
     }
 }
 
-/// What an OpenGL fragment program says of an instruction besides Direct3D's words.
+/// Parts of an instruction that only OpenGL fragment programs have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct FragmentPart {
-    /// The format of the operation; that of the destination where nothing is said.
+    /// Format of the operation; `None`: the format of the destination.
     pub precision: Option<Precision>,
-    /// `C`: the condition codes take the result.
+    /// `C`: the instruction updates the condition codes.
     pub updates: bool,
     /// The condition under which components are written, or fragments killed.
     pub condition: Option<Condition>,
-    /// The kind of texture that is read.
+    /// Texture target of a fetch.
     pub target: Option<TextureTarget>,
     /// `SWZ`: bit `i` negates component `i`; there the swizzle's 4 means 0 and 5 means 1.
     pub negate: u8,
 }
 
-/// How OpenGL writes an operation, and the suffixes that it can have in `!!FP1.0`.
+/// OpenGL mnemonic of an operation, and the suffixes that `!!FP1.0` allows on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Spelling {
     /// The operation.
     pub opcode: Opcode,
-    /// Its name.
+    /// The OpenGL mnemonic.
     pub name: &'static str,
-    /// Whether it can have R and H.
+    /// `true` if the suffixes R and H are allowed.
     pub floats: bool,
-    /// Whether it can have X.
+    /// `true` if the suffix X is allowed.
     pub fixed: bool,
-    /// Whether it can have C, and `_SAT`.
+    /// `true` if the suffixes C and `_SAT` are allowed.
     pub result: bool,
 }
 
-/// The two extensions' tables of instructions. `y` and `-` as there: R and H, X, C and `_SAT`.
+/// The instruction tables of the two extensions. Columns as there: R and H; X; C and `_SAT`.
 macro_rules! spellings {
     ($($opcode:ident $name:literal $floats:literal $fixed:literal $result:literal)*) => {
         &[$(Spelling {
@@ -222,7 +221,7 @@ impl Spelling {
     /// Every spelling, by name.
     pub const ALL: &'static [Self] = SPELLINGS;
 
-    /// How OpenGL writes the operation; `None` for operations that only Direct3D has.
+    /// Returns the OpenGL mnemonic of the operation; `None` if only Direct3D has it.
     pub fn of(opcode: Opcode) -> Option<&'static Self> {
         SPELLINGS.iter().find(|s| s.opcode == opcode)
     }

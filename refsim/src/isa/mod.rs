@@ -1,8 +1,7 @@
-//! Shader programs as data: versions, registers, modifiers, instructions, and THE opcode table.
+//! Representation of shader programs: versions, registers, modifiers, instructions, and the opcode table.
 //!
-//! A [`Program`] is what an assembler front end produces, what the checker judges and what every executor
-//! runs. Nothing in here evaluates anything: values are the business of [`crate::exec`]. The words are
-//! Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`), because the programs are.
+//! A [`Program`] is what assembler front ends produce, the checker validates and the executors run. This module
+//! evaluates nothing; see [`crate::exec`]. Terms are Direct3D's (`ps_1_4`, `texcrd`, `phase`, `oDepth`).
 
 mod fragment;
 mod opcode;

@@ -1,26 +1,26 @@
-//! THE opcode table: the one place that says which operations exist, how they are spelt, what operands they take,
-//! in which versions they are available and how many instruction slots they cost there.
+//! The opcode table: for each operation its mnemonic, its operands, the versions that have it and its cost in
+//! instruction slots.
 //!
-//! The assembler, the printer, the checker, the executors and the timing model all read it; none keeps a list of
-//! its own. Sources: the Direct3D 9 shader assembly reference, pages "Instructions ps_1_X", "ps_2_0", "ps_2_x",
-//! "vs_1_1" and "vs_2_0"; GL_NV_fragment_program and GL_ARB_fragment_program, whose own spellings are in `fragment`.
+//! The assembler, the printer, the checker, the executors and the timing model all read this one table. Sources: the
+//! Direct3D 9 shader assembly reference, pages "Instructions ps_1_X", "ps_2_0", "ps_2_x", "vs_1_1" and "vs_2_0";
+//! GL_NV_fragment_program and GL_ARB_fragment_program, whose own spellings are in `fragment`.
 
 use super::Version;
 
-/// What kind of work an operation is, for order, slot and modifier rules.
+/// Class of an operation, for the rules on order, slots and modifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum OpcodeClass {
     /// Computes on registers; counts against the arithmetic slots.
     Arithmetic,
     /// Reads coordinates or texels, kills, or replaces depth; counts against the texture slots.
     Texture,
-    /// Branches, loops, calls and what delimits them.
+    /// Branches, loops, calls, and the instructions that delimit them.
     Flow,
     /// `phase` and `nop`-like markers that do nothing at run time.
     Marker,
 }
 
-/// What an operation does with its first operand.
+/// Role of an operation's first operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DestinationRule {
     /// No destination operand.
@@ -31,7 +31,7 @@ pub enum DestinationRule {
     Read,
 }
 
-/// Slots that one instruction takes.
+/// Instruction slots that one instruction takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub struct SlotCost {
     /// Texture instruction slots.
@@ -54,11 +54,11 @@ pub struct OpInfo {
     pub opcode: Opcode,
     /// Its spelling, without modifiers and comparison suffix.
     pub mnemonic: &'static str,
-    /// Its kind.
+    /// Its class.
     pub class: OpcodeClass,
-    /// What happens to its first operand.
+    /// The role of its first operand.
     pub destination: DestinationRule,
-    /// Whether the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
+    /// `true` if the mnemonic takes a comparison suffix (`_gt _lt _ge _le _eq _ne`).
     pub comparison: bool,
     /// Source operands by version, in the order of [`Version`]; `None` where the version lacks the operation.
     sources: [Option<u8>; VERSIONS],
@@ -67,19 +67,19 @@ pub struct OpInfo {
 }
 
 impl OpInfo {
-    /// Whether `version` has the operation.
+    /// Returns `true` if `version` has the operation.
     pub const fn available(&self, version: Version) -> bool {
         self.sources[version as usize].is_some()
     }
 
-    /// How many source operands the operation takes in `version`; `None` where the version lacks it.
+    /// Number of source operands of the operation in `version`; `None` if the version lacks it.
     ///
     /// `texkill`'s operand counts as destination ([`DestinationRule::Read`]), not as source.
     pub const fn source_count(&self, version: Version) -> Option<u8> {
         self.sources[version as usize]
     }
 
-    /// The slots that the operation takes in `version`, leaving aside co-issue, predication and texture type.
+    /// Slots that the operation takes in `version`, before adjustments for co-issue, predication and texture type.
     pub const fn slot_cost(&self, version: Version) -> SlotCost {
         let n = self.slots[version as usize];
         match self.class {
@@ -92,12 +92,12 @@ impl OpInfo {
     }
 }
 
-/// Columns of the table: as many as there are versions.
+/// Number of columns of the table.
 const VERSIONS: usize = Version::ALL.len() + Version::FRAGMENT.len();
 
 /// `-` in the table below: not available.
 const NA: (Option<u8>, u16) = (None, 0);
-/// A cell of the table: so many sources, so many slots.
+/// A cell of the table: number of sources and number of slots.
 const fn c(sources: u8, slots: u16) -> (Option<u8>, u16) {
     (Some(sources), slots)
 }
@@ -259,7 +259,8 @@ opcodes! {
 }
 
 impl Opcode {
-    /// Rows of a matrix product, that is constants read from the named one on, and the terms of each row's dot product.
+    /// For matrix products: the number of rows, i.e. of consecutive constants read from the named one on, and the
+    /// number of terms of each row's dot product.
     pub const fn matrix(self) -> Option<(u16, usize)> {
         match self {
             Self::M3x2 => Some((2, 3)),

@@ -4,7 +4,7 @@ use strum::VariantArray;
 
 use super::{Register, Span};
 
-/// Which register component each of the four lanes reads: entry `i` is the component (0 to 3) that lane `i` sees.
+/// Component selection: entry `i` is the register component (0 to 3) that lane `i` reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Swizzle(pub [u8; 4]);
 
@@ -36,12 +36,12 @@ impl Mask {
     /// `.a`
     pub const ALPHA: Self = Self(0b1000);
 
-    /// Whether component `component` (0 to 3) is written.
+    /// Returns `true` if component `component` (0 to 3) is written.
     pub const fn contains(self, component: usize) -> bool {
         self.0 >> component & 1 == 1
     }
 
-    /// The written components in rising order.
+    /// The written components in ascending order.
     pub fn components(self) -> impl Iterator<Item = usize> {
         (0..4).filter(move |&c| self.contains(c))
     }
@@ -94,9 +94,9 @@ pub struct Source {
     pub register: Register,
     /// The component that each lane reads.
     pub swizzle: Swizzle,
-    /// What is done to the value before the operation sees it.
+    /// Modifier applied to the value before the operation.
     pub modifier: Modifier,
-    /// Where the operand stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
@@ -115,17 +115,17 @@ pub struct Destination {
     pub partial_precision: bool,
     /// `_centroid`: on declarations only; kept for printing.
     pub centroid: bool,
-    /// Where the operand stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
 /// `(p0.x)` or `(!p0)` in front of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Predicate {
-    /// Whether the predicate is inverted.
+    /// `true` if the predicate is inverted.
     pub not: bool,
     /// The predicate component of each lane.
     pub swizzle: Swizzle,
-    /// Where it stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }

@@ -1,4 +1,4 @@
-//! Programs and their parts.
+//! Programs: instructions, declarations, constants and parameters.
 
 use super::{
     Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, Register, RegisterFile, Source,
@@ -17,20 +17,20 @@ pub enum ConstantValue {
     Bool(bool),
 }
 
-/// A constant that the program brings along.
+/// A constant defined in the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ConstantDef {
     /// The constant register.
     pub register: Register,
     /// Its value.
     pub value: ConstantValue,
-    /// How many instructions stand before it; 0 for a well-placed `def`.
+    /// Number of instructions before it; 0 for a well-placed `def`.
     pub position: usize,
-    /// Where it stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
-/// What a declared register carries.
+/// Usage of a declared register.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the variants are Direct3D's usages and texture types")]
@@ -78,13 +78,13 @@ impl Usage {
 /// A `dcl`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Declaration {
-    /// What the register carries.
+    /// The usage of the register.
     pub usage: Usage,
     /// The register with mask and hints (`dcl_pp`, `dcl_centroid`).
     pub destination: Destination,
-    /// How many instructions stand before it.
+    /// Number of instructions before it.
     pub position: usize,
-    /// Where it stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
@@ -95,7 +95,7 @@ pub struct Instruction {
     pub opcode: Opcode,
     /// The comparison, where the operation takes one.
     pub comparison: Option<Comparison>,
-    /// Where the result goes, if the operation has one.
+    /// The destination, if the operation has one.
     pub destination: Option<Destination>,
     /// The operands, in the order of the text.
     pub sources: Vec<Source>,
@@ -103,50 +103,51 @@ pub struct Instruction {
     pub coissue: bool,
     /// `(p0)` in front.
     pub predicate: Option<Predicate>,
-    /// What an OpenGL fragment program says besides; nothing in Direct3D's versions.
+    /// Parts that only OpenGL fragment programs have; default in Direct3D's versions.
     pub fragment: FragmentPart,
     /// The whole instruction in the program text.
     pub span: Span,
 }
 
-/// A program of one version. Nothing says that it is legal: that is [`crate::check`]'s question.
+/// A program of one version, not necessarily legal: [`crate::check`] validates it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Program {
     /// The version token.
     pub version: Version,
-    /// Where the version token stands.
+    /// Location of the version token.
     pub version_span: Span,
-    /// The constants it defines, in the order of the text.
+    /// Constant definitions, in the order of the text.
     pub constants: Vec<ConstantDef>,
-    /// What it declares, in the order of the text.
+    /// Register declarations, in the order of the text.
     pub declarations: Vec<Declaration>,
-    /// Its instructions, `phase` and flow control included.
+    /// Instructions, including `phase` and flow control.
     pub instructions: Vec<Instruction>,
-    /// The constants that the host sets and that have no number, in the order in which the text names them.
+    /// Host-set constants without a register number, in the order in which the text names them.
     pub parameters: Vec<Parameter>,
-    /// The fog that OpenGL applies when the program ends, if there is one.
+    /// The OpenGL fog option that is applied at the end of the program, if any.
     pub fog: Option<FogOption>,
 }
 
-/// A constant of OpenGL's programs that the host sets: by name, or with the state that it is part of.
+/// A host-set constant of an OpenGL program: identified by name, or bound to a piece of pipeline state.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// The constant register that the program reads it in.
+    /// The constant register that holds its value.
     pub register: Register,
-    /// Where its value comes from.
+    /// Source of its value.
     pub source: ParameterSource,
-    /// Where it stands in the program text.
+    /// Location in the program text.
     pub span: Span,
 }
 
-/// Where the value of a [`Parameter`] comes from.
+/// Source of the value of a [`Parameter`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ParameterSource {
-    /// `DECLARE`: what [`crate::exec::Constants::named`] has by this name; or else this, single precision patterns.
+    /// `DECLARE`: the entry of [`crate::exec::Constants::named`] with this name, or else this default (four IEEE single
+    /// bit patterns).
     Named([u32; 4]),
-    /// `state.*`: what [`crate::exec::Constants::state`] has there.
+    /// `state.*`: the value of this binding in [`crate::exec::Constants::state`].
     State(StateBinding),
 }
 
@@ -158,8 +159,8 @@ impl Program {
 }
 
 impl Instruction {
-    /// The precision that an arithmetic instruction of an OpenGL program computes in: the suffix's, or the
-    /// destination's. Operands `f[TEX#]` and `f[FOGC]` ask for full precision whatever the suffix says.
+    /// The precision in which an arithmetic instruction of an OpenGL program computes: the suffix's, or else the
+    /// destination's. Operands `f[TEX#]` and `f[FOGC]` force full precision.
     pub fn precision(&self) -> Precision {
         let interpolated = |file| matches!(file, RegisterFile::Texture | RegisterFile::FogIn);
         if self.sources.iter().any(|s| interpolated(s.register.file)) {

@@ -1,17 +1,17 @@
-//! Which components an operation looks at: the checker, the executors and the timing model read the same table.
+//! Operand components that an operation reads; used by the checker, the executors and the timing model.
 
 use super::{Mask, Opcode};
 
 impl Opcode {
-    /// Whether the operation reads one component of each operand and replicates its result.
+    /// Returns `true` if the operation reads one component per operand and replicates its result.
     pub const fn is_scalar(self) -> bool {
         matches!(self, Self::Rcp | Self::Rsq | Self::Exp | Self::Log | Self::Expp | Self::Logp | Self::Pow)
             || matches!(self, Self::Cos | Self::Sin | Self::Scs)
             || matches!(self, Self::Up2h | Self::Up2us | Self::Up4b | Self::Up4ub)
     }
 
-    /// The lanes of source `index` that an arithmetic operation looks at to write the components `written`, before the
-    /// swizzle sends them to components.
+    /// The lanes of source `index` that an arithmetic operation reads to write the components `written`, before
+    /// swizzling.
     pub fn lanes_read(self, index: usize, written: Mask) -> Mask {
         let lanes = match (self, index) {
             (Self::Dp3 | Self::Crs | Self::Rfl | Self::M3x2 | Self::M3x3 | Self::M3x4, _) | (Self::Dph, 0) => 0b0111,

@@ -1,10 +1,11 @@
-//! Registers and the files they live in.
+//! Registers and register files.
 
 use std::fmt;
 
 use strum::VariantArray;
 
-/// A register file, Direct3D's before those that only OpenGL has. The comment gives the spelling in programs.
+/// A register file; Direct3D's come before those that only OpenGL has. Each variant's comment gives the spelling in
+/// programs.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray)]
 pub enum RegisterFile {
@@ -52,17 +53,17 @@ pub enum RegisterFile {
     WindowPosition,
     /// `o[COLH]`: the colour in half precision.
     HalfColorOut,
-    /// `RC`: takes a result in full precision and keeps nothing of it, for the condition codes' sake.
+    /// `RC`: full-precision discard register; for instructions that only update the condition codes.
     Discard,
-    /// `HC`: likewise in half precision.
+    /// `HC`: half-precision discard register.
     HalfDiscard,
 }
 
 impl RegisterFile {
-    /// The files of Direct3D's programs.
+    /// The register files of Direct3D programs.
     pub const DIRECT3D: &[Self] = Self::VARIANTS.split_at(18).0;
 
-    /// The prefix under which programs write the file's registers.
+    /// The prefix of the file's registers in program text.
     pub const fn prefix(self) -> &'static str {
         match self {
             Self::Temp => "r",
@@ -92,7 +93,7 @@ impl RegisterFile {
         }
     }
 
-    /// Whether the file has a single register that is written without a number.
+    /// Returns `true` if the file has a single register, written without a number.
     pub const fn is_unnumbered(self) -> bool {
         let vertex = matches!(self, Self::PositionOut | Self::FogOut | Self::PointSizeOut);
         let fragment = matches!(self, Self::FogIn | Self::WindowPosition | Self::HalfColorOut);
@@ -100,12 +101,12 @@ impl RegisterFile {
         vertex || fragment || discard || matches!(self, Self::Loop | Self::DepthOut)
     }
 
-    /// Whether the file's registers have one component.
+    /// Returns `true` if the file's registers have one component.
     pub const fn is_scalar(self) -> bool {
         matches!(self, Self::Loop | Self::FogOut | Self::PointSizeOut | Self::DepthOut)
     }
 
-    /// Whether the file's registers hold half precision numbers.
+    /// Returns `true` if the file's registers hold half-precision numbers.
     pub const fn is_half(self) -> bool {
         matches!(self, Self::Half | Self::HalfColorOut | Self::HalfDiscard)
     }
@@ -120,14 +121,14 @@ pub enum Relative {
     Loop,
 }
 
-/// One register, as an instruction names it.
+/// A reference to a register in an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Register {
     /// The file.
     pub file: RegisterFile,
     /// The number in the file (0 for unnumbered registers).
     pub index: u16,
-    /// What is added to the number when the instruction runs.
+    /// Relative addressing: the value added to the number at run time.
     pub relative: Option<Relative>,
 }
 

@@ -1,8 +1,8 @@
-//! Places in a program text.
+//! Locations in a program text.
 
 /// A byte range of the program text.
 ///
-/// Spans never take part in comparisons: two programs are equal if they mean the same.
+/// All spans compare equal, so that two programs are equal if they differ in layout only.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Span {
     /// First byte.

@@ -1,4 +1,4 @@
-//! State of OpenGL's fixed pipeline that `!!ARBfp1.0` reads: `state.light[0].position`, fog options.
+//! Fixed-function OpenGL state that `!!ARBfp1.0` programs read (`state.light[0].position`), and fog options.
 //!
 //! Source: GL_ARB_fragment_program, tables of bindings (X.2.1 to X.2.8) and section "Fog Application Options".
 
@@ -8,14 +8,14 @@ use strum::{EnumString, IntoStaticStr};
 
 use super::Span;
 
-/// Lights that there is state of (`GL_MAX_LIGHTS`).
+/// Number of lights in the state (`GL_MAX_LIGHTS`).
 pub const MAX_LIGHTS: u16 = 8;
-/// Texture units that there is an environment color and a matrix of.
+/// Number of texture units that have an environment color and a matrix.
 pub const MAX_TEXTURE_UNITS: u16 = 8;
-/// `state.matrix.program[#]` (`GL_MAX_PROGRAM_MATRICES_ARB`).
+/// Number of matrices `state.matrix.program[#]` (`GL_MAX_PROGRAM_MATRICES_ARB`).
 pub const MAX_PROGRAM_MATRICES: u16 = 8;
 
-/// The side of a surface that a material belongs to. What names no side means the front.
+/// Side of a surface that a material applies to; front by default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]
@@ -24,7 +24,7 @@ pub enum MaterialFace {
     Back,
 }
 
-/// A color that lights and materials have both, and that their products have.
+/// Color component shared by lights, materials and their products.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 #[expect(missing_docs, reason = "the variants are the names in programs")]
@@ -34,7 +34,7 @@ pub enum LightingColor {
     Specular,
 }
 
-/// A matrix of the fixed pipeline.
+/// A matrix of the fixed-function pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum StateMatrix {
     /// `modelview`
@@ -49,7 +49,7 @@ pub enum StateMatrix {
     Program(u8),
 }
 
-/// What is taken of a matrix.
+/// Form in which a matrix is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, EnumString, IntoStaticStr)]
 #[strum(serialize_all = "lowercase")]
 pub enum MatrixForm {
@@ -64,7 +64,7 @@ pub enum MatrixForm {
     InvTrans,
 }
 
-/// Four numbers of state. Displayed as programs write it.
+/// A four-component piece of state. Displayed as programs write it.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum StateBinding {
@@ -86,7 +86,7 @@ pub enum StateBinding {
     LightHalf(u8),
     /// `state.lightmodel.ambient`
     LightModelAmbient,
-    /// `state.lightmodel.scenecolor`: what is seen without any light; alpha is that of the diffuse material
+    /// `state.lightmodel.scenecolor`: emission plus ambient term; alpha is that of the diffuse material
     SceneColor(MaterialFace),
     /// `state.lightprod[#].diffuse`: color of the light times color of the material; alpha is the material's
     LightProduct(u8, MaterialFace, LightingColor),
@@ -96,8 +96,8 @@ pub enum StateBinding {
     FogColor,
     /// `state.fog.params`: density, start, end, 1 / (end - start)
     FogParams,
-    /// `state.fog.$factors`, which is ours: -1 / (end - start), end / (end - start), density / ln 2 and density /
-    /// sqrt(ln 2), what the instructions of a fog option multiply by.
+    /// `state.fog.$factors`, an extension of this project: -1 / (end - start), end / (end - start), density / ln 2 and
+    /// density / sqrt(ln 2); the factors used by the instructions of a fog option.
     FogFactors,
     /// `state.depth.range`: near, far, far - near, 1
     DepthRange,
@@ -145,8 +145,8 @@ impl fmt::Display for StateBinding {
     }
 }
 
-/// How fog thins a color with the fog coordinate `c`: the factor f of the fragment's color, that of the fog's being
-/// 1 - f.
+/// Fog equation: the blend factor f as a function of the fog coordinate `c`. The fragment's color has weight f, the fog
+/// color 1 - f.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EnumString, IntoStaticStr)]
 pub enum FogMode {
     /// f = exp(-density c)
@@ -175,12 +175,12 @@ impl FogMode {
     }
 }
 
-/// `OPTION ARB_fog_exp`: the program's color is fogged when it ends. [`crate::check::check`] appends the instructions
-/// that do it, and takes the option away.
+/// `OPTION ARB_fog_exp`: fog applied to the program's color output. [`crate::check::check`] appends the instructions
+/// for it and removes the option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FogOption {
-    /// How.
+    /// The fog equation.
     pub mode: FogMode,
-    /// Where the option stands in the program text.
+    /// Location of the option in the program text.
     pub span: Span,
 }

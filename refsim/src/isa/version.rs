@@ -2,7 +2,7 @@
 
 use std::{fmt, str::FromStr};
 
-/// Which programmable stage a program runs on.
+/// Programmable pipeline stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Stage {
     /// Runs once per vertex.
@@ -75,32 +75,32 @@ impl Version {
         }
     }
 
-    /// Whether this is one of `ps_1_1` to `ps_1_3`, whose texture instructions are tied to stages.
+    /// Returns `true` for `ps_1_1` to `ps_1_3`, whose texture instructions are tied to stages.
     pub const fn is_ps_1_1_to_1_3(self) -> bool {
         matches!(self, Self::Ps1_1 | Self::Ps1_2 | Self::Ps1_3)
     }
 
-    /// Whether this is one of `ps_1_1` to `ps_1_4`.
+    /// Returns `true` for `ps_1_1` to `ps_1_4`.
     pub const fn is_ps_1_x(self) -> bool {
         self.is_ps_1_1_to_1_3() || matches!(self, Self::Ps1_4)
     }
 
-    /// Whether this is `ps_2_0`, `ps_2_a` or `ps_2_b`.
+    /// Returns `true` for `ps_2_0`, `ps_2_a` and `ps_2_b`.
     pub const fn is_ps_2(self) -> bool {
         matches!(self, Self::Ps2_0 | Self::Ps2A | Self::Ps2B)
     }
 
-    /// Whether this is one of OpenGL's fragment programs.
+    /// Returns `true` for OpenGL's fragment programs.
     pub const fn is_fragment_program(self) -> bool {
         matches!(self, Self::Fp1_0 | Self::ArbFp1_0)
     }
 
-    /// Whether arithmetic can read the coordinates `t#` as they are interpolated.
+    /// Returns `true` if arithmetic instructions can read the interpolated coordinates `t#` directly.
     pub const fn reads_coordinates(self) -> bool {
         self.is_ps_2() || self.is_fragment_program()
     }
 
-    /// Whether this is one of the extended `ps_2_x` versions.
+    /// Returns `true` for the extended `ps_2_x` versions.
     pub const fn is_ps_2_x(self) -> bool {
         matches!(self, Self::Ps2A | Self::Ps2B)
     }
@@ -112,7 +112,7 @@ impl fmt::Display for Version {
     }
 }
 
-/// The text is no version token.
+/// Error: the text is not a version token.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown shader version `{0}`; expected one of ps_1_1 ps_1_2 ps_1_3 ps_1_4 ps_2_0 ps_2_a ps_2_b vs_1_1 vs_2_0")]
 pub struct UnknownVersion(pub String);

@@ -1,4 +1,4 @@
-//! A draw call as data.
+//! Draw calls as data.
 
 use super::{DepthId, TextureId};
 use crate::event::SAMPLERS;
@@ -7,38 +7,38 @@ use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, OutputState,
 use crate::raster::{ClipSpace, Cull, PixelCenter, Primitive, Provoking, Vertex, Viewport};
 use crate::texture::{Region, SamplerState};
 
-/// Attributes that a stream does not feed: (0, 0, 0, 1) in single precision.
+/// Default value of attributes without a stream: (0, 0, 0, 1) in single precision.
 pub const DEFAULT_ATTRIBUTE: [u32; 4] = [0, 0, 0, 0x3f80_0000];
 
 /// The step rate of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StepRate {
-    /// From one vertex to the next; it starts over with each instance.
+    /// Advances per vertex; restarts with each instance.
     Vertex,
-    /// From one instance to the next; all vertices of an instance see the same entry.
+    /// Advances per instance.
     Instance,
 }
 
 /// The values of one attribute register.
 #[derive(Clone, Copy, Debug)]
 pub struct AttributeStream<'a> {
-    /// The register: n for `v#n`, 0 to 15.
+    /// Register number n of `v#n`, 0 to 15.
     pub register: usize,
     /// Its step rate.
     pub step: StepRate,
-    /// The values, single precision patterns: one per vertex or one per instance.
+    /// The values as single-precision patterns: one per vertex or one per instance.
     pub data: &'a [[u32; 4]],
 }
 
-/// Vertices for a vertex program: `instance_count` copies of `vertex_count` vertices.
+/// Input of a vertex program: `instance_count` instances of `vertex_count` vertices.
 ///
-/// The crossbar draws so: four corners of a screen-filling quad in streams that step by vertex, N primitives in
-/// streams that step by instance, and the one call draws N quads in order, as N calls would.
+/// The crossbar draws this way: the four corners of a full-screen quad in per-vertex streams, N primitives in
+/// per-instance streams. One call draws N quads in order, as N calls would.
 #[derive(Clone, Debug)]
 pub struct VertexStreams<'a> {
-    /// Vertices of one instance.
+    /// Vertices per instance.
     pub vertex_count: usize,
-    /// Instances.
+    /// Number of instances.
     pub instance_count: usize,
     /// The streams; registers without one hold [`DEFAULT_ATTRIBUTE`].
     pub streams: Vec<AttributeStream<'a>>,
@@ -47,9 +47,9 @@ pub struct VertexStreams<'a> {
 /// The vertices of a draw.
 #[derive(Clone, Debug)]
 pub enum VertexSource<'a> {
-    /// Given as the vertex stage would give them.
+    /// Already transformed, as the vertex stage would output them.
     Transformed(&'a [Vertex]),
-    /// Made by a vertex program.
+    /// Transformed by a vertex program.
     Program {
         /// The program.
         program: &'a CheckedProgram,
@@ -65,46 +65,46 @@ pub enum VertexSource<'a> {
 pub struct BoundTexture {
     /// The texture.
     pub texture: TextureId,
-    /// How it is sampled.
+    /// Sampler state.
     pub state: SamplerState,
 }
 
-/// A draw call. [`DrawCall::new`] gives one with everything off; set the fields that matter.
+/// A draw call. [`DrawCall::new`] returns one with everything disabled; set the fields that matter.
 #[derive(Clone, Debug)]
 pub struct DrawCall<'a> {
     /// The vertices.
     pub vertices: VertexSource<'a>,
-    /// Which vertices make the primitives of each instance; `None`: all in order.
+    /// Vertex indices of the primitives of each instance; `None`: all vertices in order.
     pub indices: Option<&'a [u32]>,
-    /// How they make them.
+    /// Primitive topology.
     pub primitive: Primitive,
     /// The pixel program.
     pub pixel_program: &'a CheckedProgram,
     /// Its constants.
     pub pixel_constants: &'a Constants,
-    /// Its textures. What is unbound reads as (0, 0, 0, 1).
+    /// Bound textures. Unbound samplers read (0, 0, 0, 1).
     pub samplers: [Option<BoundTexture>; SAMPLERS],
     /// Bump state of the stages (ps_1_x).
     pub bump: [BumpStage; BUMP_STAGES],
     /// Projected textures of the stages (ps_1_1 to 1_3).
     pub projections: [Projection; BUMP_STAGES],
-    /// Flat shading: whose colours a primitive has; `None`: the colours `v#` are interpolated.
+    /// Provoking vertex for flat shading; `None`: the colours `v#` are interpolated.
     pub flat: Option<Provoking>,
-    /// The viewport; `None`: the whole target, depths 0 to 1.
+    /// The viewport; `None`: the whole target, depth range 0 to 1.
     pub viewport: Option<Viewport>,
-    /// Pixels outside are not drawn; `None`: the whole target.
+    /// Scissor rectangle; `None`: the whole target.
     pub scissor: Option<Region>,
-    /// Pixel centres.
+    /// Pixel centre convention.
     pub center: PixelCenter,
-    /// Clip space.
+    /// Clip space convention.
     pub clip_space: ClipSpace,
     /// Culling.
     pub cull: Cull,
-    /// Alpha test, if on.
+    /// Alpha test, if enabled.
     pub alpha_test: Option<AlphaTest>,
     /// Depth test.
     pub depth: DepthState,
-    /// Blending, if on.
+    /// Blending, if enabled.
     pub blend: Option<BlendState>,
     /// Write masks of the targets.
     pub masks: [WriteMask; MAX_TARGETS],
@@ -115,7 +115,7 @@ pub struct DrawCall<'a> {
 }
 
 impl<'a> DrawCall<'a> {
-    /// A draw into one colour target, with every test off and nothing bound.
+    /// Creates a draw into one colour target, with every test disabled and nothing bound.
     pub fn new(
         vertices: VertexSource<'a>,
         primitive: Primitive,

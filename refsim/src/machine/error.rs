@@ -6,13 +6,13 @@ use crate::output::{DepthFormat, OutputError};
 use crate::raster::RasterError;
 use crate::texture::{TexelFormat, TextureError};
 
-/// What a program ran for.
+/// Invocation of a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the fields are what the variants name")]
 pub enum ProgramPlace {
-    /// A column and a row of the targets.
+    /// A pixel, by column and row of the targets.
     Pixel { x: u32, y: u32 },
-    /// A vertex of an instance, both from 0.
+    /// A vertex of an instance, both numbered from 0.
     Vertex { instance: usize, vertex: usize },
 }
 
@@ -25,29 +25,29 @@ impl std::fmt::Display for ProgramPlace {
     }
 }
 
-/// Why the machine refused a request. Nothing has been changed then.
+/// Error of a machine. Nothing has been changed unless a variant says otherwise.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MachineError {
-    /// The GPU that the machine runs on refused or failed. What was drawn into is undefined if a draw had begun.
+    /// The host GPU of the machine failed. Targets are undefined if a draw had begun.
     #[cfg(feature = "wgpu")]
     #[error(transparent)]
     Gpu(#[from] crate::exec::gpu::GpuError),
-    /// The pixel program has no form for GPUs.
+    /// The pixel program cannot be encoded for GPUs.
     #[cfg(feature = "wgpu")]
     #[error(transparent)]
     GpuProgram(#[from] crate::exec::wgsl::program::ProgramError),
-    /// The handle of a `texture` or `depth buffer` of another machine, or of one released.
+    /// A handle of a `texture` or `depth buffer` that was released or belongs to another machine.
     #[error("expected the handle of a live {what}, found {number}, which this machine does not hold")]
     NoSuchResource { what: &'static str, number: usize },
-    /// The device has no textures of the format.
+    /// The device does not support textures of the format.
     #[error("`{device}` has no {format} textures (formats.texture); use one of {allowed}")]
     TextureFormat { device: String, format: TexelFormat, allowed: String },
-    /// The device has no targets of the format.
+    /// The device does not support targets of the format.
     #[error("`{device}` has no {format} targets (formats.target); use one of {allowed}")]
     TargetFormat { device: String, format: TexelFormat, allowed: String },
-    /// The device has no depth buffers of the format.
+    /// The device does not support depth buffers of the format.
     #[error("`{device}` has no {format} depth buffers (formats.depth); use one of {allowed}")]
     DepthFormat { device: String, format: DepthFormat, allowed: String },
     /// A `texture` or `target` is larger than the device allows.
@@ -73,47 +73,47 @@ pub enum MachineError {
         "sampler {sampler} reads the texture that is target {target} of the same draw; draw into another texture and swap"
     )]
     FeedbackLoop { sampler: usize, target: usize },
-    /// A program for the wrong stage.
+    /// A program of the wrong stage.
     #[error("expected a {expected:?} program, found `{found}`")]
     WrongStage { expected: Stage, found: Version },
-    /// A pixel or vertex did not end within the step budget. The instruction is the one that was one too many, from 0.
+    /// A pixel or vertex exceeded the step budget. `instruction` is the index of the first one beyond it, from 0.
     #[error(
         "{place}: the {version} program made the {budget} steps of its budget and did not end; the next was instruction {}, `{}`",
         instruction + 1, opcode.info().mnemonic
     )]
     StepBudget { place: ProgramPlace, version: Version, instruction: usize, opcode: Opcode, span: Span, budget: u32 },
-    /// A linear filter on a float texture.
+    /// A linear filter on a float texture, which the device does not support.
     #[error(
         "sampler {sampler} filters a {format} texture, which `{device}` cannot (limits.float_filtering); use nearest filters"
     )]
     FloatFilter { sampler: usize, format: TexelFormat, device: String },
-    /// Mip maps of a float texture.
+    /// Mip maps of a float texture, which the device does not support.
     #[error(
         "texture has {levels} levels of {format}, `{device}` allows 1 (limits.float_mipmaps); keep each level in a texture of its own"
     )]
     FloatLevels { levels: usize, format: TexelFormat, device: String },
-    /// Levels of a float texture are to be generated on a device that cannot filter it.
+    /// Generation of mip levels of a float texture that the device cannot filter.
     #[error(
         "texture {number} is {format}, whose mip levels `{device}` cannot generate (limits.{key}); draw each level by a program that reads four texels of the one before, into a texture of its own"
     )]
     FloatMipmaps { number: usize, format: TexelFormat, device: String, key: &'static str },
-    /// Levels of a rectangle are to be generated.
+    /// Generation of mip levels of a rectangle texture.
     #[error("texture {number} is a rectangle, which has no mip levels; make it a 2-D texture")]
     RectangleMipmaps { number: usize },
-    /// Levels are to be generated in a texture that was made without them.
+    /// Generation of mip levels of a texture that has level 0 only.
     #[error(
         "texture {number} was made with level 0 alone; make it with up to {possible} levels to have them generated"
     )]
     NoLevels { number: usize, possible: u32 },
-    /// Blending into a float target.
+    /// Blending into a float target, which the device does not support.
     #[error(
         "target {target} is {format} and blended, which `{device}` cannot (limits.float_blending); turn blending off"
     )]
     FloatBlend { target: usize, format: TexelFormat, device: String },
-    /// More `vertices` or `instances` than a draw can have.
+    /// More `vertices` or `instances` than the limit of a draw.
     #[error("draw has {found} {what}, a draw can have {limit}; split it")]
     TooMany { what: &'static str, found: usize, limit: usize },
-    /// A vertex stream ends early, whether it has `one a vertex` or `one an instance`.
+    /// A vertex stream is too short; `what` is `one a vertex` or `one an instance`.
     #[error("stream of v{register} has {found} entries, the draw needs {needed} ({what})")]
     ShortStream { register: usize, found: usize, needed: usize, what: &'static str },
     /// An attribute register that does not exist.
@@ -122,19 +122,19 @@ pub enum MachineError {
     /// Two streams feed one register.
     #[error("two streams feed v{register}; leave one out")]
     StreamTwice { register: usize },
-    /// An index past the vertices.
+    /// An index beyond the vertices.
     #[error("index {position} is {found}, the draw has {limit} vertices")]
     Index { position: usize, found: u32, limit: usize },
     /// A pixel outside the targets.
     #[error("expected a pixel of the {width}x{height} target, found ({x}, {y}); columns and rows count from 0")]
     NoSuchPixel { x: u32, y: u32, width: u32, height: u32 },
-    /// Something cannot be a target.
+    /// An image cannot be a target.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The rasteriser refused.
+    /// An error of the rasteriser.
     #[error(transparent)]
     Raster(#[from] RasterError),
-    /// An image could not be made or read.
+    /// An error of creating or reading an image.
     #[error(transparent)]
     Texture(#[from] TextureError),
     /// The worker threads could not be started.
@@ -143,7 +143,7 @@ pub enum MachineError {
 }
 
 impl MachineError {
-    /// A fragment that did not end within the step budget.
+    /// A fragment exceeded the step budget.
     pub(super) fn overrun(overrun: Overrun, program: &Program, budget: u32) -> Self {
         let Overrun { x, y, instruction, .. } = overrun;
         Self::out_of_steps(ProgramPlace::Pixel { x, y }, instruction, program, budget)

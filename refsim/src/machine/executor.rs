@@ -1,4 +1,4 @@
-//! An executor from which machines can be made.
+//! Executors that can be shared by several machines.
 
 use super::{ExecutorKind, Machine, MachineError};
 use crate::device::Profile;
@@ -7,15 +7,16 @@ use crate::exec::batch::BatchExecutor;
 use crate::exec::gpu::Gpu;
 use std::sync::Arc;
 
-/// An executor with its GPU, if it needs one: for code that makes machines of its own. They share what it has decoded.
+/// An executor, with its GPU if it needs one, for code that creates machines. These machines share its cache of decoded
+/// programs and textures.
 #[non_exhaustive]
 #[derive(Clone, Debug)]
 pub enum Executor {
-    /// By kind alone. [`ExecutorKind::Wgpu`] means the best GPU that the computer has.
+    /// An executor of the host, or, for [`ExecutorKind::Wgpu`], the best GPU of the host.
     Kind {
         /// The kind.
         kind: ExecutorKind,
-        /// The programs and textures that batches have been decoded for.
+        /// Cache of programs and textures decoded for the batch executor.
         batch: BatchExecutor,
     },
     /// An opened GPU.
@@ -27,7 +28,7 @@ pub enum Executor {
 }
 
 impl Executor {
-    /// Its kind.
+    /// The kind of the executor.
     pub fn kind(&self) -> ExecutorKind {
         match self {
             Self::Kind { kind, .. } => *kind,
@@ -36,10 +37,10 @@ impl Executor {
         }
     }
 
-    /// A machine that it shades for.
+    /// Creates a machine that uses this executor.
     ///
     /// # Errors
-    /// If a GPU is to shade and refuses.
+    /// If the executor is a GPU that cannot be used.
     pub fn machine(&self, profile: impl Into<Arc<Profile>>) -> Result<Machine, MachineError> {
         match self {
             Self::Kind { kind, batch } => Ok(Machine { batch: batch.clone(), ..Machine::new(profile, *kind) }),

@@ -1,13 +1,13 @@
-//! Which executor shades fragments.
+//! Kinds of executors.
 
-/// Which executor shades fragments. The bits are the same.
+/// Kind of executor that shades fragments. All produce the same bits.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ExecutorKind {
-    /// The reference: one value at a time.
+    /// The reference executor: one value at a time.
     #[default]
     Scalar,
-    /// Tiles of 256 fragments in vector code of the host.
+    /// Tiles of 256 fragments in the host's SIMD instructions.
     Batch,
     /// A GPU of the host.
     #[cfg(feature = "wgpu")]
@@ -15,7 +15,7 @@ pub enum ExecutorKind {
 }
 
 impl ExecutorKind {
-    /// Its name: `scalar`, `batch`, `wgpu`.
+    /// The name: `scalar`, `batch`, `wgpu`.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Scalar => "scalar",

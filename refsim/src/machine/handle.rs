@@ -2,11 +2,11 @@
 
 use crate::event::ResourceId;
 
-/// Names a texture of one machine. A colour target is a texture.
+/// Handle of a texture of one machine. A colour target is a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TextureId(pub(super) usize);
 
-/// Names a depth buffer of one machine.
+/// Handle of a depth buffer of one machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DepthId(pub(super) usize);
 

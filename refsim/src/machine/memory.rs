@@ -1,4 +1,4 @@
-//! Memory of the card: textures, targets, depth buffers.
+//! Memory of the card: textures, targets and depth buffers.
 
 use super::{BoundTexture, DepthId, MachineError, TextureId};
 use crate::device::Profile;
@@ -10,19 +10,19 @@ use crate::texture::{Image, TexelFormat};
 pub(super) struct Memory {
     pub(super) textures: Vec<Option<Image>>,
     pub(super) depths: Vec<Option<DepthSurface>>,
-    /// What is on a GPU of the host.
+    /// Copies on a GPU of the host.
     #[cfg(feature = "wgpu")]
     pub(super) card: Option<super::device::Card>,
 }
 
 impl Memory {
-    /// A texture, whose contents may be outdated: [`Self::current`] has them.
+    /// The host's copy of a texture, which may be outdated; see [`Self::current`].
     pub(super) fn texture(&self, id: TextureId) -> Result<&Image, MachineError> {
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.textures.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
-    /// A texture with what was drawn into it.
+    /// The current contents of a texture.
     pub(super) fn current(&self, id: TextureId) -> Result<&Image, MachineError> {
         let image = self.texture(id)?;
         #[cfg(feature = "wgpu")]
@@ -32,7 +32,7 @@ impl Memory {
         Ok(image)
     }
 
-    /// Names what the textures of a call hold, so that an executor knows them again.
+    /// Assigns content stamps to the textures of a call, so that executors can cache their decoded form.
     pub(super) fn name_textures(&mut self, samplers: &[Option<BoundTexture>]) {
         for bound in samplers.iter().flatten() {
             if let Some(Some(image)) = self.textures.get_mut(bound.texture.0) {
@@ -41,7 +41,7 @@ impl Memory {
         }
     }
 
-    /// A texture to be overwritten.
+    /// Mutable access to a texture; invalidates its GPU copy.
     pub(super) fn texture_mut(&mut self, id: TextureId) -> Result<&mut Image, MachineError> {
         #[cfg(feature = "wgpu")]
         if let Some(card) = &mut self.card {
@@ -51,13 +51,13 @@ impl Memory {
         self.textures.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// A depth buffer, whose contents may be outdated: [`Self::current_depth`] has them.
+    /// The host's copy of a depth buffer, which may be outdated; see [`Self::current_depth`].
     pub(super) fn depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.depths.get(id.0).and_then(Option::as_ref).ok_or(missing)
     }
 
-    /// A depth buffer with what was drawn into it.
+    /// The current contents of a depth buffer.
     pub(super) fn current_depth(&self, id: DepthId) -> Result<&DepthSurface, MachineError> {
         let surface = self.depth(id)?;
         #[cfg(feature = "wgpu")]
@@ -67,7 +67,7 @@ impl Memory {
         Ok(surface)
     }
 
-    /// A depth buffer to be overwritten.
+    /// Mutable access to a depth buffer; invalidates its GPU copy.
     pub(super) fn depth_mut(&mut self, id: DepthId) -> Result<&mut DepthSurface, MachineError> {
         #[cfg(feature = "wgpu")]
         if let Some(card) = &mut self.card {
@@ -77,7 +77,7 @@ impl Memory {
         self.depths.get_mut(id.0).and_then(Option::as_mut).ok_or(missing)
     }
 
-    /// Makes sure that the host's copies of targets are the newest.
+    /// Downloads targets that are newer on the GPU.
     #[cfg(feature = "wgpu")]
     pub(super) fn bring_home(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
         for &id in targets {
@@ -91,7 +91,7 @@ impl Memory {
         Ok(())
     }
 
-    /// What a GPU drew into targets since [`Self::bring_home`] is of no use.
+    /// Discards what the GPU drew into targets since [`Self::bring_home`].
     #[cfg(feature = "wgpu")]
     pub(super) fn forget_drawn(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
         for &id in targets {
@@ -100,7 +100,7 @@ impl Memory {
         depth.map_or(Ok(()), |id| self.depth_mut(id).map(|_| ()))
     }
 
-    /// Copies a finished tile back.
+    /// Copies a finished tile into memory.
     pub(super) fn store(
         &mut self,
         tile: &TargetTile,
@@ -117,7 +117,7 @@ impl Memory {
     }
 }
 
-/// Whether the device can sample the format.
+/// Returns an error if the device cannot sample the format.
 pub(super) fn check_texture_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
     let allowed = &profile.limits.texture_formats;
     if allowed.iter().any(|name| name == format.name()) {
@@ -126,7 +126,7 @@ pub(super) fn check_texture_format(profile: &Profile, format: TexelFormat) -> Re
     Err(MachineError::TextureFormat { device: profile.name.clone(), format, allowed: allowed.join(" ") })
 }
 
-/// Whether the device can draw into the format.
+/// Returns an error if the device cannot draw into the format.
 pub(super) fn check_target_format(profile: &Profile, format: TexelFormat) -> Result<(), MachineError> {
     let allowed = &profile.limits.target_formats;
     if allowed.iter().any(|name| name == format.name()) {

@@ -1,4 +1,4 @@
-//! Generated mip levels: the fixed function of SGIS_generate_mipmap, which OpenGL 1.4 took over.
+//! Generation of mip levels: the fixed function of SGIS_generate_mipmap, adopted by OpenGL 1.4.
 
 use super::{Machine, MachineError, TextureId};
 use crate::device::Profile;
@@ -6,12 +6,12 @@ use crate::event::{Event, MipmapLevel, MipmapRecord};
 use crate::texture::{Image, MipmapRules, TexelFormat, TextureKind, texels_under};
 
 impl Machine {
-    /// Makes a colour target with mip levels, all of zero bytes: draws go into level 0, samplers and
-    /// [`Machine::read_back`] see all levels, and [`Machine::generate_mipmaps`] fills the others. `levels` counts
-    /// level 0; [`Image::most_levels`] says how many there can be.
+    /// Creates a zero-filled colour target with mip levels. Draws write level 0, samplers and [`Machine::read_back`]
+    /// see all levels, and [`Machine::generate_mipmaps`] fills the others. `levels` includes level 0; its maximum is
+    /// [`Image::most_levels`].
     ///
-    /// # Errors
-    /// As [`Machine::create_target`], and if the device has no levels of the format or there can't be so many.
+    /// As [`Machine::create_target`], and if the device does not support mip levels of the format or `levels` is too
+    /// large.
     pub fn create_target_with_levels(
         &mut self,
         format: TexelFormat,
@@ -22,12 +22,11 @@ impl Machine {
         self.keep_target(Image::new(format, TextureKind::D2, [width, height, 1], levels)?)
     }
 
-    /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does, and as
-    /// `GENERATE_MIPMAP` of 2003 does whenever level 0 changes: here it is a command. The bits are those of
-    /// [`Image::generate_mipmaps`] whichever executor draws. Returns what was read and written.
+    /// Fills levels 1 and up of a texture or target from its level 0, as `glGenerateMipmap` does. (`GENERATE_MIPMAP` of
+    /// 2003 does so whenever level 0 changes; here it is a command.) The bits are those of [`Image::generate_mipmaps`]
+    /// with every executor. Returns the texels read and written.
     ///
-    /// # Errors
-    /// If the handle is dead, the texture was made with one level where there could be more, or the device filters no
+    /// If the handle is dead, the texture has one level although it could have more, or the device cannot filter
     /// textures of the format.
     pub fn generate_mipmaps(&mut self, id: TextureId) -> Result<MipmapRecord, MachineError> {
         let rules = MipmapRules::from(&self.profile.rules);
@@ -40,7 +39,7 @@ impl Machine {
     }
 }
 
-/// What the generation will do, if it can be done.
+/// The record of a generation, or the error that prevents it.
 fn record(profile: &Profile, id: TextureId, image: &Image) -> Result<MipmapRecord, MachineError> {
     let (format, kind, device) = (image.format(), image.kind(), || profile.name.clone());
     if kind == TextureKind::Rectangle {

@@ -1,13 +1,13 @@
-//! The emulated card: memory, state, draws, read-back.
+//! The emulated card: memory, state, draws and read-back.
 //!
-//! A [`Machine`] is a device profile, an executor and memory. Textures and depth buffers live in it and are named by
-//! handles; a colour target is a texture that is drawn into. [`Machine::draw`] takes a [`DrawCall`], checks it, runs
-//! the vertex stage, assembles, clips and sets up triangles in order, and walks the target in tiles of 16x16 pixels,
-//! side by side on the worker threads; within a tile the triangles come in the order of submission. So the bits and the
-//! counts do not depend on the number of threads, and one call that draws N instances equals N calls.
+//! A [`Machine`] consists of a device profile, an executor and memory. Textures and depth buffers are owned by the
+//! machine and referred to by handles; a colour target is a texture. [`Machine::draw`] validates a [`DrawCall`], runs
+//! the vertex stage, assembles, clips and sets up triangles in order, and shades the target in tiles of 16x16 pixels,
+//! in parallel on the worker threads. Within a tile, triangles are drawn in order of submission. So bits and counts do
+//! not depend on the number of threads, and one call with N instances equals N calls.
 //!
-//! What could be wrong with a call is a [`MachineError`], found before anything is written. What a card leaves open is
-//! defined: an unbound sampler reads (0, 0, 0, 1); a texture that is read and drawn into by one call is an error.
+//! Invalid calls return a [`MachineError`] before anything is written. Behaviour that cards leave undefined is defined
+//! here: an unbound sampler reads (0, 0, 0, 1), and reading a texture that the same call draws into is an error.
 
 #[cfg(feature = "wgpu")]
 mod device;
@@ -60,7 +60,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// A machine with empty memory, on the global worker threads.
+    /// Creates a machine with empty memory that uses the global thread pool.
     pub fn new(profile: impl Into<Arc<Profile>>, executor: ExecutorKind) -> Self {
         Self {
             profile: profile.into(),
@@ -72,10 +72,10 @@ impl Machine {
         }
     }
 
-    /// A machine on `threads` worker threads of its own. The number changes nothing but the time a draw takes.
+    /// Creates a machine with its own pool of `threads` threads. Their number affects the speed only.
     ///
     /// # Errors
-    /// [`MachineError::Threads`] if the system refuses them.
+    /// [`MachineError::Threads`] if the threads cannot be started.
     pub fn with_threads(
         profile: impl Into<Arc<Profile>>,
         executor: ExecutorKind,
@@ -98,17 +98,16 @@ impl Machine {
         self.executor
     }
 
-    /// Which vector instructions the batch executor uses: `None`, as in a new machine, for the widest that the
-    /// processor has; a level that it lacks stands for what it has of it. The level changes nothing but the time a draw
-    /// takes.
+    /// Sets the SIMD level of the batch executor. `None`, the default, is the widest that the processor supports; a
+    /// level that it lacks falls back to a supported one. The level affects the speed only.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.batch.set_simd_level(level);
     }
 
-    /// Draws.
+    /// Executes a draw call.
     ///
     /// # Errors
-    /// Every way in which the call does not fit the machine or the device; nothing has been drawn then.
+    /// If the call is invalid for the machine or the device; nothing has been drawn then.
     pub fn draw(&mut self, call: &DrawCall<'_>) -> Result<DrawEvents, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
         let (events, traffic) = match &self.recorder.observer {
@@ -119,7 +118,7 @@ impl Machine {
         Ok(events)
     }
 
-    /// Draws a checked call.
+    /// Executes a checked call.
     fn shade(&mut self, call: &DrawCall<'_>, plan: &Plan) -> Result<DrawEvents, MachineError> {
         #[cfg(feature = "wgpu")]
         if self.executor == ExecutorKind::Wgpu {
@@ -128,7 +127,7 @@ impl Machine {
         self.draw_on_host(self.executor, call, plan)
     }
 
-    /// Draws a checked call by an executor of the host.
+    /// Executes a checked call on an executor of the host.
     fn draw_on_host(
         &mut self,
         executor_kind: ExecutorKind,

@@ -1,7 +1,7 @@
-//! Drawing in the order of the hardware, so that an observer sees texel reads in their real order.
+//! Draws in hardware order, so that observers see texel reads in their actual order.
 //!
-//! The bits are those of any draw: the scalar executor makes them. What differs is the order in which fragments come:
-//! primitive by primitive over the whole target, tile by tile within a primitive, quad by quad, on one thread.
+//! The scalar executor computes the same bits as for any draw. Only the order of fragments differs: by primitive over
+//! the whole target, by tile within a primitive, then by quad, on one thread.
 
 use super::recorder::Recorder;
 use super::tiles::tile_draw;
@@ -16,14 +16,14 @@ use crate::output::TargetTile;
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::{Layout, Region, SampleRules, TexelMap, touched};
 
-/// A bound texture and its place in memory.
+/// A bound texture and its address in the card's memory.
 struct PlacedTexture<'a> {
     binding: SamplerBinding<'a>,
     map: TexelMap,
     first: u64,
 }
 
-/// Passes the texels that a program reads on, by their addresses.
+/// Reports the texels read by a program to an observer, with their addresses.
 struct TexelReporter<'a> {
     bound: [Option<PlacedTexture<'a>>; SAMPLERS],
     rules: SampleRules,
@@ -48,15 +48,14 @@ impl Observer for TexelReporter<'_> {
 }
 
 impl Machine {
-    /// From now on every draw is made in the order of the hardware, by the scalar executor, and the observer is told of
-    /// each texel that a fragment touches; what it makes of them goes into the draw's record in the log
-    /// ([`Machine::record`]). The bits stay the same, drawing takes longer. `None` goes back to the machine's own
-    /// executor.
+    /// Sets an observer of texel reads. Until it is removed by `None`, draws run in hardware order on the scalar
+    /// executor, and the observer's traffic counts go into the draw's record in the log ([`Machine::record`]). The bits
+    /// stay the same, but drawing is slower.
     pub fn observe_textures(&mut self, observer: Option<Box<dyn TexelObserver>>) {
         self.recorder.observer = observer;
     }
 
-    /// Draws a checked call under observation.
+    /// Executes a checked call with an observer.
     pub(super) fn shade_observed(
         &mut self,
         call: &DrawCall<'_>,
@@ -110,7 +109,7 @@ impl Machine {
     }
 }
 
-/// One triangle over the target, tile by tile.
+/// Draws one triangle over the target, tile by tile.
 fn over_tiles(
     tiles: &ScalarTiles<'_>,
     setup: &TriangleSetup,

@@ -1,13 +1,13 @@
-//! What targets hold at one pixel.
+//! Contents of the targets at one pixel.
 
 use crate::output::{MAX_TARGETS, TargetTile};
 
-/// What the targets hold at one pixel, as stored.
+/// Contents of the targets at one pixel, as stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelState {
-    /// The texel of each colour target, a little-endian integer.
+    /// The texel of each colour target, as a little-endian integer.
     pub colors: [Option<u128>; MAX_TARGETS],
-    /// The pattern in the depth buffer.
+    /// The bit pattern in the depth buffer.
     pub depth: Option<u32>,
 }
 

@@ -1,7 +1,7 @@
-//! The machine's log: its calls in order, for the timing model.
+//! The machine's log of calls, for the timing model.
 //!
-//! Off by default, so that drawing pays nothing. Nothing in here touches a value: a machine that records makes the bits
-//! of one that does not, and the log is the same whichever executor draws, on any number of threads.
+//! Off by default, so that drawing pays nothing. Recording changes no value, and the log does not depend on the
+//! executor or the number of threads.
 
 use super::state::DrawState;
 use super::validate::Plan;
@@ -21,24 +21,24 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 
-/// Coverages remembered within a draw: a crossbar draws one outline again and again.
+/// Maximum number of cached coverages within a draw: the crossbar draws the same outline again and again.
 const MAX_OUTLINES: usize = 1024;
 
 /// The log.
 impl Machine {
-    /// Starts or stops writing down what is asked of the machine. What the log holds stays in it.
+    /// Starts or stops recording. The events recorded so far are kept.
     pub fn record(&mut self, on: bool) {
         self.recorder.on = on;
     }
 
-    /// What was asked since the last time, in order.
+    /// Returns and clears the recorded events, in order.
     pub fn take_log(&mut self) -> Vec<Event> {
         let log = self.recorder.log.get_mut().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut log.events)
     }
 
-    /// Reads a texture or target back without making the host wait: in the log the host goes on, and the fence is
-    /// passed when the last byte has come. The image is that of [`Machine::read_back`]: time changes no value.
+    /// Reads a texture or target back asynchronously: in the log the host continues, and the fence is passed when the
+    /// last byte has arrived. The image is that of [`Machine::read_back`].
     ///
     /// # Errors
     /// If the handle is dead.
@@ -51,7 +51,7 @@ impl Machine {
         Ok((fence, image))
     }
 
-    /// As [`Machine::read_back_async`], of a depth buffer.
+    /// [`Machine::read_back_async`] of a depth buffer.
     ///
     /// # Errors
     /// If the handle is dead.
@@ -64,30 +64,30 @@ impl Machine {
         Ok((fence, surface))
     }
 
-    /// Puts a fence behind everything asked so far (`SetFenceNV`).
+    /// Sets a fence after all calls so far (`SetFenceNV`).
     pub fn set_fence(&self) -> FenceId {
         let fence = self.next_fence();
         self.recorder.push(|| Event::SetFence(fence));
         fence
     }
 
-    /// The host looks whether a fence is passed (`TestFenceNV`). What it sees is the timeline's business: the machine
-    /// itself is always done with everything.
+    /// Records a test of a fence by the host (`TestFenceNV`). Its result is determined in the replay; the machine
+    /// itself has always finished everything.
     pub fn test_fence(&self, fence: FenceId) {
         self.recorder.push(|| Event::TestFence(fence));
     }
 
-    /// The host waits until a fence is passed (`FinishFenceNV`).
+    /// Records that the host waits for a fence (`FinishFenceNV`).
     pub fn finish_fence(&self, fence: FenceId) {
         self.recorder.push(|| Event::FinishFence(fence));
     }
 
-    /// The host works on its own: `operations` of a kind that the host model knows by name.
+    /// Records work of the host: `operations` of a kind named by the host model.
     pub fn host_work(&self, kind: impl Into<Cow<'static, str>>, operations: u64) {
         self.recorder.push(|| Event::Host(HostWork { kind: kind.into(), operations }));
     }
 
-    /// A number that no fence of the log has yet; always the same where there is no log.
+    /// A new fence number; always the same if recording is off.
     fn next_fence(&self) -> FenceId {
         let number = self.recorder.with(|log| {
             log.fences = log.fences.wrapping_add(1);
@@ -96,13 +96,13 @@ impl Machine {
         FenceId(number.unwrap_or_default())
     }
 
-    /// A synchronous read-back.
+    /// Records a synchronous read-back.
     pub(super) fn note_read_back(&self, resource: ResourceId, bytes: u64) {
         let mode = ReadBackMode::Synchronous;
         self.recorder.push(|| Event::ReadBack { resource, bytes, mode, fence: None });
     }
 
-    /// A draw that was made.
+    /// Records a draw.
     pub(super) fn note_draw(
         &self,
         call: &DrawCall<'_>,
@@ -205,7 +205,7 @@ impl Machine {
         })
     }
 
-    /// Quads that ran the pixel program: found by setting the triangles up again, in rows.
+    /// Number of quads that ran the pixel program; computed by repeating the triangle set-up, in rows.
     fn quads(&self, call: &DrawCall<'_>, plan: &Plan) -> u64 {
         let needed = ComponentMask::NONE;
         let stage = VertexStage::new(call, &self.profile, (ExecutorKind::Batch, &self.batch), needed);
@@ -214,7 +214,7 @@ impl Machine {
         let mut quads = 0;
         for round in plan.rounds() {
             let (first, count) = (round.start, round.len());
-            // The draw has been made: no vertex ran out of steps.
+            // The draw has succeeded, so no vertex exceeds the step budget.
             let Ok(rows) = stage.rows(first, count, plan, needed) else { break };
             let instances = Instances { rows: &rows, count, triangles: &plan.triangles };
             let (surfaces, _) = Surfaces::build(&instances, &plan.raster, &rules, needed, self.batch.simd());
@@ -225,7 +225,7 @@ impl Machine {
     }
 }
 
-/// Vertices processed with a cache of half the entries, of these, and of twice as many.
+/// Vertices processed with half, one and two times `entries` in the vertex cache.
 fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) -> [u64; 3] {
     let (Some(indices), Some(entries)) = (call.indices, entries) else { return [counts.vertices; 3] };
     let vertices = match &call.vertices {
@@ -239,7 +239,7 @@ fn vertices_run(call: &DrawCall<'_>, counts: &DrawEvents, entries: Option<u64>) 
 /// An outline: edges and bounding box.
 type Outline = ([(i64, i64, i64, i64); 3], (u32, u32, u32, u32));
 
-/// Quads that a triangle covers.
+/// Number of quads that a triangle covers.
 fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 {
     let edge = |e: &Edge| (e.a, e.b, e.c, e.bias);
     let Region { x, y, width, height } = setup.bounds;
@@ -254,7 +254,7 @@ fn covered(setup: &TriangleSetup, outlines: &mut BTreeMap<Outline, u64>) -> u64 
     quads
 }
 
-/// What a checked program is made of under its constants.
+/// Instruction mix of a checked program with its constants.
 fn work(checked: &CheckedProgram, constants: &Constants) -> ProgramWork {
     ProgramWork::new(program(checked), FlowConstants { int: &constants.int, boolean: &constants.boolean })
 }

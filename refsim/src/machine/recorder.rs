@@ -6,13 +6,13 @@ use crate::event::{Event, TexelObserver};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-/// The log, and the state of the last draw to compare the next one with.
+/// The log, and the state of the last draw for detecting changes.
 #[derive(Debug, Default)]
 pub(super) struct Recorder {
     pub(super) on: bool,
-    /// Read-backs log through a shared machine.
+    /// Behind a mutex because read-backs log through a shared reference.
     pub(super) log: Mutex<Log>,
-    /// Told of every texel that is read, if set.
+    /// Observer of texel reads, if set.
     pub(super) observer: Option<Box<dyn TexelObserver>>,
     pub(super) addresses: Addresses,
 }
@@ -29,21 +29,21 @@ impl Recorder {
         self.on.then(|| work(&mut self.log.lock().unwrap_or_else(PoisonError::into_inner)))
     }
 
-    /// Writes an event down, if the machine records.
+    /// Appends an event if recording is on.
     pub(super) fn push(&self, event: impl FnOnce() -> Event) {
         self.with(|log| log.events.push(event()));
     }
 
-    /// Whether the machine records.
+    /// Returns `true` if recording is on.
     pub(super) fn is_on(&self) -> bool {
         self.on
     }
 }
 
-/// What textures in memory start at multiples of.
+/// Alignment of textures in the card's memory, in bytes.
 const ALIGNMENT: u64 = 4096;
 
-/// Where the card keeps its textures, as far as that is known: in the order in which draws first read them.
+/// Assumed addresses of textures in the card's memory, in the order in which draws first read them.
 #[derive(Debug, Default)]
 pub(super) struct Addresses {
     first: BTreeMap<TextureId, u64>,
@@ -51,7 +51,7 @@ pub(super) struct Addresses {
 }
 
 impl Addresses {
-    /// The first byte of a texture of `size` bytes.
+    /// Address of a texture of `size` bytes.
     pub(super) fn of(&mut self, texture: TextureId, size: u64) -> u64 {
         *self.first.entry(texture).or_insert_with(|| {
             let at = self.free;

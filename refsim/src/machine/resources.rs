@@ -1,4 +1,4 @@
-//! Resources of a machine: creating, filling, reading back, releasing.
+//! Resources of a machine: creation, clearing, read-back and release.
 
 use super::memory::{check_target_format, check_texture_format};
 use super::{DepthId, Machine, MachineError, TextureId};
@@ -8,12 +8,12 @@ use crate::num::Format;
 use crate::output::{DepthFormat, DepthSurface};
 use crate::texture::{Image, TargetRounding, TexelFormat, TextureKind};
 
-/// Makes or clears a resource.
+/// Creation, update, read-back and release of resources.
 impl Machine {
     /// Uploads a texture.
     ///
     /// # Errors
-    /// If the device lacks the format, or the texture is too large for it.
+    /// If the device does not support the format, or the texture exceeds its limits.
     pub fn create_texture(&mut self, image: Image) -> Result<TextureId, MachineError> {
         check_texture_format(&self.profile, image.format())?;
         if image.kind() == TextureKind::Volume {
@@ -29,15 +29,15 @@ impl Machine {
         Ok(id)
     }
 
-    /// Makes a colour target of zero bytes. It can be sampled in later draws if the device has textures of the format.
+    /// Creates a zero-filled colour target. Later draws can sample it if the device supports textures of the format.
     ///
     /// # Errors
-    /// If the device lacks the format, or the target is too large for it.
+    /// If the device does not support the format, or the target exceeds its limits.
     pub fn create_target(&mut self, format: TexelFormat, width: u32, height: u32) -> Result<TextureId, MachineError> {
         self.keep_target(Image::new_2d(format, width, height)?)
     }
 
-    /// Makes a colour target that starts as an image.
+    /// Creates a colour target with the contents of an image.
     ///
     /// # Errors
     /// As [`Machine::create_target`].
@@ -56,10 +56,10 @@ impl Machine {
         Ok(self.keep(image))
     }
 
-    /// Makes a depth buffer, cleared to 1.
+    /// Creates a depth buffer, cleared to 1.
     ///
     /// # Errors
-    /// If the device lacks the format, or the size is impossible.
+    /// If the device does not support the format, or the size is invalid.
     pub fn create_depth(&mut self, format: DepthFormat, width: u32, height: u32) -> Result<DepthId, MachineError> {
         let allowed = &self.profile.limits.depth_formats;
         if !allowed.iter().any(|name| name == format.name()) {
@@ -101,8 +101,8 @@ impl Machine {
         Err(crate::texture::TextureError::DataSize { unit: "bytes", expected, found }.into())
     }
 
-    /// Fills a target with a colour, single precision patterns, rounded as the device rounds into targets. Mip levels
-    /// from 1 on stay as they are.
+    /// Fills level 0 of a target with a colour, given as single-precision patterns, with the device's target rounding.
+    /// Other mip levels keep their contents.
     ///
     /// # Errors
     /// If the handle is dead.
@@ -115,7 +115,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Fills a depth buffer with a depth, a single precision pattern, clamped to [0, 1].
+    /// Fills a depth buffer with a depth, given as a single-precision pattern and clamped to [0, 1].
     ///
     /// # Errors
     /// If the handle is dead.
@@ -128,10 +128,10 @@ impl Machine {
         Ok(())
     }
 
-    /// Frees a texture; its handle is dead from now on.
+    /// Releases a texture and returns its contents; the handle becomes invalid.
     ///
     /// # Errors
-    /// If it was dead before.
+    /// If the handle is invalid.
     pub fn release_texture(&mut self, id: TextureId) -> Result<Image, MachineError> {
         self.memory.texture(id)?;
         #[cfg(feature = "wgpu")]
@@ -140,10 +140,10 @@ impl Machine {
         self.memory.textures.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
 
-    /// Frees a depth buffer; its handle is dead from now on.
+    /// Releases a depth buffer and returns its contents; the handle becomes invalid.
     ///
     /// # Errors
-    /// If it was dead before.
+    /// If the handle is invalid.
     pub fn release_depth(&mut self, id: DepthId) -> Result<DepthSurface, MachineError> {
         #[cfg(feature = "wgpu")]
         self.settle_depth(id)?;
@@ -151,7 +151,7 @@ impl Machine {
         self.memory.depths.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
 
-    /// Reads a texture or target back. [`Image::bytes`] has its texels, [`Image::texel`] their values.
+    /// Reads a texture or target back. [`Image::bytes`] returns its texels, [`Image::texel`] their values.
     ///
     /// # Errors
     /// If the handle is dead.
@@ -172,7 +172,7 @@ impl Machine {
     }
 }
 
-/// What leaves memory leaves the GPU too.
+/// Releases GPU copies along with their resources.
 #[cfg(feature = "wgpu")]
 impl Machine {
     fn settle_texture(&mut self, id: TextureId) -> Result<(), MachineError> {

@@ -1,4 +1,4 @@
-//! State changes between draws: how many pieces of state a draw brings that the draw before it did not have.
+//! State changes between draws: number of state groups that differ from the previous draw.
 
 use super::{BoundTexture, DepthId, DrawCall, StepRate, TextureId, VertexSource};
 use crate::event::SAMPLERS;
@@ -8,7 +8,7 @@ use crate::output::{AlphaTest, BlendState, DepthState, MAX_TARGETS, WriteMask};
 use crate::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
 use crate::texture::Region;
 
-/// Pieces of state: the samplers, three pieces of the vertex stage and ten others.
+/// Number of state groups: the samplers, three of the vertex stage and ten others.
 const PIECES: u32 = SAMPLERS as u32 + 3 + 10;
 
 /// The state of a draw.
@@ -24,10 +24,10 @@ pub(super) struct DrawState {
     targets: Vec<TextureId>,
 }
 
-/// Which registers the attributes of a draw go to, and how they step.
+/// Attribute registers of a draw and their step rates.
 type Layout = Vec<(usize, StepRate)>;
 
-/// The pieces that are a few numbers each.
+/// The state groups that consist of a few numbers each.
 #[derive(Clone, Copy, Debug)]
 struct FixedState {
     depth_buffer: Option<DepthId>,
@@ -40,8 +40,8 @@ struct FixedState {
 }
 
 impl DrawState {
-    /// Takes over the state that a call brings; gives how many pieces differ, and how many float constants. Before the
-    /// first draw no piece is set and constants are 0.
+    /// Replaces the state by that of a call; returns the number of state groups and of float constants that differ.
+    /// Before the first draw all groups are unset and constants are 0.
     pub(super) fn update(state: &mut Option<Self>, call: &DrawCall<'_>) -> (u32, u32) {
         match state {
             Some(state) => {
@@ -58,7 +58,7 @@ impl DrawState {
         }
     }
 
-    /// Float constants of a call that differ from those set.
+    /// Number of float constants of a call that differ from the current ones.
     fn new_constants(&self, call: &DrawCall<'_>) -> u32 {
         let none = Constants::default();
         let (_, vertex_constants, _) = vertex_stage(call);
@@ -120,7 +120,7 @@ impl FixedState {
     }
 }
 
-/// Program, constants and layout of the attributes; nothing of vertices that come as the stage would give them.
+/// Program, constants and attribute layout; `None` for transformed vertices.
 fn vertex_stage<'a>(call: &DrawCall<'a>) -> (Option<&'a Program>, Option<&'a Constants>, Option<Layout>) {
     match &call.vertices {
         VertexSource::Transformed(_) => (None, None, None),
@@ -131,7 +131,7 @@ fn vertex_stage<'a>(call: &DrawCall<'a>) -> (Option<&'a Program>, Option<&'a Con
     }
 }
 
-/// Float constants, by register and by name, that are set to something else; those not set are 0.
+/// Number of float constants, numbered or named, whose value changes; unset ones are 0.
 fn differing(kept: &Constants, new: &Constants) -> u32 {
     let before = kept.float.iter().copied().chain(std::iter::repeat([0; 4]));
     let numbered = new.float.iter().zip(before).filter(|&(new, before)| *new != before).count();
@@ -139,14 +139,14 @@ fn differing(kept: &Constants, new: &Constants) -> u32 {
     (numbered + named) as u32
 }
 
-/// Constants that the pixel program reads out of OpenGL's state, and that this changes.
+/// Number of OpenGL state parameters of the pixel program whose value changes.
 fn differing_state(kept: &Constants, call: &DrawCall<'_>) -> u32 {
     let parameters = &program(call.pixel_program).parameters;
     let state = parameters.iter().filter(|p| matches!(p.source, ParameterSource::State(_)));
     state.filter(|p| kept.parameter(p) != call.pixel_constants.parameter(p)).count() as u32
 }
 
-/// Replaces a piece where it differs; gives whether it did, as a count. A piece that stays is not copied.
+/// Replaces a group if it differs; returns 1 if it did, else 0. Avoids copying equal groups.
 fn replace<T: Clone + PartialEq>(kept: &mut T, new: &T) -> u32 {
     let differs = kept != new;
     if differs {
@@ -155,7 +155,7 @@ fn replace<T: Clone + PartialEq>(kept: &mut T, new: &T) -> u32 {
     differs.into()
 }
 
-/// [`replace`] of a piece that there may not be.
+/// [`replace`] for an optional group.
 fn replace_optional<T: Clone + PartialEq>(kept: &mut Option<T>, new: Option<&T>) -> u32 {
     let differs = kept.as_ref() != new;
     if differs {

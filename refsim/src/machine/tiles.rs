@@ -8,13 +8,13 @@ use crate::exec::scalar::ScalarTiles;
 use crate::exec::{PixelBindings, SamplerBinding, TileDraw};
 use crate::isa::Stage;
 
-/// The executor of the tiles of a draw.
+/// Tile executor of a draw.
 pub(super) enum Tiles<'a> {
     Scalar(Box<ScalarTiles<'a>>),
     Batch(Box<BatchTiles<'a>>),
 }
 
-/// The tile executor of a draw.
+/// Creates the tile executor of a draw.
 pub(super) fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Tiles<'a> {
     match kind {
         ExecutorKind::Scalar => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
@@ -22,13 +22,13 @@ pub(super) fn executor<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: 
             Some(tiles) => Tiles::Batch(Box::new(tiles)),
             None => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
         },
-        // Draws of such a machine go another way.
+        // Draws on GPU machines don't reach this function.
         #[cfg(feature = "wgpu")]
         ExecutorKind::Wgpu => Tiles::Scalar(Box::new(ScalarTiles::new(draw))),
     }
 }
 
-/// What a draw looks like to an executor. Handles that are dead read as unbound; the plan has refused those before.
+/// The executor's view of a draw. Dead handles read as unbound, but the plan has rejected them before.
 pub(super) fn tile_draw<'a>(profile: &'a Profile, memory: &'a Memory, call: &DrawCall<'a>) -> TileDraw<'a> {
     let bind = |bound: BoundTexture| {
         let image = memory.current(bound.texture).ok()?;

@@ -1,4 +1,4 @@
-//! Following pixels through a draw.
+//! Traces of pixels through a draw.
 
 #[cfg(feature = "wgpu")]
 use super::device::{Follower, StepBudget};
@@ -16,31 +16,30 @@ use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use crate::texture::Region;
 use rayon::prelude::*;
 
-/// Pixels that a GPU follows together.
+/// Number of pixels that a GPU traces together.
 #[cfg(feature = "wgpu")]
 const ON_GPU: usize = 512;
 
-/// A fragment of one pixel: its triangle, the execution of the program, the targets before and after.
+/// A fragment of a traced pixel: its triangle, the execution of the program, and the targets before and after.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FragmentTrace {
     /// The instance, from 0.
     pub instance: usize,
-    /// The triangle within the instance, from 0, as assembly makes them.
+    /// The triangle within the instance, from 0, in order of assembly.
     pub triangle: usize,
-    /// The part of the triangle, from 0: more than one where clipping left more than three corners.
+    /// The part of the triangle, from 0; clipping to more than three corners produces several.
     pub part: usize,
-    /// What the targets held at the pixel before.
+    /// Contents of the targets at the pixel before.
     pub before: PixelState,
-    /// What the executor did.
+    /// Execution of the program.
     pub shading: Shading,
-    /// What the targets hold at the pixel after.
+    /// Contents of the targets at the pixel after.
     pub after: PixelState,
 }
 
 impl Machine {
-    /// Follows one pixel through a draw, which is not made: memory stays as it is. Gives the fragments of every
-    /// triangle that covers the pixel, in the order of submission; what they find in the targets is what those before
-    /// them left.
+    /// Traces one pixel through a draw without modifying memory. Returns the fragments of all triangles that cover the
+    /// pixel, in order of submission; each starts from the targets as left by the previous ones.
     ///
     /// # Errors
     /// As [`Machine::draw`], and [`MachineError::NoSuchPixel`].
@@ -48,7 +47,7 @@ impl Machine {
         Ok(self.trace_pixels(call, &[pixel])?.into_iter().flatten().collect())
     }
 
-    /// [`Machine::trace`] for some pixels at once: the vertices are processed once.
+    /// [`Machine::trace`] for several pixels at once; vertices are processed only once.
     ///
     /// # Errors
     /// As [`Machine::trace`].
@@ -66,7 +65,7 @@ impl Machine {
                 overrun |= self.follow_on_gpu(call, &plan, some)?;
             }
             if overrun {
-                // Which it was the batch executor finds out.
+                // The batch executor determines which fragment it was.
                 followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
                 let tracer = tracer((ExecutorKind::Batch, &self.batch), &tile_draw(&self.profile, &self.memory, call));
                 self.follow(call, &plan, tracer.as_ref(), &mut followed)?;
@@ -85,8 +84,7 @@ impl Machine {
         Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
-    /// The corners of one triangle of one instance as the vertex stage gives them; `None` if the call has no such
-    /// triangle.
+    /// Corners of a triangle of an instance, as output by the vertex stage; `None` if the call has no such triangle.
     ///
     /// # Errors
     /// As [`Machine::draw`].
@@ -119,7 +117,7 @@ impl Machine {
         Ok(Followed { tile, fragments: Vec::new() })
     }
 
-    /// Takes all triangles of a call to all pixels, in rounds as the draw does.
+    /// Traces all pixels through all triangles of a call, in the same rounds as a draw.
     fn follow(
         &self,
         call: &DrawCall<'_>,
@@ -137,7 +135,7 @@ impl Machine {
         })
     }
 
-    /// Vertices and set-ups of a call in rounds as the draw makes them.
+    /// Runs vertex stage and set-up of a call in the same rounds as a draw.
     fn rounds(
         &self,
         call: &DrawCall<'_>,
@@ -156,7 +154,7 @@ impl Machine {
         Ok(())
     }
 
-    /// The executor of vertex programs: for a GPU the batch executor.
+    /// Executor of vertex programs; on GPU machines the batch executor.
     fn vertex_executor(&self) -> (ExecutorKind, &BatchExecutor) {
         match self.executor {
             #[cfg(feature = "wgpu")]
@@ -165,7 +163,7 @@ impl Machine {
         }
     }
 
-    /// Whether a fragment did not end within the step budget.
+    /// Traces pixels on the GPU; returns `true` if a fragment exceeded the step budget.
     #[cfg(feature = "wgpu")]
     fn follow_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [Followed]) -> Result<bool, MachineError> {
         let places: Vec<(u32, u32)> = pixels.iter().map(|p| (p.tile.region.x, p.tile.region.y)).collect();
@@ -189,10 +187,10 @@ impl Machine {
     }
 }
 
-/// A set-up with instance, triangle and part.
+/// A set-up with the indices of its instance, triangle and part.
 type PlacedSetup = (usize, usize, usize, TriangleSetup);
 
-/// Sets up some triangles of a round whose first instance is `first`.
+/// Sets up triangles of a round whose first instance is `first`.
 fn set_up(
     vertices: &[Vertex],
     triangles: &[usize],
@@ -212,7 +210,7 @@ fn set_up(
     placed
 }
 
-/// A pixel that is followed through a draw.
+/// A pixel being traced.
 struct Followed {
     tile: TargetTile,
     fragments: Vec<FragmentTrace>,
@@ -237,7 +235,7 @@ impl Followed {
     }
 }
 
-/// The pixel tracer of an executor.
+/// Creates the pixel tracer of an executor.
 fn tracer<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>) -> Box<dyn PixelTracer + 'a> {
     match kind {
         ExecutorKind::Scalar => Box::new(ScalarTiles::new(draw)),
@@ -245,7 +243,7 @@ fn tracer<'a>((kind, batch): (ExecutorKind, &BatchExecutor), draw: &TileDraw<'a>
             Some(tracer) => Box::new(tracer),
             None => Box::new(ScalarTiles::new(draw)),
         },
-        // A GPU follows pixels another way.
+        // GPU machines trace pixels elsewhere.
         #[cfg(feature = "wgpu")]
         ExecutorKind::Wgpu => Box::new(ScalarTiles::new(draw)),
     }

@@ -10,36 +10,35 @@ use crate::raster::{RasterState, Vertex, Viewport, assemble, provoking};
 use crate::texture::{Filter, MipFilter, Region};
 use std::ops::Range;
 
-/// The most vertices per instance, and the most instances, that a draw can have.
+/// Maximum number of vertices per instance, and of instances, per draw.
 const MAX_VERTICES: usize = 1 << 24;
 
-/// What a checked call comes to.
+/// A validated call.
 pub(super) struct Plan {
     /// State of the rasteriser.
     pub(super) raster: RasterState,
-    /// Vertices of one instance.
+    /// Number of vertices per instance.
     pub(super) vertex_count: usize,
-    /// Instances.
+    /// Number of instances.
     pub(super) instance_count: usize,
-    /// Triangles of one instance, as vertex numbers within it.
+    /// Triangles of an instance, as vertex indices within it.
     pub(super) triangles: Vec<[usize; 3]>,
-    /// Flat shading: for each triangle the vertex whose colours it has.
+    /// For flat shading the provoking vertex of each triangle.
     pub(super) provoking: Option<Vec<usize>>,
 }
 
-/// About how many triangles are drawn at a time: instances are drawn in rounds, which bounds the memory that a draw
-/// takes.
+/// Approximate number of triangles per round. Instances are drawn in rounds to bound the memory of a draw.
 pub(super) const ROUND: usize = 8192;
 
 impl Plan {
-    /// The instances in order, in rounds of about [`ROUND`] triangles.
+    /// Ranges of instances, in rounds of about [`ROUND`] triangles.
     pub(super) fn rounds(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let (step, count) = ((ROUND / self.triangles.len().max(1)).max(1), self.instance_count);
         (0..count).step_by(step).map(move |first| first..count.min(first + step))
     }
 
-    /// The corners of triangle `i` of an instance whose vertices start at `base`, as set-up takes them: in flat
-    /// shading all with the colours of the provoking vertex.
+    /// Corners of triangle `i` of an instance whose vertices start at `base`, for set-up; in flat shading all with the
+    /// colours of the provoking vertex.
     pub(super) fn corners(&self, vertices: &[Vertex], base: usize, i: usize) -> Option<[Vertex; 3]> {
         let [a, b, c] = self.triangles[i].map(|v| vertices.get(base + v).copied());
         let mut corners = [a?, b?, c?];
@@ -51,7 +50,7 @@ impl Plan {
     }
 }
 
-/// Checks a call.
+/// Validates a call.
 pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Plan, MachineError> {
     check_stage(crate::exec::program(call.pixel_program), Stage::Pixel)?;
     let target = check_targets(profile, memory, call)?;
@@ -90,7 +89,7 @@ fn check_stage(program: &Program, expected: Stage) -> Result<(), MachineError> {
     Err(MachineError::WrongStage { expected, found: program.version })
 }
 
-/// Targets: live, of formats the device has, planes of one size, none twice, not too many.
+/// Checks targets: live, of supported formats, 2-D and of equal size, all different, and not too many.
 fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Result<Region, MachineError> {
     let found = call.targets.len();
     let limit = profile.limits.render_targets.map_or(MAX_TARGETS, |n| n as usize).min(MAX_TARGETS);
@@ -120,7 +119,7 @@ fn check_targets(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> Res
     Ok(TargetTile::check(&images, depth)?)
 }
 
-/// A texture: live, of a format the device has, filtered as it can, not a target of the draw.
+/// Checks a sampler: live texture, supported format and filter, not a target of the draw.
 fn check_sampler(
     profile: &Profile,
     memory: &Memory,
@@ -152,7 +151,7 @@ fn raster_state(call: &DrawCall<'_>, target: Region) -> RasterState {
     }
 }
 
-/// Streams: of registers that exist, one each, long enough.
+/// Checks streams: existing registers, one stream each, sufficient length.
 fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
     let VertexSource::Program { streams, .. } = &call.vertices else {
         return Ok(());
@@ -177,7 +176,7 @@ fn check_streams(call: &DrawCall<'_>) -> Result<(), MachineError> {
     Ok(())
 }
 
-/// The triangles of one instance, through the index list if there is one.
+/// Triangles of an instance, through the index list if there is one.
 fn triangles(call: &DrawCall<'_>, vertex_count: usize) -> Result<Vec<[usize; 3]>, MachineError> {
     let Some(indices) = call.indices else {
         return Ok(assemble(call.primitive, vertex_count)?.collect());

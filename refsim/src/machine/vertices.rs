@@ -13,10 +13,10 @@ use crate::isa::Stage;
 use crate::raster::{ComponentMask, RasterRules, TriangleSetup, Vertex, setup};
 use rayon::prelude::*;
 
-/// Triangles that one worker sets up at a time.
+/// Number of triangles that a worker sets up at a time.
 const SETUP_CHUNK: usize = 256;
 
-/// Vertices of some instances and what they cost.
+/// Vertices of several instances, and the instructions executed.
 pub(super) struct Batch {
     pub(super) vertices: Vec<Vertex>,
     pub(super) slots: u64,
@@ -29,7 +29,7 @@ pub(super) enum VertexStage<'a> {
     Batch(VertexShader<'a>, Box<BatchVertices>),
 }
 
-/// What a vertex program runs on, and its step budget.
+/// A vertex program, its input and its step budget.
 #[derive(Clone, Copy)]
 pub(super) struct VertexShader<'a> {
     program: &'a CheckedProgram,
@@ -38,7 +38,7 @@ pub(super) struct VertexShader<'a> {
 }
 
 impl VertexShader<'_> {
-    /// The error of the first vertex, by instance and number, that did not end within the budget.
+    /// Returns an error for the first vertex, by instance and number, that exceeded the budget.
     fn overrun(&self, cut: impl Iterator<Item = (usize, usize, usize)>) -> Result<(), MachineError> {
         let Some((instance, vertex, instruction)) = cut.min() else { return Ok(()) };
         let place = ProgramPlace::Vertex { instance, vertex };
@@ -68,10 +68,10 @@ impl<'a> VertexStage<'a> {
         }
     }
 
-    /// Processes instances `first` to `first + count`, instance by instance.
+    /// Processes instances `first` to `first + count`, in order.
     ///
     /// # Errors
-    /// If a vertex does not end within the step budget.
+    /// If a vertex exceeds the step budget.
     pub(super) fn run(&self, first: usize, count: usize, plan: &Plan) -> Result<Batch, MachineError> {
         Ok(match self {
             Self::Transformed(vertices) => Batch { vertices: vertices.to_vec(), slots: 0 },
@@ -100,10 +100,11 @@ impl<'a> VertexStage<'a> {
         })
     }
 
-    /// [`Self::run`] with the results in rows: vertex `v` of instance `first + i` stands at `v * count + i`.
+    /// [`Self::run`] with results in structure-of-arrays layout: vertex `v` of instance `first + i` has index `v *
+    /// count + i`.
     ///
     /// # Errors
-    /// If a vertex does not end within the step budget.
+    /// If a vertex exceeds the step budget.
     pub(super) fn rows(
         &self,
         first: usize,
@@ -130,7 +131,7 @@ impl<'a> VertexStage<'a> {
         })
     }
 
-    /// Bytes that one vertex reads, and bytes that one instance reads once.
+    /// Bytes read per vertex, and bytes read once per instance.
     pub(super) fn bytes(&self) -> (u64, u64) {
         match self {
             Self::Transformed(_) => (size_of::<Vertex>() as u64, 0),
@@ -157,8 +158,8 @@ fn attributes(streams: &VertexStreams<'_>, instance: usize, vertex: usize) -> [[
     out
 }
 
-/// A component of an attribute of some vertices: those from `at` on, counted so that all instances of a vertex stand
-/// together. The instances are `first` to `first + count`.
+/// Fills a row with one attribute component of consecutive vertices, starting at index `at` of an order in which all
+/// instances of a vertex are adjacent. Instances are `first` to `first + count`.
 fn fill_attribute(
     streams: &VertexStreams<'_>,
     (register, component): (usize, usize),
@@ -188,12 +189,12 @@ fn fill_attribute(
     }
 }
 
-/// What a device says about rasterising.
+/// The device's rasterisation rules.
 pub(super) fn raster_rules(profile: &Profile) -> RasterRules {
     RasterRules { subpixel_bits: profile.rules.subpixel_bits, iterator_format: profile.rules.iterator_format }
 }
 
-/// Sets up the triangles of `instances` instances whose vertices stand one after the other.
+/// Sets up the triangles of `instances` instances with consecutive vertices.
 pub(super) fn set_up(
     vertices: &[Vertex],
     instances: usize,

@@ -1,4 +1,4 @@
-//! Drawing by tiles: tiles in parallel, triangles in order within each.
+//! Tiled drawing: tiles in parallel, triangles in order within each.
 
 use super::memory::Memory;
 use super::tiles::Tiles;
@@ -18,7 +18,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// The result of a draw.
 pub(super) struct DrawResult {
-    /// Tiles that triangles touched, to be copied back.
+    /// Tiles touched by triangles, to be copied into memory.
     pub(super) tiles: Vec<TargetTile>,
     pub(super) events: DrawEvents,
 }
@@ -30,7 +30,7 @@ struct TileWork {
     counts: FragmentCounts,
 }
 
-/// Draws a checked call.
+/// Executes a checked call.
 pub(super) fn draw(
     memory: &Memory,
     profile: &Profile,
@@ -68,7 +68,7 @@ pub(super) fn draw(
             Tiles::Batch(tiles) => {
                 events.vertices += (count * plan.vertex_count) as u64;
                 let (surfaces, primitives, executed) = if plan.provoking.is_some() {
-                    // A flat triangle has corners of its own: no vertex can be shared.
+                    // Flat-shaded triangles have their own corners, so vertices can't be shared.
                     let batch = stage.run(first, count, plan)?;
                     let (setups, primitives) = set_up(&batch.vertices, count, plan, profile);
                     (Surfaces::from_setups(&setups, needed), primitives, batch.slots)
@@ -83,7 +83,7 @@ pub(super) fn draw(
                 events.vertex_instructions += executed;
                 events.primitives += primitives;
                 let round = tiles.round(&surfaces);
-                // Where there are fewer tiles than workers, some share one.
+                // With fewer tiles than workers, several workers share a tile.
                 let workers = rayon::current_num_threads().div_ceil(work.len().max(1));
                 let run = |order: &[u32], tile: &mut TargetTile| tiles.draw(&round, order, tile, workers);
                 shade((memory, profile), call, &|i| surfaces.geometry(i), surfaces.len(), &run, &mut work)?;
@@ -97,18 +97,18 @@ pub(super) fn draw(
     Ok(DrawResult { tiles: work.into_iter().filter_map(|w| w.tile).collect(), events })
 }
 
-/// The shapes of tile that an executor can take.
+/// Tile shapes that an executor supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TileShapes {
-    /// [`TILE`] each way.
+    /// [`TILE`] in both directions.
     Square,
-    /// For a region of one row of quads also as many pixels in two rows.
+    /// Also two rows with the same number of pixels, for regions of one row of quads.
     Flat,
-    /// For a region of one row also as many in one.
+    /// Also one row with the same number of pixels, for regions of one row.
     Any,
 }
 
-/// The tiles of a region, row by row. They start at multiples of their size.
+/// Tiles of a region, row by row; their positions are multiples of their size.
 fn tiles(region: Region, shapes: TileShapes) -> Vec<TileWork> {
     let mut out = Vec::new();
     if region.width == 0 || region.height == 0 {
@@ -129,8 +129,8 @@ fn tiles(region: Region, shapes: TileShapes) -> Vec<TileWork> {
     out
 }
 
-/// The first fragment, as [`Overrun`]s order, that did not end within its step budget, of all tiles: which is the same
-/// whichever tile comes first. Tiles that can have none before it are left out.
+/// The first fragment over all tiles, in the order of [`Overrun`], that exceeded its step budget; independent of the
+/// order in which tiles are drawn. Tiles that cannot contain an earlier one are skipped.
 #[derive(Default)]
 struct FirstOverrun(Mutex<Option<Overrun>>);
 
@@ -145,7 +145,7 @@ impl FirstOverrun {
     }
 }
 
-/// Draws some triangles, whose set-ups `geometry` gives, into all tiles.
+/// Draws `count` triangles, whose set-ups `geometry` returns, into all tiles.
 fn shade<'s>(
     (memory, profile): (&Memory, &Profile),
     call: &DrawCall<'_>,
@@ -187,7 +187,7 @@ fn shade<'s>(
     }
 }
 
-/// For each row of tiles the triangles whose bounding box meets it, in order.
+/// For each row of tiles the triangles whose bounding box intersects it, in order.
 fn row_bins<'s>(
     geometry: &impl Fn(usize) -> Option<&'s TriangleSetup>,
     triangles: usize,
@@ -215,7 +215,7 @@ pub(super) fn load(memory: &Memory, call: &DrawCall<'_>, region: Region) -> Resu
     Ok(TargetTile::load(&colors, depth, region)?)
 }
 
-/// Memory traffic, worked out from the counts.
+/// Memory traffic, derived from the counts.
 pub(super) fn bytes(memory: &Memory, call: &DrawCall<'_>, stage: &VertexStage<'_>, events: &DrawEvents) -> ByteCounts {
     let f = &events.fragments;
     let (per_vertex, per_instance) = stage.bytes();

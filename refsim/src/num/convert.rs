@@ -1,4 +1,4 @@
-//! From one format to another.
+//! Conversion between formats.
 
 use super::env::Env;
 use super::flags::{Flags, Outcome};
@@ -6,7 +6,7 @@ use super::format::{Denormals, Format};
 use super::round::{from_parts, infinite};
 use super::unpack::{Unpacked, nan_bits, unpack};
 
-/// The number `bits` of format `from`, rounded once into format `to` by `to`'s rules.
+/// Converts the number `bits` from format `from` to format `to`, rounding once by `to`'s rules.
 ///
 /// NaN to NaN, `INVALID` if it was signalling; NaN to fixed point is 0 and `INVALID`. Infinity stays infinity; in
 /// fixed point it saturates with `OVERFLOW`, also where finite numbers wrap.
@@ -22,10 +22,10 @@ pub fn convert(from: &Format, to: impl Into<Env>, bits: u32) -> Outcome {
     }
 }
 
-/// The number as a host double, for people to read: exact, for no format has more than 32 significant bits; NaN and
-/// infinities as such.
+/// Converts a number to a host double, for display. Exact, because no format has more than 32 significant bits; NaN and
+/// infinities are preserved.
 pub fn to_f64(format: &Format, bits: u32) -> f64 {
-    // A subnormal has its value here, also where operations take it for zero: what is shown is what is stored.
+    // Subnormals keep their value even in flushing formats: this shows the stored number, not the operand.
     match unpack(&format.with_denormals(Denormals::Keep), bits) {
         Unpacked::Nan { .. } => f64::NAN,
         Unpacked::Inf { sign: true } => f64::NEG_INFINITY,
@@ -37,7 +37,7 @@ pub fn to_f64(format: &Format, bits: u32) -> f64 {
     }
 }
 
-/// 2 to a power as a host double, for code of the host; the exponent is clamped to those of normal doubles.
+/// Returns 2^`exponent` as a host double, for host code; the exponent is clamped to the range of normal doubles.
 pub const fn power_of_two(exponent: i32) -> f64 {
     let field = exponent + 1023;
     let field = if field < 1 {

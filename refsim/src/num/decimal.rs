@@ -1,4 +1,4 @@
-//! Decimal text to bits and back, correctly rounded for any length.
+//! Correctly rounded conversion between decimal text of any length and bits.
 
 use num_bigint::BigUint;
 use num_traits::{ToPrimitive, Zero};
@@ -9,10 +9,11 @@ use super::format::Format;
 use super::round::{from_parts, infinite, zero};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// Significant digits that are read; later ones count only as "more follows". The midpoint between two neighbours of
-/// any format has fewer than 200.
+/// Number of significant digits read; later nonzero digits only set a sticky bit. The midpoint between two neighbours
+/// of any format has fewer than 200 digits.
 const DIGITS: usize = 800;
-/// Decimal exponents beyond this are beyond every format (`2^128` has 39 digits, `2^-149` starts at the 45th place).
+/// Decimal exponents beyond this overflow or underflow in every format (`2^128` has 39 digits, `2^-149` starts at the
+/// 45th place).
 const FAR: i64 = 400;
 
 /// Text that is not a decimal number.
@@ -22,15 +23,15 @@ const FAR: i64 = 400;
 pub struct DecimalError {
     /// The text, cut short if it is very long.
     pub text: String,
-    /// Where, in characters from 0.
+    /// Position in characters, from 0.
     pub at: usize,
-    /// What may stand there.
+    /// The expected input.
     pub expected: &'static str,
-    /// What stands there.
+    /// The input found.
     pub found: String,
 }
 
-/// The number written in `text`, rounded once into the format.
+/// Parses a decimal number and rounds it once into the format.
 ///
 /// Grammar: an optional sign, then `inf`, `infinity` or `nan` in any case, or digits with at most one point and an
 /// optional exponent (`e` or `E`, optional sign, digits). Any length and any exponent are fine. `inf` and `nan` become
@@ -57,7 +58,7 @@ pub fn from_decimal(env: impl Into<Env>, text: &str) -> Result<Outcome, DecimalE
     Ok(round_decimal(&env, negative, &literal))
 }
 
-/// A scanned literal: `0.d1 d2 d3... * 10^point`, `d1` nonzero, and whether nonzero digits were cut off.
+/// A scanned literal: `0.d1 d2 d3... * 10^point` with `d1` nonzero; `more` if nonzero digits were cut off.
 struct Literal {
     digits: Vec<u8>,
     point: i64,
@@ -108,7 +109,7 @@ fn scan(text: &str, start: usize) -> Result<Literal, DecimalError> {
         let first = at;
         let mut exponent = 0i64;
         while let Some(digit) = bytes.get(at).filter(|b| b.is_ascii_digit()) {
-            // Saturates far outside every format, and far from any text's length.
+            // Saturates far outside the range of every format.
             exponent = (exponent * 10 + i64::from(digit - b'0')).min(1 << 50);
             at += 1;
         }
@@ -163,7 +164,8 @@ fn round_decimal(env: &Env, negative: bool, literal: &Literal) -> Outcome {
     from_parts(*env, negative, kept, exp as i32, sticky)
 }
 
-/// The number behind `bits` with all its digits, without exponent: `-0.333251953125`, `65504`, `-0`, `inf`, `nan`.
+/// Formats the exact value of `bits` with all its digits and no exponent: `-0.333251953125`, `65504`, `-0`, `inf`,
+/// `nan`.
 pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
     let (sign, digits, point) = match expand(format, bits) {
         Ok(parts) => parts,
@@ -172,8 +174,8 @@ pub fn to_decimal_exact(format: &Format, bits: u32) -> String {
     plain(sign, &digits, point)
 }
 
-/// The shortest decimal text that [`from_decimal`] reads back to the same bits (of equally short ones, the nearest
-/// to the value). Subnormals of a flushing format are the zeros they count as. Large and small magnitudes are
+/// Formats `bits` as the shortest decimal text that [`from_decimal`] reads back to the same bits (of equally short
+/// ones, the nearest to the value). Subnormals of a flushing format are written as zero. Large and small magnitudes are
 /// written with an exponent.
 pub fn to_decimal(format: &Format, bits: u32) -> String {
     let (sign, digits, point) = match expand(format, bits) {
@@ -192,7 +194,7 @@ pub fn to_decimal(format: &Format, bits: u32) -> String {
     compact(sign, &digits, point)
 }
 
-/// Sign, digits without zeros at either end and the power of ten of the point, as in [`Literal`].
+/// Returns the sign, the digits without leading or trailing zeros, and the power of ten of the point as in [`Literal`].
 fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static str> {
     let (sign, sig, exp) = match unpack(format, bits) {
         Unpacked::Nan { .. } => return Err("nan"),
@@ -217,7 +219,7 @@ fn expand(format: &Format, bits: u32) -> Result<(bool, Vec<u8>, i64), &'static s
     Ok((sign, digits, point))
 }
 
-/// The two neighbours of `length` digits, the nearer first.
+/// The two neighbours with `length` digits, the nearer first.
 fn candidates(digits: &[u8], point: i64, length: usize) -> [(Vec<u8>, i64); 2] {
     let below = digits[..length].to_vec();
     let mut above = below.clone();
@@ -236,7 +238,7 @@ fn candidates(digits: &[u8], point: i64, length: usize) -> [(Vec<u8>, i64); 2] {
     if upper_nearer { [(above, above_point), (below, point)] } else { [(below, point), (above, above_point)] }
 }
 
-/// Digits with a point, or with an exponent where that would take many zeros.
+/// Formats digits with a decimal point, or with an exponent where that would take many zeros.
 fn compact(sign: bool, digits: &[u8], point: i64) -> String {
     if digits.is_empty() || (-4..=9).contains(&point) {
         return plain(sign, digits, point);
@@ -246,7 +248,7 @@ fn compact(sign: bool, digits: &[u8], point: i64) -> String {
     text
 }
 
-/// Digits with a point and no exponent.
+/// Formats digits with a decimal point and no exponent.
 fn plain(sign: bool, digits: &[u8], point: i64) -> String {
     let mut text = String::from(if sign { "-" } else { "" });
     let push = |text: &mut String, digits: &[u8]| text.extend(digits.iter().map(|d| char::from(b'0' + d)));

@@ -5,7 +5,7 @@ use bitflags::bitflags;
 bitflags! {
     /// The five IEEE 754 exceptions, in the bit order Berkeley TestFloat prints.
     ///
-    /// They are data, never state: an operation returns them, a caller ors them together.
+    /// Flags are returned by value, never kept as state; callers OR them together.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
     pub struct Flags: u8 {
         /// The result differs from the exact real result.
@@ -16,7 +16,7 @@ bitflags! {
         const OVERFLOW = 4;
         /// A finite operand gave an exactly infinite result (`1/0`, `log2 0`).
         const DIVIDE_BY_ZERO = 8;
-        /// There is no real result (`0/0`, `sqrt -1`), or an operand was a signalling NaN.
+        /// There is no real result (`0/0`, `sqrt -1`), or an operand is a signalling NaN.
         const INVALID = 16;
     }
 }
@@ -42,7 +42,7 @@ impl Outcome {
         Outcome { bits, flags }
     }
 
-    /// The same bits with more exceptions: for operations made of several steps.
+    /// Adds exceptions to the outcome; for operations of several steps.
     pub fn also(self, flags: Flags) -> Outcome {
         Outcome { bits: self.bits, flags: self.flags | flags }
     }

@@ -1,8 +1,8 @@
-//! A number format as a record, and the patterns that follow from it.
+//! Number formats: layout and rules, and the bit patterns derived from them.
 
 use serde::{Deserialize, Serialize};
 
-/// A number format: layout and the four rules that decide what becomes of an exact result.
+/// A number format: a layout, and four rules that map an exact result to a representable one.
 ///
 /// Written `s3.12`, `e5m10`, `fp24:rtz:ftz`; see [`FromStr`](std::str::FromStr) below and the room's essay.
 /// Fields may be changed freely as long as the layout stays within the ranges of [`FormatKind`]; a rule that has no
@@ -12,13 +12,13 @@ use serde::{Deserialize, Serialize};
 pub struct Format {
     /// The layout.
     pub kind: FormatKind,
-    /// Which neighbour an inexact result goes to.
+    /// Direction in which inexact results are rounded.
     pub rounding: Rounding,
-    /// What becomes of a result that is too large.
+    /// Treatment of results out of range.
     pub overflow: Overflow,
-    /// Whether subnormal numbers exist (floats).
+    /// Treatment of subnormal numbers (floats).
     pub denormals: Denormals,
-    /// Which conventions hold for NaN, infinity and domain errors (floats).
+    /// Conventions for NaN, infinity and domain errors (floats).
     pub specials: Specials,
 }
 
@@ -41,7 +41,7 @@ pub enum FormatKind {
     },
 }
 
-/// Which neighbour an inexact result goes to.
+/// Direction in which inexact results are rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Rounding {
     /// To the nearest, ties to the even pattern (`:rne`).
@@ -50,11 +50,11 @@ pub enum Rounding {
     NearestAway,
     /// Truncation of the magnitude (`:rtz`).
     TowardZero,
-    /// Toward minus infinity (`:rdn`), what dropping bits of a two's complement product does.
+    /// Toward minus infinity (`:rdn`): the effect of dropping low bits of a two's complement product.
     Down,
 }
 
-/// What becomes of a result that is too large.
+/// Treatment of results out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Overflow {
     /// The nearest end of the range (`:sat`). A float with this rule makes no infinity from finite operands at
@@ -70,7 +70,7 @@ pub enum Overflow {
     Nv30,
 }
 
-/// Whether subnormal numbers exist.
+/// Treatment of subnormal numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Denormals {
     /// Gradual underflow (`:keep`).
@@ -164,7 +164,7 @@ impl Format {
         self
     }
 
-    /// Whether this is a fixed-point format.
+    /// Returns `true` for fixed-point formats.
     pub const fn is_fixed(&self) -> bool {
         matches!(self.kind, FormatKind::Fixed { .. })
     }
@@ -177,7 +177,7 @@ impl Format {
         }
     }
 
-    /// Ones in all bits of the width.
+    /// Bit mask of the width.
     pub const fn mask(&self) -> u32 {
         u32::MAX >> (32 - self.width())
     }
@@ -233,7 +233,7 @@ impl Format {
         }
     }
 
-    /// The one NaN that operations return: positive, quiet, rest of the payload zero. `None` in fixed point.
+    /// The NaN that operations return: positive, quiet, rest of the payload zero. `None` in fixed point.
     pub const fn canonical_nan(&self) -> Option<u32> {
         match self.kind {
             FormatKind::Fixed { .. } => None,
@@ -241,7 +241,7 @@ impl Format {
         }
     }
 
-    /// Whether the pattern is a NaN. Bits above the width are ignored.
+    /// Returns `true` if the pattern is a NaN. Bits above the width are ignored.
     pub const fn is_nan(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } => false,
@@ -252,7 +252,7 @@ impl Format {
         }
     }
 
-    /// Whether the pattern is an infinity.
+    /// Returns `true` if the pattern is an infinity.
     pub const fn is_infinite(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } => false,
@@ -260,17 +260,17 @@ impl Format {
         }
     }
 
-    /// Whether the pattern is a finite number.
+    /// Returns `true` if the pattern is a finite number.
     pub const fn is_finite(&self, bits: u32) -> bool {
         !self.is_nan(bits) && !self.is_infinite(bits)
     }
 
-    /// Whether the sign bit is set (a negative number, -0, or a NaN with a sign).
+    /// Returns `true` if the sign bit is set (a negative number, -0, or a negative NaN).
     pub const fn is_negative(&self, bits: u32) -> bool {
         bits & self.sign_bit() != 0
     }
 
-    /// Whether the pattern is zero of either sign, as operations see it (a flushed subnormal is zero).
+    /// Returns `true` if operations treat the pattern as zero: either zero, or a subnormal of a flushing format.
     pub const fn is_zero(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } => bits & self.mask() == 0,
@@ -281,7 +281,7 @@ impl Format {
         }
     }
 
-    /// Whether the pattern is a subnormal float, whatever the denormal rule.
+    /// Returns `true` if the pattern is a subnormal float, whatever the denormal rule.
     pub const fn is_subnormal(&self, bits: u32) -> bool {
         match self.kind {
             FormatKind::Fixed { .. } => false,

@@ -1,4 +1,4 @@
-//! Number formats, and arithmetic in them with integers alone.
+//! Number formats, and arithmetic in them by integer operations alone.
 //!
 //! A [`Format`] is a record: a layout ([`FormatKind`]) and four rules ([`Rounding`], [`Overflow`], [`Denormals`],
 //! [`Specials`]). It is written as a string, the same everywhere in Crossbar:
@@ -14,13 +14,13 @@
 //! | `:keep` `:ftz` | floats: subnormals kept (default), flushed to zero |
 //! | `:ieee` `:nv` | floats: special values as Direct3D 9 (default) or `NV_fragment_program` has them |
 //!
-//! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and
-//! returns an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded
-//! once**: an operation works out the exact magnitude (or enough of its leading bits and whether more follow), and
-//! [`from_parts`], the one place that rounds, makes bits of it. Where a card rounds in between, the operation says so
-//! by its name: [`ops::mad`] has two roundings, [`ops::fused_mad`] has one, [`ops::dot`] takes the order.
+//! Values are bit patterns in the low bits of a `u32`. An operation of [`ops`] takes a format and patterns and returns
+//! an [`Outcome`]: a pattern, and the exceptions as [`Flags`]. Its result is **the exact real result, rounded once**:
+//! an operation computes the exact magnitude (or enough leading bits and a sticky bit), and [`from_parts`], the only
+//! function that rounds, encodes it. Operations with intermediate roundings have names of their own: [`ops::mad`] has
+//! two roundings, [`ops::fused_mad`] has one, and [`ops::dot`] takes the order of summation.
 //!
-//! [`NumberOperation`] is the table of operations for code that names them.
+//! [`NumberOperation`] enumerates the operations.
 //!
 //! Conventions that hold for all operations:
 //! - No host float decides a bit. `fp32` goes the same way as every other format.

@@ -1,7 +1,7 @@
-//! THE table of arithmetic operations: which there are, how many operands they take, and what defines them.
+//! Table of the arithmetic operations: operands and definition of each.
 //!
-//! The batch executor and the shaders name operations by it, `crossbar alu` and the GPU probe compute by it; none keeps
-//! a list of its own.
+//! The batch executor and the shader generator refer to operations by it; `crossbar alu` and the GPU probe evaluate
+//! them through it.
 
 use super::env::Env;
 use super::flags::Outcome;
@@ -18,13 +18,13 @@ macro_rules! operations {
             /// Every operation, in the order of the table.
             pub const ALL: [Self; [$(stringify!($variant)),*].len()] = [$(Self::$variant),*];
 
-            /// How many operands it takes, 1 to 3.
+            /// Number of operands, 1 to 3.
             pub const fn operands(self) -> usize {
                 match self { $(Self::$variant => [$(stringify!($operand)),+].len(),)* }
             }
 
-            /// What it makes of bit patterns of the format, operands that it lacks ignored; `None` for operations whose
-            /// operands or results are not all numbers of the format. Comparisons give 1 or 0.
+            /// Evaluates the operation on bit patterns of the format; surplus operands are ignored. `None` for
+            /// operations whose operands or results are not all numbers of the format. Comparisons return 1 or 0.
             pub fn evaluate(self, env: impl Into<Env>, operands: [u32; 3]) -> Option<Outcome> {
                 let env = env.into();
                 match self { $(Self::$variant => operations!(@ env operands ($($operand),+) $($definition)?),)* }
@@ -75,7 +75,7 @@ operations! {
     Saturate(a) = ops::saturate01;
     /// `a 2^b`, `b` an `i32`.
     Scale(a, b) = |env, a, b: u32| ops::scale(env, a, b.cast_signed());
-    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
+    /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite (so that 0 times anything is 0).
     Factor(a, b);
     /// `a >= 0 ? b : c`
     SelectNonNegative(a, b, c) = ops::cmp;
@@ -91,54 +91,55 @@ operations! {
     AddressFloor(a);
     /// `a` rounded to the nearest even integer in the format, as a saturated `i32`.
     AddressNearest(a);
-    /// Mask `a ? b : c`.
+    /// `a ? b : c`, where `a` is a mask.
     Select(a, b, c);
-    /// Bits of `a` and `b`.
+    /// Bitwise `a & b`.
     And(a, b);
-    /// Bits of `a` or `b`.
+    /// Bitwise `a | b`.
     Or(a, b);
-    /// Bits of `b` and not `a`.
+    /// Bitwise `!a & b`.
     AndNot(a, b);
     /// Square root.
     Sqrt(a) = ops::sqrt;
-    /// `a` of another format into this one; `b` says which.
+    /// Converts `a` from another format, given by `b`, into this one.
     Convert(a, b);
-    /// Single precision `a` clamped to [0, 1], rounded to `b` steps, halves up, and that fraction rounded into the
-    /// format.
+    /// Clamps single-precision `a` to [0, 1], rounds it to a multiple of `1/b`, halves up, and rounds that fraction
+    /// into the format.
     Steps(a, b);
-    /// The number behind a bit pattern.
+    /// Decodes a bit pattern into a number.
     Decode(a);
-    /// The bit pattern of a number.
+    /// Encodes a number as a bit pattern.
     Encode(a);
     /// Sine, radians.
     Sin(a) = ops::sin;
     /// Cosine, radians.
     Cos(a) = ops::cos;
-    /// Word `a` with `b`'s pattern of up to 16 bits at bit `c`, which was zero there.
+    /// Inserts `b`'s pattern of up to 16 bits into word `a` at bit `c`, where `a` is zero.
     JoinPattern(a, b, c);
-    /// Likewise single precision `b` clamped to [0, 1], to the nearest of 65535 steps.
+    /// The same for single-precision `b` clamped to [0, 1] and rounded to a multiple of 1/65535.
     JoinShort(a, b, c);
-    /// Likewise of 255 steps.
+    /// The same with multiples of 1/255.
     JoinByte(a, b, c);
-    /// Likewise `128 + 127 b`, `b` from -128/127 to 1; 128 for NaN.
+    /// The same with `128 + 127 b`, `b` from -128/127 to 1; NaN gives 128.
     JoinSignedByte(a, b, c);
-    /// The number whose pattern is at bit `b` of word `a`.
+    /// Extracts the number whose pattern is at bit `b` of word `a`.
     SplitPattern(a, b);
-    /// What [`Self::JoinShort`] put at bit `b` of word `a`.
+    /// Extracts the fraction that [`Self::JoinShort`] stored at bit `b` of word `a`.
     SplitShort(a, b);
-    /// What [`Self::JoinByte`] put there.
+    /// Extracts a fraction stored by [`Self::JoinByte`].
     SplitByte(a, b);
-    /// What [`Self::JoinSignedByte`] put there.
+    /// Extracts a number stored by [`Self::JoinSignedByte`].
     SplitSignedByte(a, b);
 }
 
 impl NumberOperation {
-    /// Whether its last operand is a plain integer, known before a program runs: a power of two, a place in a word.
+    /// Returns `true` if the last operand is an integer constant known before the program runs: an exponent, or a bit
+    /// position.
     pub const fn has_immediate(self) -> bool {
         matches!(self, Self::Scale) || matches!(self as u32, first if first >= Self::JoinPattern as u32)
     }
 
-    /// Whether it is one of masks, the same in every format.
+    /// Returns `true` if the operation is bitwise, the same in every format.
     pub const fn is_of_masks(self) -> bool {
         matches!(self, Self::Select | Self::And | Self::Or | Self::AndNot)
     }

@@ -1,11 +1,11 @@
-//! Format strings: `s3.12`, `e5m10:rtz`, `fp24:rne:ftz`.
+//! Parsing and printing of format strings: `s3.12`, `e5m10:rtz`, `fp24:rne:ftz`.
 
 use std::fmt;
 use std::str::FromStr;
 
 use super::format::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
-/// Names that stand for a layout.
+/// Aliases of layouts.
 const ALIASES: [(&str, Format); 6] = [
     ("ps14", Format::S3_12),
     ("fx12", Format::FX12),
@@ -15,7 +15,7 @@ const ALIASES: [(&str, Format); 6] = [
     ("bf16", Format::BF16),
 ];
 
-/// Why a string is not a number format. Each message carries the whole string and what to write instead.
+/// Error of parsing a number format. Each message contains the whole string and what to write instead.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum FormatError {
@@ -57,7 +57,7 @@ pub enum FormatError {
         /// Where the suffix starts, in characters from 0.
         at: usize,
     },
-    /// A suffix that the kind of layout doesn't have.
+    /// A suffix that doesn't apply to the kind of layout.
     #[error("number format `{text}`: `:{found}` at character {at} is for {kind} only")]
     #[diagnostic(
         code(num::format_kind),
@@ -120,17 +120,17 @@ fn parse_layout(text: &str, layout: &str) -> Result<Format, FormatError> {
     Err(FormatError::Layout { text: text.to_owned(), found: layout.to_owned() })
 }
 
-/// The two bit counts of `<lead>A<mid>B`; counts too long to matter become 255, which no range admits.
+/// Parses the bit counts of `<lead>A<mid>B`; counts that don't fit a byte become 255, which is out of every range.
 fn split_counts(layout: &str, lead: char, mid: char) -> Option<(u8, u8)> {
     let (a, b) = layout.strip_prefix(lead)?.split_once(mid)?;
     let digits = |s: &str| !s.is_empty() && s.bytes().all(|c| c.is_ascii_digit());
     (digits(a) && digits(b)).then(|| (a.parse().unwrap_or(255), b.parse().unwrap_or(255)))
 }
 
-/// One suffix.
+/// Applies one suffix.
 fn apply(format: &mut Format, set: &mut [bool; 4], text: &str, suffix: &str, at: usize) -> Result<(), FormatError> {
     let fixed = format.is_fixed();
-    // rule index, and which kind the suffix is for
+    // Rule index, and the kind of layout that the suffix applies to.
     let (rule, only) = match suffix {
         "rne" => (0, None),
         "rna" => (0, None),

@@ -1,15 +1,15 @@
-//! The one place that rounds: an exact magnitude becomes bits and flags.
+//! Rounding: encodes an exact magnitude as bits and flags.
 
 use super::env::{Env, Tininess};
 use super::flags::{Flags, Outcome};
 use super::format::{Denormals, Format, FormatKind, Overflow, Rounding};
 
-/// Exponents beyond this are beyond every format; clamping them keeps the arithmetic below in range.
+/// Exponents beyond this overflow or underflow in every format; clamping to it keeps the arithmetic below in range.
 const FAR: i32 = 1 << 20;
 
 /// Rounds `(-1)^sign * v` once into the format, where `v = sig * 2^exp`, or with `sticky` some `v` strictly between
-/// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky`, `2^exp` must be at most half a unit in the last place of
-/// the result, or nothing can be said about it.
+/// `sig * 2^exp` and `(sig + 1) * 2^exp`. With `sticky`, `2^exp` must be at most half a unit in the last place of the
+/// result; otherwise the result is not determined.
 pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: bool) -> Outcome {
     let env = env.into();
     if sig >> 64 == 0 {
@@ -21,7 +21,7 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
             round_fixed(&env.format, int_bits + frac_bits, frac_bits, sign, sig, exp, sticky)
         }
         FormatKind::Float { exp_bits, man_bits } => {
-            // 64 leading bits and the knowledge whether more follow are all that rounding asks for.
+            // Rounding needs only 64 leading bits and a sticky bit.
             let drop = 64 - sig.leading_zeros();
             let lost = sig & ((1 << drop) - 1) != 0;
             round_float(&env, exp_bits, man_bits, sign, (sig >> drop) as u64, exp + drop.cast_signed(), sticky | lost)
@@ -29,7 +29,7 @@ pub fn from_parts(env: impl Into<Env>, sign: bool, sig: u128, exp: i32, sticky: 
     }
 }
 
-/// [`from_parts`] for magnitudes of one word: the common case.
+/// [`from_parts`] for magnitudes of 64 bits: the common case.
 #[inline]
 pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> Outcome {
     let exp = exp.clamp(-FAR, FAR);
@@ -41,7 +41,7 @@ pub(crate) fn round(env: &Env, sign: bool, sig: u64, exp: i32, sticky: bool) -> 
     }
 }
 
-/// Whether the kept magnitude goes up by one unit.
+/// Returns `true` if rounding increments the truncated magnitude.
 #[inline]
 fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -> bool {
     match rounding {
@@ -52,7 +52,7 @@ fn goes_up(rounding: Rounding, sign: bool, odd: bool, half: bool, below: bool) -
     }
 }
 
-/// `sig / 2^shift` rounded to an integer, and whether anything was lost.
+/// Rounds `sig / 2^shift` to an integer; also returns `true` if the result is inexact.
 #[inline]
 fn shift_round(rounding: Rounding, sign: bool, sig: u64, shift: i32, sticky: bool) -> (u64, bool) {
     if shift <= 0 {
@@ -78,15 +78,15 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
     }
     let man = i32::from(man_bits);
     let min_exp = 2 - (1 << (exp_bits - 1));
-    // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with digits
-    // behind it keeps its exponent.)
+    // With the leading bit at 2^63 the last place of every float lies above the last bit of `sig`. (Zero with a sticky
+    // bit keeps its exponent.)
     let left = sig.leading_zeros() & 63;
     let (sig, exp) = (sig << left, exp - left.cast_signed());
     // The value lies in [2^top, 2^(top+1)); its unit in the last place is 2^unit.
     let top = if sig == 0 { exp - 1 } else { exp + 63 };
     let unit = (top - man).max(min_exp - man);
     let (kept, inexact) = shift_round(format.rounding, sign, sig, unit - exp, sticky);
-    // Exponent field and mantissa in one sum: the hidden bit adds the first one, a carry the next.
+    // Adds exponent field and mantissa: the hidden bit adds the first 1 to the exponent, a carry the next.
     let magnitude = (((unit - min_exp + man) as u64) << man) + kept;
     let infinity = u64::from(format.sign_bit()) - (1 << man);
     if magnitude >= infinity {
@@ -108,7 +108,7 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
     Outcome::new(sign_bits | magnitude as u32, flags)
 }
 
-/// The result of a float too large; `huge` if the exact magnitude is `2^(emax+1)` or more.
+/// The result of a float overflow; `huge` if the exact magnitude is `2^(emax+1)` or more.
 fn overflow_float(format: &Format, sign: bool, huge: bool) -> Outcome {
     let infinite = match format.overflow {
         Overflow::Saturate => false,
@@ -161,8 +161,8 @@ fn round_fixed(
     Outcome::new(bits, if inexact { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// An exactly infinite result of finite operands: infinity, or the end of the range where the format has no
-/// infinity or makes none.
+/// The result of an exact infinity from finite operands: infinity, or the end of the range where the format has no
+/// infinity or saturates.
 pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
     let bits = match format.infinity(sign) {
         Some(infinity) if format.overflow != Overflow::Saturate => infinity,
@@ -171,7 +171,7 @@ pub(crate) fn divide_by_zero(format: &Format, sign: bool) -> Outcome {
     Outcome::new(bits, Flags::DIVIDE_BY_ZERO)
 }
 
-/// An infinite operand passed on: infinity, or in fixed point the end of the range with `OVERFLOW`.
+/// An infinite operand passed through: infinity, or in fixed point the end of the range with `OVERFLOW`.
 pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
     match format.infinity(sign) {
         Some(bits) => Outcome::exact(bits),
@@ -179,12 +179,12 @@ pub(crate) fn infinite(format: &Format, sign: bool) -> Outcome {
     }
 }
 
-/// A zero; fixed point has one only.
+/// A zero of the given sign; fixed point has only one.
 pub(crate) fn zero(format: &Format, sign: bool) -> Outcome {
     Outcome::exact(if sign && !format.is_fixed() { format.sign_bit() } else { 0 })
 }
 
-/// The quotient `num / den` rounded once: how texels become numbers and attributes are interpolated.
+/// Computes the quotient `num / den`, rounded once. Used for texel decoding and attribute interpolation.
 ///
 /// `den = 0` is a division by zero (`0/0`: `INVALID`). In a wrapping format the quotient must be below `2^64`.
 pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> Outcome {
@@ -196,7 +196,7 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
         _ => {}
     }
     if num >> 32 == 0 && den >> 32 == 0 {
-        // 32 quotient bits at least, down to 2^-32 at least: enough for every format.
+        // At least 32 quotient bits, down to at least 2^-32: enough for every format.
         let shift = (num as u64).leading_zeros();
         let scaled = (num as u64) << shift;
         let (quotient, rest) = (scaled / den as u64, scaled % den as u64);
@@ -206,7 +206,7 @@ pub fn from_ratio(env: impl Into<Env>, negative: bool, num: u128, den: u128) -> 
     let scaled = num << shift;
     let (mut quotient, mut rest) = (scaled / den, scaled % den);
     let mut exp = -shift.cast_signed();
-    // Long division, a bit at a time, until the quotient is as long as rounding needs it.
+    // Long division, bit by bit, until the quotient is as long as rounding needs it.
     while rest != 0 && quotient >> 126 == 0 && (quotient >> 64 == 0 || exp > -33) {
         let bit = rest >= den - rest;
         rest = if bit { rest - (den - rest) } else { rest << 1 };

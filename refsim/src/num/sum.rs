@@ -1,4 +1,4 @@
-//! Exact sums of two signed magnitudes, as far as one rounding can see them.
+//! Sums of two signed magnitudes, exact up to a sticky bit.
 
 use super::env::Env;
 use super::flags::Outcome;
@@ -13,7 +13,7 @@ pub(crate) struct Term {
     pub(crate) exp: i32,
 }
 
-/// The sign of an exact zero that is the sum of terms which aren't all zeros of one sign (IEEE 754-2019, 6.3).
+/// Sign of an exact zero sum whose terms aren't all zeros of one sign (IEEE 754-2019, 6.3).
 pub(crate) fn cancelled(env: &Env) -> bool {
     env.format.rounding == Rounding::Down
 }
@@ -33,13 +33,13 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
     let (high, low) = if a.exp >= b.exp { (a, b) } else { (b, a) };
     let distance = high.exp.abs_diff(low.exp);
     if distance <= 30 && high.sig >> 32 == 0 && low.sig >> 62 == 0 {
-        // One word holds the exact sum.
+        // The exact sum fits in one word.
         let signed = |negative: bool, sig: u64| if negative { -sig.cast_signed() } else { sig.cast_signed() };
         let total = signed(high.sign, high.sig << distance) + signed(low.sign, low.sig);
         let sign = if total == 0 { cancelled(env) } else { total < 0 };
         return round(env, sign, total.unsigned_abs(), low.exp, false);
     }
-    // Bits by which the higher term moves left (two stay free for the carry), and the lower one right.
+    // Left shift of the higher term (two bits stay free for the carry) and right shift of the lower one.
     let left = distance.min(u128::from(high.sig).leading_zeros() - 2);
     let right = distance - left;
     let high_sig = u128::from(high.sig) << left;
@@ -55,7 +55,7 @@ pub(crate) fn sum(env: &Env, a: Term, b: Term) -> Outcome {
         return zero(&env.format, cancelled(env));
     }
     if high_sig >= low_sig {
-        // A rest below the cut makes the difference smaller by less than one unit.
+        // The dropped bits make the difference smaller by less than one unit.
         from_parts(*env, high.sign, high_sig - low_sig - u128::from(sticky), exp, sticky)
     } else {
         from_parts(*env, low.sign, low_sig - high_sig, exp, false)

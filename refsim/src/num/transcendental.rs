@@ -1,9 +1,9 @@
-//! Base-two exponential, logarithm and power.
+//! Correctly rounded transcendental functions: base-two exponential and logarithm, power, sine and cosine.
 //!
-//! A value that no finite number of bits holds is enclosed between two integers in units of `2^-places`. If both
-//! ends round to the same bits and flags, so does the value between them (rounding is monotone); if not, the
-//! enclosure is made again with twice the places. Exact results never get here, so the loop ends: `2^x` is
-//! irrational for every rational `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
+//! An irrational value is enclosed between two integers in units of `2^-places`. If both ends round to the same bits
+//! and flags, so does the value between them (rounding is monotone); if not, the enclosure is recomputed with twice the
+//! places (Ziv's strategy). Exact results are handled separately, so the loop ends: `2^x` is irrational for every
+//! rational `x` that isn't an integer, `log2 x` for every rational `x` that isn't a power of two.
 
 mod circle;
 mod enclose;
@@ -19,8 +19,8 @@ use super::ops::mul;
 use super::round::{divide_by_zero, from_parts, infinite, zero};
 use super::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// Places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24 bits, so
-/// the later ones are never reached in practice.
+/// Numbers of places tried after the quick enclosure. Operands have at most 150 fraction bits and results at most 24
+/// bits, so the later ones are never reached in practice.
 const PLACES: [u32; 6] = [128, 256, 512, 1024, 2048, 4096];
 
 /// `2^x`, correctly rounded. `2^-inf` is +0. In a wrapping format an overflowing result saturates.
@@ -53,7 +53,7 @@ pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
     })
 }
 
-/// `floor(x)`, held within +-2^20: further out every format overflows or underflows alike.
+/// `floor(x)`, clamped to +-2^20: beyond that every format overflows or underflows.
 fn floor_clamped(sign: bool, sig: u64, exp: i32) -> i32 {
     const FAR: i64 = 1 << 20;
     let value = if sign { -i128::from(sig) } else { i128::from(sig) };
@@ -105,7 +105,7 @@ pub fn sin(env: impl Into<Env>, x: u32) -> Outcome {
     circular(env.into(), x, true)
 }
 
-/// Sine and cosine of rational angles but 0 are irrational, so no enclosure stays undecided.
+/// Sine or cosine. They are irrational at every rational angle but 0, so every enclosure is decided eventually.
 fn circular(env: Env, x: u32, sine: bool) -> Outcome {
     let format = &env.format;
     let value = unpack(format, x);
@@ -131,7 +131,7 @@ pub fn pow(env: impl Into<Env>, x: u32, y: u32) -> Outcome {
     exp2(env, product.bits).also(log.flags | product.flags)
 }
 
-/// The outcome for every value strictly between `low * 2^exp` and `high * 2^exp`, if there is one.
+/// Rounds all values strictly between `low * 2^exp` and `high * 2^exp`; `None` if they differ in bits or flags.
 fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
     let (sign, near, far) = match (low >= 0, high <= 0) {
         (true, _) => (false, low, high),
@@ -144,7 +144,7 @@ fn decide_quick(env: &Env, low: i128, high: i128, exp: i32) -> Option<Outcome> {
     (first == last).then_some(first)
 }
 
-/// The same with enclosures of more and more places.
+/// Rounds by enclosures with more and more places.
 fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outcome {
     let mut best = Outcome::exact(0);
     for places in PLACES {
@@ -162,7 +162,7 @@ fn decide_long(env: &Env, enclosure: impl Fn(u32) -> Enclosure<BigInt>) -> Outco
     best
 }
 
-/// A value strictly between `floor * 2^exp` and `(floor + 1) * 2^exp`, rounded.
+/// Rounds a value strictly between `floor * 2^exp` and `(floor + 1) * 2^exp`.
 fn round_big(env: &Env, sign: bool, floor: &BigInt, exp: i32) -> Outcome {
     let magnitude = floor.magnitude();
     let drop = magnitude.bits().saturating_sub(120);

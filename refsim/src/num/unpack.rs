@@ -1,10 +1,10 @@
-//! From bits to the number they mean.
+//! Decodes bit patterns into numbers.
 
 use super::Outcome;
 use super::flags::Flags;
 use super::format::{Denormals, Format, FormatKind};
 
-/// The number behind a bit pattern.
+/// A decoded number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unpacked {
     /// Not a number.
@@ -28,8 +28,8 @@ pub enum Unpacked {
     },
 }
 
-/// The number behind `bits` as operations see it: under [`Denormals::Flush`] a subnormal is a zero of its sign.
-/// Bits above the width are ignored.
+/// Decodes `bits` as operations see them: under [`Denormals::Flush`] a subnormal is a zero of its sign. Bits above the
+/// width are ignored.
 pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     let bits = bits & format.mask();
     let sign = format.is_negative(bits);
@@ -58,7 +58,7 @@ pub fn unpack(format: &Format, bits: u32) -> Unpacked {
     }
 }
 
-/// A value moved unchanged: NaN made canonical, subnormals flushed where the format says so, no exception.
+/// Passes a value through: NaNs become canonical, subnormals are flushed where the format flushes; no exceptions.
 pub(crate) fn pass(format: &Format, bits: u32) -> u32 {
     let bits = bits & format.mask();
     if let FormatKind::Float { .. } = format.kind {
@@ -77,12 +77,12 @@ pub(crate) fn nan_bits(format: &Format) -> u32 {
     format.canonical_nan().unwrap_or(0)
 }
 
-/// "There is no result": canonical NaN (fixed point: zero) and `INVALID`.
+/// The result of an operation without a real result: canonical NaN (fixed point: zero) and `INVALID`.
 pub(crate) fn invalid(format: &Format) -> Outcome {
     Outcome::new(nan_bits(format), Flags::INVALID)
 }
 
-/// The result of an operation of which some operand is a NaN: `INVALID` if one of them is signalling.
+/// The result of an operation with a NaN operand: `INVALID` if one of them is signalling.
 pub(crate) fn nan_result(format: &Format, operands: &[Unpacked]) -> Outcome {
     let signaling = operands.iter().any(|o| matches!(o, Unpacked::Nan { signaling: true }));
     Outcome::new(nan_bits(format), if signaling { Flags::INVALID } else { Flags::empty() })

@@ -2,7 +2,8 @@
 //!
 //! guess: a fixed-point blender works on values of the target's precision. The source is clamped and rounded into the
 //! target's channels first; `source * factor op destination * factor` is then exact and rounded once more into the
-//! channel. In floating-point targets each product and the sum is one FP32 operation, and the result is converted once.
+//! channel. In floating-point targets the products and the sum are one FP32 operation each, and the result is converted
+//! once.
 
 use serde::Deserialize;
 use strum::VariantArray;
@@ -13,7 +14,7 @@ use crate::texture::{
     encode, encode_channel, value,
 };
 
-/// What a colour is multiplied by.
+/// Blend factor of a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum BlendFactor {
@@ -55,7 +56,7 @@ impl BlendFactor {
     pub const ALL: &'static [Self] = Self::VARIANTS;
 }
 
-/// How the two products are combined.
+/// Blend operation: combination of the two products.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BlendOp {
@@ -77,30 +78,30 @@ pub enum BlendOp {
 pub struct BlendEquation {
     /// Factor of the fragment's colour.
     pub source: BlendFactor,
-    /// Factor of what is in the target.
+    /// Factor of the target's contents.
     pub destination: BlendFactor,
-    /// How they are combined.
+    /// Combination of the two products.
     pub op: BlendOp,
 }
 
 /// The state of the blender.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BlendState {
-    /// For red, green and blue.
+    /// Equation of red, green and blue.
     pub color: BlendEquation,
-    /// For alpha.
+    /// Equation of alpha.
     pub alpha: BlendEquation,
 }
 
 impl BlendState {
-    /// The same equation for colour and alpha.
+    /// Blend state with the same equation for colour and alpha.
     pub const fn both(source: BlendFactor, destination: BlendFactor, op: BlendOp) -> Self {
         let equation = BlendEquation { source, destination, op };
         Self { color: equation, alpha: equation }
     }
 }
 
-/// The texel that results from blending a colour, in number format `from`, over the texel `destination`.
+/// Blends a colour, in number format `from`, with the texel `destination`; returns the resulting texel.
 pub fn blend_texel(
     format: TexelFormat,
     destination: u128,
@@ -128,8 +129,8 @@ pub fn blend_texel(
     })
 }
 
-/// The source as the target would store it; components that it does not store are unsigned with as many bits as its
-/// widest channel.
+/// Rounds the source to the target's channels; components that the target does not store are unsigned with as many bits
+/// as its widest channel.
 fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], rounding: TargetRounding) -> [Ratio; 4] {
     let record = format.record();
     let bits = record.stored().iter().map(|c| c.bits).max().unwrap_or(8);
@@ -146,7 +147,7 @@ fn quantised_source(format: TexelFormat, from: Format, source: [u32; 4], roundin
     out
 }
 
-/// The arithmetic of a blender.
+/// Arithmetic of a blender: FP32 for float targets, exact fractions for fixed-point ones.
 trait BlendValue: Copy {
     const ZERO: Self;
     const ONE: Self;
@@ -163,7 +164,8 @@ fn blend<T: BlendValue>(equation: &BlendEquation, source: [T; 4], destination: [
         BlendOp::Max => return if s.is_below(d) { d } else { s },
         _ => {}
     }
-    // A factor of 0 takes its term out and 1 leaves it alone, so that infinities pass by and -0 stays.
+    // A factor of 0 removes its term and a factor of 1 leaves it unchanged, so that infinities give no NaN and -0 is
+    // kept.
     let term = |value: T, factor: BlendFactor| match factor {
         BlendFactor::Zero => None,
         BlendFactor::One => Some(value),
@@ -202,7 +204,7 @@ fn factor_value<T: BlendValue>(factor: BlendFactor, source: [T; 4], destination:
     }
 }
 
-/// FP32 bits.
+/// FP32 blending; values are bit patterns.
 impl BlendValue for u32 {
     const ZERO: Self = value::ZERO;
     const ONE: Self = value::ONE;
@@ -224,7 +226,7 @@ impl BlendValue for u32 {
     }
 }
 
-/// An exact fraction. Its parts stay small: at most four channels' denominators of 16 bits are multiplied.
+/// An exact fraction. Its parts stay small: at most four 16-bit channel denominators are multiplied.
 #[derive(Clone, Copy, Debug)]
 struct Ratio {
     numerator: i128,
@@ -237,12 +239,12 @@ impl Ratio {
             ChannelValue::Ratio { numerator, denominator } => {
                 Self { numerator: i128::from(numerator), denominator: i128::from(denominator) }
             }
-            // Not reached: targets of integers have no floats.
+            // Unreachable: fixed-point targets have no float channels.
             ChannelValue::Float { .. } => Self::ZERO,
         }
     }
 
-    /// The channel bits nearest to the fraction, clamped to the channel's range.
+    /// Encodes the fraction for a channel: clamped to its range and rounded.
     fn encode(self, channel: Channel, rounding: TargetRounding) -> u32 {
         let one = value::ONE;
         let negative = self.numerator < 0;

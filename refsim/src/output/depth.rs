@@ -1,4 +1,4 @@
-//! Depth: formats, comparisons, surfaces.
+//! Depth formats, comparisons and surfaces.
 
 use serde::Deserialize;
 use strum::{Display, IntoStaticStr, VariantArray};
@@ -8,7 +8,7 @@ use crate::num::Format;
 use crate::texture::TargetRounding;
 use crate::texture::value::{self, Exact};
 
-/// How depth is stored.
+/// Storage format of depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, VariantArray, IntoStaticStr, Display)]
 pub enum DepthFormat {
     /// `k / (2^16 - 1)`
@@ -24,7 +24,7 @@ pub enum DepthFormat {
     #[strum(serialize = "d32f")]
     Float32,
     /// 24 bits without a sign: 4 exponent, 20 mantissa bits (`D24FS8`, "20e4"). guess: the bias, which no source
-    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; nearest even.
+    /// states, is 15, so that 1.0 has the largest exponent; exponent 0 is subnormal; rounding is to nearest even.
     #[strum(serialize = "d24f")]
     Float24,
 }
@@ -38,7 +38,7 @@ impl DepthFormat {
         self.into()
     }
 
-    /// Bytes of a depth in the card's memory.
+    /// Bytes per pixel in the card's memory.
     pub const fn bytes(self) -> u64 {
         match self {
             Self::Unorm16 => 2,
@@ -46,10 +46,10 @@ impl DepthFormat {
         }
     }
 
-    /// The stored pattern of a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
+    /// Encodes a depth given in number format `from`: clamped to 0 to 1, rounded once. NaN gives 0.
     ///
-    /// Patterns of one depth format order as their depths. `rounding` is for the integer formats; the float formats
-    /// round to nearest, ties to even.
+    /// Patterns of a format have the order of their depths. `rounding` applies to the fixed-point formats; the float
+    /// formats round to nearest, ties to even.
     pub fn quantise(self, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
         let (significand, exponent) = match value::exact(from, bits) {
             Exact::Nan | Exact::Infinite { negative: true } | Exact::Finite { negative: true, .. } => (0, 0),
@@ -67,7 +67,7 @@ impl DepthFormat {
         }
     }
 
-    /// The depth of a stored pattern, rounded into a number format.
+    /// Decodes a stored pattern into a number format, rounded once.
     pub fn to_format(self, stored: u32, format: Format) -> u32 {
         let ratio = |scale: u32| value::ratio(format, i64::from(stored.min(scale)), u64::from(scale));
         match self {
@@ -89,7 +89,7 @@ impl DepthFormat {
 impl std::str::FromStr for DepthFormat {
     type Err = OutputError;
 
-    /// Takes our name or the Direct3D one (`D24S8`, `D24X8`, `D16`, `D24FS8`, ...), in any case.
+    /// Parses our name or the Direct3D one (`D24S8`, `D24X8`, `D16`, `D24FS8`, ...), in any case.
     fn from_str(text: &str) -> Result<Self, OutputError> {
         let lower = text.trim().to_ascii_lowercase();
         match lower.strip_prefix("d3dfmt_").unwrap_or(&lower) {
@@ -103,8 +103,8 @@ impl std::str::FromStr for DepthFormat {
     }
 }
 
-/// `min(significand * 2^exponent, 1)` as an unsigned float whose bias makes 1.0 the exponent field
-/// `2^(exponent_bits-1) - 1` (8 bits) or 15 (4 bits).
+/// Encodes `min(significand * 2^exponent, 1)` as an unsigned float with bias `2^(exponent_bits-1) - 1` (8 exponent
+/// bits) or 15 (4 exponent bits).
 fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_bits: u32) -> u32 {
     let bias = if exponent_bits == 4 { 15 } else { (1 << (exponent_bits - 1)) - 1 };
     let one = (bias as u32) << mantissa_bits;
@@ -115,7 +115,7 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
     if top >= 0 {
         return one;
     }
-    // The unit in the last place: that of the number's binade, or of the subnormals.
+    // Unit in the last place of the number's binade, or of the subnormals.
     let unit = top.max(1 - bias) - mantissa_bits.cast_signed();
     let shift = unit - exponent;
     let kept = if shift <= 0 {
@@ -126,12 +126,12 @@ fn positive_float(significand: u64, exponent: i32, exponent_bits: u32, mantissa_
         let (whole, rest, half) = (significand >> shift, significand & ((1 << shift) - 1), 1u64 << (shift - 1));
         whole + u64::from(rest > half || (rest == half && whole & 1 == 1))
     };
-    // The hidden bit adds one to the exponent field, so a carry is right as well.
+    // The hidden bit adds one to the exponent field, so a carry is correct as well.
     let base = ((unit + mantissa_bits.cast_signed() + bias - 1) as u32) << mantissa_bits;
     (base + kept as u32).min(one)
 }
 
-/// The eight comparisons, of the new value with the stored one (or the alpha reference).
+/// Comparison of a new value with the stored one (or the alpha reference).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, VariantArray)]
 #[serde(rename_all = "kebab-case")]
 pub enum CompareFunction {
@@ -158,7 +158,7 @@ impl CompareFunction {
     /// Every comparison.
     pub const ALL: &'static [Self] = Self::VARIANTS;
 
-    /// Whether the comparison holds for an order; `None` is unordered (a NaN), where only `NotEqual` and `Always` do.
+    /// Returns `true` if the comparison passes. `None` is unordered (a NaN), which only `NotEqual` and `Always` pass.
     pub fn holds(self, order: Option<std::cmp::Ordering>) -> bool {
         use std::cmp::Ordering::{Equal, Greater, Less};
         match self {
@@ -177,9 +177,9 @@ impl CompareFunction {
 /// The state of the depth test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct DepthState {
-    /// The comparison of the fragment's depth with the stored one; `None`: no test, and no write either.
+    /// Comparison of the fragment's depth with the stored one; `None` disables test and write.
     pub test: Option<CompareFunction>,
-    /// Whether the depth of a fragment that passes is stored.
+    /// `true` if passing fragments write their depth.
     pub write: bool,
 }
 
@@ -193,10 +193,10 @@ pub struct DepthSurface {
 }
 
 impl DepthSurface {
-    /// A surface of depth 1, the far plane.
+    /// Creates a surface with depth 1, the far plane, everywhere.
     ///
     /// # Errors
-    /// If a side is 0 or above 16384.
+    /// If an extent is 0 or above 16384.
     pub fn new(format: DepthFormat, width: u32, height: u32) -> Result<Self, OutputError> {
         if !(1..=16_384).contains(&width) || !(1..=16_384).contains(&height) {
             return Err(OutputError::DepthExtent { width, height });
@@ -220,7 +220,7 @@ impl DepthSurface {
         self.height
     }
 
-    /// Its bytes in the card's memory.
+    /// Size in the card's memory, in bytes.
     pub fn bytes(&self) -> u64 {
         self.format.bytes() * u64::from(self.width) * u64::from(self.height)
     }
@@ -230,18 +230,18 @@ impl DepthSurface {
         &self.data
     }
 
-    /// All patterns, to be changed. Patterns beyond the format's width break the order of comparisons.
+    /// Mutable access to all patterns. Patterns beyond the format's width break the order of comparisons.
     pub fn data_mut(&mut self) -> &mut [u32] {
         &mut self.data
     }
 
-    /// The pattern of a pixel, or `None` outside.
+    /// The pattern of a pixel; `None` outside the surface.
     pub fn get(&self, x: u32, y: u32) -> Option<u32> {
         let inside = x < self.width && y < self.height;
         inside.then(|| self.data[y as usize * self.width as usize + x as usize])
     }
 
-    /// Sets every pixel to a depth given as FP32 bits.
+    /// Fills the surface with a depth given as FP32 bits.
     pub fn clear(&mut self, depth: u32, rounding: TargetRounding) {
         self.data.fill(self.format.quantise(Format::FP32, depth, rounding));
     }

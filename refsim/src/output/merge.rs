@@ -1,4 +1,4 @@
-//! Alpha test, depth test, blending and masked write of one fragment.
+//! Alpha test, depth test, blending and masked write of a fragment.
 
 use super::MAX_TARGETS;
 use super::blend::{BlendState, blend_texel};
@@ -8,14 +8,14 @@ use crate::device::Rules;
 use crate::num::{self, Format};
 use crate::texture::{TargetRounding, encode, value};
 
-/// What a device says about targets.
+/// A device's rules for render targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OutputRules {
-    /// Format of what pixel programs write.
+    /// Format of pixel program outputs.
     pub format: Format,
-    /// Rounding into colour targets of integers.
+    /// Rounding into fixed-point colour targets.
     pub target_rounding: TargetRounding,
-    /// Rounding into depth buffers of integers.
+    /// Rounding into fixed-point depth buffers.
     pub depth_rounding: TargetRounding,
 }
 
@@ -25,16 +25,16 @@ impl From<&Rules> for OutputRules {
     }
 }
 
-/// The alpha test: alpha of colour 0 is compared with a reference in the register format.
+/// The alpha test: compares alpha of colour 0 with a reference in the register format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct AlphaTest {
-    /// The comparison that lets a fragment pass.
+    /// Comparison that passing fragments satisfy.
     pub function: CompareFunction,
     /// The reference, FP32 bits; converted to the register format once.
     pub reference: u32,
 }
 
-/// The components that are written: bit 0 red to bit 3 alpha.
+/// Set of written components, bit 0 red to bit 3 alpha.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct WriteMask(pub u8);
 
@@ -44,7 +44,7 @@ impl WriteMask {
     /// Nothing.
     pub const NONE: Self = Self(0);
 
-    /// Whether the component (0 red to 3 alpha) is written.
+    /// Returns `true` if the component (0 red to 3 alpha) is written.
     pub const fn has(self, component: u8) -> bool {
         self.0 >> component & 1 == 1
     }
@@ -59,46 +59,46 @@ impl Default for WriteMask {
 /// The state of the output stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct OutputState {
-    /// Alpha test, if on.
+    /// Alpha test, if enabled.
     pub alpha: Option<AlphaTest>,
     /// Depth test.
     pub depth: DepthState,
-    /// Blending, if on.
+    /// Blending, if enabled.
     pub blend: Option<BlendState>,
     /// Write masks of the targets.
     pub masks: [WriteMask; MAX_TARGETS],
 }
 
-/// What a pixel program leaves behind; numbers in the register format.
+/// Outputs of a pixel program; numbers in the register format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentOutput {
-    /// A colour for each target.
+    /// Colour per target.
     pub colors: [[u32; 4]; MAX_TARGETS],
-    /// Bit `i` is set if colour `i` was written; targets without a colour stay as they are.
+    /// Bit `i` is set if colour `i` was written; targets without a colour keep their contents.
     pub written: u8,
-    /// A depth of the program's own, instead of the interpolated one.
+    /// Depth written by the program; `None`: the interpolated one.
     pub depth: Option<u32>,
-    /// The program killed the fragment.
+    /// `true` if the program killed the fragment.
     pub killed: bool,
 }
 
-/// What became of a fragment.
+/// Outcome of a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FragmentFate {
-    /// `texkill`.
+    /// Killed by the pixel program.
     KilledByShader,
     /// Failed the alpha test.
     AlphaFailed,
     /// Failed the depth test.
     DepthFailed,
-    /// Reached the targets.
+    /// Written to the targets.
     Passed,
-    /// Was not of this tile; nothing was done.
+    /// Outside the tile; nothing was done.
     OutsideTile,
 }
 
 impl AlphaTest {
-    /// Whether an alpha in the register format passes. A NaN is equal to nothing.
+    /// Returns `true` if an alpha in the register format passes. NaN is unordered.
     pub fn passes(&self, alpha: u32, format: Format) -> bool {
         use std::cmp::Ordering::{Equal, Greater, Less};
         let reference = num::ops::convert(&Format::FP32, format, self.reference).bits;
@@ -115,10 +115,10 @@ impl AlphaTest {
     }
 }
 
-/// Takes a fragment through alpha test, depth test, blending and write masks into a tile.
+/// Applies alpha test, depth test, blending and write masks to a fragment, and writes it into a tile.
 ///
-/// `depth` is the interpolated depth, FP32 bits. A program's own depth takes its place and is converted from the
-/// register format into the depth format once.
+/// `depth` is the interpolated depth, FP32 bits. A depth written by the program replaces it and is converted from the
+/// register format to the depth format once.
 pub fn merge(
     tile: &mut TargetTile,
     (x, y): (u32, u32),
@@ -180,7 +180,7 @@ fn write_color(
     target.set_raw(index, old & !bits | new & bits);
 }
 
-/// The alpha reference of Direct3D 8 and 9, an integer of 8 bits: `k / 255` as FP32 bits.
+/// Converts the 8-bit alpha reference of Direct3D 8 and 9 to `k / 255`, as FP32 bits.
 pub fn alpha_reference(k: u8) -> u32 {
     value::ratio(Format::FP32, i64::from(k), 255)
 }

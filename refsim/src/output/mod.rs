@@ -1,7 +1,7 @@
 //! The output stage: kill, alpha test, depth test, blending, write masks, targets.
 //!
-//! The steps of a fragment, in order: (kill by the program) -> alpha test -> depth clamped and quantised, then tested
-//! -> depth written -> each colour quantised, blended, masked, written. docs/numbers.md, "Targets and depth".
+//! Steps per fragment, in order: (kill by the program) -> alpha test -> depth clamped and quantised, then tested ->
+//! depth written -> each colour quantised, blended, masked, written. See docs/numbers.md, "Targets and depth".
 
 mod blend;
 mod depth;
@@ -15,5 +15,5 @@ pub use error::OutputError;
 pub use merge::{AlphaTest, FragmentFate, FragmentOutput, OutputRules, OutputState, WriteMask, alpha_reference, merge};
 pub use tile::{ColorTile, DepthTile, TargetTile};
 
-/// Colour targets a draw can have.
+/// Maximum number of colour targets per draw.
 pub const MAX_TARGETS: usize = 4;

@@ -1,10 +1,10 @@
-//! A rectangle of all targets in a buffer of its own, so that tiles can be worked on side by side.
+//! Copies of a rectangle of all targets, so that tiles can be drawn in parallel.
 
 use super::depth::{DepthFormat, DepthSurface};
 use super::{MAX_TARGETS, OutputError};
 use crate::texture::{Image, Region, TexelFormat, TextureError, TextureKind, image};
 
-/// The texels of one colour target within a tile.
+/// Texels of one colour target within a tile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColorTile {
     /// The texel format.
@@ -13,7 +13,7 @@ pub struct ColorTile {
     pub bytes: Vec<u8>,
 }
 
-/// The patterns of the depth buffer within a tile.
+/// Patterns of the depth buffer within a tile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DepthTile {
     /// The depth format.
@@ -22,22 +22,22 @@ pub struct DepthTile {
     pub data: Vec<u32>,
 }
 
-/// All targets of a draw within a rectangle of pixels.
+/// Copies of all targets of a draw within a rectangle of pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TargetTile {
-    /// The pixels.
+    /// The rectangle, in pixels.
     pub region: Region,
-    /// Colour targets in order; a gap is `None`.
+    /// Colour targets in order; `None` for unused slots.
     pub colors: [Option<ColorTile>; MAX_TARGETS],
     /// The depth buffer.
     pub depth: Option<DepthTile>,
 }
 
 impl TargetTile {
-    /// Checks that images and depth surface can be the targets of one draw, and gives the pixels they have.
+    /// Checks that images and depth surface can be the targets of one draw; returns their common region.
     ///
     /// # Errors
-    /// If there are more than four colour targets, one is not a plane, or sizes differ.
+    /// If there are more than four colour targets, one is not two-dimensional, or sizes differ.
     pub fn check(colors: &[Option<&Image>], depth: Option<&DepthSurface>) -> Result<Region, OutputError> {
         if colors.len() > MAX_TARGETS {
             return Err(OutputError::TooManyTargets { most: MAX_TARGETS, found: colors.len() });
@@ -58,10 +58,10 @@ impl TargetTile {
         }
     }
 
-    /// Copies a rectangle out of the targets.
+    /// Copies a rectangle from the targets.
     ///
     /// # Errors
-    /// As [`TargetTile::check`]; a rectangle that leaves the targets is cut to them.
+    /// As [`TargetTile::check`]; the rectangle is clipped to the targets.
     pub fn load(colors: &[Option<&Image>], depth: Option<&DepthSurface>, region: Region) -> Result<Self, OutputError> {
         let region = region.intersect(Self::check(colors, depth)?);
         let mut tile = Self { region, colors: [const { None }; MAX_TARGETS], depth: None };
@@ -81,10 +81,10 @@ impl TargetTile {
         Ok(tile)
     }
 
-    /// Copies the tile's pixels of colour target `index` back into the image it was loaded from.
+    /// Copies the tile's pixels of colour target `index` back to the image.
     ///
     /// # Errors
-    /// If the image is not of the size and format that were loaded.
+    /// If size or format of the image differ from those loaded.
     pub fn store_color(&self, index: usize, image: &mut Image) -> Result<(), TextureError> {
         match self.colors.get(index) {
             Some(Some(tile)) => image.write_region(0, 0, self.region, &tile.bytes),
@@ -92,7 +92,7 @@ impl TargetTile {
         }
     }
 
-    /// Copies the tile's depths back into the surface they were loaded from; pixels outside it are left out.
+    /// Copies the tile's depths back to the surface; does nothing if the tile exceeds it.
     pub fn store_depth(&self, surface: &mut DepthSurface) {
         let Some(tile) = &self.depth else { return };
         let (stride, r) = (surface.width() as usize, self.region);
@@ -105,7 +105,7 @@ impl TargetTile {
         }
     }
 
-    /// The index of a pixel within the tile, or `None` outside.
+    /// Index of a pixel within the tile; `None` outside.
     pub fn index(&self, x: u32, y: u32) -> Option<usize> {
         let r = &self.region;
         let inside = x >= r.x && y >= r.y && x - r.x < r.width && y - r.y < r.height;
@@ -114,13 +114,13 @@ impl TargetTile {
 }
 
 impl ColorTile {
-    /// The texel at an index of [`TargetTile::index`], as a little-endian integer; 0 past the end.
+    /// The texel at an index from [`TargetTile::index`], as a little-endian integer; 0 past the end.
     pub fn raw(&self, index: usize) -> u128 {
         let size = self.format.bytes();
         self.bytes.get(index * size..(index + 1) * size).map_or(0, image::read_le)
     }
 
-    /// Overwrites the texel at an index; nothing happens past the end.
+    /// Overwrites the texel at an index; does nothing past the end.
     pub fn set_raw(&mut self, index: usize, raw: u128) {
         let size = self.format.bytes();
         if let Some(bytes) = self.bytes.get_mut(index * size..(index + 1) * size) {

@@ -2,7 +2,7 @@
 
 use super::{Primitive, Provoking, RasterError};
 
-/// The vertex, as an index, that provokes the `i`th triangle of [`assemble`].
+/// Index of the provoking vertex of the `i`th triangle of [`assemble`].
 pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize {
     let (first, last) = match primitive {
         Primitive::TriangleStrip => (i, i + 2),
@@ -17,13 +17,13 @@ pub fn provoking(primitive: Primitive, i: usize, convention: Provoking) -> usize
     }
 }
 
-/// The triangles, as vertex indices, that `count` vertices make; vertices left over are ignored.
+/// Assembles `count` vertices into triangles of vertex indices; left-over vertices are ignored.
 ///
-/// A quad of vertices 0 1 2 3 is the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are turned so that
-/// all wind alike and their first vertex stays the first: (n, n+2, n+1).
+/// A quad of vertices 0 1 2 3 is the triangles (0, 1, 2) and (0, 2, 3). Odd triangles of a strip are reordered to (n,
+/// n+2, n+1), so that all have the same winding and keep their first vertex.
 ///
 /// # Errors
-/// For points and lines.
+/// For points and lines, which are not supported.
 pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item = [usize; 3]> + Clone, RasterError> {
     let triangles = match primitive {
         Primitive::TriangleList => count / 3,
@@ -39,7 +39,7 @@ pub fn assemble(primitive: Primitive, count: usize) -> Result<impl Iterator<Item
 
 /// The `i`th triangle.
 fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
-    // A quad's corners in turn, split along the diagonal from the first.
+    // Corners of a quad in order, split along the diagonal from the first.
     let half = |[a, b, c, d]: [usize; 4]| if i.is_multiple_of(2) { [a, b, c] } else { [a, c, d] };
     match primitive {
         Primitive::TriangleStrip if i % 2 == 1 => [i, i + 2, i + 1],
@@ -61,8 +61,8 @@ fn triangle(primitive: Primitive, i: usize) -> [usize; 3] {
 mod tests {
     use super::*;
 
-    /// Direct3D 9 reference, triangle strips, fans and shading modes; OpenGL 2.1, table 2.12; `EXT_provoking_vertex`
-    /// for the first vertices of quads.
+    /// Sources: Direct3D 9 reference, triangle strips, fans and shading modes; OpenGL 2.1, table 2.12;
+    /// `EXT_provoking_vertex` for the first vertices of quads.
     #[test]
     fn provoking_vertices_are_those_of_the_documentation() {
         let of = |primitive| [Provoking::First, Provoking::Last].map(|c| [0, 1, 2].map(|i| provoking(primitive, i, c)));

@@ -1,18 +1,18 @@
-//! Clipping in homogeneous coordinates, in FP32 steps.
+//! Clipping in homogeneous coordinates, in FP32 operations.
 
 use super::state::ClipSpace;
 use super::vertex::{COMPONENTS, Vertex};
 use crate::texture::value;
 
-/// How far past the viewport a triangle may reach before it is clipped, in viewports: 8 (FP32 bits).
+/// Guard band: the multiple of the viewport's half extents at which triangles are clipped, 8 (FP32 bits).
 pub(crate) const GUARD_BAND: u32 = 0x4100_0000;
 
-/// A vertex in the clipper: position and interpolated components.
+/// A vertex of the clipper: position and interpolated components.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ClipVertex {
     pub(crate) position: [u32; 4],
     pub(crate) components: [u32; COMPONENTS],
-    /// Whether the polygon's edge from here to the next corner lies on an edge of the triangle, not on a plane.
+    /// `true` if the polygon's edge to the next corner lies on an edge of the triangle, not on a clip plane.
     pub(crate) begins_edge: bool,
 }
 
@@ -22,10 +22,10 @@ impl ClipVertex {
     }
 }
 
-/// The least w kept: 2^-64. It stands for "w > 0" and keeps 1/w finite.
+/// Smallest w that is not clipped: 2^-64. It approximates w > 0 and keeps 1/w finite.
 pub(crate) const LEAST_W: u32 = (127 - 64) << 23;
 
-/// The planes, each as what must not be below zero.
+/// The clip planes, named by the quantity that must not be negative.
 #[derive(Clone, Copy, Debug)]
 enum ClipPlane {
     W,
@@ -47,7 +47,7 @@ const PLANES: [ClipPlane; 7] = [
     ClipPlane::Top,
 ];
 
-/// FP32 distance of a position from a plane, in clip space units; negative is outside.
+/// FP32 distance of a position from a plane, in clip space units; negative outside.
 fn distance(plane: ClipPlane, space: ClipSpace, [x, y, z, w]: [u32; 4]) -> u32 {
     let band = value::mul(w, GUARD_BAND);
     match (plane, space) {
@@ -66,7 +66,7 @@ fn is_outside(distance: u32) -> bool {
     value::is_negative(distance) || value::is_nan(distance)
 }
 
-/// Corners of a triangle after the seven planes: it gains at most one with each.
+/// Corners of a clipped triangle; each of the seven planes adds at most one.
 pub(crate) struct Polygon {
     corners: [ClipVertex; 10],
     count: usize,
@@ -85,16 +85,16 @@ impl Polygon {
     }
 }
 
-/// Whether no plane cuts the triangle, so that it needs no clipper.
+/// Returns `true` if no plane cuts the triangle, so that it needs no clipping.
 pub(crate) fn is_inside(triangle: &[&Vertex; 3], space: ClipSpace) -> bool {
     triangle.iter().all(|v| PLANES.iter().all(|&p| !is_outside(distance(p, space, v.position))))
 }
 
-/// The part of a triangle within all planes (Sutherland and Hodgman): convex, its corners in the order given.
+/// Clips a triangle by all planes (Sutherland-Hodgman). The result is convex, with its corners in the original order.
 ///
-/// A new corner on the edge from an inside to an outside vertex is `inside + t * (outside - inside)` with
-/// `t = d_inside / (d_inside - d_outside)`, each step in FP32. It does not depend on which way round the edge is
-/// walked, so triangles with a common edge get the same corner. Equal components stay as they are.
+/// A new corner on the edge from an inside to an outside vertex is `inside + t * (outside - inside)` with `t = d_inside
+/// / (d_inside - d_outside)`, each step in FP32. The result does not depend on the direction of the edge, so triangles
+/// with a common edge get the same corner. Components that are equal at both ends are copied.
 pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
     let start = triangle.map(ClipVertex::new);
     let mut polygon = Polygon { corners: [start[0]; 10], count: 0 };
@@ -111,7 +111,7 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
             match (is_outside(d), is_outside(d_next)) {
                 // From here the polygon follows the plane.
                 (false, true) => polygon.push(crossing(corner, d, next, d_next, false)),
-                // From here it goes on along what it followed before.
+                // From here it continues along its previous edge.
                 (true, false) => polygon.push(crossing(next, d_next, corner, d, corner.begins_edge)),
                 _ => {}
             }
@@ -120,7 +120,7 @@ pub(crate) fn clip(triangle: [&Vertex; 3], space: ClipSpace) -> Polygon {
     polygon
 }
 
-/// Where the edge from an inside to an outside vertex meets the plane.
+/// Intersection of the edge from an inside to an outside vertex with the plane.
 fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside: u32, begins_edge: bool) -> ClipVertex {
     let t = value::div(d_inside, value::sub(d_inside, d_outside));
     let between = |a: u32, b: u32| if a == b { a } else { value::add(a, value::mul(t, value::sub(b, a))) };
@@ -135,7 +135,7 @@ fn crossing(inside: &ClipVertex, d_inside: u32, outside: &ClipVertex, d_outside:
 mod tests {
     use super::*;
 
-    /// Neighbours walk their common edge in opposite directions and must meet the planes in the same corners.
+    /// Adjacent triangles traverse their common edge in opposite directions and must get the same corners.
     #[test]
     fn corners_do_not_depend_on_the_direction_of_an_edge() {
         let mut seed = 1u64;

@@ -3,7 +3,8 @@
 use super::triangle::TriangleSetup;
 use crate::texture::Region;
 
-/// Two by two pixels, so that derivatives can be had: lane 0 at (x, y), lane 1 to its right, lanes 2 and 3 one row on.
+/// A 2x2 block of pixels, the unit for derivatives: lane 0 at (x, y), lane 1 to its right, lanes 2 and 3 in the next
+/// row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelQuad {
     /// Column of lane 0, even.
@@ -22,18 +23,20 @@ impl PixelQuad {
 }
 
 impl TriangleSetup {
-    /// Whether the fill rule gives this triangle the pixel: its centre is inside, or on a top or left edge.
+    /// Returns `true` if the fill rule assigns the pixel to this triangle: its centre is inside, or on a top or left
+    /// edge.
     pub fn coverage(&self, x: u32, y: u32) -> bool {
         self.edges.iter().all(|e| e.at(x, y) >= e.bias)
     }
 
-    /// Whether no pixel of the region is covered. `false` may also be said of a region that is missed narrowly.
+    /// Returns `true` only if no pixel of the region is covered. Conservative: may return `false` for a region that is
+    /// narrowly missed.
     pub fn misses(&self, region: Region) -> bool {
         let r = region.intersect(self.bounds);
         if r.width == 0 || r.height == 0 {
             return true;
         }
-        // An edge function is largest at the corner it grows toward.
+        // An edge function is largest at the corner in the direction of its gradient.
         self.edges.iter().any(|e| {
             let x = if e.a > 0 { r.x + r.width - 1 } else { r.x };
             let y = if e.b > 0 { r.y + r.height - 1 } else { r.y };
@@ -41,7 +44,7 @@ impl TriangleSetup {
         })
     }
 
-    /// Whether every pixel of the region is covered.
+    /// Returns `true` if every pixel of the region is covered.
     pub fn covers(&self, region: Region) -> bool {
         let r = region.intersect(self.bounds);
         r == region
@@ -54,14 +57,15 @@ impl TriangleSetup {
             })
     }
 
-    /// The quads of the region that have a covered pixel, row by row. Pixels outside the region are never covered.
+    /// Iterates over the quads of the region with at least one covered pixel, row by row. Pixels outside the region are
+    /// never covered.
     pub fn quads(&self, region: Region) -> QuadIterator<'_> {
         let region = if self.misses(region) { Region::default() } else { region.intersect(self.bounds) };
         QuadIterator { setup: self, region, x: region.x & !1, y: region.y & !1 }
     }
 }
 
-/// The covered quads of a region; made by [`TriangleSetup::quads`].
+/// Iterator over the covered quads of a region; see [`TriangleSetup::quads`].
 #[derive(Clone, Debug)]
 pub struct QuadIterator<'a> {
     setup: &'a TriangleSetup,

@@ -2,20 +2,20 @@
 
 use super::Primitive;
 
-/// Why a draw can't be rasterised.
+/// Error of rasterising a draw.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RasterError {
-    /// The emulator has no rule for this primitive.
+    /// The primitive is not supported.
     #[error("expected triangles or quads, found {primitive:?}; draw thin triangles instead")]
     UnsupportedPrimitive { primitive: Primitive },
-    /// The viewport is larger than the arithmetic of the set-up allows.
+    /// The viewport exceeds the range of the set-up arithmetic.
     #[error(
         "expected a viewport of 1 to {most} pixels a side within {most} of the origin, found {width}x{height} at ({x}, {y})"
     )]
     Viewport { most: u32, x: i32, y: i32, width: u32, height: u32 },
-    /// Too fine a grid of positions.
+    /// The position grid is too fine.
     #[error("expected at most {most} bits of subpixel position, found {found}")]
     SubpixelBits { most: u8, found: u8 },
 }

@@ -1,15 +1,15 @@
-//! Set-up of a clipped triangle as a fan of triangles.
+//! Set-up of a clipped triangle as a triangle fan.
 
 use super::clip::{ClipVertex, Polygon};
 use super::state::{RasterRules, RasterState};
 use super::triangle::{Dropped, SetupReport, TriangleSetup, prepare};
 use super::window::{Corner, doubled_area, to_window};
 
-/// Sets up what the clipper left, as a fan around its first corner.
+/// Sets up a clipped polygon as a fan around its first corner.
 ///
-/// The clipper's corners are snapped like any others, and where it cuts off or leaves very little that can fold the
-/// polygon over: it would cover pixels of its neighbour. So corners that lie beyond an edge of the triangle are left
-/// out, and of the fan the parts that are wound against the whole. What is lost is a sliver of the snapping's size.
+/// Snapping the clipper's corners to the grid can fold a thin polygon over, so that it would cover pixels of its
+/// neighbour. Therefore corners beyond an edge of the triangle are dropped, as are triangles of the fan with the
+/// opposite winding. The area lost is within the snapping error.
 pub(super) fn clipped_setup(
     polygon: &Polygon,
     state: &RasterState,
@@ -39,8 +39,8 @@ pub(super) fn clipped_setup(
     SetupReport { emitted, dropped: (emitted == 0).then_some(why) }
 }
 
-/// The winding of a snapped polygon (the sign of its area) and those of its corners that lie within the lines of all
-/// its edges that are the triangle's own. Neighbours snap a common edge alike, so what they keep lies on either side.
+/// Winding of a snapped polygon (the sign of its area), and its corners that lie inside all of its edges that belong to
+/// the original triangle. Neighbours snap a common edge identically, so each keeps corners on its own side only.
 fn unfolded(corners: &[(ClipVertex, Corner)]) -> (i64, Vec<(ClipVertex, Corner)>) {
     let around = |i: usize| (corners[i].1, corners[(i + 1) % corners.len()].1);
     let part = |i: usize| doubled_area([corners[0].1, around(i).0, around(i).1]);

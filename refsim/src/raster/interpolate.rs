@@ -1,4 +1,4 @@
-//! Values of a fragment: weights, then one fixed sequence of rounded steps per component.
+//! Attribute interpolation: weights, then a fixed sequence of rounded operations per component.
 
 use super::plane::{Plane, plane};
 use super::state::PixelCenter;
@@ -7,32 +7,32 @@ use super::vertex::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, POSITION_COMP
 use crate::num::{self, Format};
 use crate::texture::value;
 
-/// The rasteriser's inputs of a pixel program. All numbers are FP32 bits.
+/// Interpolated inputs of a pixel program. All numbers are FP32 bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentInput {
     /// Texture coordinate sets.
     pub t: [[u32; 4]; 8],
-    /// Colours as interpolated: not yet clamped or brought to the precision of the colour iterator.
+    /// Interpolated colours, before clamping and rounding to the precision of the colour iterator.
     pub v: [[u32; 4]; 2],
     /// Fog factor.
     pub fog: u32,
     /// Depth.
     pub depth: u32,
-    /// Window position: column and row of the pixel's centre, depth, 1 / w in clip space.
+    /// Window position: column and row of the pixel's centre, depth, and 1 / w of clip space.
     pub position: [u32; 4],
 }
 
-/// The weights of vertices 1 and 2 at a pixel, FP32 bits.
+/// Barycentric weights of vertices 1 and 2 at a pixel, as FP32 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Weights {
-    /// Along the screen: for depth.
+    /// Linear in screen space; for depth.
     pub linear: [u32; 2],
-    /// Along the surface: for everything else.
+    /// Perspective-correct; for all other components.
     pub perspective: [u32; 2],
 }
 
 impl TriangleSetup {
-    /// The weights at a pixel's centre, which may lie outside the triangle.
+    /// Weights at a pixel's centre, which may lie outside the triangle.
     ///
     /// `l1 = E1/A` and `l2 = E2/A` with the exact integers rounded to FP32 first. Unless all w are equal,
     /// `g0 = ((1-l1)-l2) * (1/w0)`, `g1 = l1 * (1/w1)`, `g2 = l2 * (1/w2)`, `s = (g0+g1)+g2`, and the weights are
@@ -51,15 +51,15 @@ impl TriangleSetup {
         Weights { linear, perspective: [value::div(g1, sum), value::div(g2, sum)] }
     }
 
-    /// Depth at weights of this triangle, FP32 bits.
+    /// Depth at the given weights, as FP32 bits.
     pub fn depth_at(&self, weights: &Weights) -> u32 {
         if self.depth_constant { self.depth.base } else { along(&self.depth, weights.linear, Format::FP32) }
     }
 
-    /// A component at weights of this triangle, FP32 bits; 0 past the last component.
+    /// A component at the given weights, as FP32 bits; 0 past the last component.
     ///
-    /// `(a0 + l1*(a1-a0)) + l2*(a2-a0)`, each step rounded to the iterator format. Constant components come as they
-    /// are.
+    /// `(a0 + l1*(a1-a0)) + l2*(a2-a0)`, each step rounded to the iterator format. Constant components are returned
+    /// unchanged.
     pub fn component_at(&self, component: usize, weights: &Weights) -> u32 {
         let Some(plane) = self.planes.get(component) else { return 0 };
         if self.constant.has(component) {
@@ -72,18 +72,18 @@ impl TriangleSetup {
         interpolated(plane, weights.perspective, format)
     }
 
-    /// 1 / w over the triangle, as a plane in FP32 along the screen. Constant if all w are equal.
+    /// 1 / w over the triangle, as a plane in FP32, linear in screen space. Constant if all w are equal.
     pub(crate) fn reciprocal_w_plane(&self) -> Plane {
         plane(self.reciprocal_w, Format::FP32)
     }
 
-    /// What there is to be added to a pixel's column and row to find its centre, in half pixels.
+    /// Offset from a pixel's column and row to its centre, in half pixels.
     pub(crate) fn half_pixels(&self) -> u32 {
         u32::from(self.center == PixelCenter::OpenGl)
     }
 
-    /// The window position of pixel (x, y) at weights of this triangle. `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the
-    /// reciprocals of w with the weights along the screen, each step rounded to FP32.
+    /// Window position of pixel (x, y) at the given weights. 1 / w is `(r0 + l1*(r1-r0)) + l2*(r2-r0)` of the vertices'
+    /// reciprocals with the screen-space weights, each step rounded to FP32.
     fn position_at(&self, x: u32, y: u32, weights: &Weights) -> [u32; 4] {
         let center =
             |n: u32| value::mul(value::from_integer(2 * i64::from(n) + i64::from(self.half_pixels())), value::HALF);
@@ -94,7 +94,7 @@ impl TriangleSetup {
         [center(x), center(y), self.depth_at(weights), w]
     }
 
-    /// The inputs of the fragment at pixel (x, y): depth and the components asked for; the others are 0.
+    /// Interpolates the inputs of the fragment at pixel (x, y): depth and the needed components; the others are 0.
     pub fn interpolate(&self, x: u32, y: u32, needed: ComponentMask) -> FragmentInput {
         let weights = self.weights(x, y);
         let mut input = FragmentInput { depth: self.depth_at(&weights), ..FragmentInput::default() };
@@ -116,7 +116,7 @@ impl TriangleSetup {
     }
 }
 
-/// A component that varies, at FP32 weights, in an iterator format other than FP32. FP32 bits.
+/// A non-constant component at FP32 weights, in an iterator format other than FP32. Returns FP32 bits.
 pub(crate) fn interpolated(plane: &Plane, weights: [u32; 2], format: Format) -> u32 {
     let converted = weights.map(|w| num::ops::convert(&Format::FP32, format, w).bits);
     num::ops::convert(&format, Format::FP32, along(plane, converted, format)).bits

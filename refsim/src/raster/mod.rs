@@ -1,8 +1,8 @@
-//! The rasteriser: primitive assembly, clipping, set-up, fill rule, interpolation.
+//! The rasteriser: primitive assembly, clipping, set-up, fill rule and interpolation.
 //!
-//! Positions are snapped to a fixed-point grid once; from there on coverage is decided by exact integers, so that two
-//! triangles with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of
-//! FP32 steps that an executor with host floats can repeat bit for bit. docs/numbers.md, "Interpolation".
+//! Positions are snapped to a fixed-point grid, and coverage is then computed in exact integers, so that two triangles
+//! with a common edge cover each pixel along it exactly once. Values are interpolated by a fixed sequence of FP32 steps
+//! that an executor with host floats can repeat bit for bit. See docs/numbers.md, "Interpolation".
 
 mod assembly;
 mod clip;

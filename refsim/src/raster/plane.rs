@@ -4,36 +4,36 @@ use super::clip::ClipVertex;
 use super::vertex::{COMPONENTS, ComponentMask};
 use crate::num::{self, Format};
 
-/// One component over a triangle: `(base + l1 * d1) + l2 * d2`.
+/// A component as a function of the weights: `(base + l1 * d1) + l2 * d2`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Plane {
     /// Value at vertex 0; for a constant component the FP32 value delivered everywhere.
     pub base: u32,
-    /// Value at vertex 1 less that at vertex 0, rounded.
+    /// Value at vertex 1 minus the value at vertex 0, rounded.
     pub d1: u32,
-    /// Value at vertex 2 less that at vertex 0, rounded.
+    /// Value at vertex 2 minus the value at vertex 0, rounded.
     pub d2: u32,
 }
 
-/// The plane of three values of a format.
+/// The plane through three values of a format.
 pub(super) fn plane(values: [u32; 3], format: Format) -> Plane {
     let [a0, a1, a2] = values;
     Plane { base: a0, d1: num::ops::sub(format, a1, a0).bits, d2: num::ops::sub(format, a2, a0).bits }
 }
 
-/// The plane of one component from its FP32 values at the vertices, and whether it is constant.
+/// The plane of a component from its FP32 values at the vertices, and `true` if it is constant.
 pub(crate) fn component_plane(values: [u32; 3], format: Format) -> (Plane, bool) {
     let into = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&Format::FP32, format, bits).bits };
     let back = |bits| if format == Format::FP32 { bits } else { num::ops::convert(&format, Format::FP32, bits).bits };
     if values[0] == values[1] && values[1] == values[2] {
-        // Zero is zero in every format: the usual value of what a draw does not use.
+        // Zero is zero in every format; most unused components are zero.
         let base = if values[0] == 0 { 0 } else { back(into(values[0])) };
         return (Plane { base, d1: 0, d2: 0 }, true);
     }
     (plane(values.map(into), format), false)
 }
 
-/// The planes of all components, and which of them are constant.
+/// Planes of all components, and the set of constant components.
 pub(super) fn planes(vertices: &[ClipVertex; 3], format: Format) -> ([Plane; COMPONENTS], ComponentMask) {
     let mut planes = [Plane::default(); COMPONENTS];
     let mut constant = ComponentMask::NONE;

@@ -1,8 +1,8 @@
-//! How vertices make primitives.
+//! Primitive topologies.
 
 use serde::Deserialize;
 
-/// How vertices make primitives.
+/// Primitive topology.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -30,11 +30,11 @@ pub enum Primitive {
     LineStrip,
 }
 
-/// The vertex whose colours a flat-shaded primitive has.
+/// Provoking vertex: the vertex whose colours a flat-shaded primitive takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Provoking {
-    /// The first one (Direct3D's `D3DSHADE_FLAT`). A fan's triangle starts behind the vertex that all have in common.
+    /// The first one (Direct3D's `D3DSHADE_FLAT`). In a fan it is the vertex after the common one.
     First,
-    /// The last one (OpenGL's `GL_FLAT`); of a quad its fourth.
+    /// The last one (OpenGL's `GL_FLAT`); the fourth of a quad.
     Last,
 }

@@ -1,10 +1,10 @@
-//! The quad that computes a texel per fragment.
+//! A full-screen quad that generates one fragment per texel.
 
 use super::Vertex;
 
-/// A quad over the whole target, to be drawn as [`QuadList`](super::Primitive::QuadList) in Direct3D's clip space with
-/// pixel centres as in OpenGL. `coordinates` gives the sets of texture coordinates of a corner by its place: (0, 0) at
-/// the outer corner of the first texel, (1, 1) at that of the last.
+/// Creates a quad that covers the whole target, to be drawn as [`QuadList`](super::Primitive::QuadList) with Direct3D's
+/// clip space and OpenGL's pixel centres. `coordinates` maps the position of a corner, (0, 0) at the outer corner of
+/// the first texel and (1, 1) at that of the last, to its texture coordinate sets.
 ///
 /// ```
 /// use refsim::raster::full_screen_quad;

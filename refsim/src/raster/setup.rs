@@ -1,4 +1,4 @@
-//! Triangle set-up: as it is where no clip plane cuts the triangle, or else in the parts that clipping leaves.
+//! Triangle set-up: directly if no clip plane cuts the triangle, else after clipping.
 
 use super::clip::{ClipVertex, clip, is_inside};
 use super::fan::clipped_setup;
@@ -8,7 +8,7 @@ use super::vertex::Vertex;
 use super::window::to_window;
 use crate::texture::value;
 
-/// Sets a triangle up and appends the result, or the results if clipping leaves more than three corners.
+/// Sets up a triangle and appends the result, or several results if clipping leaves more than three corners.
 pub fn setup(
     triangle: [&Vertex; 3],
     state: &RasterState,
@@ -25,7 +25,7 @@ pub fn setup(
     }
 }
 
-/// Sets a triangle up if no clip plane cuts it; `None` if one does.
+/// Sets up a triangle that no clip plane cuts; `None` if one does.
 fn unclipped(
     triangle: [&Vertex; 3],
     state: &RasterState,

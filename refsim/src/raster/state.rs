@@ -1,4 +1,4 @@
-//! The state of the rasteriser: viewport, conventions, culling, and what a device says about precision.
+//! State of the rasteriser: viewport, conventions, culling, and the device's precision.
 
 use serde::Deserialize;
 
@@ -7,15 +7,15 @@ use crate::device::Rules;
 use crate::num::Format;
 use crate::texture::{Region, value};
 
-/// The largest viewport side, and how far it may lie from the origin.
+/// Maximum extent of a viewport and maximum distance from the origin, in pixels.
 const MAX_PIXELS: u32 = 16_384;
 
-/// What a device says about rasterisation.
+/// A device's rasterisation rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RasterRules {
     /// Fraction bits of a window position, 0 to 8.
     pub subpixel_bits: u8,
-    /// Format in which components are interpolated. The weights are FP32 in any case.
+    /// Format in which components are interpolated. The weights are always FP32.
     pub iterator_format: Format,
 }
 
@@ -25,12 +25,12 @@ impl From<&Rules> for RasterRules {
     }
 }
 
-/// The part of a target that clip space maps to.
+/// The rectangle of a target that clip space maps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Viewport {
     /// Left edge in pixels.
     pub x: i32,
-    /// Edge with the smallest row, in pixels.
+    /// Smallest row, in pixels.
     pub y: i32,
     /// Width in pixels.
     pub width: u32,
@@ -43,15 +43,15 @@ pub struct Viewport {
 }
 
 impl Viewport {
-    /// A viewport from the origin with depths 0 to 1.
+    /// A viewport at the origin with depth range 0 to 1.
     pub const fn new(width: u32, height: u32) -> Self {
         Self { x: 0, y: 0, width, height, min_depth: value::ZERO, max_depth: value::ONE }
     }
 
-    /// Whether the set-up can use it.
+    /// Validates the viewport.
     ///
     /// # Errors
-    /// If a side is zero or above 16384, or it lies further than that from the origin.
+    /// If an extent is zero or above 16384, or the viewport starts further than 16384 pixels from the origin.
     pub fn check(&self) -> Result<(), RasterError> {
         let sides = (1..=MAX_PIXELS).contains(&self.width) && (1..=MAX_PIXELS).contains(&self.height);
         if sides && self.x.unsigned_abs() <= MAX_PIXELS && self.y.unsigned_abs() <= MAX_PIXELS {
@@ -61,7 +61,7 @@ impl Viewport {
         Err(RasterError::Viewport { most: MAX_PIXELS, x, y, width, height })
     }
 
-    /// The pixels of the viewport that a target of `region` has.
+    /// The intersection of the viewport with a target of `region`.
     pub(super) fn region(&self, target: Region) -> Region {
         let low = |at: i32| at.max(0).unsigned_abs();
         let high = |at: i32, size: u32| (i64::from(at) + i64::from(size)).clamp(0, i64::from(u32::MAX)) as u32;
@@ -72,7 +72,7 @@ impl Viewport {
     }
 }
 
-/// Where within a pixel it is decided whether the pixel is covered.
+/// Sample position within a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PixelCenter {
     /// At integer window coordinates (Direct3D 8 and 9).
@@ -82,26 +82,26 @@ pub enum PixelCenter {
     OpenGl,
 }
 
-/// Which clip space the vertex stage writes.
+/// Clip space convention of the vertex stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ClipSpace {
     /// `0 <= z <= w`; +y is up, row 0 is the upper row.
     #[default]
     Direct3d,
-    /// `-w <= z <= w`; +y is up, row 0 is the lower row, as `glReadPixels` has it.
+    /// `-w <= z <= w`; +y is up, row 0 is the lower row, as in `glReadPixels`.
     OpenGl,
 }
 
-/// Which triangles are left out, by their winding as seen with +y up.
+/// Triangles to be culled, by their winding as seen with +y up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cull {
     /// None.
     #[default]
     None,
-    /// Those with clockwise vertices.
+    /// Triangles with clockwise vertices.
     Clockwise,
-    /// Those with counter-clockwise vertices (Direct3D's default).
+    /// Triangles with counter-clockwise vertices (Direct3D's default).
     CounterClockwise,
 }
 
@@ -116,6 +116,6 @@ pub struct RasterState {
     pub clip_space: ClipSpace,
     /// Culling.
     pub cull: Cull,
-    /// Pixels outside are never drawn: the target, or a scissor within it.
+    /// Pixels outside are never drawn: the target's region or a scissor rectangle within it.
     pub scissor: Region,
 }

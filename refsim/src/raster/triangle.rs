@@ -1,4 +1,4 @@
-//! Triangles after set-up: edge functions, bounds, attribute planes.
+//! Triangles after set-up: edge functions, bounds and attribute planes.
 
 use super::clip::ClipVertex;
 use super::plane::{Plane, plane, planes};
@@ -8,7 +8,7 @@ use super::window::{Corner, doubled_area};
 use crate::num::Format;
 use crate::texture::{Region, value};
 
-/// One edge function: `a * x + b * y + c` at pixel (x, y), exact, at least 0 inside and growing inward.
+/// An edge function: `a * x + b * y + c` at pixel (x, y), exact, non-negative inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
     /// Change from one column to the next.
@@ -17,7 +17,7 @@ pub struct Edge {
     pub b: i64,
     /// Value at pixel (0, 0).
     pub c: i64,
-    /// 0 if pixels exactly on the edge are covered (a top or left edge), else 1: covered means value >= bias.
+    /// 0 if pixels exactly on the edge are covered (top and left edges), else 1; a pixel is inside if value >= bias.
     pub bias: i64,
 }
 
@@ -31,27 +31,27 @@ impl Edge {
 /// A triangle after set-up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleSetup {
-    /// Edge `i` lies opposite vertex `i`; the three sum to `area` everywhere.
+    /// Edge `i` is opposite to vertex `i`; the three functions sum to `area` everywhere.
     pub edges: [Edge; 3],
     /// Twice the area in units of the position grid squared; above 0.
     pub area: i64,
     /// `area` rounded to FP32.
     pub area_bits: u32,
-    /// The pixels that can be covered: bounding box within viewport and scissor; never empty.
+    /// Pixels that may be covered: the bounding box within viewport and scissor; never empty.
     pub bounds: Region,
-    /// Whether the vertices are clockwise as seen with +y up.
+    /// `true` if the vertices are clockwise as seen with +y up.
     pub clockwise: bool,
     /// Depth, in FP32 whatever the iterator format.
     pub depth: Plane,
-    /// Whether the three depths are bit-equal.
+    /// `true` if the three depths are bit-equal.
     pub depth_constant: bool,
     /// Texture coordinates, colours and fog, in the order of [`super::COMPONENTS`], bits in `iterator_format`.
     pub planes: [Plane; COMPONENTS],
     /// The components whose three values are bit-equal.
     pub constant: ComponentMask,
-    /// Where within a pixel its centre lies.
+    /// Sample position within a pixel.
     pub center: PixelCenter,
-    /// Whether the three w are bit-equal, so that nothing needs dividing by w.
+    /// `true` if the three w are bit-equal, so that no perspective division is needed.
     pub affine: bool,
     /// 1 / w of each vertex, FP32.
     pub reciprocal_w: [u32; 3],
@@ -59,27 +59,27 @@ pub struct TriangleSetup {
     pub iterator_format: Format,
 }
 
-/// Why a triangle, or a part of it after clipping, is not drawn.
+/// Reason for which a triangle, or a part of it after clipping, is not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Dropped {
-    /// A position is NaN or infinite, or became so.
+    /// A position is NaN or infinite, or overflowed.
     NotFinite,
     /// It lies outside a clip plane.
     Clipped,
-    /// Its snapped vertices lie on a line, or snapping folded over what the clipper left.
+    /// Its snapped vertices are collinear, or snapping folded the clipped polygon over.
     Degenerate,
     /// Its winding is culled.
     Culled,
-    /// Its bounding box holds no pixel centre of viewport and scissor.
+    /// Its bounding box contains no pixel centre within viewport and scissor.
     NoPixels,
 }
 
-/// What became of a triangle.
+/// Result of setting up a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SetupReport {
     /// Set-ups appended: 0, 1, or up to 8 if it was clipped.
     pub emitted: u32,
-    /// Why nothing was appended, if so.
+    /// Reason why nothing was appended, if so.
     pub dropped: Option<Dropped>,
 }
 
@@ -95,7 +95,7 @@ pub(super) fn prepare(
     Ok(done)
 }
 
-/// [`prepare`] without the planes, which are left zero.
+/// [`prepare`] without attribute planes, which are left zero.
 pub(crate) fn shape(
     corners: [Corner; 3],
     ws: [u32; 3],
@@ -148,17 +148,17 @@ pub(crate) fn shape(
     })
 }
 
-/// The edge function through p and q, turned so that it grows inward, as a function of the pixel.
+/// The edge function through p and q as a function of the pixel, oriented to be positive inside.
 fn edge_through(p: (i64, i64), q: (i64, i64), sign: i64, center: i64, unit_bits: u32) -> Edge {
     let a = (p.1 - q.1) * sign;
     let b = (q.0 - p.0) * sign;
     let c = a * (center - p.0) + b * (center - p.1);
-    // A left edge has the inside to its right; a top edge is horizontal with the inside at larger rows.
+    // A left edge has the interior to its right; a top edge is horizontal with the interior at larger rows.
     let top_left = a > 0 || (a == 0 && b > 0);
     Edge { a: a << unit_bits, b: b << unit_bits, c, bias: i64::from(!top_left) }
 }
 
-/// The pixels whose centres lie within the box of the points.
+/// The pixels whose centres lie within the bounding box of the points.
 fn bounding_box(points: [(i64, i64); 3], center: i64, unit_bits: u32) -> Region {
     let span = |values: [i64; 3]| {
         let low = values.into_iter().fold(i64::MAX, i64::min) - center;

@@ -6,11 +6,11 @@ pub const COMPONENTS: usize = 41;
 pub const TEXCOORD_COMPONENT: usize = 0;
 /// First component of the colours: `v[i].c` is `COLOR_COMPONENT + 4 * i + c`.
 pub const COLOR_COMPONENT: usize = 32;
-/// The component of the fog factor.
+/// Index of the fog factor.
 pub const FOG_COMPONENT: usize = 40;
 
-/// First component of the window position, after those that vertices have: column and row of the pixel's centre, depth,
-/// 1 / w in clip space.
+/// First component of the window position, after the vertex components: column and row of the pixel's centre, depth,
+/// and 1 / w of clip space.
 pub const POSITION_COMPONENT: usize = COMPONENTS;
 
 /// A vertex after the vertex program. All numbers are FP32 bits.
@@ -24,19 +24,19 @@ pub struct Vertex {
     pub texcoords: [[u32; 4]; 8],
     /// Fog factor.
     pub fog: u32,
-    /// Point size; unused as long as there are no points.
+    /// Point size; unused, because points are not supported.
     pub point_size: u32,
 }
 
 impl Default for Vertex {
-    /// Everything 0, the position's w 1.
+    /// All components 0, except for the position's w, which is 1.
     fn default() -> Self {
         Self { position: [0, 0, 0, 0x3f80_0000], colors: [[0; 4]; 2], texcoords: [[0; 4]; 8], fog: 0, point_size: 0 }
     }
 }
 
 impl Vertex {
-    /// The interpolated component of this index; 0 past the last.
+    /// The interpolated component with this index; 0 past the last.
     pub fn component(&self, index: usize) -> u32 {
         match index {
             0..COLOR_COMPONENT => self.texcoords[index / 4][index % 4],
@@ -59,30 +59,30 @@ pub struct ComponentMask(pub u64);
 impl ComponentMask {
     /// No component.
     pub const NONE: Self = Self(0);
-    /// Every component that vertices have.
+    /// All vertex components.
     pub const ALL: Self = Self((1 << COMPONENTS) - 1);
 
-    /// The set with one component more.
+    /// Adds a component.
     pub const fn with(self, component: usize) -> Self {
         Self(self.0 | (1 << component))
     }
 
-    /// The set with all of texture coordinate set `set`.
+    /// Adds all components of texture coordinate set `set`.
     pub const fn with_texcoord(self, set: usize) -> Self {
         Self(self.0 | (15 << (TEXCOORD_COMPONENT + 4 * set)))
     }
 
-    /// The set with all of colour `color`.
+    /// Adds all components of colour `color`.
     pub const fn with_color(self, color: usize) -> Self {
         Self(self.0 | (15 << (COLOR_COMPONENT + 4 * color)))
     }
 
-    /// The set with the window position.
+    /// Adds the window position.
     pub const fn with_position(self) -> Self {
         Self(self.0 | (15 << POSITION_COMPONENT))
     }
 
-    /// Whether the component is in the set.
+    /// Returns `true` if the component is in the set.
     pub const fn has(self, component: usize) -> bool {
         self.0 >> component & 1 == 1
     }

@@ -1,23 +1,24 @@
-//! Window positions: the viewport transform, and snapping to the grid.
+//! Window positions: viewport transform and snapping to the grid.
 
 use super::state::{ClipSpace, RasterState};
 use crate::texture::value;
 
-/// Positions saturate here, in pixels either way. With 8 subpixel bits an edge function stays below 2^56.
+/// Limit at which positions saturate, in pixels from the origin. With 8 subpixel bits an edge function stays below
+/// 2^56.
 pub(crate) const FARTHEST: i64 = 1 << 17;
 
 /// A corner in window space.
 #[derive(Clone, Copy)]
 pub(crate) struct Corner {
-    /// Column and row in units of the snapping grid, at most [`FARTHEST`] pixels either way.
+    /// Column and row in units of the snapping grid, at most [`FARTHEST`] pixels in magnitude.
     pub(crate) x: i64,
     pub(crate) y: i64,
-    /// FP32 bits, as is the other one.
+    /// Depth and 1 / w, as FP32 bits.
     pub(crate) depth: u32,
     pub(crate) reciprocal_w: u32,
 }
 
-/// Viewport transform in FP32 steps, then snapping to the grid (nearest, halves up).
+/// Applies the viewport transform in FP32 operations and snaps to the grid (nearest, halves up).
 pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bits: u32) -> Option<Corner> {
     let v = &state.viewport;
     // Half extents and centre are exact in FP32.
@@ -43,7 +44,7 @@ pub(super) fn to_window([x, y, z, w]: [u32; 4], state: &RasterState, subpixel_bi
     Some(Corner { x: snap(window_x), y: snap(window_y), depth, reciprocal_w })
 }
 
-/// Twice the signed area in units of the snapping grid squared: positive is clockwise with rows downward.
+/// Twice the signed area in units of the squared snapping grid; positive is clockwise with rows downward.
 pub(super) fn doubled_area([c0, c1, c2]: [Corner; 3]) -> i64 {
     (c1.x - c0.x) * (c2.y - c0.y) - (c2.x - c0.x) * (c1.y - c0.y)
 }

@@ -1,20 +1,20 @@
-//! Exact texture addressing, from coordinates to texel indices: what a host's `floor(u * n)` in floats would get wrong
-//! near texel edges.
+//! Exact texture addressing from coordinates to texel indices; a floating-point `floor(u * n)` would be wrong near
+//! texel edges.
 
 use super::value;
 
-/// What happens outside 0 to 1.
+/// Addressing of coordinates outside 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumString)]
 #[strum(serialize_all = "lowercase")]
 pub enum AddressMode {
-    /// The image repeats.
+    /// Repeats the image.
     #[default]
     Wrap,
-    /// The image repeats, every second time mirrored.
+    /// Repeats the image, mirrored every second time.
     Mirror,
-    /// The texel at the edge repeats.
+    /// Repeats the texel at the edge.
     Clamp,
-    /// The sampler's border colour.
+    /// Returns the sampler's border colour.
     Border,
 }
 
@@ -35,7 +35,7 @@ pub enum CubeFace {
     NegativeZ,
 }
 
-/// The index that an address mode makes of a texel position in an extent of `size` texels; `None` is the border.
+/// Applies an address mode to a texel position in an extent of `size` texels; `None` is the border.
 pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32> {
     let n = i64::from(size);
     let index = match mode {
@@ -51,17 +51,17 @@ pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32
     Some(index as u32)
 }
 
-/// A coordinate that addresses as `bits` does and is small enough for exact arithmetic.
+/// Replaces a coordinate by an equivalent one that is small enough for exact arithmetic.
 ///
-/// NaN and infinities address as 0. From 2^24 on every FP32 number is an even integer: all of one sign address alike
-/// in every mode, so 2^24 stands for them.
+/// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer, so all of one sign address alike in
+/// every mode, and 2^24 stands for them.
 fn tamed(bits: u32) -> u32 {
     const LARGEST: u32 = 0x4b80_0000; // 2^24
     let finite = value::finite_or_zero(bits);
     if finite & 0x7fff_ffff > LARGEST { finite & 0x8000_0000 | LARGEST } else { finite }
 }
 
-/// The texel index of an FP32 coordinate under nearest filtering: `floor(coordinate * scale)`, then the address mode.
+/// Texel index of an FP32 coordinate under nearest filtering: `floor(coordinate * scale)`, then the address mode.
 ///
 /// `scale` is `size` for normalised coordinates and 1 for rectangle textures. `None` is the border. The floor is
 /// exact: no product is rounded.
@@ -69,10 +69,10 @@ pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) 
     resolve(mode, value::scaled_floor(tamed(coordinate), scale, 0, false), size)
 }
 
-/// The two texels of linear filtering and the weight of the second in units of `2^-fraction_bits`.
+/// The two texels of linear filtering, and the weight of the second in units of `2^-fraction_bits`.
 ///
 /// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest, halves up); `None` is
-/// the border. With a weight of 0 the second texel has no part in the result.
+/// the border. With a weight of 0 the second texel does not contribute.
 pub fn linear_taps(
     mode: AddressMode,
     coordinate: u32,
@@ -92,17 +92,17 @@ pub fn linear_taps(
     ([resolve(mode, whole, size), resolve(mode, whole + 1, size)], weight)
 }
 
-/// The first three coordinates divided by the fourth, each by one FP32 division: a projected read.
+/// Divides the first three coordinates by the fourth, each in one FP32 division, for projective reads.
 pub fn project(coordinates: [u32; 4]) -> [u32; 4] {
     let [x, y, z, w] = coordinates;
     [value::div(x, w), value::div(y, w), value::div(z, w), w]
 }
 
-/// The face that a direction (FP32 bits) meets and the coordinates on it, 0 to 1.
+/// The cube face that a direction (FP32 bits) selects and the coordinates on it, 0 to 1.
 ///
-/// The face is that of the largest magnitude; equal magnitudes go to z before y before x. On the face
-/// `u = (s / |m| + 1) * 1/2` with s and m of the Direct3D cube map table, each step one FP32 operation. NaN and
-/// infinite components count as 0.
+/// The face is that of the component of largest magnitude; ties go to z, then y, then x. On the face `u = (s / |m| + 1)
+/// * 1/2` with s and m of the Direct3D cube map table, each step one FP32 operation. NaN and infinite components count
+/// as 0.
 pub fn cube_coordinates(direction: [u32; 3]) -> (CubeFace, u32, u32) {
     let (face, s, t, major) = cube_axes(direction);
     let place = |c: u32| value::mul(value::add(value::div(c, major), value::ONE), value::HALF);

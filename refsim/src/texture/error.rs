@@ -2,15 +2,15 @@
 
 use super::TextureKind;
 
-/// Why an image can't be made or changed.
+/// Error of creating or modifying an image.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum TextureError {
-    /// No format of that name.
+    /// There is no format with that name.
     #[error("expected a texel format as `rgba8`, `rg16` or `rgba16f`, found `{name}`")]
     UnknownFormat { name: String },
-    /// An extent is zero, too large, or not what the kind of texture asks for.
+    /// An extent is zero, too large, or invalid for the kind of texture.
     #[error("expected {expected} for a {kind} texture, found {width}x{height}x{depth}")]
     Extent { kind: TextureKind, expected: &'static str, width: u32, height: u32, depth: u32 },
     /// Too many or no mip levels.
@@ -19,10 +19,10 @@ pub enum TextureError {
     /// The image would not fit the emulated memory.
     #[error("expected an image of at most {most} bytes, found {found}; make it smaller")]
     TooLarge { most: u64, found: u64 },
-    /// The data, in bytes, texels or 32-bit words, do not have the size of the image.
+    /// The size of the data (in bytes, texels or 32-bit words) differs from that of the image.
     #[error("expected {expected} {unit} of texel data, found {found}")]
     DataSize { unit: &'static str, expected: usize, found: usize },
-    /// A place outside the image.
+    /// Coordinates outside the image.
     #[error("expected a place inside level {level} of the image, found {what} {found} where {limit} exist")]
     Outside { level: u32, what: &'static str, found: u64, limit: u64 },
 }

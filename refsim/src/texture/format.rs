@@ -1,19 +1,18 @@
-//! Texel formats as records: where each channel lies in a texel, what it means, and what a sampler gives for a channel
-//! that is not stored.
+//! Texel formats as records: position and meaning of each channel, and the values of channels that are not stored.
 
 use super::TextureError;
 use crate::num::Format;
 
-/// What the bits of one stored channel mean.
+/// Meaning of the bits of a stored channel.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelClass {
     /// `k / (2^n - 1)`
     Unorm,
-    /// Two's complement `k / (2^(n-1) - 1)`; what the smallest `k` gives is [`super::SignedTexelMinimum`].
+    /// Two's complement `k / (2^(n-1) - 1)`; [`super::SignedTexelMinimum`] determines the value of the smallest `k`.
     Snorm,
-    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` below, so that -15 is not -1.0
-    /// (all sixteen probes of Wine's test on real cards agree; docs/numbers.md).
+    /// The signed channels of `L6V5U5`: `k / 15` for k >= 0 and `k / 16` for k < 0, so that -15 is not -1.0 (all
+    /// sixteen probes of Wine's test on real cards agree; docs/numbers.md).
     SplitSnorm,
     /// A floating-point pattern of the given format.
     Float(Format),
@@ -28,11 +27,11 @@ pub struct Channel {
     pub bits: u8,
     /// Meaning of the bits.
     pub class: ChannelClass,
-    /// Which component of a colour (0 red to 3 alpha) a store into the texel takes it from.
+    /// Colour component (0 red to 3 alpha) that is stored in the channel.
     pub stored_from: u8,
 }
 
-/// Where a sampler takes one of red, green, blue and alpha from.
+/// Source of a colour component delivered by a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ComponentSource {
     /// The stored channel of this index.
@@ -43,20 +42,20 @@ pub enum ComponentSource {
     One,
 }
 
-/// Everything there is to know about a texel format.
+/// Description of a texel format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormatRecord {
-    /// Name in profiles and case files, as `rgba8`.
+    /// Name in profiles and case files, for example `rgba8`.
     pub name: &'static str,
-    /// The Direct3D name without its prefix, in lower case, as `a8b8g8r8`; empty if there is none.
+    /// Direct3D name without prefix, in lower case, for example `a8b8g8r8`; empty if there is none.
     pub d3d_name: &'static str,
-    /// Bytes from one texel to the next, 1 to 16.
+    /// Bytes per texel, 1 to 16.
     pub bytes: u8,
     /// Number of stored channels.
     pub channel_count: u8,
-    /// The stored channels; those from `channel_count` on mean nothing.
+    /// The stored channels; entries from `channel_count` on are unused.
     pub channels: [Channel; 4],
-    /// What a sampler delivers as red, green, blue and alpha.
+    /// Sources of red, green, blue and alpha delivered by a sampler.
     pub components: [ComponentSource; 4],
 }
 
@@ -66,17 +65,17 @@ impl FormatRecord {
         &self.channels[..usize::from(self.channel_count)]
     }
 
-    /// Whether every stored channel is floating-point.
+    /// Returns `true` if every stored channel is floating-point.
     pub fn is_float(&self) -> bool {
         self.stored().iter().all(|c| matches!(c.class, Float(_)))
     }
 
-    /// Whether some stored channel can be negative.
+    /// Returns `true` if some stored channel can be negative.
     pub fn is_signed(&self) -> bool {
         self.stored().iter().any(|c| c.class != Unorm)
     }
 
-    /// Whether alpha is stored.
+    /// Returns `true` if alpha is stored.
     pub fn has_alpha(&self) -> bool {
         matches!(self.components[3], ComponentSource::Channel(_))
     }
@@ -102,8 +101,8 @@ const C3: ComponentSource = ComponentSource::Channel(3);
 const ZERO: ComponentSource = ComponentSource::Zero;
 const ONE: ComponentSource = ComponentSource::One;
 
-// What is not stored: alpha 1 for colour, blue and alpha 1 for two channels, all but red 1 for one channel, black for
-// alpha alone, replicated luminance (Direct3D 9 sampler page, "default values").
+// Defaults of components that are not stored: alpha 1 for colour, blue and alpha 1 for two channels, all but red 1 for
+// one channel, black for alpha alone, replicated luminance (Direct3D 9 sampler page, "default values").
 const RGBA: [ComponentSource; 4] = [C0, C1, C2, C3];
 const RGB: [ComponentSource; 4] = [C0, C1, C2, ONE];
 const RG: [ComponentSource; 4] = [C0, C1, ONE, ONE];
@@ -165,9 +164,9 @@ texel_formats! {
     Bgr233 "bgr233" "r3g3b2" 1 3 channels(Unorm, &[(5, 3, 0), (2, 3, 1), (0, 2, 2)]), RGB;
     /// 5, 6 and 5 bits, red highest.
     Bgr565 "bgr565" "r5g6b5" 2 3 channels(Unorm, &[(11, 5, 0), (5, 6, 1), (0, 5, 2)]), RGB;
-    /// 5 bits a colour, one unused bit.
+    /// 5 bits per colour channel, one unused bit.
     Bgrx5551 "bgrx5551" "x1r5g5b5" 2 3 channels(Unorm, &[(10, 5, 0), (5, 5, 1), (0, 5, 2)]), RGB;
-    /// 5 bits a colour, 1 bit alpha.
+    /// 5 bits per colour channel, 1 bit alpha.
     Bgra5551 "bgra5551" "a1r5g5b5" 2 4 channels(Unorm, &[(10, 5, 0), (5, 5, 1), (0, 5, 2), (15, 1, 3)]), RGBA;
     /// 4 bits per channel.
     Bgra4444 "bgra4444" "a4r4g4b4" 2 4 channels(Unorm, &[(8, 4, 0), (4, 4, 1), (0, 4, 2), (12, 4, 3)]), RGBA;
@@ -179,11 +178,11 @@ texel_formats! {
     Rgba8 "rgba8" "a8b8g8r8" 4 4 channels(Unorm, FOUR8), RGBA;
     /// 8 bits per channel in the byte order blue, green, red, alpha.
     Bgra8 "bgra8" "a8r8g8b8" 4 4 channels(Unorm, &[(16, 8, 0), (8, 8, 1), (0, 8, 2), (24, 8, 3)]), RGBA;
-    /// 8 bits a colour in the byte order blue, green, red, unused.
+    /// 8 bits per colour channel in the byte order blue, green, red, unused.
     Bgrx8 "bgrx8" "x8r8g8b8" 4 3 channels(Unorm, &[(16, 8, 0), (8, 8, 1), (0, 8, 2)]), RGB;
     /// 11, 11 and 10 bits.
     Rgb111110 "rgb111110" "b10g11r11" 4 3 channels(Unorm, &[(0, 11, 0), (11, 11, 1), (22, 10, 2)]), RGB;
-    /// 10 bits a colour, 2 bits alpha.
+    /// 10 bits per colour channel, 2 bits alpha.
     Rgb10a2 "rgb10a2" "a2b10g10r10" 4 4 channels(Unorm, &[(0, 10, 0), (10, 10, 1), (20, 10, 2), (30, 2, 3)]), RGBA;
     /// 16-bit red.
     R16 "r16" "" 2 1 channels(Unorm, ONE16), R;
@@ -241,7 +240,7 @@ impl TexelFormat {
         self.record().name
     }
 
-    /// Bytes from one texel to the next.
+    /// Bytes per texel.
     pub fn bytes(self) -> usize {
         usize::from(self.record().bytes)
     }
@@ -250,7 +249,7 @@ impl TexelFormat {
 impl std::str::FromStr for TexelFormat {
     type Err = TextureError;
 
-    /// Takes our name or the Direct3D one (`D3DFMT_` allowed), in any case.
+    /// Parses our name or the Direct3D one (`D3DFMT_` allowed), in any case.
     fn from_str(text: &str) -> Result<Self, TextureError> {
         let lower = text.trim().to_ascii_lowercase();
         let key = lower.strip_prefix("d3dfmt_").unwrap_or(&lower);

@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::{SignedTexelMinimum, TargetRounding, Texel, TexelFormat, TextureError, TextureKind, decode, encode};
 use crate::num::Format;
 
-/// The largest extent, in texels.
+/// Maximum extent, in texels.
 const MAX_TEXELS: u32 = 16_384;
-/// The largest image, in bytes.
+/// Maximum size of an image, in bytes.
 const MAX_BYTES: u64 = 1 << 31;
 
-/// One mip level: extents and its place in the bytes of the image.
+/// A mip level: its extents and its layout in the bytes of the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level {
     /// Width in texels.
@@ -19,11 +19,11 @@ pub struct Level {
     pub height: u32,
     /// Slices: depth of a volume, 6 for a cube, else 1.
     pub slices: u32,
-    /// First byte.
+    /// Byte offset of the level.
     pub offset: usize,
-    /// Bytes from one row to the next.
+    /// Bytes per row.
     pub row_bytes: usize,
-    /// Bytes from one slice to the next.
+    /// Bytes per slice.
     pub slice_bytes: usize,
 }
 
@@ -41,7 +41,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// The part that both have; of zero width or height if they do not meet.
+    /// The intersection of two regions; of zero width or height if they are disjoint.
     pub fn intersect(self, other: Self) -> Self {
         let x = self.x.max(other.x);
         let y = self.y.max(other.y);
@@ -53,9 +53,9 @@ impl Region {
 
 /// A texture or colour target in emulated memory.
 ///
-/// Levels lie one after the other, each slice by slice, row by row, without padding; a texel is little-endian. Level 0
-/// of a [`TextureKind::D2`] or [`TextureKind::Rectangle`] image can be a render target, so rendering to a texture
-/// needs no copy. Row 0 is the row with the smallest second coordinate.
+/// Levels are stored consecutively, each slice by slice and row by row, without padding; texels are little-endian.
+/// Level 0 of a [`TextureKind::D2`] or [`TextureKind::Rectangle`] image can be a render target, so rendering to a
+/// texture needs no copy. Row 0 is the row with the smallest second coordinate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     format: TexelFormat,
@@ -65,12 +65,12 @@ pub struct Image {
     stamp: Stamp,
 }
 
-/// An identity of an image's contents, 0 for none. Images of equal stamps are equal; equal images may have different
+/// Identifies an image's contents; 0 for none. Images of equal stamps are equal, but equal images may have different
 /// stamps.
 #[derive(Clone, Debug, Default)]
 struct Stamp(u64);
 
-/// Stamps do not take part in comparisons of images.
+/// All stamps compare equal, so that comparisons of images ignore them.
 impl PartialEq for Stamp {
     fn eq(&self, _: &Self) -> bool {
         true
@@ -79,14 +79,14 @@ impl PartialEq for Stamp {
 
 impl Eq for Stamp {}
 
-/// The last stamp that was given.
+/// The last stamp assigned.
 static LAST_STAMP: AtomicU64 = AtomicU64::new(0);
 
 impl Image {
-    /// An image of zero bytes. Extents that the kind does not use must be 1 (a cube's depth too).
+    /// Creates a zero-filled image. Extents that the kind does not use must be 1 (a cube's depth too).
     ///
     /// # Errors
-    /// If the extents do not fit the kind, are zero or above 16384, if there are more levels than a full chain has, or
+    /// If the extents are invalid for the kind, zero or above 16384, if there are more levels than in a full chain, or
     /// if the image would exceed 2 GiB.
     pub fn new(
         format: TexelFormat,
@@ -124,7 +124,7 @@ impl Image {
         Ok(Self { format, kind, levels, bytes: vec![0; offset as usize], stamp: Stamp::default() })
     }
 
-    /// Levels of a full chain, down to one texel: as many as an image of these extents can have.
+    /// Maximum number of levels of an image with these extents: a full chain down to one texel.
     pub fn most_levels(kind: TextureKind, [width, height, depth]: [u32; 3]) -> u32 {
         let longest = match kind {
             TextureKind::Rectangle => 1,
@@ -134,7 +134,7 @@ impl Image {
         longest.max(1).ilog2() + 1
     }
 
-    /// A 2-D image of one level.
+    /// Creates a 2-D image with one level.
     ///
     /// # Errors
     /// As [`Image::new`].
@@ -142,10 +142,10 @@ impl Image {
         Self::new(format, TextureKind::D2, [width, height, 1], 1)
     }
 
-    /// An image of the given bytes, laid out as [`Image`] says.
+    /// Creates an image from bytes in the layout described at [`Image`].
     ///
     /// # Errors
-    /// As [`Image::new`], and if there are too many or too few bytes.
+    /// As [`Image::new`], and if the number of bytes is wrong.
     pub fn from_bytes(
         format: TexelFormat,
         kind: TextureKind,
@@ -161,10 +161,11 @@ impl Image {
         Ok(image)
     }
 
-    /// An image of one level from red, green, blue and alpha values in number format `from`, each rounded once.
+    /// Creates an image with one level from red, green, blue and alpha values in number format `from`, each rounded
+    /// once.
     ///
     /// # Errors
-    /// As [`Image::new`], and if there are too many or too few values.
+    /// As [`Image::new`], and if the number of values is wrong.
     pub fn from_values(
         format: TexelFormat,
         kind: TextureKind,
@@ -185,7 +186,7 @@ impl Image {
         Ok(image)
     }
 
-    /// The image with so many levels: those that it has, and zero bytes in the others.
+    /// Copies the image with `level_count` levels; new levels are zero-filled.
     ///
     /// # Errors
     /// As [`Image::new`].
@@ -237,26 +238,25 @@ impl Image {
         &self.bytes
     }
 
-    /// All bytes, to be changed at will: every pattern is a valid texel.
+    /// Mutable access to all bytes; every pattern is a valid texel.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         self.stamp = Stamp::default();
         &mut self.bytes
     }
 
-    /// Gives what the image holds a name of its own, which is lost with the next change.
+    /// Assigns a unique stamp to the contents; the next modification removes it.
     pub(crate) fn name_contents(&mut self) {
         if self.stamp.0 == 0 {
             self.stamp = Stamp(LAST_STAMP.fetch_add(1, Ordering::Relaxed) + 1);
         }
     }
 
-    /// The name of what the image holds, if it has one: of two images of one name both hold the same in the same
-    /// format.
+    /// The stamp of the contents, if they have one. Images with the same stamp have equal contents and format.
     pub(crate) fn contents_name(&self) -> Option<u64> {
         Some(self.stamp.0).filter(|&name| name != 0)
     }
 
-    /// The first byte of a texel, or `None` outside the image.
+    /// Byte offset of a texel; `None` outside the image.
     pub fn offset_of(&self, level: u32, slice: u32, y: u32, x: u32) -> Option<usize> {
         let l = self.levels.get(level as usize)?;
         (slice < l.slices && y < l.height && x < l.width).then(|| {
@@ -264,13 +264,13 @@ impl Image {
         })
     }
 
-    /// A texel as a little-endian integer; 0 outside the image.
+    /// Reads a texel as a little-endian integer; 0 outside the image.
     pub fn raw(&self, level: u32, slice: u32, y: u32, x: u32) -> u128 {
         let Some(at) = self.offset_of(level, slice, y, x) else { return 0 };
         read_le(&self.bytes[at..at + self.format.bytes()])
     }
 
-    /// Overwrites a texel; nothing happens outside the image.
+    /// Overwrites a texel; does nothing outside the image.
     pub fn set_raw(&mut self, level: u32, slice: u32, y: u32, x: u32, raw: u128) {
         let size = self.format.bytes();
         if let Some(at) = self.offset_of(level, slice, y, x) {
@@ -278,15 +278,15 @@ impl Image {
         }
     }
 
-    /// A texel's exact value; the value of zero bits outside the image.
+    /// The exact value of a texel; outside the image the value of zero bits.
     pub fn texel(&self, level: u32, slice: u32, y: u32, x: u32, minimum: SignedTexelMinimum) -> Texel {
         decode(self.format, self.raw(level, slice, y, x), minimum)
     }
 
-    /// Stores red, green, blue and alpha given in `from`, each rounded once.
+    /// Encodes and stores red, green, blue and alpha, given in format `from`, each rounded once.
     ///
     /// # Errors
-    /// If the place is outside the image.
+    /// If the coordinates are outside the image.
     pub fn store(
         &mut self,
         [level, slice, y, x]: [u32; 4],
@@ -299,7 +299,7 @@ impl Image {
         Ok(())
     }
 
-    /// Fills every texel of a level; nothing happens if there is no such level.
+    /// Fills a level with one value; does nothing if the level does not exist.
     pub fn clear_level(&mut self, level: u32, from: Format, values: [u32; 4], rounding: TargetRounding) {
         let size = self.format.bytes();
         let raw = encode(self.format, from, values, rounding).to_le_bytes();
@@ -309,7 +309,7 @@ impl Image {
         }
     }
 
-    /// The bytes of a level; none if there is no such level.
+    /// The bytes of a level; empty if the level does not exist.
     pub fn level_bytes(&self, level: u32) -> &[u8] {
         &self.bytes[self.level_place(level)]
     }
@@ -322,7 +322,7 @@ impl Image {
     /// Overwrites a rectangle of one slice with texel bytes, row by row.
     ///
     /// # Errors
-    /// If the rectangle leaves the slice or the bytes do not fill it.
+    /// If the rectangle exceeds the slice, or the number of bytes is wrong.
     pub fn write_region(&mut self, level: u32, slice: u32, region: Region, bytes: &[u8]) -> Result<(), TextureError> {
         self.check_region(level, slice, region)?;
         let row = region.width as usize * self.format.bytes();
@@ -339,10 +339,10 @@ impl Image {
         Ok(())
     }
 
-    /// The bytes of a rectangle of one slice, row by row.
+    /// Copies the bytes of a rectangle of one slice, row by row.
     ///
     /// # Errors
-    /// If the rectangle leaves the slice.
+    /// If the rectangle exceeds the slice.
     pub fn read_region(&self, level: u32, slice: u32, region: Region) -> Result<Vec<u8>, TextureError> {
         self.check_region(level, slice, region)?;
         let row = region.width as usize * self.format.bytes();
@@ -376,7 +376,7 @@ impl Image {
     }
 }
 
-/// Up to sixteen bytes as a little-endian integer.
+/// Reads up to sixteen bytes as a little-endian integer.
 pub(crate) fn read_le(bytes: &[u8]) -> u128 {
     let mut wide = [0; 16];
     wide[..bytes.len()].copy_from_slice(bytes);

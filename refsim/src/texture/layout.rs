@@ -1,38 +1,38 @@
-//! Memory layouts of textures.
+//! Memory layouts of textures on the card.
 //!
-//! Values never depend on it: an [`Image`] keeps its texels row by row. The texture cache of the timing model does,
-//! because a line of it holds what lies together in memory.
+//! Values never depend on the layout: an [`Image`] stores its texels row by row. Only the timing model's texture cache
+//! uses it, because a cache line holds texels that are adjacent in memory.
 
 use super::Image;
 
-/// Bytes of a micro tile, and of what levels and rows start at multiples of.
+/// Size of a micro tile, and alignment of levels and rows, in bytes.
 const MICRO_BYTES: u64 = 32;
-/// Micro tiles along each side of a macro tile.
+/// Micro tiles per side of a macro tile.
 const MACRO_SIDE: u64 = 8;
 
-/// How the texels of a level are arranged.
+/// Arrangement of the texels of a level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Layout {
-    /// Row by row, rows padded to 32 bytes.
+    /// Row by row, with rows padded to 32 bytes.
     #[default]
     Rows,
-    /// In micro tiles of 32 bytes (8-bit texels 8x4, 16-bit 8x2, 32-bit 4x2, 64-bit 2x2, 128-bit 2x1), those in macro
-    /// tiles of 8x8 (2 KiB), both row by row; R300 by its open driver. A level smaller than a macro tile along either
-    /// side has micro tiles only.
+    /// Micro tiles of 32 bytes (8-bit texels 8x4, 16-bit 8x2, 32-bit 4x2, 64-bit 2x2, 128-bit 2x1) within macro tiles
+    /// of 8x8 micro tiles (2 KiB), both row by row; as in R300's open driver. Levels smaller than a macro tile in
+    /// either direction have micro tiles only.
     Tiles,
 }
 
-/// One level in memory.
+/// Layout of one level.
 #[derive(Clone, Copy, Debug)]
 struct LevelMap {
     start: u64,
     slice: u64,
-    /// Bytes of a row of texels, of micro tiles or of macro tiles.
+    /// Bytes per row of texels, micro tiles or macro tiles.
     row: u64,
     macros: bool,
 }
 
-/// The places of an image's texels in the memory of a card.
+/// Maps texels of an image to addresses in the card's memory.
 #[derive(Clone, Debug)]
 pub struct TexelMap {
     layout: Layout,
@@ -43,9 +43,9 @@ pub struct TexelMap {
 }
 
 impl TexelMap {
-    /// The places under a layout.
+    /// Creates the map of an image with a layout.
     pub fn new(layout: Layout, image: &Image) -> Self {
-        // The formats have 1, 2, 4, 8 or 16 bytes.
+        // All formats have 1, 2, 4, 8 or 16 bytes per texel.
         let texel = (image.format().bytes() as u64).next_power_of_two();
         let micro = match texel {
             1 => [8, 4],
@@ -74,17 +74,17 @@ impl TexelMap {
         Self { layout, texel, micro, levels, bytes }
     }
 
-    /// Bytes of the image in memory, padding included.
+    /// Size of the image in memory, in bytes, including padding.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 
-    /// Bytes from one texel to the next.
+    /// Bytes per texel.
     pub fn texel_bytes(&self) -> u32 {
         self.texel as u32
     }
 
-    /// The first byte of a texel, from the start of the image; 0 for a level that there is not.
+    /// Byte offset of a texel from the start of the image; 0 for a nonexistent level.
     pub fn offset(&self, level: u32, slice: u32, y: u32, x: u32) -> u64 {
         let Some(map) = self.levels.get(level as usize) else { return 0 };
         let start = map.start + map.slice * u64::from(slice);

@@ -1,26 +1,26 @@
-//! The level of detail: which mip levels a sample reads.
+//! Level of detail: selection of the mip levels that a sample reads.
 
 use super::address::cube_axes;
 use super::value::{self, Exact};
 use super::{Image, TextureKind};
 
-/// The level of detail that a sample instruction asks for, before the sampler's bias.
+/// Level of detail requested by a sample instruction, before the sampler's bias.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lod {
-    /// Level 0: a read that has no derivatives.
+    /// Level 0, for reads without derivatives.
     #[default]
     Base,
-    /// FP32 bits: the logarithm to base 2 of texels per pixel, from [`lod_from_derivatives`] plus the bias of the
-    /// instruction, or an explicit level. NaN counts as 0.
+    /// FP32 bits of log2 of texels per pixel: from [`lod_from_derivatives`] plus the bias of the instruction, or an
+    /// explicit level. NaN counts as 0.
     Level(u32),
 }
 
-/// The level of detail of coordinates that change by `ddx` and `ddy` from one pixel to the next (all FP32 bits).
+/// Computes the level of detail from the coordinates' derivatives `ddx` and `ddy` per pixel (all FP32 bits).
 ///
 /// rho^2 is the larger of the two squared lengths in texels of level 0, `((x*x) + (y*y)) + (z*z)` with each step one
 /// FP32 operation; the result is `floor(log2(rho^2) / 2)` on a grid of `2^-fraction_bits` (at most 8), by repeated
-/// squaring of the significand with 62 fraction bits kept. rho = 0 gives -127, an infinite rho 127, NaN 0. On a cube
-/// the derivatives are those of the coordinates on the face of `coordinates`, by the quotient rule.
+/// squaring of the significand with 62 fraction bits kept. rho = 0 gives -127, an infinite rho 127, NaN 0. For cube
+/// maps the derivatives are those of the face coordinates, by the quotient rule.
 pub fn lod_from_derivatives(
     image: &Image,
     coordinates: [u32; 4],
@@ -38,7 +38,7 @@ pub fn lod_from_derivatives(
     half_log2(largest, fraction_bits.min(8))
 }
 
-/// A derivative in texels of level 0.
+/// Converts a derivative to texels of level 0.
 fn texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     let scaled = |c: u32, size: u32| value::mul(c, value::from_integer(i64::from(size)));
     match image.kind() {
@@ -52,7 +52,7 @@ fn texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     }
 }
 
-/// d(s/m) = (ds - (s/m) dm) / m, half of which is the change of the face coordinate.
+/// d(s/m) = (ds - (s/m) dm) / m; the face coordinate changes by half of it.
 fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     let [x, y, z, _] = coordinates;
     let (_, s, t, major) = cube_axes([x, y, z]);
@@ -67,7 +67,7 @@ fn cube_texels(image: &Image, coordinates: [u32; 4], d: [u32; 4]) -> [u32; 3] {
     [change(s, s1), change(t, t1), value::ZERO]
 }
 
-/// The signed face axes of `moved` on the face that `direction` selects.
+/// Signed face axes of `moved` on the face that `direction` selects.
 fn on_same_face(direction: [u32; 3], moved: [u32; 3]) -> (u32, u32, u32) {
     use super::CubeFace::{NegativeX, NegativeY, NegativeZ, PositiveX, PositiveY, PositiveZ};
     let flip = |c: u32| c ^ 0x8000_0000;
@@ -86,7 +86,7 @@ fn squared_length([x, y, z]: [u32; 3]) -> u32 {
     value::add(value::add(value::mul(x, x), value::mul(y, y)), value::mul(z, z))
 }
 
-/// Half the logarithm to base 2 of an FP32 number >= 0, floored to `fraction_bits`, as FP32 bits.
+/// Computes log2(x) / 2 of an FP32 number >= 0, floored to `fraction_bits`, as FP32 bits.
 fn half_log2(bits: u32, fraction_bits: u8) -> u32 {
     let Exact::Finite { significand, exponent, .. } = value::exact32(bits) else {
         return if value::is_nan(bits) { value::ZERO } else { value::from_integer(127) };

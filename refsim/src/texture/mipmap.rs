@@ -1,4 +1,4 @@
-//! Mip levels from the level before: the box filter of automatic mipmaps.
+//! Generation of mip levels from the previous level: the box filter of automatic mipmaps.
 
 use super::format::{Channel, ChannelClass};
 use super::texel::{channel_bits, denominator, encode_ratio};
@@ -7,15 +7,15 @@ use crate::device::Rules;
 use crate::num::{self, Format};
 use std::ops::Range;
 
-/// Texels under one texel of the next level at most: two along each of three axes.
+/// Maximum number of texels averaged into one texel of the next level: two along each of three axes.
 const MAX_TAPS: usize = 8;
 
-/// What a device says about the generation of mip levels.
+/// A device's rules for the generation of mip levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MipmapRules {
-    /// Rounding of a mean.
+    /// Rounding of averages.
     pub rounding: TargetRounding,
-    /// Meaning of the smallest signed texel.
+    /// Value of the smallest signed texel.
     pub signed_texel_minimum: SignedTexelMinimum,
 }
 
@@ -25,20 +25,20 @@ impl From<&Rules> for MipmapRules {
     }
 }
 
-/// The texels of an axis that lie under texel `i` of the next level: 2i and 2i + 1, or i itself where the axis does not
-/// shrink. The last texel of an odd extent lies under none.
+/// Range of texels along an axis that are averaged into texel `i` of the next level: 2i and 2i + 1, or i itself where
+/// the axis does not shrink. The last texel of an odd extent is dropped.
 pub(crate) fn texels_under(extent: u32, next: u32, i: u32) -> Range<u32> {
     if extent == next { i..i + 1 } else { 2 * i..2 * i + 2 }
 }
 
 impl Image {
-    /// Fills levels 1 and up, each from the one before.
+    /// Fills levels 1 and up, each from the previous one.
     ///
-    /// A texel is the mean of the texels under it, two along each axis: those at 2i and 2i + 1. Along an axis that is
-    /// one texel long already, and from face to face of a cube, it is the one at i. The last row or column of an odd
-    /// extent has no part in the next level. Fractions are summed exactly and rounded once, by value: of -1 and 1 the
-    /// mean is 0, and halves go away from zero. Floats are combined in FP32, `a + (b - a) / 2` in rounded steps along
-    /// x, then y, then z, and converted into the format: what a linear read between them gives.
+    /// A texel is the mean of two texels along each axis, 2i and 2i + 1. Along an axis of one texel, and across the
+    /// faces of a cube, it is the texel i. The last row or column of an odd extent is dropped. Fixed-point values are
+    /// summed exactly and rounded once, by value: the mean of -1 and 1 is 0, and halves round away from zero. Floats
+    /// are combined in FP32, `a + (b - a) / 2` in rounded steps along x, then y, then z, and converted to the format,
+    /// as in a linear read between them.
     pub fn generate_mipmaps(&mut self, rules: MipmapRules) {
         let size = self.format().bytes();
         for fine in 0..self.levels().len() - 1 {
@@ -56,7 +56,7 @@ impl Image {
         }
     }
 
-    /// The texel at a slice, row and column of the level after `fine`, as a little-endian integer.
+    /// Computes the texel at a slice, row and column of the level after `fine`, as a little-endian integer.
     fn mean_under(&self, fine: usize, [slice, y, x]: [u32; 3], rules: MipmapRules) -> u128 {
         let (finer, level) = (self.levels()[fine], self.levels()[fine + 1]);
         let (mut taps, mut count) = ([0; MAX_TAPS], 0);
@@ -74,7 +74,7 @@ impl Image {
     }
 }
 
-/// The bits of one channel in the mean of one, two, four or eight texels.
+/// Computes the bits of one channel in the mean of one, two, four or eight texels.
 fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
     if let ChannelClass::Float(format) = channel.class {
         return float_mean(format, channel, taps);
@@ -89,7 +89,7 @@ fn mean(channel: Channel, taps: &[u128], rules: MipmapRules) -> u32 {
     encode_ratio(channel, sum, u64::from(denominator(channel)) * taps.len() as u64, rules.rounding)
 }
 
-/// Pairs along x, then y, then z: the order of the taps.
+/// Combines pairs along x, then y, then z: the order of the taps.
 fn float_mean(format: Format, channel: Channel, taps: &[u128]) -> u32 {
     let mut values: Vec<u32> =
         taps.iter().map(|&raw| num::ops::convert(&format, Format::FP32, channel_bits(channel, raw)).bits).collect();

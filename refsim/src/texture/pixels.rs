@@ -1,10 +1,10 @@
-//! An image as people look at it: red, green, blue and alpha by column and row.
+//! Pixels of an image for display: red, green, blue and alpha by column and row.
 
 use super::{ChannelValue, Image, SignedTexelMinimum, Texel, decode};
 use crate::num;
 
 impl ChannelValue {
-    /// The value in decimal, for people to read: rounded once to f64. A NaN or an infinity stays one.
+    /// Converts the value to f64, rounded once, for display; NaN and infinities are preserved.
     pub fn to_f64(self) -> f64 {
         match self {
             Self::Ratio { numerator, denominator } => numerator as f64 / f64::from(denominator),
@@ -14,7 +14,7 @@ impl ChannelValue {
 }
 
 impl Texel {
-    /// Red, green, blue and alpha in decimal.
+    /// Red, green, blue and alpha as f64.
     pub fn to_f64(self) -> [f64; 4] {
         self.0.map(ChannelValue::to_f64)
     }
@@ -32,8 +32,8 @@ pub struct ImagePixel {
 }
 
 impl Image {
-    /// Red, green, blue and alpha of the pixel in column `x` of row `y`, level 0, slice 0; what a format does not store
-    /// is filled in. The least code of a signed channel is below -1. `None` outside the image.
+    /// Red, green, blue and alpha of the pixel in column `x` of row `y`, level 0, slice 0; components that the format
+    /// does not store have their defaults. The least code of a signed channel is below -1. `None` outside the image.
     ///
     /// ```
     /// use refsim::texture::{Image, TexelFormat};
@@ -59,8 +59,8 @@ impl Image {
         places.filter_map(|(x, y)| Some(ImagePixel { x, y, rgba: self.pixel(x, y)? }))
     }
 
-    /// Level 0 and slice 0 as a PNG file of 8 bits a channel, in memory: values below 0 and NaN are 0, those above 1
-    /// are 255, the rest the nearest code. No display curve is applied. Needs the feature `png`.
+    /// Encodes level 0, slice 0 as a PNG file with 8 bits per channel: values below 0 and NaN become 0, values above 1
+    /// become 255, others the nearest code. No transfer function is applied. Needs the feature `png`.
     ///
     /// ```
     /// use refsim::texture::{Image, TexelFormat};

@@ -1,4 +1,4 @@
-//! Sampling: a filtered value in the register format from coordinates.
+//! Sampling: computes a filtered value in the register format from coordinates.
 
 use serde::Deserialize;
 
@@ -10,18 +10,18 @@ use super::{Image, SignedTexelMinimum, TargetRounding, Texel, TextureKind, decod
 use crate::device::Rules;
 use crate::num::{self, Format};
 
-/// How texels of one level are combined.
+/// Filter within a mip level.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Filter {
-    /// The texel that holds the point.
+    /// The nearest texel.
     #[default]
     Nearest,
-    /// The nearest two along each axis, weighted.
+    /// Linear interpolation between the nearest two texels per axis.
     Linear,
 }
 
-/// How levels are combined.
+/// Filter between mip levels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MipFilter {
@@ -30,16 +30,16 @@ pub enum MipFilter {
     None,
     /// The nearest level.
     Nearest,
-    /// The nearest two levels, weighted.
+    /// Linear interpolation between the nearest two levels.
     Linear,
 }
 
 /// The state of a sampler.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct SamplerState {
-    /// Filter where texels are smaller than pixels (level of detail above 0).
+    /// Minification filter (level of detail above 0).
     pub min: Filter,
-    /// Filter elsewhere.
+    /// Magnification filter.
     pub mag: Filter,
     /// Filter between levels.
     pub mip: MipFilter,
@@ -51,14 +51,14 @@ pub struct SamplerState {
     pub address_w: AddressMode,
     /// Border colour, FP32 bits; it is stored into a texel of the image's format (nearest) and read from there.
     pub border: [u32; 4],
-    /// Added to the level of detail, FP32 bits.
+    /// Bias added to the level of detail, FP32 bits.
     pub lod_bias: u32,
-    /// The largest (finest) level that may be read: 0 for all.
+    /// The finest level that may be read; 0 allows all.
     pub max_mip_level: u8,
 }
 
 impl SamplerState {
-    /// Nearest filtering without mip levels and clamped coordinates: how data textures are read.
+    /// Nearest filtering without mip levels and with clamped coordinates, for data textures.
     pub const NEAREST_CLAMP: Self = Self {
         min: Filter::Nearest,
         mag: Filter::Nearest,
@@ -72,7 +72,7 @@ impl SamplerState {
     };
 }
 
-/// What a device says about sampling.
+/// A device's sampling rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleRules {
     /// Format of the result.
@@ -81,7 +81,7 @@ pub struct SampleRules {
     pub filter_fraction_bits: u8,
     /// Fraction bits of the level of detail, at most 8.
     pub lod_fraction_bits: u8,
-    /// Meaning of the smallest signed texel.
+    /// Value of the smallest signed texel.
     pub signed_texel_minimum: SignedTexelMinimum,
 }
 
@@ -96,7 +96,7 @@ impl From<&Rules> for SampleRules {
     }
 }
 
-/// What a read of an unbound sampler gives: (0, 0, 0, 1).
+/// Value read from an unbound sampler: (0, 0, 0, 1).
 pub fn unbound(format: Format) -> [u32; 4] {
     let one = value::ratio(format, 1, 1);
     [0, 0, 0, one]
@@ -104,10 +104,10 @@ pub fn unbound(format: Format) -> [u32; 4] {
 
 /// Samples an image; `None` is an unbound sampler. Coordinates are FP32 bits, the result is in `rules.format`.
 ///
-/// Texels that are integers are summed exactly with weights of `filter_fraction_bits` and rounded once; texels that
-/// are floats are combined in FP32, `a + w * (b - a)` in two rounded steps, along x, then y, then z, then between
-/// levels, a weight of 0 giving `a` itself. NaN and infinite coordinates count as 0. On a cube the coordinates along
-/// a face are clamped whatever the state says; on a rectangle, wrap and mirror act as clamp.
+/// Fixed-point texels are summed exactly with weights of `filter_fraction_bits` and rounded once. Float texels are
+/// combined in FP32, `a + w * (b - a)` in two rounded steps, along x, then y, then z, then between levels; a weight of
+/// 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face coordinates are clamped whatever the
+/// state; on a rectangle, wrap and mirror act as clamp.
 pub fn sample(
     image: Option<&Image>,
     state: &SamplerState,
@@ -128,18 +128,18 @@ pub fn sample(
     }
 }
 
-/// A nearest read of level 0: what [`sample`] does for nearest filters without mip levels, by the shortest way.
+/// Nearest read of level 0; equivalent to [`sample`] with nearest filters and no mip levels, but faster.
 pub fn fetch_nearest(image: &Image, state: &SamplerState, rules: &SampleRules, coordinates: [u32; 4]) -> [u32; 4] {
     SamplePlace::new(image, state, coordinates).nearest_value(rules, 0)
 }
 
-/// Slice, row and column of the texel of level 0 that a nearest read takes; `None` is the border.
+/// Slice, row and column of the level 0 texel that a nearest read returns; `None` is the border.
 pub fn nearest_texel(image: &Image, state: &SamplerState, coordinates: [u32; 4]) -> Option<(u32, u32, u32)> {
     SamplePlace::new(image, state, coordinates).nearest(0)
 }
 
-/// Names the texels that [`sample`] combines with a weight above 0: level, slice, row and column of each, in a fixed
-/// order. The border has none.
+/// Calls `each` with level, slice, row and column of every texel to which [`sample`] gives a weight above 0, in a fixed
+/// order; skips the border.
 pub fn touched(
     image: &Image,
     state: &SamplerState,
@@ -164,7 +164,7 @@ pub fn touched(
     }
 }
 
-/// The levels to read and the filter within them.
+/// The levels to read, and the filter within them.
 struct Pick {
     filter: Filter,
     levels: [u32; 2],
@@ -172,10 +172,10 @@ struct Pick {
     weight: u32,
 }
 
-/// The taps along each axis, and the weight of the second.
+/// The taps along each axis, and the weight of the second tap.
 type Taps = [([Option<u32>; 2], u32); 3];
 
-/// A point on an image with its sampler: coordinates along up to three axes, and the face of a cube.
+/// A sample point on an image: its sampler, coordinates along up to three axes, and cube face.
 struct SamplePlace<'a> {
     image: &'a Image,
     state: &'a SamplerState,
@@ -195,7 +195,7 @@ impl<'a> SamplePlace<'a> {
         Self { image, state, coordinates, face }
     }
 
-    /// Number of axes along which texels lie.
+    /// Number of texture axes.
     fn axes(&self) -> usize {
         match self.image.kind() {
             TextureKind::D1 => 1,
@@ -204,7 +204,7 @@ impl<'a> SamplePlace<'a> {
         }
     }
 
-    /// Mode, extent and scale of an axis at a level.
+    /// Address mode, extent and coordinate scale of an axis at a level.
     fn axis(&self, level: u32, axis: usize) -> (AddressMode, u32, u32) {
         let l = self.image.levels()[level as usize];
         let size = [l.width, l.height, l.slices][axis];
@@ -227,7 +227,7 @@ impl<'a> SamplePlace<'a> {
         Some((index[2], index[1], index[0]))
     }
 
-    /// What a nearest read of a level gives.
+    /// Value of a nearest read of a level.
     fn nearest_value(&self, rules: &SampleRules, level: u32) -> [u32; 4] {
         let texel = match self.nearest(level) {
             Some((slice, y, x)) => self.image.texel(level, slice, y, x, rules.signed_texel_minimum),
@@ -236,7 +236,7 @@ impl<'a> SamplePlace<'a> {
         texel.to_format(rules.format)
     }
 
-    /// The taps along each axis of a level. Unused axes have one tap of full weight.
+    /// Taps along each axis of a level. Unused axes have one tap of full weight.
     fn taps(&self, filter: Filter, level: u32, bits: u8) -> Taps {
         let mut taps = [([Some(0), None], 0), ([Some(0), None], 0), ([Some(self.face), None], 0)];
         for (axis, slot) in taps.iter_mut().enumerate().take(self.axes()) {
@@ -291,7 +291,7 @@ impl<'a> SamplePlace<'a> {
         }
     }
 
-    /// The exact weighted sum, rounded once.
+    /// Exact weighted sum, rounded once.
     fn filter_integers(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
         let bits = rules.filter_fraction_bits.min(12);
         let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
@@ -325,7 +325,7 @@ impl<'a> SamplePlace<'a> {
         [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
     }
 
-    /// FP32 steps along x, y, z and between the levels.
+    /// Interpolates in FP32 steps along x, y, z and between the levels.
     fn filter_floats(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
         let bits = rules.filter_fraction_bits.min(12);
         let border = self.border_texel(rules);

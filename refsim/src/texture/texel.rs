@@ -1,21 +1,22 @@
-//! Texels to values and back: exact decoding, one rounding when a value enters a register or a target.
+//! Decoding and encoding of texels: decoding is exact, and values are rounded once when they enter a register or a
+//! target.
 
 use super::format::{Channel, ChannelClass, ComponentSource};
 use super::value::{self, Exact};
 use super::{SignedTexelMinimum, TargetRounding, TexelFormat};
 use crate::num::{self, Format};
 
-/// The exact value of one component of a texel.
+/// Exact value of a texel component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ChannelValue {
     /// `numerator / denominator`, not reduced; the denominator is that of the channel.
     Ratio {
-        /// At most 32 bits in size.
+        /// At most 32 bits in magnitude.
         numerator: i64,
         /// At least 1.
         denominator: u32,
     },
-    /// A floating-point pattern of a format.
+    /// A bit pattern of a floating-point format.
     Float {
         /// The format.
         format: Format,
@@ -30,7 +31,7 @@ impl ChannelValue {
     /// The constant 1.
     pub const ONE: Self = Self::Ratio { numerator: 1, denominator: 1 };
 
-    /// The value rounded once into `format`.
+    /// Rounds the value once into `format`.
     pub fn to_format(self, format: Format) -> u32 {
         match self {
             Self::Ratio { numerator, denominator } => value::ratio(format, numerator, u64::from(denominator)),
@@ -39,18 +40,18 @@ impl ChannelValue {
     }
 }
 
-/// Red, green, blue and alpha of a texel, exactly, with what is not stored filled in.
+/// Exact red, green, blue and alpha of a texel, with defaults for components that are not stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Texel(pub [ChannelValue; 4]);
 
 impl Texel {
-    /// The four values, each rounded once into `format`.
+    /// Rounds the four values once into `format`.
     pub fn to_format(self, format: Format) -> [u32; 4] {
         self.0.map(|c| c.to_format(format))
     }
 }
 
-/// The bits of a channel within a texel read as a little-endian integer.
+/// Extracts the bits of a channel from a texel given as a little-endian integer.
 pub(crate) fn channel_bits(channel: Channel, raw: u128) -> u32 {
     (raw >> channel.shift) as u32 & mask(channel.bits)
 }
@@ -59,7 +60,7 @@ fn mask(bits: u8) -> u32 {
     if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
 }
 
-/// What a channel's whole range is divided by: `2^n - 1`, `2^(n-1) - 1`, or 240 for the split form.
+/// Denominator of a channel's values: `2^n - 1`, `2^(n-1) - 1`, or 240 for the split form.
 pub(crate) fn denominator(channel: Channel) -> u32 {
     match channel.class {
         ChannelClass::Unorm => mask(channel.bits),
@@ -69,7 +70,7 @@ pub(crate) fn denominator(channel: Channel) -> u32 {
     }
 }
 
-/// The exact value of the bits of one channel.
+/// Decodes the bits of one channel exactly.
 pub fn decode_channel(channel: Channel, bits: u32, minimum: SignedTexelMinimum) -> ChannelValue {
     let bits = bits & mask(channel.bits);
     let denominator = denominator(channel);
@@ -88,7 +89,7 @@ pub fn decode_channel(channel: Channel, bits: u32, minimum: SignedTexelMinimum) 
     ChannelValue::Ratio { numerator, denominator }
 }
 
-/// The exact value of a texel given as a little-endian integer.
+/// Decodes a texel, given as a little-endian integer, exactly.
 pub fn decode(format: TexelFormat, raw: u128, minimum: SignedTexelMinimum) -> Texel {
     let record = format.record();
     Texel(record.components.map(|source| match source {
@@ -101,8 +102,8 @@ pub fn decode(format: TexelFormat, raw: u128, minimum: SignedTexelMinimum) -> Te
     }))
 }
 
-/// The channel bits that stand for a value: clamped to the channel's range, scaled, rounded once. NaN gives 0 in
-/// normalised channels; -1 is the least that a signed channel is given.
+/// Encodes a value for a channel: clamps it to the channel's range, scales it and rounds once. NaN gives 0 in
+/// normalised channels, and -1 is the least value encoded in signed ones.
 pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: TargetRounding) -> u32 {
     if let ChannelClass::Float(format) = channel.class {
         return num::ops::convert(&from, format, bits).bits & mask(channel.bits);
@@ -122,7 +123,7 @@ pub fn encode_channel(channel: Channel, from: Format, bits: u32, rounding: Targe
     signed_bits(channel, negative, magnitude)
 }
 
-/// [`encode_channel`] of `numerator / denominator` into a channel of fractions.
+/// [`encode_channel`] of `numerator / denominator` into a normalised channel.
 pub(crate) fn encode_ratio(channel: Channel, numerator: i64, denominator: u64, rounding: TargetRounding) -> u32 {
     let negative = numerator < 0;
     let scale = steps(channel, negative);
@@ -135,7 +136,7 @@ pub(crate) fn encode_ratio(channel: Channel, numerator: i64, denominator: u64, r
     signed_bits(channel, negative, magnitude)
 }
 
-/// Steps from 0 to 1, or from 0 to -1, in the codes of a channel of fractions.
+/// Number of codes from 0 to 1, or from 0 to -1, of a normalised channel.
 fn steps(channel: Channel, negative: bool) -> u64 {
     match (channel.class, negative) {
         (ChannelClass::SplitSnorm, true) => 16,
@@ -144,12 +145,12 @@ fn steps(channel: Channel, negative: bool) -> u64 {
     }
 }
 
-/// Two's complement within a channel.
+/// Two's complement encoding in a channel.
 fn signed_bits(channel: Channel, negative: bool, magnitude: u32) -> u32 {
     if negative { magnitude.wrapping_neg() & mask(channel.bits) } else { magnitude }
 }
 
-/// The texel, as a little-endian integer, that stands for red, green, blue and alpha given in format `from`.
+/// Encodes red, green, blue and alpha, given in format `from`, as a texel (a little-endian integer).
 ///
 /// Components that the format does not store are dropped; luminance is taken from red.
 pub fn encode(format: TexelFormat, from: Format, values: [u32; 4], rounding: TargetRounding) -> u128 {

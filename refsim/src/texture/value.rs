@@ -1,6 +1,6 @@
-//! The exact value behind a bit pattern, and the FP32 steps that the fixed-function rooms share.
+//! Exact values of bit patterns, and the FP32 operations shared by the fixed-function stages.
 //!
-//! FP32 arithmetic for texture, raster and output: their only use of [`crate::num`].
+//! FP32 arithmetic of texture, raster and output, and their only use of [`crate::num`].
 
 use crate::num::{self, Format};
 
@@ -29,33 +29,33 @@ pub(crate) fn div(a: u32, b: u32) -> u32 {
     num::ops::div(Format::FP32, a, b).bits
 }
 
-/// Whether an FP32 pattern is a NaN or an infinity.
+/// Returns `true` if an FP32 pattern is a NaN or an infinity.
 pub(crate) fn is_not_finite(bits: u32) -> bool {
     bits & 0x7f80_0000 == 0x7f80_0000
 }
 
-/// Whether an FP32 pattern is a NaN.
+/// Returns `true` if an FP32 pattern is a NaN.
 pub(crate) fn is_nan(bits: u32) -> bool {
     bits & 0x7fff_ffff > 0x7f80_0000
 }
 
-/// An FP32 pattern with infinities and NaN replaced by 0.
+/// Replaces infinities and NaN by 0.
 pub(crate) fn finite_or_zero(bits: u32) -> u32 {
     if is_not_finite(bits) { ZERO } else { bits }
 }
 
-/// Whether the FP32 pattern is below zero (-0 and NaN are not).
+/// Returns `true` if the FP32 pattern is below zero (-0 and NaN are not).
 pub(crate) fn is_negative(bits: u32) -> bool {
     bits > 0x8000_0000 && !is_nan(bits)
 }
 
-/// A key that orders finite FP32 patterns as their values, both zeros alike.
+/// A key that orders finite FP32 patterns by value; both zeros have the same key.
 pub(crate) fn order_key(bits: u32) -> i64 {
     let magnitude = i64::from(bits & 0x7fff_ffff);
     if bits >> 31 == 1 { -magnitude } else { magnitude }
 }
 
-/// The integer rounded to FP32, to nearest, ties to even: what the host's `as f32` gives.
+/// Converts an integer to FP32, rounded to nearest, ties to even, like the host's `as f32`.
 pub(crate) fn from_integer(value: i64) -> u32 {
     if value == 0 {
         return ZERO;
@@ -78,7 +78,7 @@ pub(crate) fn from_integer(value: i64) -> u32 {
     sign | (exponent << 23) | (significand as u32 & 0x007f_ffff)
 }
 
-/// The exact value of a bit pattern.
+/// Exact value of a bit pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exact {
     /// Not a number.
@@ -99,7 +99,7 @@ pub(crate) enum Exact {
     },
 }
 
-/// The exact value of a pattern of any format.
+/// Decodes a pattern of any format exactly.
 pub(crate) fn exact(format: Format, bits: u32) -> Exact {
     match num::unpack(&format, bits) {
         num::Unpacked::Nan { .. } => Exact::Nan,
@@ -108,7 +108,7 @@ pub(crate) fn exact(format: Format, bits: u32) -> Exact {
     }
 }
 
-/// The exact value of an FP32 pattern.
+/// Decodes an FP32 pattern exactly.
 pub(crate) fn exact32(bits: u32) -> Exact {
     let negative = bits >> 31 == 1;
     let field = (bits >> 23 & 0xff).cast_signed();
@@ -121,9 +121,10 @@ pub(crate) fn exact32(bits: u32) -> Exact {
     }
 }
 
-/// `floor(value * factor * 2^fraction_bits)` for a finite FP32 pattern; with `round`, halves up instead of down.
+/// Computes `floor(value * factor * 2^fraction_bits)` of a finite FP32 pattern; if `round`, rounds to nearest, halves
+/// up.
 ///
-/// `factor` is at most 2^16 and `fraction_bits` at most 16; a result past 2^62 in size saturates there.
+/// `factor` is at most 2^16 and `fraction_bits` at most 16; results saturate at 2^62 in magnitude.
 pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bool) -> i64 {
     let Exact::Finite { negative, significand, exponent } = exact32(bits) else {
         return 0;
@@ -133,7 +134,7 @@ pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bo
     }
     let product = i128::from(significand) * i128::from(factor);
     let signed = if negative { -product } else { product };
-    // One more bit below the point than asked for, so that a half can be added before the floor.
+    // One extra fraction bit, so that a half can be added before the floor.
     let shift = exponent + fraction_bits.cast_signed() + 1;
     let doubled = if shift >= 0 {
         if shift > 64 { signed.signum() << 100 } else { signed << shift }
@@ -146,9 +147,9 @@ pub(crate) fn scaled_floor(bits: u32, factor: u32, fraction_bits: u32, round: bo
     result.clamp(-(1 << 62), 1 << 62) as i64
 }
 
-/// `value * scale` rounded to an integer, for `value` already known to be at most one in size.
+/// Rounds `value * scale` to an integer, for values of magnitude at most 1.
 ///
-/// Halves go away from zero under `nearest`; otherwise the fraction is cut off.
+/// Halves round away from zero if `nearest`; otherwise the fraction is truncated.
 pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, scale: u64, nearest: bool) -> u64 {
     let product = u128::from(significand) * u128::from(scale);
     if exponent >= 0 {
@@ -162,12 +163,12 @@ pub(crate) fn scaled_magnitude(significand: u64, exponent: i32, scale: u64, near
     ((product + half) >> shift) as u64
 }
 
-/// `value / 2^bits` as FP32, exact for values below 2^24 in size and `bits` at most 16.
+/// `value / 2^bits` as FP32; exact for magnitudes below 2^24 and `bits` at most 16.
 pub(crate) fn from_fixed(value: i64, bits: u8) -> u32 {
     if value == 0 { ZERO } else { from_integer(value) - (u32::from(bits) << 23) }
 }
 
-/// The exact ratio `numerator / denominator` rounded once into `format`.
+/// Rounds `numerator / denominator` once into `format`.
 pub(crate) fn ratio(format: Format, numerator: i64, denominator: u64) -> u32 {
     num::from_ratio(format, numerator < 0, u128::from(numerator.unsigned_abs()), u128::from(denominator)).bits
 }

@@ -1,31 +1,30 @@
-//! The texture cache: set-associative, least recently used.
+//! Simulated texture cache: set-associative with LRU replacement.
 //!
-//! No geometry of these cards' caches has been published, so all of it is a guess of the profile; [`TextureCaches`]
-//! watches a draw with half, with all and with twice the stated size, so that the effect can be shown without drawing
-//! again.
+//! The cache geometry of these cards is unpublished, so it is a guess of the profile. [`TextureCaches`] simulates half,
+//! all and twice the stated size at once, so that the sensitivity can be shown without drawing again.
 
 use super::TimingError;
 use crate::device::Profile;
 use crate::event::{SAMPLERS, SamplerTraffic, TexelObserver, TexelTouch};
 use std::collections::BTreeSet;
 
-/// The smallest line: the largest texel fits.
+/// Smallest line size in bytes: that of the largest texel.
 const LEAST_LINE: u64 = 16;
-/// The largest cache: more would be no cache of these cards.
+/// Largest cache size in bytes, far beyond these cards.
 const MAX_BYTES: u64 = 1 << 26;
 
-/// One cache. It is empty at first.
+/// A cache, initially empty.
 #[derive(Clone, Debug)]
 pub struct TextureCache {
     line_bytes: u64,
     ways: usize,
     sets: u64,
-    /// Line numbers, plus one so that 0 is empty; the sets one after the other, the last used first.
+    /// Line numbers plus one, 0 for an empty way; set by set, in each the most recently used first.
     lines: Vec<u64>,
 }
 
 impl TextureCache {
-    /// A cache of `bytes` in lines of `line_bytes`, of which an address can choose among `ways`.
+    /// Creates a cache of `bytes` with lines of `line_bytes` and associativity `ways`.
     ///
     /// # Errors
     /// [`TimingError::CacheShape`] unless lines are a power of two of at least 16 bytes and the size, at most 64 MiB,
@@ -41,48 +40,48 @@ impl TextureCache {
         Ok(Self { line_bytes, ways: ways as usize, sets: bytes / set, lines })
     }
 
-    /// Asks for the line of an address. Whether it was there; if not, it is now.
+    /// Requests the line of an address; loads it on a miss. Returns `true` on a hit.
     pub fn access(&mut self, address: u64) -> bool {
         let number = address / self.line_bytes;
         let set = (number % self.sets) as usize * self.ways;
         let Some(ways) = self.lines.get_mut(set..set + self.ways) else { return false };
         let mark = number + 1;
         let found = ways.iter().position(|&way| way == mark);
-        // What was there moves to the front; else the last falls out.
+        // A hit moves to the front; a miss evicts the last way.
         let last = found.unwrap_or(ways.len() - 1);
         ways[..=last].rotate_right(1);
         ways[0] = mark;
         found.is_some()
     }
 
-    /// Forgets everything.
+    /// Invalidates all lines.
     pub fn clear(&mut self) {
         self.lines.fill(0);
     }
 
-    /// Bytes of a line.
+    /// Line size in bytes.
     pub fn line_bytes(&self) -> u64 {
         self.line_bytes
     }
 }
 
-/// Watches draws through a card's texture cache, at half its size, at its size and at twice its size. All samplers
-/// share it. It is empty when a draw begins: what the draw before left could be stale, and a driver of the time emptied
-/// it with the state.
+/// Simulates a card's texture cache, shared by all samplers, at half its size, its size and twice its size. It is
+/// invalidated at the start of each draw: contents of an earlier draw could be stale, and drivers of the time
+/// invalidated it on state changes.
 #[derive(Clone, Debug)]
 pub struct TextureCaches {
     caches: [TextureCache; 3],
     traffic: [SamplerTraffic; SAMPLERS],
     lines: [BTreeSet<u64>; SAMPLERS],
-    /// The last line of each sampler: asking again hits.
+    /// Last line of each sampler; a repeated request hits.
     last: [Option<u64>; SAMPLERS],
 }
 
 impl TextureCaches {
-    /// The cache of a device.
+    /// The texture cache of a device.
     ///
     /// # Errors
-    /// [`TimingError::Missing`] if the device states none, [`TimingError::CacheShape`] if it is impossible.
+    /// [`TimingError::Missing`] if the device states none, [`TimingError::CacheShape`] if its shape is invalid.
     pub fn new(profile: &Profile) -> Result<Self, TimingError> {
         let figure = |figure: &'static str| {
             profile.rates.figure(figure).ok_or_else(|| TimingError::Missing {
@@ -95,7 +94,7 @@ impl TextureCaches {
         let line = figure("texture_cache_line_bytes")?;
         let ways = figure("texture_cache_ways")?;
         let whole = TextureCache::new(bytes, line, ways)?;
-        // Of a cache of one set, half has half the ways.
+        // A cache with a single set is halved by halving its ways.
         let half =
             TextureCache::new(bytes / 2, line, ways).or_else(|_| TextureCache::new(bytes / 2, line, ways / 2))?;
         let double = TextureCache::new(bytes.saturating_mul(2), line, ways)?;

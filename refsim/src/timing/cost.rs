@@ -1,28 +1,28 @@
-//! The cost of one draw per unit of a card.
+//! Cost of a draw per unit of a card.
 
 use super::{Clocks, Picoseconds};
 
-/// How long one draw keeps each unit busy, were it alone; and how long the draw takes, with all of them at work at
-/// once.
+/// Busy time of each unit for one draw alone, and the duration of the draw with all units in parallel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct DrawCost {
-    /// Command processor, vertex units and triangle set-up: before the first fragment, and beside the others after it.
+    /// Command processor, vertex units and triangle set-up; precedes the first fragment and then overlaps with the
+    /// rest.
     pub front_end: Picoseconds,
-    /// Pixel pipelines: the longest of arithmetic, texture issue and raster back end.
+    /// Pixel pipelines: the maximum of arithmetic, texture issue and raster back end.
     pub shader: Picoseconds,
-    /// Memory: textures that the cache missed, depth, colour, vertices, at the peak rate times its efficiency.
+    /// Memory: texture cache misses, depth, colour and vertices, at the peak rate times its efficiency.
     pub memory: Picoseconds,
-    /// From the first clock of the first unit to the last clock of the last: the longest of the above, and the time in
-    /// which the pipeline fills and drains.
+    /// Duration from the first clock of the first unit to the last clock of the last: the maximum of the above, plus
+    /// the time to fill and drain the pipeline.
     pub total: Picoseconds,
-    /// [`DrawCost::total`] in clocks of the core.
+    /// [`DrawCost::total`] in core clocks.
     pub core_clocks: Clocks,
-    /// What the draw waits for most.
+    /// The limiting unit.
     pub bottleneck: Bottleneck,
 }
 
 impl DrawCost {
-    /// Both, one after the other; bound by what the longer one is bound by.
+    /// The sum of two costs in sequence; the bottleneck is that of the longer one.
     #[must_use]
     pub fn and_then(self, next: Self) -> Self {
         Self {
@@ -36,12 +36,12 @@ impl DrawCost {
     }
 }
 
-/// What bounds a draw.
+/// Limiting factor of a draw.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash, PartialOrd, Ord, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Bottleneck {
-    /// Fixed cost of a draw.
+    /// Fixed cost per draw.
     #[default]
     Overhead,
     /// Vertex units.
@@ -57,6 +57,6 @@ pub enum Bottleneck {
     Output,
     /// Memory bandwidth.
     Memory,
-    /// A measured rate, in a model that knows nothing else.
+    /// A measured rate, in models without further detail.
     Rate,
 }

@@ -1,6 +1,6 @@
 //! Errors of the timing model.
 
-/// A question that the model has no answer to.
+/// Error of constructing or changing a timing model.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -8,13 +8,13 @@ pub enum TimingError {
     /// The device does not state a figure that the model needs.
     #[error("`{device}` has no figure `{figure}`, so it has no time; use one of the cards that have it: {have}")]
     Missing { device: String, figure: &'static str, have: String },
-    /// No figure of this name can be scaled.
+    /// No scalable figure has this name.
     #[error("`{key}` is no guess of `{device}`; its guesses are: {known}")]
     NoGuess { device: String, key: String, known: String },
-    /// A figure cannot be scaled by nothing, or by an infinite factor.
+    /// The scale factor is zero or infinite.
     #[error("a figure cannot be scaled by {numerator}/{denominator}; both must be above 0")]
     Scale { numerator: u64, denominator: u64 },
-    /// No cache has this shape.
+    /// Invalid cache shape.
     #[error(
         "a texture cache of {bytes} bytes in lines of {line_bytes} bytes, {ways} ways, cannot be; lines must be a power of \
          two of at least 16 bytes, and the size a whole number of sets of {ways} lines"

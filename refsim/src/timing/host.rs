@@ -1,8 +1,8 @@
-//! What the host's own work costs: counted operations, times one weight per kind, times one scale.
+//! Cost of host work: counted operations, times one weight per kind, times one scale.
 //!
-//! The weights are relative and guessed; the scale is found from one printed figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and
-//! the counts of the run that it was printed for, and then left alone. So the model can be wrong about where the host's
-//! time goes, but not about how much of it there is in that run.
+//! The weights are relative guesses. The scale is calibrated on one published figure ([`CPU_ONLY_RAYS_PER_SECOND`]) and
+//! the operation counts of the same run, and stays fixed. So the total host time of that run is right by construction,
+//! its distribution over operations is not.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -10,13 +10,13 @@ use std::ops::AddAssign;
 use super::Picoseconds;
 use crate::device::{Confidence, FigureRow};
 
-/// Rays per second of the host alone on the teapot room: Ray Engine paper, Table 3, first row. The one figure that the
-/// scale of [`HostModel`] is calibrated on.
+/// Rays per second on the host alone for the teapot room: Ray Engine paper, Table 3, first row. The only figure on
+/// which the scale of [`HostModel`] is calibrated.
 pub const CPU_ONLY_RAYS_PER_SECOND: u64 = 135_812;
 
 macro_rules! operations {
     ($($(#[$doc:meta])* $variant:ident = $name:literal, $weight:literal, $source:literal;)*) => {
-        /// A kind of operation of the host.
+        /// A kind of host operation.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum HostOperation {
             $($(#[$doc])* $variant,)*
@@ -49,37 +49,37 @@ macro_rules! operations {
 }
 
 operations! {
-    /// A cell of the triangle octree that a ray or a bucket meets.
+    /// Visit of a triangle octree cell by a ray or a bucket.
     OctreeCell = "octree-cell", 25, "three slab distances and a choice of the next cell; no source was found";
-    /// A ray against a triangle.
+    /// Ray-triangle intersection test.
     RayTriangleTest = "ray-triangle-test", 50, "two cross and four dot products, a division; no source was found";
-    /// A node of the ray tree on the way of a ray to its bucket.
+    /// Visit of a ray tree node by a ray on its way to its bucket.
     RayTreeNode = "ray-tree-node", 10, "a comparison of one of five coordinates, a miss in the cache now and then; no source was found";
-    /// A ray put into a bucket, or moved to another.
+    /// Insertion of a ray into a bucket, or its transfer to another.
     BucketInsert = "bucket-insert", 25, "six numbers and an index copied; no source was found";
-    /// A ray made: by the camera, or by a hit.
+    /// Generation of a ray, by the camera or at a hit.
     RayGenerated = "ray-generated", 40, "a direction and its length; no source was found";
-    /// A ray written into the textures of a pass.
+    /// Writing of a ray into the textures of a pass.
     RayPacked = "ray-packed", 10, "six numbers written one after the other; taken like a result that is read";
-    /// A result looked at that came from the card.
+    /// Evaluation of a result read back from the card.
     ResultRead = "result-read", 10, "an index and a distance kept if nearer; no source was found";
-    /// A vertex handed to the driver, with its attributes.
+    /// Submission of a vertex with its attributes to the driver.
     VertexSent = "vertex-sent", 20, "some twenty numbers copied; no source was found";
-    /// A triangle taken from the scene for the card.
+    /// Gathering of a triangle from the scene for the card.
     TriangleSent = "triangle-sent", 20, "nine numbers gathered; no source was found";
-    /// A product added to a sum, of matrices and vectors.
+    /// Multiply-add in sums over matrices and vectors.
     MultiplyAdd = "multiply-add", 2, "a product and an addition; no source was found";
-    /// A hit shaded.
+    /// Shading of a hit.
     Shade = "shade", 100, "a normal, a light, a material; no source was found";
 }
 
 impl HostOperation {
-    /// The place in [`HostOperation::ALL`].
+    /// Index in [`HostOperation::ALL`].
     const fn index(self) -> usize {
         self as usize
     }
 
-    /// The operation of this name.
+    /// Returns the operation with this name.
     ///
     /// # Errors
     /// [`HostError::UnknownOperation`] with the names that exist.
@@ -97,48 +97,48 @@ impl fmt::Display for HostOperation {
     }
 }
 
-/// Why there is no host model, or no time.
+/// Error of calibrating or evaluating the host model.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum HostError {
-    /// The run to calibrate on did nothing.
+    /// The calibration run has no counted operations.
     #[error("expected counted operations with some weight to calibrate the host on, found none")]
     #[diagnostic(code(timing::host_counts), help("count the operations of the run that the printed figure is of"))]
     NoCounts,
-    /// The run to calibrate on cast no rays.
+    /// The calibration run cast no rays.
     #[error("expected at least one ray to calibrate the host on, found none")]
     #[diagnostic(code(timing::host_rays), help("count the rays of the run that the printed figure is of"))]
     NoRays,
-    /// The printed figure is 0.
+    /// The published figure is 0.
     #[error("expected at least one ray a second to calibrate the host on, found 0")]
     #[diagnostic(code(timing::host_rate), help("take the printed figure"))]
     NoRate,
-    /// A log names an operation that the model does not know.
+    /// A log contains an operation that the model does not know.
     #[error("unknown host operation `{name}`; expected one of {known}")]
     #[diagnostic(code(timing::host_operation))]
     UnknownOperation { name: String, known: String },
 }
 
-/// How often each operation happened.
+/// Number of operations by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct HostCounts([u64; HostOperation::ALL.len()]);
 
 impl HostCounts {
-    /// `count` more of an operation.
+    /// Adds `count` operations.
     pub const fn add(&mut self, operation: HostOperation, count: u64) {
         let held = &mut self.0[operation.index()];
         *held = held.saturating_add(count);
     }
 
-    /// The same with `count` more of an operation.
+    /// Returns the counts with `count` operations added.
     #[must_use]
     pub const fn with(mut self, operation: HostOperation, count: u64) -> Self {
         self.add(operation, count);
         self
     }
 
-    /// How often it happened.
+    /// Number of operations of a kind.
     pub const fn of(&self, operation: HostOperation) -> u64 {
         self.0[operation.index()]
     }
@@ -152,7 +152,7 @@ impl AddAssign for HostCounts {
     }
 }
 
-/// What an operation costs, relative to the others: about so many additions of a processor of 2002. All guesses.
+/// Cost of each operation relative to the others, roughly in additions on a processor of 2002. All are guesses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HostWeights([u64; HostOperation::ALL.len()]);
 
@@ -184,13 +184,13 @@ impl HostWeights {
         HostOperation::ALL.iter().map(row).collect()
     }
 
-    /// The weight of this key, to be changed; `None` if there is no such key.
+    /// Mutable access to the weight with this key; `None` if there is no such key.
     pub fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
         let operation = HostOperation::named(key.strip_prefix("host.")?).ok()?;
         Some(&mut self.0[operation.index()])
     }
 
-    /// All operations, each by its weight.
+    /// Weighted sum of all operations.
     fn total(&self, counts: &HostCounts) -> u128 {
         let weighted = |kind: &HostOperation| u128::from(counts.of(*kind)) * u128::from(self.of(*kind));
         HostOperation::ALL.iter().map(weighted).fold(0, u128::saturating_add)
@@ -201,26 +201,26 @@ impl HostWeights {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HostModel {
     weights: HostWeights,
-    /// A unit of weight lasts so many picoseconds, as a fraction: exact, so that the run of the calibration takes its
-    /// printed time.
+    /// Picoseconds per unit of weight are `picoseconds / units`; exact, so that the calibration run takes its published
+    /// time.
     picoseconds: u128,
     units: u128,
 }
 
 impl HostModel {
-    /// The scale at which a run of these counts, casting so many rays (or drawing frames), casts `rays_per_second`;
-    /// weights as guessed.
+    /// Calibrates the scale such that a run with these counts and number of rays (or frames) reaches `rays_per_second`;
+    /// with the default weights.
     ///
     /// # Errors
-    /// [`HostError`] where one of them is 0.
+    /// [`HostError`] if one of the arguments is 0.
     pub fn calibrate(counts: &HostCounts, rays: u64, rays_per_second: u64) -> Result<Self, HostError> {
         Self::calibrate_with(HostWeights::default(), counts, rays, rays_per_second)
     }
 
-    /// The same with other weights: the scale is found anew, so that the run of the calibration takes the same time.
+    /// The same with other weights; the scale is recalibrated, so that the calibration run takes the same time.
     ///
     /// # Errors
-    /// [`HostError`] where one of them is 0, or all that was counted has no weight.
+    /// [`HostError`] if one of the arguments is 0, or all counted operations have weight 0.
     pub fn calibrate_with(
         weights: HostWeights,
         counts: &HostCounts,
@@ -248,17 +248,17 @@ impl HostModel {
         &self.weights
     }
 
-    /// How long a unit of weight lasts, in picoseconds, for people to read.
+    /// Picoseconds per unit of weight, for display.
     pub fn picoseconds_a_unit(&self) -> f64 {
         self.picoseconds as f64 / self.units as f64
     }
 
-    /// How long so many operations of one kind take, rounded up to the next picosecond.
+    /// Duration of `count` operations of one kind, rounded up to a picosecond.
     pub fn time_of(&self, operation: HostOperation, count: u64) -> Picoseconds {
         self.time_of_all(&HostCounts::default().with(operation, count))
     }
 
-    /// How long all of them take, rounded up once; the longest time there is where it would be longer.
+    /// Duration of all counted operations, rounded up once; saturates.
     pub fn time_of_all(&self, counts: &HostCounts) -> Picoseconds {
         let exact = self.weights.total(counts).checked_mul(self.picoseconds).map(|time| time.div_ceil(self.units));
         Picoseconds(exact.and_then(|time| u64::try_from(time).ok()).unwrap_or(u64::MAX))

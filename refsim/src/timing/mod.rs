@@ -1,10 +1,10 @@
-//! The timing model: clocks from counts and a profile.
+//! The timing model: durations from event counts and a device profile.
 //!
-//! The room sees what the machine wrote down ([`crate::event`]) and what a device can do ([`crate::device`]); it never
-//! sees a value, so a change in here changes no pixel. [`DrawCost`] is what one draw keeps busy, and how long.
+//! Its input is the machine's log ([`crate::event`]) and the device's speeds ([`crate::device`]), never pixel values,
+//! so it cannot change an image. [`DrawCost`] is the cost of one draw.
 //!
-//! All of it is whole numbers: clocks of a unit, and picoseconds on the common axis. The same events on the same
-//! profile give the same timeline to the last clock.
+//! All arithmetic is in integers: clocks of a unit, and picoseconds on the common time axis. Equal events and profiles
+//! give exactly equal timelines.
 
 pub mod cache;
 mod cost;

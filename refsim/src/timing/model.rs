@@ -1,20 +1,21 @@
-//! The two models of a card: its rates, and its pipeline.
+//! The two timing models of a card: published rates, or a simulated pipeline.
 
 use super::pipeline::{CacheSize, FragmentClocks, PipelineClocks, fragment_clocks, mipmap_clocks, pipeline_clocks};
 use super::{Bottleneck, Clocks, DrawCost, Hertz, Picoseconds, TimingError};
 use crate::device::{Bus, Confidence, FigureRow, Profile, Rates};
 use crate::event::{DrawRecord, MipmapRecord, ProgramWork};
 
-/// How deep a model looks.
+/// Level of detail of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Level {
-    /// The paper's equation 11: a fill rate (the measured one, where there is one) and the rates of the bus.
+    /// Equation 11 of the paper: a fill rate (the measured one, if available) and the rates of the bus.
     Rates,
-    /// From first principles: clocks of the units, memory traffic, latencies.
+    /// Bottom-up: clocks of the units, memory traffic, latencies.
     Pipeline,
 }
 
-/// Figures that a log has used up: traffic was observed under them, and scaling them afterwards would say nothing.
+/// Figures that a recorded log depends on: traffic was observed with their values, so scaling them afterwards is
+/// invalid.
 const SPENT: [&str; 5] = [
     "rates.texture_cache_line_bytes",
     "rates.texture_cache_ways",
@@ -23,7 +24,7 @@ const SPENT: [&str; 5] = [
     "rates.automatic_pairs",
 ];
 
-/// What the pipeline level must be told.
+/// Figures required by [`Level::Pipeline`].
 const PIPELINE_FIGURES: [&str; 15] = [
     "core_clock_hz",
     "memory_bytes_per_s",
@@ -42,13 +43,13 @@ const PIPELINE_FIGURES: [&str; 15] = [
     "texture_cache_line_bytes",
 ];
 
-/// Bytes of a constant register.
+/// Bytes per constant register.
 const CONSTANT_BYTES: u64 = 16;
 
-/// What both levels must be told about the bus.
+/// Bus figures required by both levels.
 const BUS_FIGURES: [&str; 2] = ["upload_bytes_per_s", "readback_bytes_per_s"];
 
-/// A model of one device: events in, time out. It never sees a value.
+/// A timing model of one device: maps events to durations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Model {
     level: Level,
@@ -61,7 +62,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// The model of a device.
+    /// Creates the model of a device.
     ///
     /// # Errors
     /// [`TimingError::Missing`] if the device lacks a figure that the level needs; `ideal-` devices have none.
@@ -95,7 +96,7 @@ impl Model {
         &self.device
     }
 
-    /// What a draw costs.
+    /// Cost of a draw.
     pub fn draw(&self, draw: &DrawRecord) -> DrawCost {
         match self.level {
             Level::Rates => self.fill(draw.counts.fragments.generated),
@@ -103,7 +104,7 @@ impl Model {
         }
     }
 
-    /// What the generation of mip levels costs: level by level, each as a draw over it. The rates count the texels
+    /// Cost of generating mip levels: level by level, each as a draw over the level. [`Level::Rates`] counts the texels
     /// written as fragments.
     pub fn mipmaps(&self, record: &MipmapRecord) -> DrawCost {
         match self.level {
@@ -115,33 +116,32 @@ impl Model {
         }
     }
 
-    /// What a draw costs each unit, in clocks of the core; the pipeline's view, whatever the level.
+    /// Busy clocks of each unit for a draw, in core clocks; computed by the pipeline model at either level.
     pub fn clocks(&self, draw: &DrawRecord) -> PipelineClocks {
         pipeline_clocks(draw, &self.rates, (self.cache, self.vertex_cache))
     }
 
-    /// What one fragment of a program costs a pixel pipeline that reads plain 32-bit texels.
+    /// Clocks per fragment of a program in a pixel pipeline, assuming 32-bit texels.
     pub fn fragment(&self, program: &ProgramWork) -> FragmentClocks {
         fragment_clocks(program, &[], &self.rates)
     }
 
-    /// What one vertex of a program costs a vertex unit.
+    /// Clocks per vertex of a program in a vertex unit.
     pub fn vertex(&self, program: &ProgramWork) -> Clocks {
         Clocks(program.arithmetic_slots().saturating_mul(self.rates.vertex_clocks_per_slot.unwrap_or(1)))
     }
 
-    /// How long it takes to send data to the card.
+    /// Duration of an upload.
     pub fn upload(&self, bytes: u64) -> Picoseconds {
         rate(self.bus.upload_bytes_per_s).time_of(bytes) + self.latency(self.bus.upload_latency_ns)
     }
 
-    /// How long it takes to get data back from the card, once it is there to be got.
+    /// Duration of a read-back once the data is ready.
     pub fn read_back(&self, bytes: u64) -> Picoseconds {
         rate(self.bus.readback_bytes_per_s).time_of(bytes) + self.latency(self.bus.readback_latency_ns)
     }
 
-    /// How long the card takes to change so many pieces of state, with so many constants: its command processor works
-    /// while the constants cross the bus.
+    /// Duration of a state change on the card; the command processor works while the constants cross the bus.
     pub fn state_change(&self, changes: u32, constants: u32) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -155,8 +155,7 @@ impl Model {
         }
     }
 
-    /// How long the card takes to fill so many bytes with one value: memory at its full rate. The rates know nothing of
-    /// it.
+    /// Duration of filling memory with one value, at the full memory rate; zero at [`Level::Rates`].
     pub fn clear(&self, bytes: u64) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -164,7 +163,7 @@ impl Model {
         }
     }
 
-    /// Every figure that the level reads, at its present value, with source and confidence.
+    /// All figures that the level reads, with current value, source and confidence.
     pub fn constants(&self) -> Vec<FigureRow> {
         let read = |row: &&FigureRow| self.level == Level::Pipeline || self.read_by_rates(&row.key);
         let mut rows: Vec<FigureRow> = self.figures.iter().filter(read).cloned().collect();
@@ -176,15 +175,15 @@ impl Model {
         rows
     }
 
-    /// The guesses among the figures that can be scaled, by key.
+    /// Keys of the figures that are guesses and can be scaled.
     pub fn guesses(&self) -> Vec<String> {
         let rows = self.constants().into_iter();
         let open = rows.filter(|row| row.confidence == Confidence::Guess && self.figure(&row.key).is_some());
         open.map(|row| row.key).filter(|key| !SPENT.contains(&key.as_str())).collect()
     }
 
-    /// The model with one guess scaled, rounded down but not to 0. Draws know their misses at half and at twice the
-    /// size of a cache (of textures, if they were observed); between those the nearest is taken.
+    /// Returns the model with one guess scaled, rounded down but not to 0. Draw records contain misses at half, one and
+    /// two times the cache size (for textures if observed); the nearest of them is used.
     ///
     /// # Errors
     /// [`TimingError::NoGuess`] if the key is not among [`Self::guesses`], [`TimingError::Scale`] for a factor of 0.
@@ -215,12 +214,12 @@ impl Model {
         Ok(scaled)
     }
 
-    /// The model of a card without a texture cache: every access fetches a line.
+    /// Returns the model of a card without a texture cache: every access fetches a line.
     pub fn without_texture_cache(&self) -> Self {
         Self { cache: CacheSize::None, ..self.clone() }
     }
 
-    /// A figure at its present value.
+    /// Current value of a figure.
     fn figure(&self, key: &str) -> Option<u64> {
         match key.split_once('.')? {
             ("rates", name) => self.rates.figure(name),
@@ -247,7 +246,7 @@ impl Model {
         }
     }
 
-    /// An error if the device does not state a figure.
+    /// Returns an error if the device does not state a figure.
     fn need(&self, figure: &'static str) -> Result<(), TimingError> {
         if self.rates.figure(figure).or(self.bus.figure(figure)).is_some_and(|n| n > 0) {
             return Ok(());
@@ -261,7 +260,7 @@ impl Model {
         Err(TimingError::Missing { device: self.device.clone(), figure, have: have.join(" ") })
     }
 
-    /// The rates have no latencies.
+    /// Latency; zero at [`Level::Rates`].
     fn latency(&self, nanoseconds: Option<u64>) -> Picoseconds {
         match self.level {
             Level::Rates => Picoseconds::ZERO,
@@ -269,7 +268,7 @@ impl Model {
         }
     }
 
-    /// Fragments at the fill rate.
+    /// Cost of `fragments` at the fill rate.
     fn fill(&self, fragments: u64) -> DrawCost {
         let fill = rate(self.rates.measured_fill_pixels_per_s.or(self.rates.fill_pixels_per_s));
         let total = fill.time_of(fragments);
@@ -297,7 +296,7 @@ impl Model {
     }
 }
 
-/// A rate that [`Model::new`] has found to be stated.
+/// A rate whose presence [`Model::new`] has checked.
 fn rate(figure: Option<u64>) -> Hertz {
     figure.and_then(Hertz::new).unwrap_or(Hertz::ONE)
 }

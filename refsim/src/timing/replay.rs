@@ -1,4 +1,4 @@
-//! A machine's log on the time axis.
+//! Replay of a machine's log on the time axis.
 
 use std::collections::BTreeMap;
 
@@ -8,39 +8,38 @@ use super::timeline::Timeline;
 use super::{DrawCost, Level, Model, Picoseconds};
 use crate::event::{self, DrawRecord, Event, FenceId, MipmapRecord, ReadBackMode};
 
-/// How long a card and its bus need for what a log asks of them.
+/// Durations of a log's events on a card and its bus.
 pub trait Costs {
-    /// A draw.
+    /// Cost of a draw.
     fn draw(&self, record: &DrawRecord) -> DrawCost;
-    /// The generation of a texture's mip levels.
+    /// Cost of generating a texture's mip levels.
     fn mipmaps(&self, record: &MipmapRecord) -> DrawCost;
-    /// Bytes to the card.
+    /// Duration of an upload.
     fn upload(&self, bytes: u64) -> Picoseconds;
-    /// Bytes from the card.
+    /// Duration of a read-back.
     fn read_back(&self, bytes: u64) -> Picoseconds;
-    /// Bytes filled with one value.
+    /// Duration of filling `bytes` with one value.
     fn clear(&self, bytes: u64) -> Picoseconds;
-    /// Pieces of state changed, and constants among them.
+    /// Duration of a state change, including `constants` constants.
     fn state(&self, changes: u32, constants: u32) -> Picoseconds;
 }
 
-/// How a log is replayed.
+/// Options of a replay.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
-    /// What commands cost the host.
+    /// Host cost of commands.
     pub queue: QueueFigures,
-    /// Instead of what the log says of each read-back. Asynchronous, in a log in which nobody then waits for the data,
-    /// is what asynchrony could gain at most.
+    /// Overrides the mode of every read-back. Asynchronous read-backs in a log in which nobody waits for the data give
+    /// an upper bound on the gain from asynchrony.
     pub read_back: Option<ReadBackMode>,
-    /// Two copies behind every resource: an upload or clear, both of which overwrite all of it, takes the one not used
-    /// last.
+    /// Gives every resource two copies: uploads and clears, which overwrite all of it, use the copy not used last.
     pub double_buffered: bool,
-    /// What host work costs; without a model it costs nothing, and [`Replay::uncosted`] counts it.
+    /// Cost of host work; without a model it is free, and counted in [`Replay::uncosted`].
     pub host: Option<&'a HostModel>,
 }
 
 impl Options<'_> {
-    /// What goes with a model: the rates, like the paper's equation 11, know nothing of what commands cost the host.
+    /// Options that fit a model: [`Level::Rates`], like the paper's equation 11, has no host cost of commands.
     pub fn of(level: Level) -> Self {
         let queue = QueueFigures::default();
         let queue = if level == Level::Rates { queue.without_overhead() } else { queue };
@@ -74,12 +73,12 @@ impl Costs for Model {
     }
 }
 
-/// A log that can't be replayed. Its events count from 0.
+/// Error of replaying a log. Events are numbered from 0.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ReplayError {
-    /// A fence was asked before it was set.
+    /// A fence was tested or waited for before it was set.
     #[error("event {event}: expected a fence that has been set, found fence {} that was not", fence.0)]
     #[diagnostic(code(timing::replay_fence), help("set the fence before it is tested or waited for"))]
     Fence { event: usize, fence: FenceId },
@@ -89,22 +88,22 @@ pub enum ReplayError {
     Host { event: usize, source: HostError },
 }
 
-/// What a replay found.
+/// Result of a replay.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Replay {
-    /// When everything happened.
+    /// Spans and waits of all units.
     pub timeline: Timeline,
-    /// The cost of each draw, in the order of the log.
+    /// Cost of each draw, in the order of the log.
     pub draws: Vec<DrawCost>,
-    /// The cost of each generation of mip levels, in the order of the log.
+    /// Cost of each generation of mip levels, in the order of the log.
     pub mipmaps: Vec<DrawCost>,
-    /// What each test of a fence would have said.
+    /// Result of each fence test.
     pub fence_tests: Vec<bool>,
-    /// Host operations that cost nothing because there is no host model.
+    /// Number of host operations without cost because there is no host model.
     pub uncosted: u64,
 }
 
-/// Puts a log on the time axis.
+/// Replays a log on the time axis.
 ///
 /// ```
 /// use refsim::machine::{ExecutorKind, Machine};
@@ -126,7 +125,7 @@ pub struct Replay {
 /// ```
 ///
 /// # Errors
-/// [`ReplayError`]: fences that are not set, host work of a kind that the model does not know.
+/// [`ReplayError`] for fences that are not set, and for host work of an unknown kind.
 pub fn replay(log: &[Event], costs: &impl Costs, options: &Options<'_>) -> Result<Replay, ReplayError> {
     let mut player = Player {
         queue: Queue::new(options.queue),
@@ -211,7 +210,7 @@ impl Player<'_> {
         self.found.draws.push(cost);
     }
 
-    /// As a draw that reads and writes the texture: what was drawn before is done, and nothing reads it meanwhile.
+    /// Scheduled as a draw that reads and writes the texture: it follows earlier draws, and nothing reads meanwhile.
     fn mipmaps(&mut self, record: &MipmapRecord, cost: DrawCost) {
         let texture = self.current(record.texture);
         self.queue.draw(&[texture], &[texture], cost, format!("mip levels of {}", name(record.texture)));
@@ -222,7 +221,7 @@ impl Player<'_> {
         self.fences.get(&fence).copied().ok_or(ReplayError::Fence { event, fence })
     }
 
-    /// The copy of a resource that is in use.
+    /// The copy of a resource in use.
     fn current(&mut self, resource: event::ResourceId) -> ResourceId {
         self.copies_of(resource).current()
     }
@@ -244,7 +243,7 @@ impl Player<'_> {
     }
 }
 
-/// The queue made the fence, so that it can only be unset.
+/// The queue generated the fence, so the only possible error is that it is unset.
 fn unset(event: usize, fence: FenceId, _: FenceError) -> ReplayError {
     ReplayError::Fence { event, fence }
 }

@@ -1,4 +1,4 @@
-//! Units of time: clocks of a unit, and picoseconds of the common time axis.
+//! Units of time: clocks of a unit, and picoseconds on the common time axis.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul, Sub};
@@ -6,34 +6,33 @@ use std::ops::{Add, AddAssign, Mul, Sub};
 /// Picoseconds in a second.
 const PICO: u128 = 1_000_000_000_000;
 
-/// Clocks of one unit; what a clock lasts is the unit's [`Hertz`].
+/// Number of clocks of one unit; [`Hertz`] gives their duration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Clocks(pub u64);
 
-/// Time since the start of a run, or a span of it: whole picoseconds, up to 213 days.
+/// Time since the start of a run, or a duration: whole picoseconds, up to 213 days.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub struct Picoseconds(pub u64);
 
-/// Things per second: clocks, bytes, pixels, operations. Never 0.
+/// A rate per second, of clocks, bytes, pixels or operations; never 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hertz(u64);
 
 impl Hertz {
-    /// Once a second.
+    /// 1 per second.
     pub const ONE: Self = Self(1);
 
-    /// A rate; `None` for 0, at which nothing ever ends.
+    /// Creates a rate; `None` for 0.
     pub const fn new(per_second: u64) -> Option<Self> {
         if per_second == 0 { None } else { Some(Self(per_second)) }
     }
 
-    /// Things per second.
+    /// The rate per second.
     pub const fn per_second(self) -> u64 {
         self.0
     }
 
-    /// How long `count` things take, rounded up to the next picosecond; the longest time there is where it would be
-    /// longer.
+    /// Duration of `count` operations, rounded up to a picosecond; saturates.
     pub fn time_of(self, count: u64) -> Picoseconds {
         let exact = (u128::from(count) * PICO).div_ceil(u128::from(self.0));
         Picoseconds(u64::try_from(exact).unwrap_or(u64::MAX))
@@ -41,15 +40,15 @@ impl Hertz {
 }
 
 impl Picoseconds {
-    /// No time.
+    /// Zero duration.
     pub const ZERO: Self = Self(0);
 
-    /// In seconds, for people to read.
+    /// Returns the time in seconds, for display.
     pub fn seconds(self) -> f64 {
         self.0 as f64 / PICO as f64
     }
 
-    /// The time left to `later`; none if that is earlier.
+    /// Duration from `self` to `later`; zero if `later` is earlier.
     #[must_use]
     pub fn until(self, later: Self) -> Self {
         Self(later.0.saturating_sub(self.0))

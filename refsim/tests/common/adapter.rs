@@ -1,10 +1,10 @@
-//! A harness for tests that need a GPU adapter: where there is none they are counted as ignored, not as passed. Where
-//! the environment variable `CI` is set, no adapter is a failure.
+//! Test harness for tests that need a GPU adapter. Without an adapter they are reported as ignored, or as failed if the
+//! environment variable `CI` is set.
 
 use libtest_mimic::{Arguments, Trial};
 use std::process::ExitCode;
 
-/// Runs the tests that the arguments of the process select, as the built-in harness does.
+/// Runs the tests selected by the process's arguments, like the built-in harness.
 pub(crate) fn run(trials: Vec<Trial>) -> ExitCode {
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
@@ -18,7 +18,7 @@ pub(crate) fn on_host(name: &'static str, test: fn()) -> Trial {
     })
 }
 
-/// A test on the adapter that all tests of the process share.
+/// A test on the adapter shared by all tests of the process.
 #[cfg(feature = "wgpu")]
 pub(crate) fn on_adapter(name: &'static str, test: fn(&std::sync::Arc<refsim::exec::gpu::Gpu>)) -> Trial {
     use libtest_mimic::Completion;
@@ -31,7 +31,7 @@ pub(crate) fn on_adapter(name: &'static str, test: fn(&std::sync::Arc<refsim::ex
     })
 }
 
-/// Tests by their paths, which are their names: `trials![on_host: valid::modules_are_valid]`.
+/// Tests by path, which is also their name: `trials![on_host: valid::modules_are_valid]`.
 macro_rules! trials {
     ($kind:ident: $($test:path),* $(,)?) => {
         vec![$($crate::adapter::$kind(stringify!($test), $test)),*]

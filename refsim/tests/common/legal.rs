@@ -1,13 +1,13 @@
-//! Programs that the checker accepts for an ideal device, built from a list of choices.
+//! Generates programs that the checker accepts for an ideal device, from a list of choices.
 //!
-//! A list of numbers picks every turn of the way, so that proptest can shrink it: fewer or smaller numbers give a
-//! simpler program. Registers are written before they are read, and operands stay within what each version allows.
+//! A list of numbers determines every choice, so that proptest can shrink it: fewer or smaller numbers give a simpler
+//! program. Registers are written before they are read, and operands follow the rules of each version.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use refsim::isa::Version;
 use std::fmt::Write;
 
-/// A list of numbers that decides; zeros once it is used up.
+/// A list of choices; zeros once it is used up.
 pub(crate) struct Choices<'a> {
     list: &'a [u32],
     at: usize,
@@ -54,7 +54,7 @@ fn defs(text: &mut String, c: &mut Choices<'_>, count: usize) {
     }
 }
 
-/// Operation and operands of an arithmetic instruction whose component-wise results go with any mask.
+/// Arithmetic operations with component-wise results, valid with any mask, and their number of operands.
 const WISE_1: [(&str, usize); 8] =
     [("mov", 1), ("add", 2), ("sub", 2), ("mul", 2), ("mad", 3), ("lrp", 3), ("cnd", 3), ("cmp", 3)];
 
@@ -67,7 +67,7 @@ fn ps_1_4(c: &mut Choices<'_>) -> String {
             text += "phase\n";
         }
         let last = phase == usize::from(two);
-        // Three registers, each loaded whole at the start of the phase or kept with a new alpha.
+        // Three registers, each loaded at the start of the phase or kept with a new alpha.
         let mut alphas = Vec::new();
         for r in 0..3 {
             match c.below(4) {
@@ -93,7 +93,7 @@ fn ps_1_4(c: &mut Choices<'_>) -> String {
             arithmetic_1_4(&mut text, c, last);
         }
     }
-    // Alphas of c2 are used above.
+    // c2 provides the alphas used above.
     text.replacen("def c1", "def c2, 0.25, 0.5, 0.75, 1.0\ndef c1", 1)
 }
 
@@ -161,7 +161,7 @@ fn ps_1_1(version: Version, c: &mut Choices<'_>) -> String {
         10 => text += "texdp3tex t1, t0\n",
         _ => text += "texreg2rgb t1, t0\n",
     }
-    // Registers that surely hold something.
+    // Registers that are certainly written.
     text += "mov r0, c0\nmov r1, v0\n";
     for _ in 0..c.below(5) {
         let (op, count) = c.pick(&WISE_1[..6]);
@@ -261,7 +261,7 @@ fn flow(text: &mut String, c: &mut Choices<'_>) {
     let (a, b) = (c.below(3), c.below(3));
     let body = |text: &mut String, c: &mut Choices<'_>| {
         for _ in 0..1 + c.below(3) {
-            // Reads with derivatives do not belong into branches.
+            // Reads with derivatives are not allowed in branches.
             let mut line = String::new();
             arithmetic_2(&mut line, c, Version::Ps2B);
             *text += if line.starts_with("texld") { "add r1, r1, c2\n" } else { &line };

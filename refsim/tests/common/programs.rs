@@ -1,7 +1,7 @@
-//! Random programs of valid shape: everything that period assembly can write down, legal or not.
+//! Random programs of valid shape: everything that can be written in assembly, legal or not.
 //!
-//! The strategies come apart, so that a test can take just the piece it needs: [`program`] (any version),
-//! [`program_of`], [`instruction`], [`source`], [`destination`], [`register`].
+//! The strategies are separate, so that a test can use a part: [`program`] (any version), [`program_of`],
+//! [`instruction`], [`source`], [`destination`], [`register`].
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use proptest::{collection::vec, option, prelude::*, sample::select};
@@ -71,7 +71,7 @@ fn predicate() -> impl Strategy<Value = Predicate> {
     (any::<bool>(), swizzle()).prop_map(|(not, swizzle)| Predicate { not, swizzle, span: nowhere() })
 }
 
-/// Any instruction as `version` would read it: foreign ones too, with any number of operands.
+/// Any instruction that parses in `version`, including those of other versions, with any number of operands.
 pub(crate) fn instruction(version: Version) -> impl Strategy<Value = Instruction> {
     (select(Opcode::ALL), 0usize..=4)
         .prop_flat_map(move |(opcode, foreign)| {
@@ -133,7 +133,7 @@ fn declaration() -> impl Strategy<Value = Declaration> {
     })
 }
 
-/// `count` positions in rising order, most of them at the front.
+/// `count` positions in ascending order, most of them at the front.
 fn positions(count: usize, last: usize) -> impl Strategy<Value = Vec<usize>> {
     vec(prop_oneof![3 => Just(0), 1 => 0..=last], count).prop_map(|mut positions| {
         positions.sort_unstable();

@@ -1,4 +1,4 @@
-//! Running one program on one quad, from text, and looking at every step of it.
+//! Runs a program from text on one quad, and records every step.
 #![allow(dead_code, reason = "shared by several test binaries, each of which takes what it needs")]
 
 use refsim::asm::assemble;
@@ -9,7 +9,7 @@ use refsim::isa::Program;
 use refsim::num::{Format, ops};
 use refsim::raster::FragmentInput;
 
-/// Assembles and checks; panics with all that is wrong.
+/// Assembles and checks a program; panics with all errors.
 pub(crate) fn checked(text: &str, profile: &Profile) -> CheckedProgram {
     let program = assemble(text).unwrap_or_else(|e| panic!("{text}\n{e:?}"));
     ready(program, profile).unwrap_or_else(|e| panic!("{text}\n{e}"))
@@ -40,7 +40,7 @@ pub(crate) fn constants(values: &[[f32; 4]]) -> Constants {
     Constants { float: values.iter().map(|&v| bits(v)).collect(), ..Constants::default() }
 }
 
-/// What a program made of a quad whose lanes all have the same input.
+/// Result of a program on a quad whose lanes have equal inputs.
 pub(crate) struct Ran {
     pub(crate) results: [FragmentResult; 4],
     pub(crate) steps: Vec<Step>,
@@ -48,7 +48,7 @@ pub(crate) struct Ran {
 }
 
 impl Ran {
-    /// The value that the last write of instruction `index` stored in lane 0.
+    /// Value that the last execution of instruction `index` wrote in lane 0.
     pub(crate) fn value(&self, index: usize) -> [u32; 4] {
         let step = self.steps.iter().rev().find(|s| s.instruction == index);
         step.unwrap_or_else(|| panic!("instruction {index} did not run")).value
@@ -79,19 +79,19 @@ pub(crate) fn run_program(
     Ran { results, steps: trace.steps, fetches }
 }
 
-/// Runs a pixel program with constants alone.
+/// Runs a pixel program that reads constants only.
 pub(crate) fn run(text: &str, profile: &Profile, values: &[[f32; 4]]) -> Ran {
     let constants = constants(values);
     run_quad(text, profile, &PixelBindings::new(&constants), &[FragmentInput::default(); 4])
 }
 
-/// Runs a pixel program with t0 on.
+/// Runs a pixel program with coordinate sets from t0 on.
 pub(crate) fn run_with_coordinates(text: &str, profile: &Profile, sets: &[[f32; 4]]) -> Ran {
     let constants = Constants::default();
     run_quad(text, profile, &PixelBindings::new(&constants), &[input(sets); 4])
 }
 
-/// A fragment with coordinate sets t0 on.
+/// A fragment with coordinate sets from t0 on.
 pub(crate) fn input(sets: &[[f32; 4]]) -> FragmentInput {
     let mut input = FragmentInput::default();
     for (slot, &set) in input.t.iter_mut().zip(sets) {
@@ -100,7 +100,7 @@ pub(crate) fn input(sets: &[[f32; 4]]) -> FragmentInput {
     input
 }
 
-/// Runs a vertex program on attributes v0 on.
+/// Runs a vertex program on attributes from v0 on.
 pub(crate) fn run_vertex(text: &str, profile: &Profile, constants: &Constants, values: &[[f32; 4]]) -> VertexResult {
     let program = checked(text, profile);
     let mut attributes = [[0; 4]; 16];

@@ -1,5 +1,5 @@
-//! The batch executor draws what the scalar one draws: random programs of both languages in several formats. The long
-//! form, with every state around a program, is `tests/agree` of the root package.
+//! Tests the batch executor against the scalar one on random programs of both languages in several formats. The long
+//! form, with all pipeline state, is `tests/agree` of the root package.
 
 use super::text::{Choices, statement};
 use proptest::prelude::*;
@@ -14,7 +14,7 @@ use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
 
 const DEVICES: [&str; 5] = ["nv35", "ideal-e8m23", "ideal-e5m10", "ideal-s3.12", "ideal-e7m16:rtz:ftz"];
 
-/// Statements in front of every program.
+/// Statements at the start of every program.
 fn header(version: Version) -> String {
     let rest = match version {
         Version::Fp1_0 => {
@@ -29,7 +29,7 @@ fn header(version: Version) -> String {
     format!("{version}\n{rest}")
 }
 
-/// Something in every temporary.
+/// Initialises every temporary.
 fn fill(attribute: &str, constant: &str) -> String {
     let nv = attribute.starts_with("f[");
     (0..8)
@@ -42,7 +42,7 @@ fn fill(attribute: &str, constant: &str) -> String {
         .collect()
 }
 
-/// A legal program: of the statements drawn those that are.
+/// A legal program: the legal ones among random statements.
 fn program(version: Version, choices: &[u32], profile: &Profile) -> Option<CheckedProgram> {
     let mut c = Choices::new(choices);
     let end = if version == Version::Fp1_0 { "MOV o[COLR], R0;\nEND" } else { "MOV result.color, R0;\nEND" };
@@ -80,7 +80,7 @@ fn vertices(choices: &[u32]) -> [Vertex; 4] {
     })
 }
 
-/// How many programs are drawn.
+/// Number of programs tested.
 fn cases() -> u32 {
     if std::env::var_os("CROSSBAR_FULL").is_some() { 3000 } else { 60 }
 }

@@ -44,7 +44,7 @@ fn components_can_be_chosen_one_by_one() {
 
 #[test]
 fn roots_are_of_magnitudes() {
-    // NV_fragment_program has NaN, and minus infinity for -0.
+    // NV_fragment_program returns NaN, and minus infinity for -0.
     let text = "RSQ a.x, program.local[0].x; RSQ a.y, -program.local[0].y; RSQ a.z, program.local[0].z; MOV a.w, b;";
     assert_eq!(color(text, &[[-4.0, 16.0, -0.0, 1.0]]), [0.5, 0.25, f32::INFINITY, 0.0]);
 }
@@ -72,7 +72,7 @@ fn kil_kills_below_zero() {
 
 #[test]
 fn registers_have_the_cards_format() {
-    // 1 + 2^-17 has no place in fp24.
+    // 1 + 2^-17 is not representable in fp24.
     let text = "ADD a, program.local[0], {1, 1, 1, 1};";
     let host = constants(&[[1.0 / 131_072.0; 4]]);
     assert_eq!(run("r300", text, &host, &FragmentInput::default()).0, [1.0; 4]);

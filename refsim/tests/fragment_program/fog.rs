@@ -18,14 +18,14 @@ fn with(state: FixedFunctionState) -> Constants {
     Constants { state: Some(Box::new(state)), ..Constants::default() }
 }
 
-/// The colour of a program at fog coordinate `c`.
+/// Colour of a program at fog coordinate `c`.
 fn color(text: &str, host: &Constants, c: f32) -> [f32; 4] {
     let input = FragmentInput { fog: c.to_bits(), ..FragmentInput::default() };
     let ran = run_quad(&format!("!!ARBfp1.0\n{text}\nEND"), &nv35(), &PixelBindings::new(host), &[input; 4]);
     ran.results[0].colors[0].map(f32::from_bits)
 }
 
-/// Fog of the specification's equations: red fog over a program's green.
+/// Fog by the specification's equations: red fog over a program's green.
 fn fogged(mode: &str, density: f32, start: f32, end: f32, c: f32) -> [f32; 4] {
     let mut state = FixedFunctionState::default();
     state.fog.color = bits([1.0, 0.0, 0.5, 0.125]);
@@ -66,7 +66,7 @@ fn colors_written_in_parts_are_fogged_as_one() {
     assert_eq!(color(text, &with(state), 0.5), [0.625, 0.625, 0.75, 0.25]);
 }
 
-/// `count` instructions, the last of which writes the color.
+/// A program of `count` instructions, the last of which writes the color.
 fn long(option: &str, count: usize) -> String {
     let body = "ADD R0, R0, R0;\n".repeat(count - 1);
     format!("!!ARBfp1.0\n{option}TEMP R0;\n{body}MOV result.color, R0;\nEND\n")
@@ -104,7 +104,7 @@ fn options_and_bindings_are_printed_as_they_are_read() {
         MUL result.color, state.lightprod[3].back.specular, state.light[4].spot.direction.w;\nEND\n";
     let program = assemble(text).unwrap();
     assert_eq!(print(&program), text);
-    // As it runs, the option has become instructions, which read back too.
+    // In the checked program the option is expanded into instructions, which can be printed and parsed too.
     let expanded = print(&check(program, &nv35()).unwrap());
     insta::assert_snapshot!(expanded);
     assert_eq!(print(&assemble(&expanded).unwrap()), expanded);

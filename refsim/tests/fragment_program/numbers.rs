@@ -1,4 +1,4 @@
-//! The three precisions, special values, and the operations that Direct3D's programs do not have.
+//! The three precisions, special values, and operations that only OpenGL programs have.
 
 use crate::{INF, NAN, color, nv35, one, run};
 use refsim::num::{Format, ops};
@@ -27,7 +27,7 @@ fn fx12_saturates_and_has_no_nan() {
     let top = 2047.0 / 1024.0;
     assert_eq!(one("MOVX R0, p[0]", [2.0, -2.0, -7.0, f32::NAN]), f([top, -2.0, -2.0, 0.0]));
     assert_eq!(one("ADDX R0, p[0], p[0]", [1.5, -1.5, 0.5, f32::INFINITY]), f([top, -2.0, 1.0, top]));
-    // 2 is converted as 2047/1024 after its sign was changed: -2 has no twin.
+    // 2 is converted to 2047/1024 after negation, while -2 is representable.
     assert_eq!(one("MOVX R0, -p[0]", [2.0, -2.0, 0.5, 0.0]), f([-2.0, top, -0.5, 0.0]));
 }
 
@@ -102,7 +102,7 @@ fn floors_and_fractions_go_down() {
 
 #[test]
 fn angles_are_radians_and_results_the_nearest() {
-    // sin 1 = 0.84147098480789650665, cos 1 = 0.54030230586813971740; pi as a single is short by 8.7e-8.
+    // sin 1 = 0.84147098480789650665, cos 1 = 0.54030230586813971740; pi as a single is 8.7e-8 too small.
     let pi = std::f32::consts::PI;
     assert_eq!(one("SINR R0, p[0].x", [1.0; 4])[0], 0x3f57_6aa4);
     assert_eq!(one("COSR R0, p[0].x", [1.0; 4])[0], 0x3f0a_5140);
@@ -111,7 +111,7 @@ fn angles_are_radians_and_results_the_nearest() {
     assert_eq!(one("SINR R0, p[0].x", [-0.0; 4])[0], 1 << 31);
     assert_eq!(one("COSR R0, p[0].x", [0.0; 4])[0], 1.0_f32.to_bits());
     assert_eq!(one("COSR R0, p[0].x", [f32::INFINITY; 4])[0], NAN);
-    // A large angle is not lost: sin 1e22 = -0.8522008497671888.
+    // Large angles are reduced exactly: sin 1e22 = -0.8522008497671888.
     assert_eq!(one("SINR R0, p[0].x", [1.0e22; 4])[0], ops::sin(Format::FP32, 1.0e22_f32.to_bits()).bits);
 }
 
@@ -136,7 +136,7 @@ fn sines_and_cosines_obey_their_identities_in_any_format() {
 
 #[test]
 fn reflection_and_the_two_dimensional_matrix() {
-    // About (0, 2, 0): (1, 1, 0) becomes (-1, 1, 0).
+    // Reflection about (0, 2, 0): (1, 1, 0) becomes (-1, 1, 0).
     let ran = run("MOVR R1, {0, 2, 0, 7}; RFLR R0, R1, p[0];", &[[1.0, 1.0, 0.0, 5.0]]);
     assert_eq!(color(&ran)[..3], [-1.0, 1.0, 0.0]);
     let ran = run("MOVR R1, {2, 3, 0, 0}; MOVR R2, {10, 20, 30, 40}; X2DR R0, p[0], R1, R2;", &[[1.0, 2.0, 0.0, 0.0]]);

@@ -12,7 +12,7 @@ use refsim::texture::TexelFormat;
 const WIDTH: u32 = 20;
 const HEIGHT: u32 = 6;
 
-/// What a program leaves in a target that a quad fills, whose left corners have the first w and depth, and whose right
+/// Draws a quad over a target and returns the colours. The quad's left corners have the first w and depth, the right
 /// ones the second.
 fn drawn(kind: ExecutorKind, text: &str, center: PixelCenter, w: [f32; 2], depth: [f32; 2]) -> Vec<[f32; 4]> {
     let profile = Profile::named("nv35").unwrap();
@@ -93,7 +93,7 @@ fn differences_of_what_is_constant_are_zero_on_every_executor() {
 #[test]
 fn the_position_enters_the_format_of_the_registers() {
     let half = Profile::named("ideal-e5m10").unwrap();
-    // 2049.5 has no place in fp16, whose numbers are two apart there.
+    // 2049.5 is not representable in fp16, whose spacing is 2 there.
     let position = [2049.5_f32, 0.5, 0.1, 1.0].map(f32::to_bits);
     let input = FragmentInput { position, ..FragmentInput::default() };
     let host = Constants::default();

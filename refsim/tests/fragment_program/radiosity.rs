@@ -1,5 +1,5 @@
-//! The longest program that the card takes: a block of 254 texels of a matrix times a vector, as GPU radiosity of the
-//! time had it: two reads, a multiply-add and a step of the coordinates for each, and 1024 instructions.
+//! The longest program that the card accepts: a block of 254 matrix texels times a vector, as in GPU radiosity of the
+//! time: two reads, a multiply-add and a coordinate step per texel, 1024 instructions.
 
 use crate::nv35;
 use refsim::asm::assemble;
@@ -13,7 +13,7 @@ use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
 const BLOCK: usize = 254;
 const ROWS: u32 = 6;
 
-/// Rows of the matrix lie in rows of texture 0, the vector in the one row of texture 1.
+/// Rows of the matrix are rows of texture 0; the vector is the single row of texture 1.
 fn kernel(texels: usize) -> String {
     let mut text = "!!FP1.0\nMOVR R0, f[TEX0];\nMOVR R1, {0, 0, 0, 0};\n".to_owned();
     for _ in 0..texels {
@@ -22,7 +22,7 @@ fn kernel(texels: usize) -> String {
     text + "MOVR o[COLR], R1;\nEND\n"
 }
 
-/// Numbers between 0 and 1, always the same.
+/// Deterministic numbers between 0 and 1.
 fn numbers(count: usize, mut seed: u32) -> Vec<f32> {
     let mut next = || {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

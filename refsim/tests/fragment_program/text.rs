@@ -1,10 +1,10 @@
-//! Text to program and back; arbitrary text; messages.
+//! Parsing and printing, arbitrary text, and error messages.
 
 use proptest::prelude::*;
 use refsim::asm::{MAX_ERRORS, assemble, print};
 use refsim::isa::{ConditionTest, Opcode, OpcodeClass, Spelling, TextureTarget, Version};
 
-/// Picks by a list of numbers, so that proptest can shrink it.
+/// Choices determined by a list of numbers, so that proptest can shrink it.
 pub(crate) struct Choices<'a>(std::slice::Iter<'a, u32>);
 
 impl<'a> Choices<'a> {
@@ -118,7 +118,7 @@ fn program(version: Version, choices: &[u32]) -> String {
     text + "END\n"
 }
 
-/// Everything that must hold of any text whatever.
+/// Properties of any text.
 fn survives(text: &str) {
     match assemble(text) {
         Ok(program) => {

@@ -1,4 +1,4 @@
-//! Targets with levels, and the levels that the card generates.
+//! Targets with mip levels, and generated levels.
 
 use refsim::device::Profile;
 use refsim::event::{Event, MipmapLevel, MipmapRecord, ResourceId};
@@ -80,7 +80,7 @@ fn what_has_no_levels_is_refused() {
     insta::assert_snapshot!(message(&mut card, rectangle), @"texture 1 is a rectangle, which has no mip levels; make it a 2-D texture");
     let float = image(TexelFormat::Rgba16f, TextureKind::D2, [4, 4, 1], 1);
     insta::assert_snapshot!(message(&mut card, float), @"texture 2 is rgba16f, whose mip levels `nv35` cannot generate (limits.float_mipmaps); draw each level by a program that reads four texels of the one before, into a texture of its own");
-    // R300 has float textures with levels, but does not filter them.
+    // R300 has float textures with levels, but cannot filter them.
     let mut r300 = Machine::new(Profile::named("r300").unwrap(), ExecutorKind::Scalar);
     let float = image(TexelFormat::Rgba16f, TextureKind::D2, [4, 4, 1], 3);
     assert!(message(&mut r300, float).contains("(limits.float_filtering)"));

@@ -1,4 +1,4 @@
-//! What a draw refuses.
+//! Errors of invalid draws.
 
 use refsim::device::Profile;
 use refsim::exec::Constants;
@@ -53,7 +53,7 @@ fn every_mistake_has_its_error() {
         bad(machine.create_texture(Image::new_2d(TexelFormat::Rgba8, 4096, 1).unwrap()).unwrap_err())
             .contains("max_texture_size")
     );
-    // A side of a volume, whichever it is, has a limit of its own: 256 on this card, 2048 for other textures.
+    // Each side of a volume has a separate limit: 256 on this card, versus 2048 for other textures.
     let limit = machine.profile().limits.max_volume_size.unwrap();
     for side in 0..3 {
         let mut extents = [1; 3];

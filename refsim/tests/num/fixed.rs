@@ -1,11 +1,11 @@
-//! s3.12 against plain integers.
+//! s3.12 compared with plain integers.
 
 use rayon::prelude::*;
 use refsim::num::{Flags, Format, Overflow, Rounding, ops};
 
 use crate::full;
 
-/// `p / 4096` rounded, written with nothing but 64-bit arithmetic.
+/// `p / 4096` rounded, in 64-bit integer arithmetic.
 fn round(p: i64, rounding: Rounding) -> i64 {
     match rounding {
         Rounding::NearestEven => (p + 0x7ff + ((p >> 12) & 1)) >> 12,
@@ -43,7 +43,7 @@ fn s3_12_products_equal_integers() {
     }
 }
 
-/// Widths up to 32 bits, where intermediate results are longest.
+/// Widths up to 32 bits, with the longest intermediate results.
 #[test]
 fn wide_fixed_point_equals_integers() {
     let mut cases = crate::Cases(7);

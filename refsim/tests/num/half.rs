@@ -1,4 +1,4 @@
-//! fp16 against rustc_apfloat.
+//! fp16 compared with rustc_apfloat.
 
 use rayon::prelude::*;
 use refsim::num::{Flags, Format, Outcome, Rounding, ops};
@@ -10,7 +10,7 @@ use crate::full;
 pub(crate) const MODES: [(Rounding, Round); 2] =
     [(Rounding::NearestEven, Round::NearestTiesToEven), (Rounding::TowardZero, Round::TowardZero)];
 
-/// apfloat's status in our flags.
+/// Converts apfloat's status to flags.
 pub(crate) fn flags(status: Status) -> Flags {
     let mut flags = Flags::empty();
     flags.set(Flags::INEXACT, status.contains(Status::INEXACT));
@@ -23,10 +23,10 @@ pub(crate) fn flags(status: Status) -> Flags {
 
 /// Compares bits (NaN as a class) and flags.
 ///
-/// apfloat calls a result tiny if it is still subnormal after rounding to the subnormal grid; we round to the full
-/// precision first, as IEEE 754 says. Both agree except where the result is the smallest normal number. And apfloat
-/// raises no overflow where rounding toward zero makes of it the largest finite number; IEEE 754 does. The flags left
-/// out here are compared with exact fractions in `small`.
+/// apfloat calls a result tiny if it is still subnormal after rounding to the subnormal grid; `num` rounds to the full
+/// precision first, as in IEEE 754. They differ only where the result is the smallest normal number. Also, apfloat
+/// raises no overflow where rounding toward zero gives the largest finite number; IEEE 754 does. The flags excluded
+/// here are compared with exact fractions in `small`.
 pub(crate) fn agree<F: Float>(f: &Format, ours: Outcome, theirs: StatusAnd<F>) -> Result<(), String> {
     let expected = theirs.value.to_bits() as u32;
     let same_bits = ours.bits == expected || (theirs.value.is_nan() && Some(ours.bits) == f.canonical_nan());
@@ -47,7 +47,7 @@ pub(crate) fn agree<F: Float>(f: &Format, ours: Outcome, theirs: StatusAnd<F>) -
 type Ours = fn(Format, u32, u32) -> Outcome;
 type Theirs = fn(Half, Half, Round) -> StatusAnd<Half>;
 
-/// First operands of the short form: a stride, and the ends of every range.
+/// First operands of the short form: every n-th pattern, and the ends of every range.
 fn first_operands() -> Vec<u32> {
     if full() {
         return (0..=0xffff).collect();
@@ -89,9 +89,9 @@ fn div_equals_apfloat() {
     all_pairs("div", ops::div, Half::div_r);
 }
 
-/// apfloat has no square root. The host's in double precision is correctly rounded, and the root of an 11-bit number
-/// is either such a number or midpoint itself or further from one than 2^-53 of its size, so rounding its double
-/// once more, by apfloat, is exact.
+/// apfloat has no square root. The host's in double precision is correctly rounded, and the root of an 11-bit number is
+/// either itself a number or midpoint of fp16, or further from one than a relative 2^-53. So rounding the double again,
+/// by apfloat, is exact.
 #[test]
 fn sqrt_equals_double() {
     for (rounding, round) in MODES {
@@ -115,7 +115,7 @@ fn sqrt_equals_double() {
 
 #[test]
 fn conversion_from_single_equals_apfloat() {
-    // An odd stride visits every exponent and, over the exponents, every low mantissa pattern.
+    // An odd stride visits every exponent and, over all exponents, every low mantissa pattern.
     let stride = if full() { 1 } else { 1021 };
     for (rounding, round) in MODES {
         let f = Format::FP16.with_rounding(rounding);
@@ -128,7 +128,7 @@ fn conversion_from_single_equals_apfloat() {
     }
 }
 
-/// Random and extreme triples; three operands are too many to walk.
+/// Random and extreme triples; exhausting three operands is infeasible.
 #[test]
 fn fused_equals_apfloat() {
     let rounds = if full() { 200_000_000 } else { 400_000 };

@@ -1,4 +1,4 @@
-//! Laws that hold for all formats and all values.
+//! Properties of all formats and values.
 
 use proptest::prelude::*;
 use refsim::num::decimal::{from_decimal, to_decimal, to_decimal_exact};
@@ -38,7 +38,7 @@ fn format() -> impl Strategy<Value = Format> {
     ]
 }
 
-/// Patterns with a likely carry, edge or special value, masked to the width where they are used.
+/// Patterns with a likely carry, edge or special value; masked to the width on use.
 fn pattern() -> impl Strategy<Value = u32> {
     prop_oneof![
         any::<u32>(),
@@ -52,12 +52,12 @@ fn not_wrapping(f: &Format) -> bool {
     f.overflow != Overflow::Wrap
 }
 
-/// A value's place in the order, if it has one.
+/// Returns `true` if `a <= b`.
 fn le(f: &Format, a: u32, b: u32) -> bool {
     ops::le_quiet(f, a, b).bits == 1
 }
 
-/// A value moved by a select that always takes it: NaN made canonical, subnormals flushed where the format flushes.
+/// A value passed through a select: NaN becomes canonical, subnormals are flushed where the format flushes.
 fn moved(f: Format, a: u32) -> u32 {
     ops::cmp(f, 0, a, a).bits
 }
@@ -131,7 +131,7 @@ proptest! {
         }
     }
 
-    /// Converting into a format that holds every value and back changes nothing.
+    /// Converting to a format that holds every value, and back, changes nothing.
     #[test]
     fn conversion_round_trips(x in 2u8..=8, m in 1u8..=23, a in pattern(), wide in 0u8..=6) {
         let narrow = Format::float(x, m).expect("in range");
@@ -167,7 +167,7 @@ proptest! {
         }
     }
 
-    /// The standard library's reader and printer are correctly rounded and shortest too.
+    /// The standard library's parser and printer are correctly rounded and shortest too.
     #[test]
     fn decimals_of_fp32_agree_with_the_library(a in any::<u32>(), text in "[-]?[0-9]{1,30}([.][0-9]{0,30})?(e[-+]?[0-9]{1,2})?") {
         let x = f32::from_bits(a);

@@ -1,4 +1,4 @@
-//! Proofs about `refsim::num`: against other implementations, against exact arithmetic, against stated laws.
+//! Tests of `refsim::num`: against other implementations, exact arithmetic, and stated properties.
 //!
 //! | file | what is compared with what |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | `transcendental` | `exp2` and `log2` with series and roots of their own |
 //! | `laws` | what must hold for all formats and values |
 //!
-//! By default each proof walks a part of its range, spread over all of it. `CROSSBAR_FULL=1` walks everything.
+//! By default each test covers a sample of its range; `CROSSBAR_FULL=1` covers everything.
 
 mod fixed;
 mod half;
@@ -22,7 +22,7 @@ mod transcendental;
 mod values;
 mod wide;
 
-/// Whether the whole range is asked for.
+/// Returns `true` if the whole range is requested.
 fn full() -> bool {
     std::env::var_os("CROSSBAR_FULL").is_some_and(|v| v != "0" && !v.is_empty())
 }

@@ -1,7 +1,7 @@
-//! Rounding by its definition: among all numbers of a short format, the neighbours of an exact value are looked up.
+//! Rounding by its definition: finds the neighbours of an exact value among all numbers of a short format.
 //!
-//! Nothing here knows shifts, sticky bits or significands. The exact value is given by how it compares with any
-//! fraction, so a square root is as good as a quotient.
+//! Uses no shifts, sticky bits or significands. The exact value is given by its comparison with any fraction, so square
+//! roots work like quotients.
 
 use std::cmp::Ordering;
 
@@ -56,7 +56,7 @@ impl Q {
     }
 }
 
-/// The magnitude of the `i`th non-negative number of a format; the one after the last finite float is `2^(emax+1)`.
+/// Magnitude of the `i`th non-negative number of a format; the one after the last finite float is `2^(emax+1)`.
 pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     match f.kind {
         FormatKind::Fixed { frac_bits, .. } => Q::scaled(i.into(), -i32::from(frac_bits)),
@@ -69,7 +69,8 @@ pub(crate) fn magnitude(f: &Format, i: u32) -> Q {
     }
 }
 
-/// Whether a value between two neighbours goes to the upper one. `against` orders the value against a fraction.
+/// Returns `true` if a value between two neighbours rounds to the upper one. `against` compares the value with a
+/// fraction.
 fn up(rounding: Rounding, negative: bool, low: Q, high: Q, low_even: bool, against: &impl Fn(Q) -> Ordering) -> bool {
     match rounding {
         Rounding::TowardZero => false,
@@ -105,7 +106,7 @@ fn round_fixed(f: &Format, negative: bool, against: &impl Fn(Q) -> Ordering) -> 
     let unit = |i: u64| Q::new(i.into(), 1).mul(magnitude(f, 1));
     let range = 1u64 << f.width();
     let mut end = range;
-    // Nothing that wraps in these tests reaches 2^40; what saturates needs no place in the order beyond it.
+    // Nothing that wraps in these tests reaches 2^40, and saturating values need no exact index beyond it.
     while end < 1 << 40 && against(unit(end)).is_ge() {
         end *= 2;
     }
@@ -148,7 +149,7 @@ fn round_float(f: &Format, tininess: Tininess, negative: bool, against: &impl Fn
     let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
     let normal = magnitude(f, 1 << man_bits);
     if inexact && against(normal).is_lt() {
-        // The number before the smallest normal one, were there no lower end of the exponent.
+        // The number before the smallest normal one, with an unbounded exponent.
         let before = normal.add(magnitude(f, 1).halved().negated());
         let reaches = tininess == Tininess::After
             && against(before).is_gt()

@@ -1,4 +1,4 @@
-//! Every operation of every format of at most 6 bits, all operands, in every combination of rules.
+//! Tests every operation of every format with at most 6 bits: all operands, every combination of rules.
 
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ use crate::{Cases, full};
 
 const ROUNDINGS: [Rounding; 4] = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
 
-/// Every layout of at most 6 bits under every combination of rules that has a meaning.
+/// Every layout with at most 6 bits and every meaningful combination of rules.
 fn formats() -> Vec<Format> {
     let mut all = Vec::new();
     let fixed = (0..6).flat_map(|i| (0..6).filter_map(move |f| Format::fixed(i, f)));
@@ -42,7 +42,7 @@ fn formats() -> Vec<Format> {
     all
 }
 
-/// Both choices of tininess for floats.
+/// For floats one reference per tininess rule.
 fn references(f: Format) -> Vec<Reference> {
     let both = [Tininess::After, Tininess::Before];
     both[..if f.is_fixed() { 1 } else { 2 }].iter().map(|&tininess| Reference { f, tininess }).collect()
@@ -115,7 +115,7 @@ fn binary_operations() {
     });
 }
 
-/// `pow` is three operations; the references of its steps are slow, so the short form takes some bases.
+/// `pow` consists of three operations; the references of its steps are slow, so the short form takes some bases only.
 #[test]
 fn powers() {
     let step = if full() { 1 } else { 7 };
@@ -128,7 +128,7 @@ fn powers() {
     });
 }
 
-/// All triples in the full form, every few in the short one.
+/// All triples in the full form, a sample in the short one.
 #[test]
 fn multiply_add() {
     let step = if full() { 1 } else { 61 };
@@ -167,7 +167,7 @@ fn dot_products() {
     });
 }
 
-/// From every format under its default rules, with and without subnormals, into every format under all rules.
+/// From every format with default rules, with and without subnormals, to every format with all rules.
 #[test]
 fn conversions() {
     let from: Vec<Format> = formats()
@@ -186,7 +186,7 @@ fn conversions() {
     });
 }
 
-/// Quotients of integers of any length, and magnitudes with digits cut off, against cross products.
+/// Quotients of integers of any length, and truncated magnitudes, against cross products.
 #[test]
 fn ratios_and_parts() {
     let rounds = if full() { 100_000 } else { 400 };
@@ -210,7 +210,7 @@ fn ratios_and_parts() {
             });
             let found = from_ratio(r.f.tininess(r.tininess), negative, num, den);
             assert!(found == expected, "{} {num}/{den}: {found:x?}, expected {expected:x?}", r.f);
-            // num * 2^exp, or with more digits behind it.
+            // num * 2^exp, possibly with further digits.
             let exp = -(128 - num.leading_zeros().cast_signed()) + (choice >> 20 & 15) as i32 - 8;
             let sticky = choice >> 40 & 1 == 1 && num >> 100 != 0;
             let found = from_parts(r.f.tininess(r.tininess), negative, num, exp, sticky);

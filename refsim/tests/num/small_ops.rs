@@ -1,4 +1,4 @@
-//! Every operation once more, for short formats, in exact fractions and by its definition.
+//! Reference implementation of every operation for short formats, in exact fractions and by definition.
 
 use std::cmp::Ordering;
 
@@ -6,14 +6,14 @@ use refsim::num::{Denormals, DotOrder, Flags, Format, FormatKind, Outcome, Overf
 
 use crate::rational::{self, Q, magnitude};
 
-/// What a pattern means.
+/// Value of a pattern.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Val {
     Nan {
         signaling: bool,
     },
     Inf(bool),
-    /// A sign and a magnitude, so that -0 can be told.
+    /// Sign and magnitude, to represent -0.
     Num(bool, Q),
 }
 
@@ -123,7 +123,7 @@ impl Reference {
         }
     }
 
-    /// The exact product, or the outcome that needs no rounding.
+    /// The exact product, or an outcome that needs no rounding.
     fn product(&self, a: Val, b: Val) -> Result<Val, Outcome> {
         if let Some(nan) = self.nan(&[a, b]) {
             return Err(nan);
@@ -182,7 +182,7 @@ impl Reference {
         }
     }
 
-    /// Whether `rsq`, `log2` and `pow` take magnitudes.
+    /// Returns `true` if `rsq`, `log2` and `pow` take magnitudes.
     fn magnitudes(&self) -> bool {
         !self.f.is_fixed() && self.f.specials == Specials::Ieee
     }
@@ -193,7 +193,7 @@ impl Reference {
             Num(x, q) if q.n == 0 => self.pole(x && !self.magnitudes()),
             Num(true, _) | Inf(true) if !self.magnitudes() => self.invalid(),
             Inf(_) => self.zero(false),
-            // 1/sqrt(q) against c is 1 against q c^2.
+            // Compares 1/sqrt(q) with c as 1 with q c^2.
             Num(_, q) => rational::round(&self.f, self.tininess, false, |c| ONE.cmp(q.mul(c.mul(c)))),
         }
     }

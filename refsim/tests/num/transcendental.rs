@@ -1,5 +1,5 @@
-//! `exp2` and `log2` against computations of their own: square roots of two multiplied together, and the series of
-//! the inverse hyperbolic tangent, both with 320 places.
+//! `exp2` and `log2` compared with independent computations: products of repeated square roots of two, and the series
+//! of the inverse hyperbolic tangent, both with 320 places.
 
 use num_bigint::BigInt;
 use num_traits::One;
@@ -28,7 +28,7 @@ fn roots() -> Vec<BigInt> {
         .collect()
 }
 
-/// `2^x` for `x` in units of `2^-PLACES`, accurate to about `2^-300` of its size.
+/// `2^x` for `x` in units of `2^-PLACES`, with a relative error of about `2^-300`.
 fn exp2(x: &BigInt, roots: &[BigInt]) -> (BigInt, i64) {
     let whole = i64::try_from(x >> PLACES).expect("a small exponent");
     let mut product = BigInt::one() << PLACES;
@@ -56,7 +56,7 @@ fn ln(x: &BigInt) -> BigInt {
     sum << 1
 }
 
-/// Checks that `bits` is `exact` (in units of `2^-PLACES`, never a number or midpoint of the format) rounded.
+/// Asserts that `bits` is `exact` (in units of `2^-PLACES`, never a number or midpoint of the format), rounded.
 fn check(f: &Format, name: &str, x: u32, bits: u32, exact: &BigInt) {
     let negative = *exact < BigInt::ZERO;
     let magnitude = if negative { -exact } else { exact.clone() };
@@ -157,7 +157,7 @@ fn log2_is_correctly_rounded() {
     }
 }
 
-/// The cases that no enclosure in machine words decides: results a hair beside a number of the format.
+/// Cases that no enclosure in machine words decides: results very close to a number of the format.
 #[test]
 fn hard_cases() {
     let down = Format::FP32.with_rounding(Rounding::Down);

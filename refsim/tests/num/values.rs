@@ -1,4 +1,4 @@
-//! Values of `refsim::num` that a reader can check by hand.
+//! Values of `refsim::num` that can be verified manually.
 
 use refsim::num::decimal::{from_decimal, to_decimal, to_decimal_exact};
 use refsim::num::{DotOrder, Flags, Format, FormatError, Outcome, Tininess, from_ratio, ops};
@@ -53,10 +53,10 @@ fn fixed_values() {
     same(f, ops::floor(f, read(f, "-0.25")), "-1");
 }
 
-/// Tininess differs for what rounds up to the smallest normal number.
+/// The tininess rules differ for results that round up to the smallest normal number.
 #[test]
 fn tininess() {
-    // (2^-14 - 2^-24) * (1 + 2^-10) lies below 2^-14 and rounds to it.
+    // (2^-14 - 2^-24) * (1 + 2^-10) is below 2^-14 and rounds to it.
     let (a, b) = (0x03ff, 0x3c01);
     let after = ops::mul(Format::FP16, a, b);
     let before = ops::mul(Format::FP16.tininess(Tininess::Before), a, b);

@@ -1,4 +1,4 @@
-//! fp24 against double precision, fp32 against the host, fused fp32 against rustc_apfloat.
+//! fp24 compared with double precision, fp32 with the host, fused fp32 with rustc_apfloat.
 
 use rayon::prelude::*;
 use refsim::num::{Format, Rounding, from_ratio, ops};
@@ -20,7 +20,7 @@ fn seeds(cases: u64, body: impl Fn(&mut Cases) + Sync) {
     });
 }
 
-/// fp24 to double, by the definition of the format.
+/// Converts fp24 to double, by the definition of the format.
 fn widen(bits: u32) -> f64 {
     let sign = if bits >> 23 == 1 { -1.0 } else { 1.0 };
     let (field, man) = ((bits >> 16) & 0x7f, f64::from(bits & 0xffff));
@@ -37,7 +37,7 @@ fn power(k: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(k)) as u64) << 52)
 }
 
-/// A double to fp24, by counting units of the last place: products with powers of two and `floor` are exact.
+/// Converts a double to fp24 by counting units in the last place: products with powers of two and `floor` are exact.
 fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
     if x.is_nan() {
         return Format::FP24.canonical_nan();
@@ -80,7 +80,7 @@ fn narrow(x: f64, rounding: Rounding) -> Option<u32> {
     Some(sign | bits)
 }
 
-/// `a + b` rounded to odd, so that a second rounding of 36 bits less sees which side of a midpoint it was on.
+/// `a + b` rounded to odd, so that a second rounding to 36 bits less is correct.
 fn add_to_odd(a: f64, b: f64) -> f64 {
     let sum = a + b;
     if !sum.is_finite() {
@@ -96,8 +96,8 @@ fn add_to_odd(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Sums through rounding to odd. Products of 17-bit numbers are exact in a double. Quotients and roots of 17-bit
-/// numbers are never nearer than 2^-36 of their size to a number or midpoint of fp24 that they don't equal.
+/// Sums via rounding to odd. Products of 17-bit numbers are exact in a double. Quotients and roots of 17-bit numbers
+/// are never closer than a relative 2^-36 to a number or midpoint of fp24 that they don't equal.
 #[test]
 fn fp24_equals_double() {
     let cases = if full() { 100_000_000 } else { 1_000_000 };
@@ -111,7 +111,7 @@ fn fp24_equals_double() {
                 let expected = narrow(exact, rounding);
                 assert!(Some(found) == expected, "{f} {name} {a:#x} {b:#x}: found {found:#x}, expected {expected:x?}");
             };
-            // The sign of a sum that cancels depends on the rounding, which the host's doesn't know.
+            // The sign of a cancelling sum depends on the rounding, unlike on the host.
             let sum = ops::add(f, a, b).bits;
             if !(zero(sum) && rounding == Rounding::Down) {
                 check("add", sum, add_to_odd(x, y));
@@ -132,7 +132,8 @@ fn fp32_equals_host() {
         let (a, b) = (generator.float_bits(8, 23), generator.float_bits(8, 23));
         let (x, y) = (f32::from_bits(a), f32::from_bits(b));
         let check = |name: &str, found: u32, host: f32| {
-            // NaN by its bits: optimised code was seen to take the root of a negative number for no NaN.
+            // Tests the bits for NaN: optimised code was seen to compute the root of a negative number as something
+            // else.
             let bits = host.to_bits();
             let expected = if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { bits };
             assert!(found == expected, "{name} {a:#x} {b:#x}: found {found:#x}, expected {expected:#x}");

@@ -1,4 +1,4 @@
-//! "Blending": exact fractions in integer targets, singles in float targets.
+//! "Blending": exact fractions in fixed-point targets, singles in float targets.
 
 use super::formats::Words;
 use super::texels::{Channel, Class, component, table};
@@ -10,7 +10,7 @@ use refsim::texture::TargetRounding;
 const OPERATIONS: [BlendOp; 5] =
     [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
 
-/// What the equation needs to know of its numbers.
+/// Operations on numbers in blend equations.
 trait Number: Copy + PartialOrd {
     fn of(n: i64) -> Self;
     fn add(self, b: Self) -> Self;
@@ -33,7 +33,7 @@ impl Number for f32 {
     }
 }
 
-/// A fraction with a denominator above 0.
+/// A fraction with a positive denominator.
 #[derive(Clone, Copy, Debug)]
 struct Fraction(i128, i128);
 
@@ -109,7 +109,7 @@ fn blend<N: Number>(equation: &BlendEquation, s: [N; 4], d: [N; 4], i: usize) ->
     }
 }
 
-/// An exact fraction's code in a channel.
+/// Code of an exact fraction in a channel.
 fn store(channel: &Channel, Fraction(n, d): Fraction, truncate: bool) -> i64 {
     let half = 1i128 << (channel.bits - 1);
     let (least, scale) = match (channel.class, n < 0) {
@@ -154,7 +154,7 @@ fn blending_is_the_equation_of_the_page() {
                     Fraction(n.into(), d.into())
                 };
                 let d = [0, 1, 2, 3].map(|i| component(&channels, i).map_or_else(Fraction::of, |c| read(c, raw)));
-                // What the target stores, or else an unsigned channel as wide as its widest.
+                // The component's channel, or else an unsigned channel as wide as the target's widest.
                 let s = [0, 1, 2, 3].map(|i| {
                     let own = channels.iter().find(|c| c.component() == i);
                     let c = own.copied().unwrap_or(Channel { class: Class::Unsigned, bits: widest, ..channels[0] });

@@ -1,11 +1,11 @@
-//! "Clipping", "Window" and "The fan": set-ups rebuilt in host singles.
+//! "Clipping", "Window" and "The fan": triangle set-up reimplemented in host singles.
 
 use super::{Random, probes};
 use refsim::num::Format;
 use refsim::raster::{ClipSpace, Cull, FOG_COMPONENT, PixelCenter, RasterRules, RasterState, Vertex, Viewport, setup};
 use refsim::texture::Region;
 
-/// A corner: position, one component, whether the edge from here is part of one of the triangle's.
+/// A corner: position, one component, and `true` if the following edge belongs to the original triangle.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     position: [f32; 4],
@@ -13,7 +13,7 @@ struct Corner {
     own_edge: bool,
 }
 
-/// A corner in the window: snapped column and row, depth, 1 / w.
+/// A corner in window space: snapped column and row, depth, 1 / w.
 type Snapped = (i64, i64, f32, f32);
 
 fn distances([x, y, z, w]: [f32; 4], opengl: bool) -> [f32; 7] {
@@ -75,7 +75,7 @@ fn area([a, b, c]: [Snapped; 3]) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (c.0 - a.0) * (b.1 - a.1)
 }
 
-/// Whether a pixel centre of the viewport, which is the target, lies in the box of a part.
+/// Returns `true` if the bounding box of a part contains a pixel centre of the viewport, which is the whole target.
 fn has_pixels(part: [Snapped; 3], state: &RasterState, bits: u32) -> bool {
     let center = if state.center == PixelCenter::OpenGl { 0.5 } else { 0.0 };
     let span = |values: [i64; 3], size: u32| {

@@ -1,9 +1,9 @@
-//! "Formats": the value of every pattern and one rounding, in exact doubles.
+//! "Formats": the value of every pattern and single rounding, in exact doubles.
 
 use super::{Random, power, probes};
 use refsim::num::{Flags, Format, ops};
 
-/// A format by its words.
+/// A format parsed from its string.
 pub(crate) struct Words {
     /// Integer and fraction bits, or exponent and mantissa bits.
     layout: (i32, i32),
@@ -38,7 +38,7 @@ impl Words {
         }
     }
 
-    /// A number of units to a whole one.
+    /// Rounds a number of units to an integer.
     fn whole(&self, x: f64) -> f64 {
         match self.rounding {
             "rne" => x.round_ties_even(),
@@ -48,7 +48,7 @@ impl Words {
         }
     }
 
-    /// A number rounded once: pattern and flags.
+    /// Rounds a number once; returns pattern and flags.
     pub(crate) fn round(&self, x: f64) -> (u32, Flags) {
         let (a, b) = self.layout;
         if self.fixed {
@@ -75,7 +75,7 @@ impl Words {
         if x.is_infinite() {
             return (sign | infinity, Flags::empty());
         }
-        // The exponent of a double that is exact: its own field.
+        // Exponent of a double, from its exponent field.
         let exponent = |x: f64| if x == 0.0 { -5000 } else { ((x.to_bits() >> 52 & 0x7ff) as i32) - 1023 };
         let at = |least: i32| {
             let unit = power(exponent(x).max(least) - b);
@@ -109,7 +109,7 @@ impl Words {
         (sign | (field as u32) << b | mantissa as u32, flags)
     }
 
-    /// The number of a pattern.
+    /// Value of a pattern.
     pub(crate) fn value(&self, bits: u32) -> f64 {
         let (a, b) = self.layout;
         if self.fixed {
@@ -163,7 +163,7 @@ fn one_rounding_into_every_format() {
     }
 }
 
-/// Sums, products and quotients of singles: what the page says of zeros, infinities and NaN is what hosts do.
+/// Sums, products and quotients of singles: the page's rules for zeros, infinities and NaN equal the host's.
 #[test]
 fn special_values_are_those_of_the_page() {
     let mut r = Random(2);

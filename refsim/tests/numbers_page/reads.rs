@@ -1,4 +1,4 @@
-//! "Derivatives" and "Level of detail": which lanes make a derivative, and the grid that a biased level falls back to.
+//! "Derivatives" and "Level of detail": lanes that form a derivative, and the grid to which a biased level is rounded.
 
 use super::running::{checked, ideal};
 use super::{Random, probes};
@@ -8,9 +8,9 @@ use refsim::num::Format;
 use refsim::raster::FragmentInput;
 use refsim::texture::{Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-/// Sides of the texture.
+/// Extents of the texture.
 const SIZE: [u32; 2] = [64, 32];
-/// Its levels, of which each holds its own number.
+/// Its levels; each holds its own number.
 const LEVELS: u32 = 7;
 
 fn image() -> Image {
@@ -24,7 +24,7 @@ fn image() -> Image {
     image
 }
 
-/// Half the logarithm of a single above 0, on a grid of so many bits, by repeated squaring.
+/// Half the logarithm of a positive single, on a grid of `bits` fraction bits, by repeated squaring.
 fn half_logarithm(x: f32, bits: u32) -> f32 {
     match x {
         _ if x.is_nan() => return 0.0,
@@ -44,7 +44,7 @@ fn half_logarithm(x: f32, bits: u32) -> f32 {
     (level.div_euclid(2)) as f32 / (1 << bits) as f32
 }
 
-/// The level in texels of level 0 at a lane, before the biases.
+/// Level of detail of a lane before biases.
 fn level(t: &[[f32; 4]; 4], lane: usize, bits: u32) -> f32 {
     // Lanes: (0, 0), (1, 0), (0, 1), (1, 1).
     let (row, column) = (lane / 2, lane % 2);
@@ -58,7 +58,7 @@ fn level(t: &[[f32; 4]; 4], lane: usize, bits: u32) -> f32 {
     half_logarithm(if a.is_nan() || b.is_nan() { f32::NAN } else { a.max(b) }, bits)
 }
 
-/// What the level comes to: on its grid again.
+/// Rounds a level to the grid.
 fn on_grid(level: f32, bits: u32) -> f32 {
     let steps = (1 << bits) as f32;
     match level {

@@ -1,4 +1,4 @@
-//! "Targets and depth": what ps_1_x writes, clears, depth in OpenGL.
+//! "Targets and depth": outputs of ps_1_x, clears, depth in OpenGL.
 
 use super::running::{checked, constants};
 use super::texels::table;
@@ -11,7 +11,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthState};
 use refsim::raster::{ClipSpace, Primitive, Vertex, Viewport};
 use refsim::texture::{TargetRounding, TexelFormat};
 
-/// A card of the format with either rounding into targets.
+/// An ideal device of the format, with either rounding into targets.
 fn profile(format: &str, truncate: bool) -> Profile {
     let mut profile = Profile::named(&format!("ideal-{format}")).unwrap();
     profile.rules.target_rounding = if truncate { TargetRounding::Truncate } else { TargetRounding::Nearest };
@@ -36,13 +36,13 @@ fn clears_go_from_singles_into_the_target() {
     }
 }
 
-/// A triangle over a target of one pixel at one clip-space depth.
+/// A triangle over a one-pixel target at one clip-space depth.
 fn triangle(z: f32, w: f32) -> [Vertex; 3] {
     [[-3.0, -3.0], [3.0, -3.0], [0.0, 6.0]]
         .map(|[x, y]: [f32; 2]| Vertex { position: [x * w, y * w, z, w].map(f32::to_bits), ..Vertex::default() })
 }
 
-/// Draws it; what is in the first texel of the target and of the depth buffer.
+/// Draws it; returns the first texel of the target and of the depth buffer.
 fn draw(machine: &mut Machine, text: &str, host: &Constants, vertices: &[Vertex], viewport: Viewport) -> (u128, u32) {
     let program = checked(text, machine.profile());
     let target = machine.create_target(TexelFormat::Rgba32f, 1, 1).unwrap();

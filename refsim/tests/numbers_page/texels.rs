@@ -1,11 +1,11 @@
-//! "Texels": the table of channels read from the page, values as fractions, stores.
+//! "Texels": the channel table parsed from the page, values as fractions, stores.
 
 use super::formats::Words;
 use super::{PAGE, Random, probes};
 use refsim::num::Format;
 use refsim::texture::{ChannelValue, SignedTexelMinimum, TargetRounding, TexelFormat, decode, encode};
 
-/// What a channel's bits mean.
+/// Class of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Class {
     Unsigned,
@@ -25,7 +25,7 @@ pub(crate) struct Channel {
 }
 
 impl Channel {
-    /// The component that a store takes it from.
+    /// Component that is stored in it.
     pub(crate) fn component(&self) -> usize {
         "rgbal".find(self.letter).expect("a letter") % 4
     }
@@ -48,7 +48,7 @@ impl Channel {
         }
     }
 
-    /// A single's code.
+    /// Code of a single.
     pub(crate) fn store(&self, x: f32, truncate: bool) -> i64 {
         let round = |x: f64| if truncate { x.floor() } else { (x + 0.5).floor() };
         let half = 1i64 << (self.bits - 1);
@@ -105,13 +105,13 @@ fn channel(text: &str) -> Channel {
     Channel { class, letter: letter.chars().next().expect(text), from, bits: to - from + 1 }
 }
 
-/// What a read gives for a component: a channel, or a constant.
+/// Source of a component in a read: a channel, or a constant.
 pub(crate) fn component(channels: &[Channel], component: usize) -> Result<&Channel, i64> {
     let has = |letter: char| channels.iter().find(|c| c.letter == letter);
     if let Some(found) = has(['r', 'g', 'b', 'a'][component]).or_else(|| has('l').filter(|_| component < 3)) {
         return Ok(found);
     }
-    // Alpha alone has colour 0; everything else that is missing is 1.
+    // Alpha-only formats have colour 0; all other missing components are 1.
     Err(i64::from(!channels.iter().all(|c| c.letter == 'a')))
 }
 

@@ -1,4 +1,4 @@
-//! Laws of blending.
+//! Properties of blending.
 
 use proptest::prelude::*;
 use refsim::num::Format;
@@ -26,7 +26,7 @@ fn target() -> impl Strategy<Value = TexelFormat> {
     )
 }
 
-/// A register value near 0 to 1 and the format it is in.
+/// A colour near 0 to 1 in some format.
 fn color() -> impl Strategy<Value = (Format, [u32; 4])> {
     prop_oneof![
         [0u32..=0x1200, 0u32..=0x1200, 0u32..=0x1200, 0u32..=0x1200].prop_map(|c| (Format::S3_12, c)),
@@ -34,7 +34,7 @@ fn color() -> impl Strategy<Value = (Format, [u32; 4])> {
     ]
 }
 
-/// A texel of the target that holds values of 0 to 1.
+/// A texel of the target with values from 0 to 1.
 fn texel(format: TexelFormat, values: [f32; 4]) -> u128 {
     encode(format, Format::FP32, values.map(f32::to_bits), NEAREST)
 }
@@ -50,14 +50,14 @@ proptest! {
         prop_assert_eq!(blend(F::One, F::Zero, BlendOp::Subtract), plain);
         prop_assert_eq!(blend(F::Zero, F::One, BlendOp::ReverseSubtract), old);
         prop_assert_eq!(blend(F::Zero, F::Zero, BlendOp::Add), texel(format, [0.0; 4]));
-        // Modulating either way round is the same.
+        // Modulation is symmetric.
         prop_assert_eq!(blend(F::DestColor, F::Zero, BlendOp::Add), blend(F::Zero, F::SrcColor, BlendOp::Add));
-        // Smaller and larger of the two are the two.
+        // Minimum and maximum select one of the two.
         let with = |op| blend_texel(format, old, Format::FP32, decode(format, old, SignedTexelMinimum::Clamp).to_format(Format::FP32), &BlendState::both(F::Zero, F::Zero, op), NEAREST);
         prop_assert_eq!((with(BlendOp::Min), with(BlendOp::Max)), (old, old));
     }
 
-    /// Alpha 1 gives the source, alpha 0 the destination; white modulates nothing away.
+    /// Alpha 1 gives the source, alpha 0 the destination; modulation with white changes nothing.
     #[test]
     fn alpha_ends(format in target(), (from, mut source) in color(), old in [0.0f32..1.0, 0.0f32..1.0, 0.0f32..1.0, 0.0f32..1.0]) {
         let old = texel(format, old);
@@ -73,7 +73,7 @@ proptest! {
         prop_assert_eq!(value(blend_texel(format, old, from, white, &modulate, NEAREST)), value(old));
     }
 
-    /// Every factor and operation against the formula in f64, within one code of 8 bits.
+    /// Every factor and operation compared with its formula in f64, within one 8-bit code.
     #[test]
     fn formulas(s in 0usize..11, d in 0usize..11, op in 0usize..5, source in [0u8.., 0u8.., 0u8.., 0u8..], old in [0u8.., 0u8.., 0u8.., 0u8..]) {
         let (s, d) = (F::ALL[s], F::ALL[d]);

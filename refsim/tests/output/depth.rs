@@ -7,7 +7,7 @@ use refsim::output::{CompareFunction, DepthFormat, DepthSurface, OutputError};
 use refsim::texture::TargetRounding;
 use std::cmp::Ordering;
 
-/// Clamped, scaled, rounded with big integers.
+/// Reference: clamped, scaled and rounded with big integers.
 fn model(bits: u32, scale: u64, rounding: TargetRounding) -> u32 {
     let (n, d) = match unpack(&Format::FP32, bits) {
         Unpacked::Nan { .. } | Unpacked::Inf { sign: true } | Unpacked::Finite { sign: true, .. } => return 0,
@@ -34,7 +34,7 @@ proptest! {
         }
     }
 
-    /// A farther fragment never gets a smaller pattern, so comparisons of patterns are comparisons of depths.
+    /// A farther fragment never has a smaller pattern, so comparing patterns compares depths.
     #[test]
     fn patterns_order_as_depths(a in 0u32..=0x3f80_0000, b in 0u32..=0x3f80_0000) {
         for &format in DepthFormat::ALL {
@@ -55,7 +55,7 @@ proptest! {
         }
     }
 
-    /// What is stored decodes and stores to itself.
+    /// Decoding and storing a stored value gives the same value.
     #[test]
     fn stored_depths_are_fixed_points(code in 0u32..0x1_0000) {
         let there = DepthFormat::Unorm16.to_format(code, Format::FP32);
@@ -63,7 +63,7 @@ proptest! {
     }
 }
 
-/// Halves of the last of 20 bits go to even; 0.5 has exponent field 14.
+/// Halves of the last of 20 bits round to even; 0.5 has exponent field 14.
 #[test]
 fn float_24_rounds_to_even() {
     let q = |eighths: u32| DepthFormat::Float24.quantise(Format::FP32, 0x3f00_0000 + eighths, TargetRounding::Nearest);
@@ -80,7 +80,7 @@ fn float_24_rounds_to_even() {
     assert_eq!([small(unit), small(unit * 0.5), small(unit * 1.5), small(unit * 1048575.0)], [1, 0, 2, 0xf_ffff]);
 }
 
-/// texdepth's r5.r / r5.g reaches the buffer from the register format in one step.
+/// The depth of texdepth, r5.r / r5.g, is converted from the register format to the depth format in one step.
 #[test]
 fn register_depths_are_converted_once() {
     let q = |format, bits| DepthFormat::Unorm16.quantise(format, bits, TargetRounding::Nearest);

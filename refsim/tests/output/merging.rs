@@ -1,4 +1,4 @@
-//! The way of a fragment.
+//! Merging of fragments.
 
 use proptest::prelude::*;
 use refsim::num::Format;
@@ -45,7 +45,7 @@ fn steps_come_in_order() {
     assert_eq!(merge(&mut tile, (1, 2), &fragment(0x0809), near, &state, &RULES), FragmentFate::Passed);
     assert_eq!(tile.depth.as_ref().unwrap().data[9], 0x4000);
     assert_eq!(tile.colors[0].as_ref().unwrap().raw(9), 0x80ff_00ff);
-    // Equal depth is not less; a depth of the program's own counts instead of the interpolated one.
+    // An equal depth is not less; a depth written by the program replaces the interpolated one.
     assert_eq!(merge(&mut tile, (1, 2), &fragment(ONE), near, &state, &RULES), FragmentFate::DepthFailed);
     let own = FragmentOutput { depth: Some(ONE / 8), ..fragment(ONE) };
     assert_eq!(merge(&mut tile, (1, 2), &own, near, &state, &RULES), FragmentFate::Passed);
@@ -113,7 +113,7 @@ fn impossible_targets_are_refused() {
 }
 
 proptest! {
-    /// The same fragments through one tile of everything and through tiles of any size: the same targets.
+    /// The same fragments, merged in a single tile and in tiles of any size, give the same targets.
     #[test]
     fn tiles_change_nothing(
         fragments in prop::collection::vec((0u32..9, 0u32..7, [0u32..0x1400, 0u32..0x1400, 0u32..0x1400, 0u32..0x1400], 0.0f32..1.0), 1..60),

@@ -51,7 +51,7 @@ proptest! {
         check(&v, convention, bits, Viewport { x, y, width, height, min_depth: depths[0], max_depth: depths[1] });
     }
 
-    /// The law of common edges holds for triangles that the clipper has cut.
+    /// Clipped triangles with a common edge share no pixel.
     #[test]
     fn clipped_neighbours_share_no_pixel(
         a in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0], b in [-2.0f32..2.0, -2.0f32..2.0, -1.0f32..2.0, 0.2f32..3.0],
@@ -62,8 +62,8 @@ proptest! {
     }
 }
 
-/// How often each pixel is covered by two triangles on either side of the edge from a to b: their third vertices lie
-/// `up` and `down` lengths of the edge away from its middle as seen on the screen.
+/// Number of covering triangles per pixel, for two triangles on either side of the edge from a to b; their third
+/// vertices are `up` and `down` edge lengths away from its midpoint in screen space.
 fn neighbours(a: [f32; 4], b: [f32; 4], up: f32, down: f32) -> Vec<u32> {
     let on_screen = |v: [f32; 4]| [v[0] / v[3], v[1] / v[3]];
     let (p, q) = (on_screen(a), on_screen(b));
@@ -84,7 +84,7 @@ fn a_folded_sliver_is_left_out() {
     assert!(neighbours(a, b, 0.5, 25.613_966).iter().all(|&n| n <= 1));
 }
 
-/// One triangle far larger than the guard band covers everything once, and its attributes survive.
+/// One triangle far larger than the guard band covers everything once, with correct attributes.
 #[test]
 fn a_huge_triangle_fills_the_screen() {
     for convention in CONVENTIONS {
@@ -107,7 +107,7 @@ fn a_huge_triangle_fills_the_screen() {
     }
 }
 
-/// A floor that runs through the eye: only the part in front is seen, below the horizon.
+/// A floor through the eye: only the part in front of it is visible, below the horizon.
 #[test]
 fn what_is_behind_the_eye_is_not_seen() {
     let floor = [[-50.0f32, 20.0], [50.0, 20.0], [0.0, -30.0]].map(|[x, depth]| {

@@ -9,7 +9,7 @@ const W: u32 = 37;
 const H: u32 = 29;
 
 fn position() -> impl Strategy<Value = (f32, f32)> {
-    // Many positions on pixel centres and edges, where the rule matters.
+    // Many positions on pixel centres and edges, where the fill rule matters.
     let axis = |n: u32| {
         prop_oneof![
             -4.0..n as f32 + 4.0,
@@ -20,7 +20,7 @@ fn position() -> impl Strategy<Value = (f32, f32)> {
     (axis(W), axis(H))
 }
 
-/// A grid of vertices, jittered, whose rim lies outside the target.
+/// A jittered grid of vertices whose border is outside the target.
 fn mesh(jitter: &[(f32, f32)], columns: usize, rows: usize) -> (Vec<Vertex>, Vec<[usize; 3]>) {
     let mut vertices = Vec::new();
     for (i, &(jx, jy)) in jitter.iter().enumerate().take((columns + 1) * (rows + 1)) {
@@ -48,7 +48,7 @@ fn mesh(jitter: &[(f32, f32)], columns: usize, rows: usize) -> (Vec<Vertex>, Vec
 proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, ..ProptestConfig::default() })]
 
-    /// Two triangles with a common edge: no pixel twice, and together the pixels of the convex quad's other split.
+    /// Two triangles with a common edge: no pixel twice, and together the same pixels as the convex quad's other split.
     #[test]
     fn a_common_edge_belongs_to_one_side(corners in prop::collection::vec(position(), 4), bits in 2u8..=8, convention in 0usize..4) {
         let rules = RasterRules { subpixel_bits: bits, ..RULES };
@@ -59,7 +59,7 @@ proptest! {
             let ((px, py), (qx, qy), (rx, ry)) = (c(p), c(q), c(r));
             (qx - px) * (ry - py) - (rx - px) * (qy - py)
         };
-        // Only if the other two vertices lie on different sides of the edge 0-2, further than snapping moves anything.
+        // Requires the other two vertices on different sides of the edge 0-2, further away than the snapping error.
         let (one, other) = (side(0, 2, 1), side(0, 2, 3));
         if one.abs() < 40.0 || other.abs() < 40.0 || (one > 0.0) == (other > 0.0) {
             return Ok(());
@@ -86,12 +86,12 @@ proptest! {
         prop_assert!(found.iter().all(|&n| n == 1), "{:?}", found.iter().enumerate().find(|(_, n)| **n != 1));
     }
 
-    /// A fan around any point, its rim outside the target.
+    /// A fan around any point, with its rim outside the target.
     #[test]
     fn a_fan_covers_each_pixel_once(centre in (0.0f32..W as f32, 0.0f32..H as f32), on_grid in any::<bool>(), count in 3usize..24) {
         let (cx, cy) = if on_grid { (centre.0.floor(), centre.1.floor()) } else { centre };
         let mut vertices = vec![at(cx, cy, W, H)];
-        // Rim points on a square far outside, in order.
+        // Rim points on a large square, in order.
         for i in 0..=count {
             let t = 4.0 * (i % count) as f32 / count as f32;
             let (side, along) = (t.floor() as u32, 240.0 * t.fract() - 120.0);
@@ -99,7 +99,7 @@ proptest! {
             vertices.push(at(x + 18.0, y + 14.0, W, H));
         }
         let list: Vec<_> = assemble(Primitive::TriangleFan, vertices.len()).unwrap().map(|t| t.map(|i| &vertices[i])).collect();
-        // With three or four points the rim may pass through the target's corners: never twice is what holds then.
+        // With three or four points the rim may cross the target's corners: then no pixel is covered twice.
         let found = counts(&list, &state(W, H, CONVENTIONS[0]), &RULES);
         prop_assert!(found.iter().all(|&n| n <= 1));
         if count >= 8 {
@@ -107,7 +107,7 @@ proptest! {
         }
     }
 
-    /// Quads, `misses` and `covers` say what `coverage` says pixel by pixel.
+    /// Quads, `misses` and `covers` agree with `coverage` of each pixel.
     #[test]
     fn walks_agree_with_single_pixels(corners in prop::collection::vec(position(), 3), tile in (0u32..W, 0u32..H, 1u32..20, 1u32..20)) {
         let v: Vec<_> = corners.iter().map(|&(x, y)| at(x, y, W, H)).collect();
@@ -149,13 +149,13 @@ fn a_full_screen_quad_is_exact() {
     }
 }
 
-/// The texture coordinate (i + 1/2) / n interpolated over a screen-filling quad addresses texel i.
+/// The texture coordinate (i + 1/2) / n, interpolated over a full-screen quad, addresses texel i.
 #[test]
 fn coordinates_over_a_quad_hit_their_texels() {
     use refsim::texture::{AddressMode, nearest_index};
     for n in [1u32, 2, 3, 5, 64, 100, 127, 257, 511, 640, 1000, 1023, 1024, 2047, 2048] {
         for center in [PixelCenter::Direct3d, PixelCenter::OpenGl] {
-            // Direct3D's centres lie on integers: the quad's coordinates carry the half texel instead.
+            // Direct3D's centres are at integers, so the quad's coordinates include the half texel.
             let shift = if center == PixelCenter::Direct3d { 0.5 / n as f32 } else { 0.0 };
             let mut v = [[-1.0f32, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]].map(|[x, y]| vertex([x, y, 0.0, 1.0]));
             for (corner, [s, t]) in v.iter_mut().zip([[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) {
@@ -164,7 +164,7 @@ fn coordinates_over_a_quad_hit_their_texels() {
             let s = state(n, n, (center, refsim::raster::ClipSpace::Direct3d));
             for triangle in [[0, 1, 2], [0, 2, 3]] {
                 let done = set_up(triangle.map(|i| &v[i]), &s, &RULES).0.remove(0);
-                // A column, a row and a diagonal stand for the square.
+                // Sample the square by a column, a row and a diagonal.
                 for i in 0..n {
                     for (x, y) in [(i, 0), (n - 1, i), (i, i), (i, n - 1), (0, i)] {
                         if !done.coverage(x, y) {
@@ -180,7 +180,7 @@ fn coordinates_over_a_quad_hit_their_texels() {
     }
 }
 
-/// The rule itself, on the smallest case: a square of one pixel with corners on four pixel centres.
+/// The fill rule in the smallest case: a one-pixel square with corners on four pixel centres.
 #[test]
 fn top_and_left_edges_are_in() {
     let s = state(8, 8, CONVENTIONS[0]);

@@ -1,4 +1,4 @@
-//! Values between vertices.
+//! Attribute interpolation.
 
 use super::support::{CONVENTIONS, RULES, set_up, state};
 use proptest::prelude::*;
@@ -22,7 +22,7 @@ fn corner() -> impl Strategy<Value = Vertex> {
 }
 
 proptest! {
-    /// The definition, repeated with host floats from the public set-up data: the same bits.
+    /// The definition, implemented in host floats on the public set-up data, gives the same bits.
     #[test]
     fn host_floats_give_the_same_bits(v in [corner(), corner(), corner()], x in 0u32..64, y in 0u32..64) {
         let s = state(64, 64, CONVENTIONS[0]);
@@ -51,7 +51,7 @@ proptest! {
             }
             prop_assert!(done.constant.has(28));
             prop_assert_eq!(found.t[7][0], 0xffc0_1234);
-            // What is not asked for is 0; what is asked for does not depend on the rest.
+            // Components not requested are 0; requested ones do not depend on the others.
             let few = done.interpolate(x, y, ComponentMask::NONE.with_texcoord(2));
             prop_assert_eq!((few.t[2], few.v, few.fog), (found.t[2], [[0; 4]; 2], 0));
         }
@@ -77,7 +77,7 @@ proptest! {
         }
     }
 
-    /// In another iterator format every step is rounded to it.
+    /// With another iterator format every step is rounded to it.
     #[test]
     fn iterator_formats_are_obeyed(v in [corner(), corner(), corner()], x in 0u32..64, y in 0u32..64, which in 0usize..3) {
         let format = [Format::FP16, Format::S3_12, Format::FP24][which];
@@ -90,7 +90,7 @@ proptest! {
     }
 }
 
-/// Depth is linear on the screen whatever w is, and exact at vertices on pixel centres.
+/// Depth is linear in screen space whatever w, and exact at vertices on pixel centres.
 #[test]
 fn depth_is_linear_on_the_screen() {
     let mut v = [[-1.0f32, 1.0, 0.0], [1.0, 1.0, 0.5], [-1.0, -1.0, 1.0]].map(|[x, y, z]| {

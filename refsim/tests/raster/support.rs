@@ -1,4 +1,4 @@
-//! What the raster tests share.
+//! Helpers of the raster tests.
 
 use refsim::num::Format;
 use refsim::raster::{
@@ -46,7 +46,7 @@ pub(crate) fn set_up(
     (out, report)
 }
 
-/// How often each pixel is covered by triangles, by walking the quads of 16x16 tiles.
+/// Number of triangles that cover each pixel, by quads of 16x16 tiles.
 pub(crate) fn counts(triangles: &[[&Vertex; 3]], state: &RasterState, rules: &RasterRules) -> Vec<u32> {
     let target = state.scissor;
     let mut counts = vec![0; (target.width * target.height) as usize];

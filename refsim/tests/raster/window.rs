@@ -1,12 +1,12 @@
-//! The batch executor's way of vertices to the window, in rows of host floats, against [`refsim::raster::setup`].
+//! Tests the batch executor's viewport transform and clip tests in rows against [`refsim::raster::setup`].
 
 use super::support::{CONVENTIONS, RULES, state};
 use proptest::prelude::*;
 use refsim::exec::batch::{Instances, SimdLevel, Surfaces, VertexRows};
 use refsim::raster::{ComponentMask, Cull, RasterRules, RasterState, TriangleSetup, Vertex, Viewport, setup};
 
-/// Single precision patterns about the edges of the definition: zeros, planes, the guard band, the least w, denormals,
-/// the ends of the range, and what is not finite.
+/// Single-precision patterns near the boundaries of the definition: zeros, planes, the guard band, the least w,
+/// denormals, the ends of the range, and non-finite values.
 const EDGES: [u32; 28] = [
     0,
     0x8000_0000,
@@ -38,14 +38,14 @@ const EDGES: [u32; 28] = [
     0x7fc0_0001,
 ];
 
-/// What of a set-up the shapes keep.
+/// The fields of a set-up that shapes contain.
 type Shape = ([refsim::raster::Edge; 3], i64, refsim::texture::Region, refsim::raster::Plane, bool, bool, [u32; 3]);
 
 fn shape(s: &TriangleSetup) -> Shape {
     (s.edges, s.area, s.bounds, s.depth, s.depth_constant, s.affine, s.reciprocal_w)
 }
 
-/// Draws triangles both ways, on every level that the processor has.
+/// Sets up triangles both ways, on every SIMD level of the processor.
 fn compare(vertices: &[Vertex], state: &RasterState, rules: &RasterRules) {
     let triangles: Vec<[usize; 3]> = (0..vertices.len() / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     let mut expected = Vec::new();
@@ -67,7 +67,7 @@ fn compare(vertices: &[Vertex], state: &RasterState, rules: &RasterRules) {
     }
 }
 
-/// A number that is plain, or about an edge, or any pattern.
+/// A number that is ordinary, near a boundary, or any pattern.
 fn number() -> impl Strategy<Value = u32> {
     prop_oneof![
         6 => (-2.0f32..2.0).prop_map(f32::to_bits),
@@ -77,7 +77,7 @@ fn number() -> impl Strategy<Value = u32> {
     ]
 }
 
-/// w is mostly above zero, so that something is left.
+/// w is mostly positive, so that triangles remain.
 fn position() -> impl Strategy<Value = [u32; 4]> {
     let z = prop_oneof![4 => (0.0f32..1.0).prop_map(f32::to_bits), 1 => number()];
     let w = prop_oneof![4 => (0.25f32..4.0).prop_map(f32::to_bits), 3 => Just(1.0f32.to_bits()), 2 => number()];
@@ -112,7 +112,7 @@ proptest! {
     }
 }
 
-/// Every edge value in every component, the others plain.
+/// Every boundary value in every component, the others ordinary.
 #[test]
 fn edge_values_arrive_where_the_definition_has_them() {
     let plain = [[-0.5f32, 0.75, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0], [0.0, -0.5, 0.75, 2.0]].map(|p| p.map(f32::to_bits));
@@ -134,7 +134,7 @@ fn edge_values_arrive_where_the_definition_has_them() {
     }
 }
 
-/// More vertices than one worker takes, and more triangles.
+/// More vertices and triangles than one task processes.
 #[test]
 fn many_vertices_arrive_like_few() {
     let mut seed = 1u32;

@@ -1,4 +1,4 @@
-//! Coordinates to texels.
+//! Texture addressing.
 
 use super::rational::Rational;
 use num_bigint::BigInt;
@@ -8,7 +8,7 @@ use refsim::texture::{AddressMode, CubeFace, cube_coordinates, linear_taps, near
 pub(crate) const MODES: [AddressMode; 4] =
     [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
 
-/// Addressing as a picture book has it: walk into the image a step at a time. `position` must be small.
+/// Naive addressing: moves into the image step by step. `position` must be small.
 pub(crate) fn naive(mode: AddressMode, position: i64, size: i64) -> Option<u32> {
     let mut p = position;
     match mode {
@@ -41,7 +41,7 @@ pub(crate) fn naive(mode: AddressMode, position: i64, size: i64) -> Option<u32> 
     Some(p as u32)
 }
 
-/// `u * n - offset` exactly, floored to an integer in units of 1/scale, after bringing huge coordinates into reach.
+/// `u * n - offset`, exact, floored to units of 1/scale, after reducing huge coordinates.
 fn position(u: f32, n: u32, scale: i64, halves: i64) -> BigInt {
     let exact =
         Rational::of_f32(u).mul(&Rational::new(n, 1)).add(&Rational::new(halves, 2)).mul(&Rational::new(scale, 1));
@@ -81,7 +81,7 @@ proptest! {
         }
     }
 
-    /// Coordinates of any size wrap as exact arithmetic says.
+    /// Coordinates of any magnitude wrap as in exact arithmetic.
     #[test]
     fn huge_coordinates_wrap_exactly(bits in any::<u32>(), n in 1u32..5000) {
         let u = f32::from_bits(bits);
@@ -93,7 +93,7 @@ proptest! {
     }
 }
 
-/// (i + 1/2) / n, rounded to FP32, is in texel i: data textures can be addressed by their index.
+/// (i + 1/2) / n, rounded to FP32, is in texel i: data textures can be addressed by index.
 #[test]
 fn texel_centres_address_their_texel_up_to_2048() {
     for n in 1..=2048u32 {
@@ -111,7 +111,7 @@ fn rectangles_are_addressed_in_texels() {
     }
 }
 
-/// The Direct3D table: for each face the direction of its centre, of growing u and of growing v.
+/// The Direct3D table: for each face the direction of its centre, of increasing u and of increasing v.
 #[test]
 fn cube_faces_follow_the_table() {
     let table = [

@@ -1,4 +1,4 @@
-//! Texels to numbers.
+//! Decoding of texels.
 
 use super::rational::{Rational, assert_nearest};
 use refsim::device::Profile;
@@ -8,7 +8,7 @@ use refsim::texture::{ChannelClass, SignedTexelMinimum, TargetRounding, TexelFor
 
 const FORMATS: [Format; 4] = [Format::S3_12, Format::FP16, Format::FP24, Format::FP32];
 
-/// The definition of a normalised channel, written down once more.
+/// The definition of a normalised channel, implemented again.
 fn exact(class: ChannelClass, bits: u8, code: u32, minimum: SignedTexelMinimum) -> Rational {
     let signed = |code: u32| i64::from(code) - if code >> (bits - 1) == 1 { 1i64 << bits } else { 0 };
     match class {
@@ -59,7 +59,7 @@ fn float_texels_come_back_as_they_were_stored() {
     }
 }
 
-// Wine's test_signed_formats: R200 decodes -128 below -1, others clamp; both are switches here.
+// Wine's test_signed_formats: R200 decodes -128 below -1, others clamp; a switch selects either.
 #[test]
 fn minus_128_under_both_switches() {
     let value = |minimum, format| decode(TexelFormat::Rg8Snorm, 0x0080, minimum).to_format(format)[0];
@@ -84,7 +84,7 @@ fn l6v5u5_as_wine_measured_it() {
 #[test]
 fn every_format_a_profile_names_exists() {
     for name in Profile::all_names() {
-        // The last name is a pattern for the ideal device of any format.
+        // The last name is a pattern for ideal devices of any format.
         let name = name.replace("<format>", "fp32");
         let profile = Profile::named(&name).unwrap();
         let limits = &profile.limits;

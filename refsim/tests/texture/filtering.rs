@@ -33,7 +33,7 @@ fn bits(values: [f32; 4]) -> [u32; 4] {
     values.map(f32::to_bits)
 }
 
-/// Position `u * n - 1/2` on the grid of 1/256: whole texel and weight.
+/// Position `u * n - 1/2` on the grid of 1/256: integer texel and weight.
 fn split(u: f32, n: u32) -> (i64, i64) {
     let p = Rational::of_f32(u).mul(&Rational::new(n, 1)).mul(&Rational::new(256, 1)).sub(&Rational::new(255, 2));
     let p = i64::try_from(p.floor()).unwrap(); // -128, and + 1/2 to round
@@ -41,7 +41,7 @@ fn split(u: f32, n: u32) -> (i64, i64) {
 }
 
 proptest! {
-    /// One rounding of the exact weighted sum, in every register format and address mode.
+    /// The exact weighted sum is rounded once, in every register format and address mode.
     #[test]
     fn bilinear_is_the_rational_sum_rounded_once(
         data in prop::collection::vec(any::<u8>(), 7 * 5 * 4),
@@ -60,7 +60,7 @@ proptest! {
                 let at = (naive(mode, x + dx, 7), naive(mode, y + dy, 5));
                 let value = match at {
                     (Some(x), Some(y)) => image.texel(0, 0, y, x, SignedTexelMinimum::BelowMinusOne).0[component],
-                    // Black border: stored components 0, the others their default 1.
+                    // Black border: stored components are 0, others have their default 1.
                     _ => image_border(format, component),
                 };
                 let ChannelValue::Ratio { numerator, denominator } = value else { panic!("integer texels only") };
@@ -70,7 +70,7 @@ proptest! {
         }
     }
 
-    /// Float texels: the stated FP32 steps, repeated with host floats.
+    /// Float texels: the FP32 steps of the definition, repeated with host floats.
     #[test]
     fn float_texels_are_lerped_in_fp32(values in prop::collection::vec(-1e6f32..1e6, 9), u in 0.0f32..1.0, v in 0.0f32..1.0) {
         let texels: Vec<_> = values.iter().map(|v| [v.to_bits(), 0, 0, 0]).collect();
@@ -83,7 +83,7 @@ proptest! {
         prop_assert_eq!(found[0], want.to_bits());
     }
 
-    /// The short way is the long way.
+    /// `fetch_nearest` equals `sample`.
     #[test]
     fn fetch_nearest_is_sample(data in prop::collection::vec(any::<u8>(), 6 * 3 * 4), u in any::<u32>(), v in any::<u32>(), mode in 0usize..4) {
         let image = Image::from_bytes(TexelFormat::Bgra8, TextureKind::D2, [6, 3, 1], 1, data).unwrap();
@@ -200,7 +200,7 @@ fn border_and_unbound() {
         ..SamplerState::NEAREST_CLAMP
     };
     let value = sample(Some(&image), &state, &rules(Format::FP32), bits([1.5, 0., 0., 0.]), Lod::Base);
-    // Quantised to the texel's 8 bits, clamped, and alpha is not stored.
+    // Quantised to the texel's 8 bits and clamped; alpha is not stored.
     assert_eq!(value.map(f32::from_bits), [1.0, 128.0 / 255.0, 1.0, 1.0]);
     assert_eq!(sample(None, &state, &rules(Format::S3_12), [0; 4], Lod::Base), [0, 0, 0, 0x1000]);
     assert_eq!(unbound(Format::FP32), bits([0., 0., 0., 1.]));

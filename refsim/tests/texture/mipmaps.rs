@@ -1,4 +1,4 @@
-//! Generated mip levels against exact fractions, texel by texel.
+//! Generated mip levels compared with exact fractions, texel by texel.
 
 use super::rational::Rational;
 use num_bigint::BigInt;
@@ -11,7 +11,7 @@ use refsim::texture::{
 
 const KINDS: [TextureKind; 4] = [TextureKind::D1, TextureKind::D2, TextureKind::Cube, TextureKind::Volume];
 
-/// An image with all its levels, of bytes from a seed.
+/// An image with all its levels, filled with random bytes.
 fn noise(format: TexelFormat, kind: TextureKind, [w, h, d]: [u32; 3], seed: u64) -> Image {
     let extents = match kind {
         TextureKind::D1 => [w, 1, 1],
@@ -29,7 +29,7 @@ fn noise(format: TexelFormat, kind: TextureKind, [w, h, d]: [u32; 3], seed: u64)
     image
 }
 
-/// The places of level 0 of a chain of two under a place of the next level.
+/// Positions in one level that are averaged into a position of the next level.
 fn under(finer: [u32; 3], coarser: [u32; 3], place: [u32; 3]) -> Vec<[u32; 3]> {
     let mut places = vec![place];
     for axis in 0..3 {
@@ -51,7 +51,7 @@ fn under(finer: [u32; 3], coarser: [u32; 3], place: [u32; 3]) -> Vec<[u32; 3]> {
     places
 }
 
-/// Every texel of every level is the mean of those under it, rounded by value.
+/// Asserts that every texel of every level is the mean of those of the previous level, rounded by value.
 fn check(image: &Image, rules: MipmapRules) {
     let mut filled = image.clone();
     filled.generate_mipmaps(rules);
@@ -130,7 +130,7 @@ fn every_format_and_long_thin_images() {
     }
 }
 
-/// A float level is what linear reads in the middle of the texels give.
+/// A float level equals linear reads between texels.
 #[test]
 fn float_levels_are_linear_reads() {
     let minimum = SignedTexelMinimum::Clamp;

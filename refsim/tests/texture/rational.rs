@@ -1,4 +1,4 @@
-//! Exact fractions of big integers, and the question whether a pattern is the nearest to one.
+//! Exact fractions of big integers, and a test whether a pattern is nearest to one.
 
 use num_bigint::BigInt;
 use refsim::num::{Format, Unpacked, unpack};

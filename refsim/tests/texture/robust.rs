@@ -1,4 +1,4 @@
-//! Any bits, any state: a defined value, never a panic.
+//! Any bits and any state have a defined result, without panics.
 
 use proptest::prelude::*;
 use refsim::num::Format;

@@ -1,4 +1,4 @@
-//! Numbers to texels.
+//! Encoding of texels.
 
 use super::rational::Rational;
 use num_bigint::BigInt;
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{Channel, Image, Region, TargetRounding, TexelFormat, TextureError, TextureKind, encode_channel};
 
-/// `floor(clamp(value) * scale + 1/2)`, halves away from zero, or truncated; with big integers.
+/// Reference: `floor(clamp(value) * scale + 1/2)`, halves away from zero, or truncated; with big integers.
 fn model(format: Format, bits: u32, scale: i64, signed: bool, rounding: TargetRounding) -> i64 {
     let Some(value) = Rational::of(format, bits) else {
         let negative = format.is_negative(bits);
@@ -50,7 +50,7 @@ fn every_16_bit_value_into_unsigned_and_signed_channels() {
     }
 }
 
-/// What a texel decodes to is stored as the same texel, in formats that tell the codes apart.
+/// Storing a decoded texel gives the same texel, in formats whose codes have distinct values.
 #[test]
 fn decode_then_store_is_the_identity() {
     for &format in TexelFormat::ALL {
@@ -70,7 +70,7 @@ fn decode_then_store_is_the_identity() {
 }
 
 proptest! {
-    /// A region read back is what was written, and nothing else has changed.
+    /// Reading a region back gives what was written, and nothing else changes.
     #[test]
     fn regions_go_where_they_should(x in 0u32..9, y in 0u32..7, width in 0u32..9, height in 0u32..7, seed in any::<u8>()) {
         let mut image = Image::new(TexelFormat::Rg16, TextureKind::Cube, [8, 8, 1], 2).unwrap();

@@ -1,4 +1,4 @@
-//! Small programs, worked out by hand.
+//! Small programs with manually derived timelines.
 
 use refsim::timing::queue::{DoubleBuffer, Fence, FenceError, Queue, QueueFigures, ReadBackMode, ResourceId};
 use refsim::timing::timeline::{SpanKind, Unit, WaitReason};
@@ -21,7 +21,7 @@ fn one_pass_is_upload_then_fragments_then_read_back() {
     queue.read_back(IDS, ps(4), ReadBackMode::Synchronous, "ids");
     let timeline = queue.timeline();
     assert_eq!(spans(&timeline, Unit::UploadBus), [(0, 10)]);
-    // Vertices need no rays; fragments do.
+    // Vertices don't need the rays; fragments do.
     assert_eq!(spans(&timeline, Unit::FrontEnd), [(0, 2)]);
     assert_eq!(spans(&timeline, Unit::ShaderArray), [(10, 18)]);
     assert_eq!(spans(&timeline, Unit::Memory), [(10, 15)]);
@@ -60,7 +60,7 @@ fn a_draw_alone_takes_its_total() {
         queue.draw(&[], &[IDS], cost, "draw");
         assert_eq!(queue.timeline().makespan(), cost.total, "{cost:?}");
     }
-    // A total below the longest unit is no way to be faster.
+    // A total below the longest unit does not shorten the draw.
     let mut queue = Queue::new(free());
     queue.draw(&[], &[IDS], DrawCost { total: ps(1), ..cost(0, 9, 0, 0) }, "draw");
     assert_eq!(queue.timeline().makespan(), ps(9));
@@ -106,7 +106,7 @@ fn a_full_queue_stalls_the_host() {
     assert_eq!(usage[Unit::Host.index()].idle, ps(19));
 }
 
-/// Two buckets of rays; the host needs 6 to make each, and looks at the results at the end.
+/// Two buckets of rays; the host needs 6 to prepare each, and reads the results at the end.
 fn two_buckets(mode: ReadBackMode, double: bool) -> u64 {
     let second = |first: ResourceId| if double { ResourceId(first.0 + 10) } else { first };
     let (mut rays, mut ids) = (DoubleBuffer::new(RAYS, second(RAYS)), DoubleBuffer::new(IDS, second(IDS)));
@@ -125,7 +125,7 @@ fn two_buckets(mode: ReadBackMode, double: bool) -> u64 {
 
 #[test]
 fn what_asynchrony_and_double_buffers_are_good_for() {
-    // 6 rays + 3 upload + 20 fragments + 5 read-back, one after the other, twice.
+    // 6 rays + 3 upload + 20 fragments + 5 read-back, in sequence, twice.
     assert_eq!(two_buckets(ReadBackMode::Synchronous, false), 68);
     assert_eq!(two_buckets(ReadBackMode::Synchronous, true), 68);
     // The second upload waits until the first draw has read the rays (29), and meets the end of the read-back (34):
@@ -167,7 +167,7 @@ fn an_asynchronous_read_back_has_a_fence() {
     let mut queue = Queue::new(free());
     queue.draw(&[], &[IDS], cost(0, 10, 0, 0), "draw");
     let fence = queue.read_back(IDS, ps(5), ReadBackMode::Asynchronous, "ids").expect("a fence");
-    // Into another target: beside the transfer. Into the same: after it.
+    // To another target: in parallel with the transfer. To the same: after it.
     queue.draw(&[], &[RAYS], cost(0, 3, 0, 0), "beside");
     queue.draw(&[], &[IDS], cost(0, 3, 0, 0), "after");
     assert_eq!(queue.test(fence), Ok(false));

@@ -1,10 +1,10 @@
-//! The host model: one scale, found from one figure.
+//! The host model: one scale, calibrated on one figure.
 
 use proptest::prelude::*;
 use refsim::timing::Picoseconds;
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostError, HostModel, HostOperation, HostWeights};
 
-/// Made-up counts of a run of the host alone.
+/// Artificial counts of a run on the host alone.
 fn counts() -> HostCounts {
     HostCounts::default()
         .with(HostOperation::RayGenerated, 1000)
@@ -18,7 +18,7 @@ fn the_run_of_the_calibration_takes_its_printed_time() {
     let model = HostModel::calibrate(&counts(), 1000, CPU_ONLY_RAYS_PER_SECOND).expect("good counts");
     // 1000 / 135,812 s = 7,363,119,606.5... ps
     assert_eq!(model.time_of_all(&counts()), Picoseconds(7_363_119_607));
-    // 40 + 300 + 450 + 70 units a ray are 860,000 in all.
+    // 40 + 300 + 450 + 70 units per ray are 860,000 in total.
     assert!((model.picoseconds_a_unit() - 8561.766).abs() < 1e-3, "{}", model.picoseconds_a_unit());
     assert_eq!(model.time_of(HostOperation::RayTriangleTest, 1), Picoseconds(428_089));
     assert_eq!(model.time_of(HostOperation::RayTriangleTest, 0), Picoseconds::ZERO);

@@ -1,4 +1,4 @@
-//! What holds for every list of commands.
+//! Properties of every list of commands.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -67,7 +67,7 @@ fn intervals(timeline: &Timeline, unit: Unit) -> Vec<(u64, u64)> {
     all
 }
 
-/// What each command reads and writes, by the number that its spans carry.
+/// Resources that each command reads and writes, by the command index of its spans.
 fn uses(commands: &[Command]) -> Vec<(Vec<u64>, Vec<u64>)> {
     let mut fence = false;
     let mut uses = Vec::new();
@@ -76,7 +76,7 @@ fn uses(commands: &[Command]) -> Vec<(Vec<u64>, Vec<u64>)> {
             Command::Upload(resource, _) | Command::Clear(resource, _) => uses.push((vec![], vec![*resource])),
             Command::ReadBack(resource, _) => uses.push((vec![*resource], vec![])),
             Command::Draw { reads, writes, .. } => uses.push((reads.clone(), writes.clone())),
-            // Without a fence nothing is asked.
+            // Without a fence there is nothing to test or wait for.
             Command::Test | Command::Finish if !fence => {}
             other => {
                 fence |= matches!(other, Command::SetFence);
@@ -165,7 +165,7 @@ proptest! {
     fn a_resource_of_its_own_for_every_upload_is_never_slower(
         commands in program(), figures in figures(), mode in mode()
     ) {
-        // Nothing else names resources from 100 on, so these uploads wait for nobody and nobody waits for them.
+        // Resources from 100 on are not used elsewhere, so these uploads neither wait nor block.
         let mut next = 100;
         let renamed: Vec<Command> = commands
             .iter()
@@ -223,7 +223,7 @@ proptest! {
     #[test]
     fn the_host_has_what_it_waits_for(commands in program(), figures in figures()) {
         let (_, timeline) = play(&commands, figures, ReadBackMode::Synchronous);
-        // Synchronous: after its read-back, and all before it, comes whatever the host does next.
+        // Synchronous: the host continues only after its read-back and everything before it.
         let arrivals = timeline.spans().iter().filter(|span| span.kind == SpanKind::ReadBack);
         for arrival in arrivals {
             let next = timeline.spans().iter().find(|s| s.unit == Unit::Host && s.command > arrival.command);

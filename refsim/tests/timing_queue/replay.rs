@@ -1,4 +1,4 @@
-//! Logs on the time axis: what a machine wrote down, and made-up logs.
+//! Logs on the time axis: recorded and artificial ones.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use refsim::timing::{DrawCost, Picoseconds};
 
 use crate::{cost, free, spans};
 
-/// A picosecond a byte on the buses and a change of state; draws take what their vertices say.
+/// One picosecond per byte on the buses and per state change; draws take what their vertices say.
 struct Simple;
 
 impl Costs for Simple {
@@ -81,7 +81,7 @@ fn played(log: &[Event], options: &Options<'_>) -> Replay {
     replay(log, &Simple, &Options { queue: free(), ..*options }).expect("a good log")
 }
 
-/// Two buckets, as in `examples`: 6 of the host, 3 up, 1 to clear, 20 to draw, 5 down.
+/// Two buckets, as in `examples`: 6 on the host, 3 upload, 1 clear, 20 draw, 5 read-back.
 fn two_buckets(mode: ReadBackMode) -> Vec<Event> {
     let bucket = |fence| {
         vec![
@@ -95,7 +95,7 @@ fn two_buckets(mode: ReadBackMode) -> Vec<Event> {
     [bucket(1), bucket(2)].concat()
 }
 
-/// A made ray costs a picosecond.
+/// A generated ray costs a picosecond.
 fn picosecond_a_ray() -> HostModel {
     let counts = HostCounts::default().with(HostOperation::RayGenerated, 1_000_000_000_000);
     HostModel::calibrate(&counts, 1, 1).expect("good counts")
@@ -113,7 +113,7 @@ fn the_worked_example_from_a_log() {
     assert_eq!(makespan(synchronous, double), 68);
     assert_eq!(makespan(asynchronous, plain), 60);
     assert_eq!(makespan(asynchronous, double), 55);
-    // The log says one thing, the option another.
+    // The option overrides the log.
     assert_eq!(makespan(synchronous, Options { read_back: Some(asynchronous), ..double }), 55);
     assert_eq!(makespan(asynchronous, Options { read_back: Some(synchronous), ..double }), 68);
 }
@@ -145,7 +145,7 @@ fn fences_of_a_log() {
         Event::FinishFence(FenceId(8)),
     ];
     assert_eq!(played(&log, &Options::default()).fence_tests, [false, true, false]);
-    // Made synchronous, the read-back is over when its fence is asked.
+    // If synchronous, the read-back is complete when its fence is tested.
     let synchronous = Options { read_back: Some(ReadBackMode::Synchronous), ..Options::default() };
     assert_eq!(played(&log, &synchronous).fence_tests, [false, true, true]);
 }

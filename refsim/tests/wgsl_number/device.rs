@@ -1,4 +1,4 @@
-//! The shader's results against `refsim::num`.
+//! The shader's results compared with `refsim::num`.
 
 use std::sync::Arc;
 
@@ -10,19 +10,19 @@ use refsim::num::{Format, NumberOperation, ops};
 use crate::operands::{Words, edges, formats, pattern};
 use crate::reference::reference;
 
-/// Operands of single precision for steps, whatever the format.
+/// Format of operands of step operations, whatever the format of the result.
 const SINGLE: Format = Format::FP32;
 
-/// The library with a text that has this entry point.
+/// The library, extended by a text with the given entry point.
 pub(crate) fn text(more: &str, entry: &str) -> String {
     Parts::all().of(&(library() + more), entry)
 }
 
-/// One operation to try.
+/// An operation to test.
 #[derive(Clone, Copy, Debug)]
 struct Item {
     operation: NumberOperation,
-    /// Places in the list of formats: of the result, and of what is converted.
+    /// Indices in the list of formats: of the result, and of the source of a conversion.
     format: usize,
     source: usize,
     operands: [u32; 3],
@@ -48,7 +48,7 @@ impl Item {
     }
 }
 
-/// Runs the items and names what differs.
+/// Runs the items and reports differences.
 fn check(gpu: &Gpu, formats: &[Format], items: &[Item]) {
     let shader = text(include_str!("operations.wgsl"), "run_operations");
     let table: Vec<u32> = formats.iter().flat_map(format_words).collect();
@@ -102,7 +102,7 @@ fn random_item(
             if operation != NumberOperation::JoinPattern {
                 operands[1] = packed_number(words);
             }
-            // Nothing else is in the word's place.
+            // The word's bits at the position are zero.
             operands[2] = place(words, matches!(operation, NumberOperation::JoinPattern | NumberOperation::JoinShort));
             operands[0] = words.next() & !(0xffff << operands[2]);
         }
@@ -119,12 +119,12 @@ fn random_item(
     Item { operation, format, source, operands }
 }
 
-/// The bit at which a half or a quarter of a word starts.
+/// Bit position of a half or a quarter of a word.
 fn place(words: &mut Words, half: bool) -> u32 {
     if half { [0, 16][words.below(2)] } else { [0, 8, 16, 24][words.below(4)] }
 }
 
-/// An angle next to a multiple of a quarter turn.
+/// An angle near a multiple of a quarter turn.
 fn angle(words: &mut Words, format: &Format) -> u32 {
     let quarters = f64::from(words.next() >> words.below(32));
     let near = (quarters * std::f64::consts::FRAC_PI_2) as f32;
@@ -133,7 +133,7 @@ fn angle(words: &mut Words, format: &Format) -> u32 {
     if words.below(2) == 0 { bits } else { ops::neg(format, bits).bits }
 }
 
-/// A single precision number around the steps of packed ones.
+/// A single-precision number near the steps of packed ones.
 fn packed_number(words: &mut Words) -> u32 {
     if words.below(2) == 0 {
         return pattern(words, &SINGLE, &edges(&SINGLE));
@@ -144,7 +144,7 @@ fn packed_number(words: &mut Words) -> u32 {
     near.to_bits().wrapping_add_signed(words.around(1))
 }
 
-/// Whether all operands of a small format can be tried.
+/// Returns `true` if all operands of a small format can be tested.
 fn exhausted(o: NumberOperation) -> bool {
     tried(o) && o.operands() < 3 && o != NumberOperation::Steps && !(o.has_immediate() && o != NumberOperation::Scale)
 }

@@ -1,4 +1,4 @@
-//! The functions beside `n_alu`: exact dots, conversions, rounding of given parts, single precision.
+//! Functions besides `n_alu`: exact dot products, conversions, rounding of parts, single precision.
 
 use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::device::text;
 use crate::operands::{Words, edges, formats, pattern};
 
-/// Number of a function in `functions.wgsl`, places of two formats, operands.
+/// Number of a function in `functions.wgsl`, indices of two formats, operands.
 struct Call {
     function: u32,
     formats: [usize; 2],
@@ -29,7 +29,7 @@ impl Call {
         }
         match function {
             2..=4 => {
-                // Sums that cancel, in part or in all.
+                // Sums that cancel, partially or completely.
                 let [first, second] = [words.below(3), words.below(4)];
                 if first != second && words.below(2) == 0 {
                     operands[second] = operands[first] ^ all[places[0]].sign_bit();
@@ -40,7 +40,7 @@ impl Call {
                 let [high, low] = [words.next() >> words.below(32), words.next()];
                 operands[0] = low;
                 operands[1] = if words.below(2) == 0 { 0 } else { high };
-                // With more to follow, the unit must be small enough to tell.
+                // With a sticky bit, the unit must be small enough for a determined result.
                 operands[2] = words.below(2) as u32;
                 operands[3] = (words.around(150) - 50).cast_unsigned();
             }

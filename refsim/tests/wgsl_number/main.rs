@@ -1,4 +1,4 @@
-//! The arithmetic library in WGSL: valid text, and on an adapter the reference's bits.
+//! The number library in WGSL: validity of the text, and equality with the reference on an adapter.
 
 #[path = "../common/adapter.rs"]
 mod adapter;

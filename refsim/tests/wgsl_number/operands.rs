@@ -1,8 +1,8 @@
-//! Formats and operands: edges, patterns near them, and many others drawn from a fixed seed.
+//! Formats and operands: edges, patterns near them, and pseudo-random ones.
 
 use refsim::num::{Denormals, Format, FormatKind, Overflow, Rounding, Specials};
 
-/// A generator of words (splitmix64), so that every run sees the same.
+/// Deterministic generator of words (splitmix64).
 pub(crate) struct Words(pub(crate) u64);
 
 impl Words {
@@ -24,7 +24,7 @@ impl Words {
     }
 }
 
-/// Patterns where something changes: zeros, ends, ones, halves, infinities, NaN, and their neighbours.
+/// Boundary patterns: zeros, ends, ones, halves, infinities, NaN, and their neighbours.
 pub(crate) fn edges(format: &Format) -> Vec<u32> {
     let mut bits =
         vec![0, 1, format.one(), format.max_finite(), format.min_finite(), format.one() / 2, format.sign_bit()];
@@ -47,7 +47,7 @@ pub(crate) fn edges(format: &Format) -> Vec<u32> {
     all
 }
 
-/// A pattern: any; or near one; or small; or an edge.
+/// A pattern: any, near one, small, or an edge.
 pub(crate) fn pattern(words: &mut Words, format: &Format, edges: &[u32]) -> u32 {
     let word = words.next();
     let bits = match words.below(8) {

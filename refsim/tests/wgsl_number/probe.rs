@@ -1,4 +1,4 @@
-//! The adapter's own single precision: what the probe sees, and what WGSL allows.
+//! The adapter's own single precision: the probe's results, and the accuracy required by WGSL.
 
 use refsim::exec::gpu::{Gpu, probe};
 use refsim::exec::wgsl::accuracy::{Allowed, SingleOperation, allowed};
@@ -26,10 +26,10 @@ pub(crate) fn the_intervals_are_those_of_the_standard() {
         assert!(within(Op::Div, [one, 0x4040_0000, 0], near), "{near:x}");
     }
     assert!(!within(Op::Div, [one, 0x4040_0000, 0], third + 4) && !within(Op::Div, [one, 0x4040_0000, 0], third - 4));
-    // Subnormal operands and results may be zeros, and may be themselves; nothing between.
+    // Subnormal operands and results may be flushed or kept; nothing between is allowed.
     assert!(within(Op::Add, [5, 0, 0], 5) && within(Op::Add, [5, 0, 0], 0) && !within(Op::Add, [5, 0, 0], 3));
     assert!(within(Op::Mul, [0x0080_0000, 0x3f00_0000, 0], 0));
-    // A subnormal product may be flushed on its way into a sum; no other may.
+    // A subnormal product may be flushed before it is added; nothing else.
     assert!(within(Op::MulAdd, [0x8080_0000, 0x3f00_0000, 0x80b7_66e5], 0x80b7_66e5));
     assert!(!within(Op::MulAdd, [0x8100_0000, 0x3f80_0000, 0x81b7_66e5], 0x81b7_66e5));
     // Overflow, infinities and NaN are indeterminate.

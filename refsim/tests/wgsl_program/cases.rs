@@ -1,4 +1,4 @@
-//! The programs: kernels of the project, fixtures, random ones.
+//! Test programs: the project's kernels, fixtures, and random ones.
 
 use crate::generate::{self, Layout};
 use crate::random::Random;
@@ -16,7 +16,7 @@ pub(crate) const PIXEL: [Version; 7] =
 pub(crate) const FORMATS: [&str; 10] =
     ["fp32", "s3.12", "fp16", "fp24", "s1.10", "s3.12:rtz", "fp16:rtz:nv", "s7.16", "fp32:ftz", "e4m3"];
 
-/// Seeds: `CROSSBAR_SEED` one alone, `CROSSBAR_FULL` thirty times as many.
+/// Seeds: only `CROSSBAR_SEED` if set; thirty times as many with `CROSSBAR_FULL`.
 pub(crate) fn seeds(quick: u64) -> std::ops::Range<u64> {
     if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
         return seed..seed + 1;
@@ -51,7 +51,7 @@ fn walk(folder: &Path, out: &mut Vec<PathBuf>) {
     }
 }
 
-/// Every program below `src` and `fixtures` that an ideal device takes, with its place.
+/// Every program below `src` and `fixtures` that an ideal device accepts, with its path.
 pub(crate) fn files(profile: &Profile) -> Vec<(String, CheckedProgram)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut paths = Vec::new();
@@ -70,7 +70,7 @@ pub(crate) fn files(profile: &Profile) -> Vec<(String, CheckedProgram)> {
     out
 }
 
-/// A random legal program of at most `size` (0 to 3).
+/// A random legal program of size class `size` (0 to 3) or less.
 pub(crate) fn random(version: Version, size: usize, profile: &Profile, r: &mut Random) -> (String, CheckedProgram) {
     let samplers = [TextureKind::D2, TextureKind::Cube, TextureKind::D2, TextureKind::Volume];
     let layout = Layout {

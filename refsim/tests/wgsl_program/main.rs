@@ -1,5 +1,5 @@
-//! Programs for GPUs: whatever the project, the fixtures and chance have to offer becomes valid WGSL and words, and on
-//! an adapter computes what the scalar executor computes.
+//! Programs on GPUs: the project's programs, fixtures and random ones are encoded as valid WGSL and words, and on an
+//! adapter give the scalar executor's results.
 
 #[path = "../../../tests/agree/generate/mod.rs"]
 #[allow(dead_code, reason = "shared with the agreement suites")]

@@ -1,4 +1,4 @@
-//! Modules around programs.
+//! Modules that run programs.
 
 use refsim::exec::wgsl::number::library;
 use refsim::exec::wgsl::parts::Parts;
@@ -7,9 +7,9 @@ use refsim::exec::wgsl::{INTERFACE, program, texture};
 /// The entry point of [`RUNS`].
 pub(crate) const ENTRY: &str = "run";
 const RUNS: &str = include_str!("runs.wgsl");
-/// A texture that is none.
+/// A texture library that reads nothing.
 const BLANK: &str = "fn texture_read(number: u32, detail: u32, run: vec4<bool>) {\n}\n";
-/// Where a followed lane's words go in [`followed`].
+/// Records the words of a traced lane in [`followed`].
 const TRACE: &str = "fn trace_put(at: u32, word: u32) {\n    atomicStore(&counts[at + 1u], word);\n}\n";
 
 fn module(texture: &str, trace: &str) -> String {
@@ -22,7 +22,7 @@ pub(crate) fn pixel() -> String {
     module(BLANK, program::NO_TRACE)
 }
 
-/// A module that puts down what the followed lane does, from word 1 of `counts` on.
+/// A module that records the trace of a lane, from word 1 of `counts` on.
 pub(crate) fn followed() -> String {
     module(BLANK, TRACE)
 }

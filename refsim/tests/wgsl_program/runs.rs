@@ -1,4 +1,4 @@
-//! Programs on an adapter against the scalar executor, bit for bit: nothing but `shade()`, on random inputs.
+//! Programs on an adapter compared with the scalar executor, bit for bit: `shade()` alone, on random inputs.
 
 use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
 use crate::modules;
@@ -16,12 +16,12 @@ use refsim::raster::FragmentInput;
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TexelFormat, TextureKind};
 use std::sync::Arc;
 
-/// Quads of one run: a workgroup.
+/// Quads per run: a workgroup.
 const QUADS: usize = 64;
 /// Words of a quad's inputs and of its results.
 const INPUT_WORDS: usize = 41 * 4 + 2;
 const RESULT_WORDS: usize = 64 + 4 + 4 + 4 + 16;
-/// Rows of `scratch` for what goes in and out, and for what a program puts down.
+/// Rows of `scratch` for inputs, outputs, and the trace.
 const MORE_ROWS: usize = 66 + 4;
 
 fn done<T>(result: Result<T, GpuError>) -> T {
@@ -41,7 +41,7 @@ fn clean(bits: u32) -> u32 {
     ops::convert(&Format::FP32, Format::FP32, bits).bits
 }
 
-/// What a test program was run on, and what each lane ought to leave behind.
+/// Inputs of a test program, and the expected results of each lane.
 struct Quads {
     inputs: Vec<[FragmentInput; 4]>,
     covered: Vec<u8>,
@@ -54,7 +54,7 @@ impl Quads {
         for quad in 0..QUADS {
             r.tame = quad % 3 != 0;
             let base: Vec<u32> = (0..41).map(|_| clean(r.number())).collect();
-            // Some components are the same all over the quad.
+            // Some components are uniform over the quad.
             let same = r.next();
             inputs.push([0; 4].map(|_: u32| {
                 let mut input = FragmentInput::default();
@@ -88,7 +88,7 @@ impl Quads {
     }
 }
 
-/// What the scalar executor leaves behind, in the order of `runs.wgsl`; depth as raw words.
+/// Results of the scalar executor in the order of `runs.wgsl`; depth as raw words.
 fn expected(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, quads: &Quads) -> Vec<u32> {
     let scalar = PixelProgram::new(checked, rules, bindings);
     let raw = |format: Format, bits: u32| {
@@ -111,7 +111,7 @@ fn expected(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_
         }
         out.extend(results.iter().map(|result| u32::from(result.killed)));
         out.extend(results.iter().map(|result| result.depth.map_or(0, |d| raw(d.format, d.bits))));
-        // In single precision both ways of saying it are the same.
+        // In single precision both representations are the same.
         let is_main = |f: Format| rules.format != Format::FP32 && f == rules.format;
         out.extend(results.iter().map(|result| u32::from(result.depth.is_some_and(|d| is_main(d.format)))));
         out.extend(fetches.map(|f| f as u32));
@@ -125,7 +125,7 @@ pub(crate) struct Runner {
 }
 
 impl Runner {
-    /// For a module of [`modules`].
+    /// Compiles a module of [`modules`].
     pub(crate) fn new(gpu: &Arc<Gpu>, module: &str) -> Self {
         let access = [4, 6, 7].iter().fold(vec![Access::Read; 8], |mut all, &i| {
             all[i] = Access::ReadWrite;
@@ -139,7 +139,7 @@ impl Runner {
         self.run_with(rules, inputs, code, slots, trace, (&[0], &[]))
     }
 
-    /// With words of samplers, and of what follows the results in `video`.
+    /// Runs with the given sampler words and additional words after the results in `video`.
     fn run_with(
         &self,
         rules: &Rules,
@@ -180,7 +180,7 @@ fn random_constants(r: &mut Random, count: usize) -> Constants {
     Constants { float, int, boolean: (0..4).map(|_| r.one_in(2)).collect(), ..Constants::default() }
 }
 
-/// The first word that differs, in words.
+/// Describes the first word that differs.
 fn difference(found: &[u32], wanted: &[u32]) -> Option<String> {
     let at = found.iter().zip(wanted).position(|(f, w)| f != w)?;
     let (quad, word) = (at / RESULT_WORDS, at % RESULT_WORDS);
@@ -202,7 +202,7 @@ fn random_case(seed: u64, size: usize) -> (Profile, String, CheckedProgram, Rand
     (profile, text, program, r)
 }
 
-/// Results with masks as ones, and in single precision without the kind of depth: there both are the same.
+/// Results with masks as ones, and in single precision without the kind of depth, which is ambiguous there.
 fn comparable(mut words: Vec<u32>, rules: &Rules) -> Vec<u32> {
     for quad in words.chunks_mut(RESULT_WORDS) {
         quad[64..68].iter_mut().for_each(|mask| *mask = u32::from(*mask != 0));
@@ -255,7 +255,7 @@ pub(crate) fn the_machine_tells_what_instructions_write(gpu: &Arc<Gpu>) {
     assert!(told > 0);
 }
 
-/// A step of the scalar executor without what only it knows: flags, payloads of NaN, components that are not written.
+/// A step of the scalar executor without what other executors lack: flags, NaN payloads, unwritten components.
 fn written(mut step: Step, checked: &CheckedProgram, rules: &Rules) -> Step {
     let destination = checked.instructions[step.instruction].destination;
     let file = destination.map(|d| d.register.file);
@@ -273,7 +273,7 @@ fn written(mut step: Step, checked: &CheckedProgram, rules: &Rules) -> Step {
     step
 }
 
-/// A small texture of random bytes, with all its levels, filtered every way there is.
+/// A small random texture with all levels, and random filters.
 fn random_texture(kind: TextureKind, r: &mut Random) -> (Image, SamplerState) {
     let extents = if kind == TextureKind::Volume { [5, 3, 2] } else { [8, 8, 1] };
     let levels = if kind == TextureKind::Volume { 3 } else { 4 };

@@ -1,4 +1,4 @@
-//! Texts and words, without any adapter.
+//! Texts and words, without an adapter.
 
 use crate::cases::{self, FORMATS, PIXEL, ideal, seeds};
 use crate::modules;
@@ -9,7 +9,7 @@ use refsim::exec::{CheckedProgram, Constants, PixelBindings};
 use refsim::isa::Stage;
 use refsim::num::Format;
 
-/// The words of a pixel program, traced ones too, with interpolation before it and without.
+/// The words of a pixel program, with and without traces and interpolation.
 fn words(name: &str, program: &CheckedProgram, profile: &Profile) -> Vec<Microcode> {
     let constants = Constants::default();
     let bindings = PixelBindings::new(&constants);
@@ -25,7 +25,7 @@ fn words(name: &str, program: &CheckedProgram, profile: &Profile) -> Vec<Microco
     all
 }
 
-/// How many words an operation has, by its name.
+/// Length of an operation in words, by name.
 fn length(name: &str, word: usize) -> Option<usize> {
     Some(match name {
         "END" | "ENTER" => 1,
@@ -36,7 +36,7 @@ fn length(name: &str, word: usize) -> Option<usize> {
     })
 }
 
-/// Walks the words as the machine does and says what is wrong with them.
+/// Walks the words like the machine; returns a description of the first error.
 fn fault(code: &Microcode) -> Option<String> {
     let names = operation_names();
     let w = |at: usize| code.words.get(at).copied().unwrap_or(u32::MAX) as usize;
@@ -69,7 +69,7 @@ fn fault(code: &Microcode) -> Option<String> {
     targets.iter().find(|t| !starts.contains(t)).map(|t| format!("a jump to word {t}, where nothing starts"))
 }
 
-/// The machine's operations in the order of their numbers, out of its text.
+/// The machine's operations in numerical order, parsed from its text.
 fn operation_names() -> Vec<String> {
     let text = refsim::exec::wgsl::program::machine();
     let names = text.lines().map_while(|line| line.strip_prefix("const VM_")?.split(':').next().map(str::to_owned));

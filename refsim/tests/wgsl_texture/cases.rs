@@ -8,13 +8,13 @@ use refsim::texture::{
     TextureError, TextureKind, encode,
 };
 
-/// Words of a read as the test's shader takes it.
+/// Words per read in the test's shader.
 pub(crate) const READ_WORDS: usize = 56;
 const KINDS: [TextureKind; 5] =
     [TextureKind::D1, TextureKind::D2, TextureKind::Rectangle, TextureKind::Cube, TextureKind::Volume];
 const MODES: [AddressMode; 4] = [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
 
-/// A texture with a way to read it; `image` is `None` where nothing is bound.
+/// A texture and its sampler state; `image` is `None` for an unbound sampler.
 pub(crate) struct Case {
     pub(crate) image: Option<Image>,
     pub(crate) state: SamplerState,
@@ -27,7 +27,7 @@ impl Case {
     }
 }
 
-/// A read of a quad: coordinates, bias and gradients by lane.
+/// A read by a quad: coordinates, bias and gradients by lane.
 #[derive(Debug)]
 pub(crate) struct Read {
     pub(crate) sampler: usize,
@@ -56,7 +56,7 @@ impl Read {
     }
 }
 
-/// Every texel format with every kind of texture, an unbound sampler, and textures as large as they get.
+/// Every texel format with every kind of texture, an unbound sampler, and textures of the maximum size.
 pub(crate) fn cases(random: &mut Random, main: Format) -> Result<Vec<Case>, TextureError> {
     let mut out = vec![Case { image: None, state: SamplerState::default(), rules: rules(random, main) }];
     for &format in TexelFormat::ALL {
@@ -140,7 +140,7 @@ pub(crate) fn read(random: &mut Random, number: usize, case: &Case) -> Read {
     let size = case.image.as_ref().map_or([1; 3], |i| [i.width(), i.height(), i.slices()]);
     let kind = case.image.as_ref().map_or(TextureKind::D2, Image::kind);
     let smooth = random.below(3) != 0;
-    // Steps of a fraction of a texel to all of the image.
+    // Steps from a fraction of a texel to the whole image.
     let step = random.spread(-14, 2);
     let start = [0, 1, 2, 3].map(|c: usize| coordinate(random, kind, size[c.min(2)]));
     let mut coordinates = [[0; 4]; 4];
@@ -180,7 +180,7 @@ fn coordinate(random: &mut Random, kind: TextureKind, size: u32) -> u32 {
         6 => (texels(random) / size as f32 * scale).to_bits().wrapping_sub(1),
         7 => ((texels(random) + 0.5) / size as f32 * scale).to_bits(),
         8 => random.spread(-30, 30).to_bits(),
-        // Equal magnitudes matter on cubes.
+        // Equal magnitudes matter for cube maps.
         9..11 if kind == TextureKind::Cube => random.of(&[1.0f32, -1.0, 0.5]).to_bits(),
         _ => (random.real(-1.5, 2.5) * scale).to_bits(),
     }

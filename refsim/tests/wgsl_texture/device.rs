@@ -1,4 +1,4 @@
-//! The text on a device.
+//! The library on an adapter.
 
 use super::cases::{self, Case, READ_WORDS, Read};
 use super::random::Random;
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const FORMATS: &str = "fp32 s3.12 fp16 fp24:rtz:ftz s1.10 s0.31 s3.12:rtz:wrap s0.7:rdn bf16:rna \
                        fp32:ftz:rtz e5m10:nvovf:nv:rtz e4m3:sat e2m1:rdn s15.16:rna";
-/// Reads of a quad from each texture.
+/// Quad reads per texture.
 const READS: usize = 24;
 
 fn groups(invocations: usize) -> [u32; 3] {
@@ -30,7 +30,7 @@ fn tables(cases: &[Case]) -> (Vec<u32>, Vec<u32>) {
     (samplers, video)
 }
 
-/// The first read that the text and the texture room see differently.
+/// The first read whose results differ.
 fn difference(gpu: &Gpu, text: &str, seed: u64, name: &str) -> Option<String> {
     let format: Format = name.parse().unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut random = Random(seed);

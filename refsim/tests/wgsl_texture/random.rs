@@ -1,4 +1,4 @@
-//! Numbers that look random and are the same in every run.
+//! Deterministic pseudo-random numbers.
 
 /// A splitmix64 generator.
 pub(crate) struct Random(pub(crate) u64);
@@ -18,7 +18,7 @@ impl Random {
         ((u64::from(self.bits()) * u64::from(n)) >> 32) as u32
     }
 
-    /// One of a list.
+    /// An element of a list.
     pub(crate) fn of<T: Copy>(&mut self, list: &[T]) -> T {
         list[self.below(list.len() as u32) as usize]
     }
@@ -28,14 +28,14 @@ impl Random {
         low + (high - low) * (self.bits() >> 8) as f32 / 16_777_216.0
     }
 
-    /// A number of either sign with a magnitude of `2^low` to `2^high`.
+    /// A number of either sign with a magnitude from `2^low` to `2^high`.
     pub(crate) fn spread(&mut self, low: i32, high: i32) -> f32 {
         let exponent = low + self.below((high - low) as u32).cast_signed();
         let magnitude = f32::from_bits((exponent + 127).cast_unsigned() << 23) * self.real(1.0, 2.0);
         if self.bits() & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// A pattern at which something happens.
+    /// A boundary pattern.
     pub(crate) fn edge(&mut self) -> u32 {
         let sign = self.bits() & 0x8000_0000;
         sign | self.of(&[

@@ -1,4 +1,4 @@
-//! What a read gives by the texture room, put together as the scalar executor does it.
+//! Expected results of reads, computed by `refsim::texture` as in the scalar executor.
 
 use super::cases::{Case, Read};
 use refsim::num::{Format, ops};
@@ -24,7 +24,7 @@ pub(crate) fn texel(case: &Case, read: &Read, lane: usize) -> [u32; 4] {
     sample(Some(binding.image), &binding.state, &case.rules, own, lod).map(|x| raw(format, x))
 }
 
-/// A pattern as executors hold it.
+/// Converts a pattern to a raw value.
 pub(crate) fn raw(format: Format, bits: u32) -> u32 {
     if format.is_fixed() {
         let spare = 32 - format.width();

@@ -1,4 +1,4 @@
-//! Whether the text is WGSL, without a GPU.
+//! Tests that the text is valid WGSL, without a GPU.
 
 use super::module;
 

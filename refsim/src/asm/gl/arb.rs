@@ -1,4 +1,4 @@
-//! `!!ARBfp1.0`: GL_ARB_fragment_program.
+//! Parser of `!!ARBfp1.0`: GL_ARB_fragment_program.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,15 +13,15 @@ use crate::isa::{
     Program, Register, RegisterFile, Source, Span, StateBinding, Swizzle, Version,
 };
 
-/// Names of temporaries that a program can declare; how many it may use is the checker's business.
+/// Maximum number of declared temporaries; the checker enforces the device's limit.
 const MAX_TEMPORARIES: u16 = 256;
-/// The highest `program.local` and `program.env`.
+/// Highest index of `program.local` and `program.env`.
 pub(super) const MAX_PARAMETER: u16 = FIRST_ENVIRONMENT - 1;
 
-/// Options that change nothing here: every instruction is computed in full precision.
+/// Options without effect: every instruction is computed in full precision.
 const HINTS: [&str; 2] = ["ARB_precision_hint_fastest", "ARB_precision_hint_nicest"];
 
-/// Reads a program whose first word is `!!ARBfp1.0` at `header`.
+/// Parses a program whose header `!!ARBfp1.0` is at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
     let cursor = Cursor::new(text, header.end as usize, Dialect::OpenGl);
     let mut parser = Parser {
@@ -38,7 +38,7 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// The statement that declares a program's temporaries: `R0` to the highest that it names.
+/// Writes the declaration of a program's temporaries, `R0` to the highest one used.
 pub(super) fn declarations(program: &Program, out: &mut String) {
     let written = program.instructions.iter().filter_map(|i| i.destination).map(|d| d.register);
     let read = program.instructions.iter().flat_map(|i| &i.sources).map(|s| s.register);
@@ -50,7 +50,7 @@ pub(super) fn declarations(program: &Program, out: &mut String) {
     }
 }
 
-/// What a name stands for.
+/// Meaning of a name.
 #[derive(Clone, Debug)]
 pub(super) enum Name {
     Register(Register),
@@ -65,9 +65,9 @@ pub(super) struct Parser<'a> {
     build: Build,
     pub(super) names: BTreeMap<&'a str, Name>,
     temporaries: u16,
-    /// The precision hint, if there was one.
+    /// The precision hint, if any.
     hint: Option<&'a str>,
-    /// Whether a statement that is no option has come.
+    /// `true` once a statement other than an option was parsed.
     options_over: bool,
 }
 
@@ -195,7 +195,7 @@ impl<'a> Parser<'a> {
         self.cursor.expect(",", "operands stand apart by commas")
     }
 
-    /// `R0, x, -y, 0, 1`: the operand of `SWZ`, a register alone, and how each component is chosen.
+    /// `R0, x, -y, 0, 1`: the operand of `SWZ`: a register without swizzle, and a selector per component.
     fn extended(&mut self, fragment: &mut FragmentPart) -> Parsed<Source> {
         let start = self.cursor.peek().span.start;
         let register = self.register()?;
@@ -300,7 +300,7 @@ impl<'a> Parser<'a> {
         self.read(name, token)
     }
 
-    /// The register that holds what a name stands for.
+    /// The register for a name in a source operand.
     fn read(&mut self, name: Option<Name>, token: Token<'a>) -> Parsed<Register> {
         match name {
             Some(Name::State(binding)) => {

@@ -1,4 +1,4 @@
-//! What names and parameters of `!!ARBfp1.0` stand for.
+//! Names and parameters of `!!ARBfp1.0`.
 
 use super::super::error::{ErrorKind, Parsed, SyntaxError};
 use super::arb::{MAX_PARAMETER, Name, Parser, unknown};
@@ -42,7 +42,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// One constant or bound parameter.
+    /// Parses one constant or bound parameter.
     pub(super) fn element(&mut self) -> Parsed<Name> {
         match self.cursor.peek().text {
             "program" => Ok(Name::Register(self.program_range(false)?.0)),
@@ -51,7 +51,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// One element of an array, or a range of them.
+    /// Parses an element of an array, or a range of them.
     fn elements(&mut self, all: &mut Vec<Name>) -> Parsed<()> {
         match self.cursor.peek().text {
             "program" => {
@@ -64,7 +64,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// `program.local[3]` or, if there may be many, `program.env[0..4]`: the first register and the number of the last.
+    /// `program.local[3]` or, if `many`, `program.env[0..4]`: the first register and the index of the last.
     fn program_range(&mut self, many: bool) -> Parsed<(Register, u16)> {
         self.cursor.next();
         self.cursor.expect(".", "parameters are program.local[0] or program.env[0]")?;
@@ -79,7 +79,7 @@ impl<'a> Parser<'a> {
         Ok((Register::new(RegisterFile::Constant, base + first), base + last))
     }
 
-    /// `3]` or, if there may be many, `3..5]`: first and last.
+    /// `3]` or, if `many`, `3..5]`: first and last index.
     pub(super) fn range(&mut self, many: bool, most: u16) -> Parsed<(u16, u16)> {
         let first = operand::index(&mut self.cursor, most)?;
         let mut last = first;
@@ -95,7 +95,7 @@ impl<'a> Parser<'a> {
         Ok((first, last))
     }
 
-    /// A name that means nothing yet.
+    /// Parses a new name.
     pub(super) fn new_name(&mut self) -> Parsed<&'a str> {
         let token = self.cursor.next();
         if token.kind == TokenKind::Word && !reserved(token) && !self.names.contains_key(token.text) {
@@ -134,7 +134,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// Whether a word is one of the language's: the specification's list of reserved keywords.
+/// Returns `true` for the specification's reserved keywords.
 fn reserved(token: Token<'_>) -> bool {
     let statement = matches!(token.text, "ALIAS" | "ATTRIB" | "END" | "OPTION" | "OUTPUT" | "PARAM" | "TEMP");
     let group = matches!(token.text, "fragment" | "program" | "result" | "state" | "texture");

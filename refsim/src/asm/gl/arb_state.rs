@@ -1,4 +1,5 @@
-//! `state.*` of `!!ARBfp1.0`: GL_ARB_fragment_program, grammar from `<stateSingleItem>` and `<stateMultipleItem>` on.
+//! Parser of `state.*` of `!!ARBfp1.0`: GL_ARB_fragment_program, grammar from `<stateSingleItem>` and
+//! `<stateMultipleItem>` on.
 
 use super::super::error::{Parsed, SyntaxError};
 use super::arb::{Parser, unknown};
@@ -12,7 +13,7 @@ use crate::isa::{
 const HELP: &str = "state is for example state.light[0].position, state.fog.color or state.matrix.mvp.row[0]";
 
 impl<'a> Parser<'a> {
-    /// One item: four numbers.
+    /// Parses a single item of four numbers.
     pub(super) fn state_item(&mut self) -> Parsed<StateBinding> {
         let start = self.cursor.peek();
         let mut rows = self.state_items(false)?;
@@ -22,7 +23,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What an element of an array stands for: an item, rows of a matrix, or all four of them.
+    /// Parses the state of an array element: a single item, rows of a matrix, or all four of them.
     pub(super) fn state_items(&mut self, many: bool) -> Parsed<Vec<StateBinding>> {
         self.cursor.next();
         let group = self.part()?;
@@ -58,7 +59,7 @@ impl<'a> Parser<'a> {
         Ok(vec![one])
     }
 
-    /// The word after the next point.
+    /// Parses a point and the following word.
     fn part(&mut self) -> Parsed<Token<'a>> {
         self.cursor.expect(".", HELP)?;
         Ok(self.cursor.next())
@@ -82,7 +83,7 @@ impl<'a> Parser<'a> {
         if self.cursor.peek().text == "[" { self.number(count) } else { Ok(0) }
     }
 
-    /// `.front`, `.back`, or nothing, which means the front.
+    /// Parses `.front` or `.back`; front by default.
     fn face(&mut self) -> MaterialFace {
         match self.cursor.after_point(&["front", "back"]) {
             Some("back") => MaterialFace::Back,
@@ -159,7 +160,7 @@ impl<'a> Parser<'a> {
         Ok((first..=last).map(|row| StateBinding::MatrixRow(matrix, form, row)).collect())
     }
 
-    /// `[1]`; in an array also `[1..3]`.
+    /// `[1]`; if `many` also `[1..3]`.
     fn rows(&mut self, many: bool) -> Parsed<(u8, u8)> {
         self.cursor.expect("[", "rows are numbered")?;
         let (first, last) = self.range(many, 3)?;

@@ -1,4 +1,4 @@
-//! A program as it grows: instructions, constants that stand in the text, names.
+//! Builder of a program: instructions, literals, parameters.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use crate::isa::{
     Program, Register, RegisterFile, Span, StateBinding, Version,
 };
 
-/// Constants of each kind that a text can have. The last two names are left for a fog option.
+/// Maximum numbers of literals and of parameters. The last two parameters are reserved for a fog option.
 const MAX_LITERALS: usize = 4096;
 const MAX_NAMED: usize = (FIRST_LITERAL - FIRST_NAMED) as usize - 2;
 
-/// The parts of a program.
+/// The parts of a program under construction.
 #[derive(Default)]
 pub(super) struct Build {
     pub(super) instructions: Vec<Instruction>,
@@ -24,7 +24,7 @@ pub(super) struct Build {
 }
 
 impl Build {
-    /// The register of a constant that stands in the text: one for equal ones.
+    /// Register of a literal; equal literals share one.
     pub(super) fn literal(&mut self, value: [u32; 4], span: Span) -> Parsed<Register> {
         let count = self.constants.len();
         if let Some(&index) = self.literals.get(&value) {
@@ -46,12 +46,12 @@ impl Build {
         Ok(register)
     }
 
-    /// A constant that the host sets by name.
+    /// Register of a constant that the host sets by name.
     pub(super) fn parameter(&mut self, name: Token<'_>, default: [u32; 4]) -> Parsed<Register> {
         self.set_by_host(name.text.to_owned(), ParameterSource::Named(default), name.span)
     }
 
-    /// A constant out of OpenGL's state: one for equal ones.
+    /// Register of a piece of OpenGL state; equal ones share one.
     pub(super) fn state(&mut self, binding: StateBinding, span: Span) -> Parsed<Register> {
         let source = ParameterSource::State(binding);
         match self.parameters.iter().find(|p| p.source == source) {
@@ -76,7 +76,7 @@ impl Build {
         Ok(register)
     }
 
-    /// The program.
+    /// Returns the program.
     pub(super) fn finish(self, version: Version, version_span: Span) -> Program {
         Program {
             version,

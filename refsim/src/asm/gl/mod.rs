@@ -1,7 +1,9 @@
-//! OpenGL's fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
+//! OpenGL fragment programs: `!!FP1.0` (GL_NV_fragment_program) and `!!ARBfp1.0` (GL_ARB_fragment_program).
 //!
-//! - `operand`: what both languages share of operands and numbers; `build`: the program as it
-//!   grows; `nv`, `arb` with `arb_names` and `arb_state`: the two languages; `print`: back to text.
+//! - `operand`: operands and numbers, shared by both languages
+//! - `build`: builder of the program
+//! - `nv`; `arb` with `arb_names` and `arb_state`: parsers of the two languages
+//! - `print`: printer of both
 
 mod arb;
 mod arb_names;
@@ -15,12 +17,12 @@ use super::error::{AssembleErrors, ErrorKind, SyntaxError, quote};
 use crate::isa::{Program, Span, Version};
 pub(super) use print::{print, register_name};
 
-/// Whether the text is meant to be one of OpenGL's programs: it starts with `!!`.
+/// Returns `true` if the text is an OpenGL program: it starts with `!!`.
 pub(super) fn is_program(text: &str) -> bool {
     body(text).starts_with("!!")
 }
 
-/// The text from its first word on. Lines in front that start with `//`, as our own files have them, are passed over.
+/// Skips white space and leading lines that start with `//` (an extension for this project's files).
 fn body(text: &str) -> &str {
     let mut rest = text.trim_start_matches('\u{feff}').trim_ascii_start();
     while rest.starts_with("//") {
@@ -29,7 +31,7 @@ fn body(text: &str) -> &str {
     rest
 }
 
-/// Reads a program that starts with `!!`.
+/// Parses a program that starts with `!!`.
 pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     let rest = body(text);
     let start = text.len() - rest.len();

@@ -1,4 +1,4 @@
-//! `!!FP1.0`: GL_NV_fragment_program.
+//! Parser of `!!FP1.0`: GL_NV_fragment_program.
 
 use std::collections::BTreeMap;
 
@@ -12,12 +12,12 @@ use crate::isa::{
     Program, Register, RegisterFile, Source, Span, Swizzle, Version,
 };
 
-/// The highest number that can be written for a register; what there is is the checker's business.
+/// Highest register number accepted; the checker enforces the version's limits.
 const MAX_REGISTER: u16 = 999;
-/// The highest local parameter.
+/// Highest index of a local parameter.
 const MAX_PARAMETER: u16 = 255;
 
-/// Reads a program whose first word is `!!FP1.0` at `header`.
+/// Parses a program whose header `!!FP1.0` is at `header`.
 pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErrors> {
     let mut parser = Parser {
         cursor: Cursor::new(text, header.end as usize, Dialect::OpenGl),
@@ -30,7 +30,7 @@ pub(super) fn assemble(text: &str, header: Span) -> Result<Program, AssembleErro
     }
 }
 
-/// What a name stands for.
+/// Meaning of a name.
 #[derive(Clone, Copy)]
 enum Name {
     Constant([u32; 4]),
@@ -96,7 +96,7 @@ impl<'a> Parser<'a> {
             destination = Some(place);
             fragment.condition = condition;
             let texture = info.class == OpcodeClass::Texture;
-            // The image unit is the second operand here and stands after the coordinates and derivatives in the text.
+            // The image unit is the second operand here but follows coordinates and derivatives in the text.
             let count = usize::from(info.source_count(Version::Fp1_0).unwrap_or(1)) - usize::from(texture);
             for _ in 0..count {
                 self.cursor.expect(",", "operands stand apart by commas")?;
@@ -267,7 +267,7 @@ fn temporary(token: Token<'_>) -> Option<Parsed<Register>> {
     Some(number.map(|n| Register::new(file, n)))
 }
 
-/// Whether a name means something already.
+/// Returns `true` if a name already has a meaning.
 fn reserved(name: &str) -> bool {
     let span = Span::default();
     let token = Token { kind: TokenKind::Word, text: name, span };

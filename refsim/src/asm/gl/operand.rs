@@ -1,5 +1,4 @@
-//! What the two languages share: the loop over statements, masks, swizzles, numbers, constants in braces, the names of
-//! instructions.
+//! Parts shared by both languages: the statement loop, masks, swizzles, numbers, constants in braces, and mnemonics.
 
 use super::super::error::{AssembleErrors, ErrorKind, Parsed, SyntaxError, quote};
 use super::super::{letters, number};
@@ -9,7 +8,7 @@ use crate::isa::{
     Destination, Mask, Opcode, Precision, Register, RegisterFile, Span, Spelling, Swizzle, TextureTarget,
 };
 
-/// Reads a program's statements and its `END`. Errors are recorded, and reading goes on with the next statement.
+/// Parses a program's statements and `END`. Errors are recorded, and parsing continues with the next statement.
 pub(super) fn statements<'a, P>(
     parser: &mut P,
     cursor: fn(&mut P) -> &mut Cursor<'a>,
@@ -39,12 +38,12 @@ pub(super) fn statements<'a, P>(
     cursor(parser).finish()
 }
 
-/// The components that letters name, which OpenGL writes small.
+/// Component numbers of letters, which OpenGL requires in lower case.
 fn components(letters: &str) -> Option<Vec<u8>> {
     letters::components(letters).filter(|_| letters.bytes().all(|letter| letter.is_ascii_lowercase()))
 }
 
-/// `.xyz` after a destination; nothing means all.
+/// Parses `.xyz` after a destination; all components by default.
 fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
     if !cursor.accept_mark(".") {
         return Ok(Mask::ALL);
@@ -59,7 +58,7 @@ fn mask(cursor: &mut Cursor<'_>) -> Parsed<Mask> {
     })
 }
 
-/// A destination whose register, which begins at `start`, has been read.
+/// Parses the rest of a destination whose register, starting at `start`, was parsed.
 pub(super) fn destination(
     cursor: &mut Cursor<'_>,
     register: Register,
@@ -68,14 +67,14 @@ pub(super) fn destination(
 ) -> Parsed<Destination> {
     let mut mask = mask(cursor)?;
     if register.file == RegisterFile::DepthOut && mask.contains(2) {
-        // Depth is the third component, whatever else the mask names.
+        // Depth is written through the third component only.
         mask = Mask(0b0100);
     }
     let span = Span::new(start, cursor.last_end());
     Ok(Destination { register, mask, shift: 0, saturate, partial_precision: false, centroid: false, span })
 }
 
-/// `.x` or `.xyzw` after a source; nothing means no change.
+/// Parses `.x` or `.xyzw` after a source; the identity by default.
 pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
     if !cursor.accept_mark(".") {
         return Ok(Swizzle::IDENTITY);
@@ -88,7 +87,7 @@ pub(super) fn swizzle(cursor: &mut Cursor<'_>) -> Parsed<Swizzle> {
     }
 }
 
-/// A whole number up to `most`.
+/// Parses an integer up to `most`.
 pub(super) fn index(cursor: &mut Cursor<'_>, most: u16) -> Parsed<u16> {
     let token = cursor.next();
     let number = if token.kind == TokenKind::Number { token.text.parse().ok() } else { None };
@@ -99,7 +98,7 @@ fn register_number(token: Token<'_>, most: u16) -> SyntaxError {
     token.error(ErrorKind::RegisterNumber, format!("a number from 0 to {most}"), "count from 0")
 }
 
-/// The number behind a one-letter or longer prefix, `R12` for example; `None` if the word is something else.
+/// The number after a prefix, as in `R12`; `None` if the word has another form.
 pub(super) fn numbered(token: Token<'_>, prefix: &str, most: u16) -> Option<Parsed<u16>> {
     let digits = token.text.strip_prefix(prefix)?;
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
@@ -108,7 +107,7 @@ pub(super) fn numbered(token: Token<'_>, prefix: &str, most: u16) -> Option<Pars
     Some(digits.parse().ok().filter(|&n| n <= most).ok_or_else(|| register_number(token, most)))
 }
 
-/// Takes a sign, if there is one; whether it is a minus.
+/// Consumes an optional sign; returns `true` for a minus.
 pub(super) fn sign(cursor: &mut Cursor<'_>) -> bool {
     let negative = cursor.accept_mark("-");
     if !negative {
@@ -117,7 +116,7 @@ pub(super) fn sign(cursor: &mut Cursor<'_>) -> bool {
     negative
 }
 
-/// A number, with a sign if need be, as the bits of a single float.
+/// Parses a number with optional sign, as single-precision bits.
 fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
     let negative = sign(cursor);
     let token = cursor.peek();
@@ -129,7 +128,7 @@ fn value(cursor: &mut Cursor<'_>) -> Parsed<u32> {
     Ok(if negative { bits ^ 0x8000_0000 } else { bits })
 }
 
-/// A constant: `{x, y, z, w}`, of which what is missing is 0, 0, 0, 1; or one number for all components.
+/// Parses a constant: `{x, y, z, w}`, with missing components from (0, 0, 0, 1), or one number for all components.
 pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
     if !cursor.accept_mark("{") {
         return Ok([value(cursor)?; 4]);
@@ -145,7 +144,7 @@ pub(super) fn constant(cursor: &mut Cursor<'_>) -> Parsed<[u32; 4]> {
     Ok(all)
 }
 
-/// The kind of texture that a read asks for.
+/// Parses the texture target of a fetch.
 pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     let token = cursor.next();
     TextureTarget::from_name(token.text).ok_or_else(|| {
@@ -158,7 +157,7 @@ pub(super) fn target(cursor: &mut Cursor<'_>) -> Parsed<TextureTarget> {
     })
 }
 
-/// An instruction's name taken apart.
+/// A parsed mnemonic.
 pub(super) struct Mnemonic {
     pub(super) spelling: &'static Spelling,
     pub(super) precision: Option<Precision>,
@@ -166,7 +165,7 @@ pub(super) struct Mnemonic {
     pub(super) saturate: bool,
 }
 
-/// The name of an instruction, with the suffixes of `!!FP1.0` if `suffixes`.
+/// Parses a mnemonic, with the suffixes of `!!FP1.0` if `suffixes`.
 pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
     let (name, saturate) = match token.text.strip_suffix("_SAT") {
         Some(name) => (name, true),
@@ -179,7 +178,7 @@ pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
         let updates = suffixes && rest == "C";
         (updates || rest.is_empty()).then_some(Mnemonic { spelling, precision, updates, saturate })
     };
-    // `EX2R` is `EX2`; of names that begin another the longest counts. `KIL` has no result to saturate.
+    // `EX2R` is `EX2`; the longest matching name wins. `KIL` has no result to saturate.
     let best = Spelling::ALL.iter().filter_map(split).max_by_key(|m| m.spelling.name.len());
     let best = best.filter(|m| !(m.saturate && m.spelling.opcode == Opcode::Kil));
     best.ok_or_else(|| {
@@ -192,7 +191,7 @@ pub(super) fn mnemonic(token: Token<'_>, suffixes: bool) -> Parsed<Mnemonic> {
     })
 }
 
-/// The length of the first two characters.
+/// Byte length of the first two characters.
 fn first(text: &str) -> usize {
     text.char_indices().nth(2).map_or(text.len(), |(at, _)| at)
 }

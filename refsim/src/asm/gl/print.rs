@@ -1,4 +1,4 @@
-//! OpenGL's fragment programs to their canonical text.
+//! Printer of OpenGL fragment programs in canonical form.
 
 use std::fmt::Write;
 
@@ -19,10 +19,10 @@ macro_rules! put {
     };
 }
 
-/// The canonical text of a program: names that the host can set first, one statement a line, other constants where they
-/// are used, the shortest decimals.
+/// Prints a program in canonical form: host-set names first, one statement per line, other constants in place, shortest
+/// decimals.
 ///
-/// [`super::assemble`] reads it back to an equal program, if the program came from there.
+/// [`super::assemble`] parses the result back to an equal program, if it also produced the original.
 pub(in super::super) fn print(program: &Program) -> String {
     let mut out = format!("{}\n", program.version);
     let arb = program.version == Version::ArbFp1_0;
@@ -44,7 +44,7 @@ pub(in super::super) fn print(program: &Program) -> String {
     out
 }
 
-/// A register as programs write it.
+/// Name of a register in program text.
 pub(in super::super) fn register_name(program: &Program, register: &Register) -> String {
     let mut out = String::new();
     let arb = program.version == Version::ArbFp1_0;

@@ -1,16 +1,16 @@
-//! What was decoded stays decoded: programs as plans, textures as tables, kept over draws, and over the machines that
-//! share an executor, for as long as they are among the last few in use. A key is compared in full, so a hit is what
-//! decoding would give again. Rows that a worker has done with are kept for the next.
+//! Caches of decoded programs and textures, shared by draws and by the machines that use an executor. The least
+//! recently used entry is evicted. Keys are compared in full, so a hit equals a fresh decoding. Also pools buffers for
+//! reuse by workers.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Entries kept.
+/// Maximum number of entries.
 const MAX_KEPT: usize = 16;
 
-/// The last few values, by key.
+/// The most recently used values, by key.
 #[derive(Debug)]
 pub(crate) struct Cache<K, V> {
-    /// Latest use last.
+    /// In order of use, the latest last.
     entries: Mutex<Vec<(K, Arc<V>)>>,
 }
 
@@ -21,12 +21,12 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K, V> Cache<K, V> {
-    /// The value whose key `matches`, or a new one.
+    /// Returns the value whose key `matches`, or creates it.
     pub(crate) fn get(&self, matches: impl Fn(&K) -> bool, make: impl FnOnce() -> (K, V)) -> Arc<V> {
         if let Some(value) = self.find(matches) {
             return value;
         }
-        // Made without the lock: another thread may make the same meanwhile, which is a waste and no more.
+        // Created without the lock: another thread may create the same value at the same time, which only wastes work.
         let (key, value) = make();
         let value = Arc::new(value);
         let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
@@ -37,7 +37,7 @@ impl<K, V> Cache<K, V> {
         value
     }
 
-    /// The value whose key `matches`, if there is one.
+    /// Returns the value whose key `matches`, if it is cached.
     pub(crate) fn find(&self, matches: impl Fn(&K) -> bool) -> Option<Arc<V>> {
         let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         let found = entries.iter().rposition(|(key, _)| matches(key))?;
@@ -48,7 +48,7 @@ impl<K, V> Cache<K, V> {
     }
 }
 
-/// Things kept for later use.
+/// Pool of idle objects for reuse.
 #[derive(Debug)]
 pub(crate) struct Pool<T> {
     idle: Mutex<Vec<T>>,
@@ -61,14 +61,14 @@ impl<T> Default for Pool<T> {
 }
 
 impl<T> Pool<T> {
-    /// One that is `fit`, if there is one.
+    /// Takes an object that is `fit`, if there is one.
     pub(crate) fn take(&self, fit: impl Fn(&T) -> bool) -> Option<T> {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let found = idle.iter().rposition(fit)?;
         Some(idle.swap_remove(found))
     }
 
-    /// Keeps one, unless there are enough.
+    /// Returns an object to the pool, unless the pool is full.
     pub(crate) fn keep(&self, item: T) {
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         if idle.len() < MAX_KEPT {

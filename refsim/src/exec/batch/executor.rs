@@ -1,4 +1,4 @@
-//! The batch executor as machines hold it.
+//! The batch executor, as owned by machines.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::exec::{Constants, TileDraw};
 use crate::isa::Program;
 use crate::raster::ComponentMask;
 
-/// The batch executor: what it has decoded, which its clones share, and the vector instructions that it uses.
+/// The batch executor: its caches, which clones share, and its SIMD level.
 #[derive(Clone, Debug, Default)]
 pub struct BatchExecutor {
     decoded: Arc<DecodedCaches>,
@@ -26,30 +26,30 @@ struct DecodedCaches {
 }
 
 impl BatchExecutor {
-    /// Chooses vector instructions: `None`, as in a new executor, for the widest that the processor has; a level that
-    /// it lacks stands for what it has of it. The level changes nothing but the time that work takes.
+    /// Sets the SIMD level. `None`, the default, is the widest that the processor supports; a level that it lacks falls
+    /// back to a supported one. The level affects the speed only.
     pub fn set_simd_level(&mut self, level: Option<SimdLevel>) {
         self.simd = level;
     }
 
-    /// The vector instructions in use.
+    /// The SIMD level in use.
     pub fn simd(&self) -> SimdLevel {
         self.simd.unwrap_or(SimdLevel::widest())
     }
 
-    /// Prepares a draw. `None` where the scalar executor has to do it: if the program has more values than there are
-    /// slots, or if no fragment can end within the step budget.
+    /// Prepares a draw. `None` if the scalar executor has to do it: the program has more values than there are slots,
+    /// or every fragment exceeds the step budget.
     pub fn tiles<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTiles<'a>> {
         BatchTiles::new(draw, (&self.decoded.pixel, &self.decoded.textures), self.simd())
     }
 
-    /// Prepares to follow pixels through a draw; `None` as for [`Self::tiles`].
+    /// Prepares pixel traces of a draw; `None` as for [`Self::tiles`].
     pub fn tracer<'a>(&self, draw: &TileDraw<'a>) -> Option<BatchTracer<'a>> {
         Some(BatchTracer::new(draw, self.tiles(draw)?, &self.decoded.textures))
     }
 
-    /// Prepares a vertex program, which makes the position and the components that are `needed`. `None` where the
-    /// scalar executor has to run it: if no vertex can end within the step budget.
+    /// Prepares a vertex program that computes the position and the `needed` components. `None` if the scalar executor
+    /// has to run it: every vertex exceeds the step budget.
     pub fn vertices(
         &self,
         (program, constants): (&Program, &Constants),

@@ -1,13 +1,13 @@
-//! The batch executor: programs on whole tiles of fragments, in vector code of the host. Equal to
-//! [`super::scalar`] bit for bit; `tests/agree` and `refsim/tests/agree_lanes.rs` prove it. They share no arithmetic.
+//! The batch executor: executes programs on whole tiles of fragments with the host's SIMD instructions. Bit-identical
+//! to [`super::scalar`], with which it shares no arithmetic; tested by `tests/agree` and `refsim/tests/agree_lanes.rs`.
 //!
-//! - `lanes`: the arithmetic of number formats. `schedule`: the graph of `super::lower` as steps. `run`: the steps on
-//!   rows.
-//! - `vertex`: from attributes to triangles. `tile`: from triangles to targets.
-//! - `cache`: what was decoded; [`BatchExecutor`]: who owns it.
+//! - `lanes`: arithmetic of number formats. `schedule`: schedules the graph of `super::lower` as steps. `run`: executes
+//!   steps on rows.
+//! - `vertex`: attributes to triangles. `tile`: triangles to targets.
+//! - `cache`: caches of decoded data; [`BatchExecutor`]: their owner.
 //!
-//! Values are rows of 256 lanes (`[u32; 256]` holding host integers or floats), loops over them are plain, and the
-//! vector width is chosen once per run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
+//! Values are rows of 256 lanes (`[u32; 256]` with host integers or floats) that are processed in plain loops. The SIMD
+//! level is selected once per run of lane operations ([`SimdLevel`]), by the `multiversion` crate. No unsafe code.
 
 mod cache;
 mod executor;

@@ -1,22 +1,22 @@
-//! Which GPUs there are.
+//! Enumeration and selection of GPU adapters.
 
 use super::GpuError;
 use serde::Serialize;
 use std::fmt;
 
-/// What an adapter is.
+/// Kind of an adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AdapterKind {
-    /// A card of its own.
+    /// A separate card.
     Discrete,
-    /// Part of the processor or the board.
+    /// Integrated into the processor or the board.
     Integrated,
-    /// A share of a card, in a virtual machine.
+    /// Virtualised GPU.
     Virtual,
-    /// A driver that runs on the processor.
+    /// Software driver on the processor.
     Software,
-    /// The driver does not say.
+    /// Not reported by the driver.
     Other,
 }
 
@@ -32,18 +32,18 @@ impl fmt::Display for AdapterKind {
     }
 }
 
-/// An adapter of this computer.
+/// A GPU adapter of the host.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Adapter {
-    /// Its name, as the driver gives it.
+    /// Name reported by the driver.
     pub name: String,
-    /// What it is.
+    /// Kind of the adapter.
     pub kind: AdapterKind,
-    /// The interface it is reached through: `vulkan`, `metal`, `dx12`.
+    /// Graphics API: `vulkan`, `metal`, `dx12`.
     pub backend: String,
-    /// The driver and its version.
+    /// Name and version of the driver.
     pub driver: String,
-    /// Bytes of the largest buffer that a shader can use.
+    /// Maximum size of a buffer that a shader can use, in bytes.
     pub largest_buffer: u64,
 }
 
@@ -75,8 +75,8 @@ pub(super) fn describe(adapter: &wgpu::Adapter) -> Adapter {
     }
 }
 
-/// The adapter that `asked` names: its whole name, or a part of it that fits no other, whatever the case. Without a
-/// name the first discrete one, else the first integrated or virtual one, else the first.
+/// Selects the adapter named `asked`: its full name, or a part of it that matches no other, ignoring case. Without a
+/// name, prefers a discrete adapter, then an integrated or virtual one, then any.
 pub(super) fn pick(asked: Option<&str>) -> Result<wgpu::Adapter, GpuError> {
     let all = raw_adapters();
     let known: Vec<Adapter> = all.iter().map(describe).collect();
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(choose(&known[..1], None), Ok(0));
         assert_eq!(choose(&known, Some("LLVMpipe")), Ok(0));
         assert_eq!(choose(&known, Some("9700")), Ok(2));
-        // A whole name wins over names that hold it.
+        // A full name takes precedence over names that contain it.
         assert_eq!(choose(&known, Some("radeon")), Ok(3));
         assert_eq!(choose(&[], None), Err(GpuError::NoAdapter));
         assert_eq!(choose(&[], Some("x")), Err(GpuError::NoAdapter));

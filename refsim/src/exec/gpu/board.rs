@@ -1,18 +1,18 @@
-//! Memory of the card on the GPU: one buffer for textures, targets and depth buffers, and the buffers of a draw.
+//! GPU memory of an emulated card: one buffer for textures, targets and depth buffers, and the buffers of a draw.
 
 use super::{Access, Buffer, Gpu, GpuError, Pipeline};
 use std::sync::Arc;
 
-/// The bindings of kernels: draw, set-ups, tiles, samplers, video memory, code, scratch, counts.
+/// Bindings of the kernels: draw, set-ups, tiles, samplers, video memory, code, scratch, counts.
 pub const BINDINGS: [Access; 8] = {
     use Access::{Read, ReadWrite};
     [Read, Read, Read, Read, ReadWrite, Read, ReadWrite, ReadWrite]
 };
 
-/// Words that `video` starts with.
+/// Initial size of `video`, in words.
 const FIRST_WORDS: usize = 1 << 16;
 
-/// A buffer that is replaced by a larger one when it must be.
+/// A buffer that is reallocated when it must grow.
 #[derive(Debug)]
 struct Growing {
     buffer: Buffer,
@@ -23,7 +23,7 @@ impl Growing {
         Ok(Self { buffer: gpu.buffer(words)? })
     }
 
-    /// At least so many words, with anything in them.
+    /// Ensures a size of at least `words`; the contents are undefined.
     fn reserve(&mut self, gpu: &Gpu, words: usize) -> Result<&Buffer, GpuError> {
         if self.buffer.words() < words {
             self.buffer = gpu.buffer(words.next_power_of_two().min(gpu.most_words().max(words)))?;
@@ -37,7 +37,7 @@ impl Growing {
     }
 }
 
-/// The buffers of a card on one GPU.
+/// The GPU buffers of a card.
 #[derive(Debug)]
 pub struct Board {
     gpu: Arc<Gpu>,
@@ -52,19 +52,19 @@ pub struct Board {
     counts: Growing,
 }
 
-/// The pixel program of a draw as the GPU runs it.
+/// The pixel program of a draw, loaded on the GPU.
 #[derive(Clone, Debug)]
 pub struct LoadedProgram {
-    /// The kernel that runs it.
+    /// The kernel that executes it.
     pub pipeline: Pipeline,
-    /// What it finds in `code`.
+    /// Contents of the binding `code`.
     pub code: Vec<u32>,
-    /// Rows of registers that an invocation needs in `scratch`.
+    /// Register rows per invocation in `scratch`.
     pub registers: usize,
 }
 
 impl Board {
-    /// An empty card.
+    /// Creates an empty board.
     ///
     /// # Errors
     /// [`GpuError::Memory`].
@@ -89,7 +89,7 @@ impl Board {
         &self.gpu
     }
 
-    /// Room in `video`: its first word.
+    /// Allocates words in `video`; returns the first one.
     ///
     /// # Errors
     /// [`GpuError::Memory`].
@@ -105,7 +105,7 @@ impl Board {
         Ok(base)
     }
 
-    /// Gives room back.
+    /// Frees words in `video`.
     pub fn free(&mut self, base: usize, words: usize) {
         self.arena.give(base, words);
     }
@@ -118,7 +118,7 @@ impl Board {
         self.gpu.upload(&self.video.buffer, base, words)
     }
 
-    /// Reads words out of `video`, after all that was started before.
+    /// Reads words from `video`, after all work submitted before.
     ///
     /// # Errors
     /// [`GpuError::Device`].
@@ -126,7 +126,7 @@ impl Board {
         self.gpu.read(&self.video.buffer, base..base + words)
     }
 
-    /// Starts a draw: its program, its samplers, counts of zero.
+    /// Starts a draw: uploads its program and samplers, and clears the counts.
     ///
     /// # Errors
     /// [`GpuError::Memory`], [`GpuError::Device`].
@@ -136,7 +136,7 @@ impl Board {
         self.counts.fill(&self.gpu, &vec![0; counts])
     }
 
-    /// Gives the set-ups of the dispatches that follow.
+    /// Uploads the set-ups of the dispatches that follow.
     ///
     /// # Errors
     /// [`GpuError::Memory`], [`GpuError::Device`].
@@ -144,8 +144,8 @@ impl Board {
         self.setups.fill(&self.gpu, words)
     }
 
-    /// Runs a shader over `groups` workgroups with `rows` rows of four words in `scratch`, which keep what the dispatch
-    /// before left if that had as many.
+    /// Dispatches `groups` workgroups with `rows` rows of four words in `scratch`. The contents of `scratch` persist
+    /// between dispatches with the same number of rows.
     ///
     /// # Errors
     /// [`GpuError::Memory`], [`GpuError::Device`].
@@ -174,7 +174,7 @@ impl Board {
         gpu.dispatch(&program.pipeline, &buffers.map(|b| &b.buffer), groups)
     }
 
-    /// One word of the counts, which is zero from then on.
+    /// Reads one word of the counts and resets it to zero.
     ///
     /// # Errors
     /// [`GpuError::Device`].
@@ -186,7 +186,7 @@ impl Board {
         Ok(found)
     }
 
-    /// The counts of the draw, after all dispatches.
+    /// Reads the counts of the draw, after all dispatches.
     ///
     /// # Errors
     /// [`GpuError::Device`].
@@ -195,12 +195,12 @@ impl Board {
     }
 }
 
-/// Which words of `video` are taken.
+/// Allocator of words in `video`.
 #[derive(Debug, Default)]
 struct Arena {
-    /// One past the last word taken.
+    /// End of the allocated range.
     end: usize,
-    /// What was given back below it, in order: first word, length.
+    /// Free ranges below it in ascending order: first word, length.
     holes: Vec<(usize, usize)>,
 }
 
@@ -223,7 +223,7 @@ impl Arena {
     fn give(&mut self, base: usize, words: usize) {
         let i = self.holes.partition_point(|hole| hole.0 < base);
         self.holes.insert(i, (base, words));
-        // Neighbours grow together; what lies at the end is not a hole.
+        // Merges adjacent holes; a hole at the end is removed.
         let mut merged: Vec<(usize, usize)> = Vec::with_capacity(self.holes.len());
         for &(base, words) in &self.holes {
             match merged.last_mut() {

@@ -1,64 +1,64 @@
-//! What can go wrong with a GPU.
+//! Errors of GPUs.
 
 use thiserror::Error;
 
-/// Why the GPU can't do what it was asked.
+/// Error of using a GPU.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum GpuError {
-    /// There is none.
+    /// No adapter was found.
     #[error("no GPU adapter found: install a Vulkan driver (a software one will do, such as Mesa's lavapipe)")]
     NoAdapter,
-    /// None has the name that was asked for.
+    /// No adapter has the given name.
     #[error("no GPU adapter is called `{asked}`; there are: {}", .found.join(", "))]
     UnknownAdapter {
-        /// What was asked for.
+        /// The given name.
         asked: String,
-        /// The names there are.
+        /// Names of the adapters.
         found: Vec<String>,
     },
-    /// More than one adapter has the name.
+    /// Several adapters match the name.
     #[error("`{asked}` names {} GPU adapters: {}; give more of the name", .found.len(), .found.join(", "))]
     AmbiguousAdapter {
-        /// What was asked for.
+        /// The given name.
         asked: String,
-        /// The names it fits.
+        /// Names of the matching adapters.
         found: Vec<String>,
     },
-    /// The adapter refuses to be opened.
+    /// The adapter cannot be opened.
     #[error("GPU adapter `{adapter}` can't be opened: {reason}")]
     Open {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What the driver says.
+        /// Message of the driver.
         reason: String,
     },
-    /// A shader or a pipeline is refused: a fault of the generator.
+    /// A shader or a pipeline is invalid: a bug in the shader generator.
     #[error("GPU shader `{entry}` is refused, which is a fault of this program: {reason}")]
     Shader {
         /// The entry point.
         entry: String,
-        /// What the validator or the driver says.
+        /// Message of the validator or the driver.
         reason: String,
     },
-    /// More memory than the adapter gives.
+    /// The adapter has too little memory.
     #[error(
         "GPU adapter `{adapter}` gives buffers of up to {most} bytes, found {asked}: use smaller targets and textures, or the batch executor"
     )]
     Memory {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// Bytes asked for.
+        /// Bytes requested.
         asked: u64,
-        /// Bytes of its largest buffer.
+        /// Maximum size of a buffer, in bytes.
         most: u64,
     },
-    /// A command failed or the device was lost.
+    /// A command failed, or the device was lost.
     #[error("GPU adapter `{adapter}` failed: {reason}")]
     Device {
-        /// Its name.
+        /// Name of the adapter.
         adapter: String,
-        /// What the driver says.
+        /// Message of the driver.
         reason: String,
     },
 }

@@ -1,12 +1,13 @@
-//! The executor on a GPU of the host, through wgpu (feature `wgpu`).
+//! Executor on a GPU of the host, through wgpu (feature `wgpu`).
 //!
-//! - `adapter`: which adapters there are, and picking one by name; `error`: what can go wrong.
+//! - `adapter`: enumeration and selection of adapters; `error`: errors.
 //! - `opened`: an opened adapter: buffers, compute pipelines, dispatches, read-back.
-//! - `probe`: what the adapter's own single precision gives, beside IEEE 754 and WGSL. `testing`: what tests do
-//!   without an adapter.
-//! - `board`: the buffers of an emulated card.
+//! - `probe`: comparison of an adapter's own single precision with IEEE 754 and WGSL. `testing`: access to an adapter
+//!   for tests.
+//! - `board`: the GPU buffers of an emulated card.
 //!
-//! Nothing here decides a bit: the shaders do (`refsim::exec::wgsl`), from storage buffers of 32-bit words.
+//! Results are determined by the shaders alone (`refsim::exec::wgsl`), which operate on storage buffers of 32-bit
+//! words.
 
 mod adapter;
 mod board;

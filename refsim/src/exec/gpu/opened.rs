@@ -8,7 +8,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// How a shader uses a storage buffer.
+/// Access of a shader to a storage buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Access {
     /// `var<storage, read>`
@@ -17,7 +17,7 @@ pub enum Access {
     ReadWrite,
 }
 
-/// Words on the adapter.
+/// A buffer of 32-bit words on the adapter.
 #[derive(Clone, Debug)]
 pub struct Buffer {
     inner: wgpu::Buffer,
@@ -25,13 +25,13 @@ pub struct Buffer {
 }
 
 impl Buffer {
-    /// Its size in 32-bit words.
+    /// Size in 32-bit words.
     pub fn words(&self) -> usize {
         self.words
     }
 }
 
-/// A compute shader ready to run: bindings 0, 1, ... of group 0 are storage buffers.
+/// A compiled compute shader; bindings 0, 1, ... of group 0 are storage buffers.
 #[derive(Clone, Debug)]
 pub struct Pipeline {
     inner: wgpu::ComputePipeline,
@@ -39,29 +39,30 @@ pub struct Pipeline {
     bindings: usize,
 }
 
-/// What pipelines are known by: shader text, entry point, bindings.
+/// Key of a pipeline: shader text, entry point, bindings.
 type PipelineKey = (String, String, Vec<Access>);
 
-/// A kernel that is compiled with no more parts than draws use.
+/// A kernel that is compiled with a subset of its parts.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernel {
-    /// Its entry point, by which it is known.
+    /// Entry point; identifies the kernel.
     pub entry: &'static str,
-    /// Its text with all parts.
+    /// Complete text with all parts.
     pub text: fn() -> String,
-    /// Its bindings.
+    /// Bindings.
     pub bindings: &'static [Access],
 }
 
-/// Texts of a kernel that are compiled for the very parts that a draw uses, and then for what any draw used so far. The
-/// next one has all parts: random programs would have one each.
+/// Compilation policy of a kernel: the first `MAX_EXACT` texts have exactly the parts of the draw, texts up to
+/// `MAX_GROWING` have all parts used so far, and the next one has all parts. Otherwise random programs would need one
+/// text each.
 const MAX_EXACT: usize = 6;
 const MAX_GROWING: usize = 9;
 
-/// Told before a pipeline is compiled, which takes seconds; what it gives is dropped afterwards.
+/// Called before a pipeline is compiled, which takes seconds; the returned value is dropped afterwards.
 pub type CompileObserver = Box<dyn Fn() -> Box<dyn std::any::Any> + Send + Sync>;
 
-/// An adapter that is open.
+/// An opened adapter.
 pub struct Gpu {
     adapter: Adapter,
     device: wgpu::Device,
@@ -78,14 +79,14 @@ impl fmt::Debug for Gpu {
 }
 
 impl Gpu {
-    /// Opens the adapter of this name (or a part of it), or the best there is.
+    /// Opens the adapter with this name (or part of a name), or the best one.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], [`GpuError::UnknownAdapter`], [`GpuError::AmbiguousAdapter`], [`GpuError::Open`].
     pub fn open(name: Option<&str>) -> Result<Self, GpuError> {
         let raw = pick(name)?;
         let adapter = describe(&raw);
-        // Large buffers are worth having; everything else stays at what each WebGPU device must offer.
+        // Requests large buffers; all other limits stay at the minimum of WebGPU.
         let given = raw.limits();
         let required_limits = wgpu::Limits {
             max_buffer_size: given.max_buffer_size,
@@ -99,24 +100,24 @@ impl Gpu {
         Ok(Self { adapter, device, queue, pipelines, kernels, observer: None })
     }
 
-    /// What it is.
+    /// Description of the adapter.
     pub fn adapter(&self) -> &Adapter {
         &self.adapter
     }
 
-    /// Has somebody told of every compilation.
+    /// Sets an observer of pipeline compilations.
     #[must_use]
     pub fn observed(mut self, observer: CompileObserver) -> Self {
         self.observer = Some(observer);
         self
     }
 
-    /// Words of the largest buffer that a shader can use.
+    /// Maximum size of a buffer that a shader can use, in words.
     pub fn most_words(&self) -> usize {
         usize::try_from(self.adapter.largest_buffer / 4).unwrap_or(usize::MAX)
     }
 
-    /// Runs `work` and tells what the driver found wrong with it.
+    /// Runs `work`; returns the driver's error message if it fails.
     fn guarded<T>(&self, filter: wgpu::ErrorFilter, work: impl FnOnce() -> T) -> Result<T, String> {
         let scope = self.device.push_error_scope(filter);
         let done = work();
@@ -130,13 +131,13 @@ impl Gpu {
         GpuError::Device { adapter: self.adapter.name.clone(), reason: reason.to_string() }
     }
 
-    /// The pipeline of a WGSL text; made once, then kept.
+    /// Returns the pipeline of a WGSL text, compiled on first use.
     ///
     /// # Errors
-    /// [`GpuError::Shader`] if the text or its use of the bindings is not valid.
+    /// [`GpuError::Shader`] if the text, or its use of the bindings, is invalid.
     pub fn pipeline(&self, text: &str, entry: &str, bindings: &[Access]) -> Result<Pipeline, GpuError> {
         let key = (text.to_owned(), entry.to_owned(), bindings.to_vec());
-        // One maker at a time: the others wait and find it made.
+        // Holds the lock while compiling, so that a pipeline is compiled only once.
         let mut known = self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(pipeline) = known.get(&key) {
             return Ok(pipeline.clone());
@@ -148,7 +149,7 @@ impl Gpu {
         Ok(pipeline)
     }
 
-    /// A kernel with at least these parts: one that was compiled before, if there is one.
+    /// Returns a pipeline of a kernel with at least these parts; reuses a compiled one if possible.
     ///
     /// # Errors
     /// As [`Self::pipeline`].
@@ -194,10 +195,10 @@ impl Gpu {
         Pipeline { inner, layout, bindings: bindings.len() }
     }
 
-    /// A buffer of `words` zeros; at least one word.
+    /// Creates a buffer of `words` zeros; at least one word.
     ///
     /// # Errors
-    /// [`GpuError::Memory`] if it is larger than what a shader of this adapter can use or the adapter has.
+    /// [`GpuError::Memory`] if the buffer exceeds the limit of the adapter or its memory.
     pub fn buffer(&self, words: usize) -> Result<Buffer, GpuError> {
         let words = words.max(1);
         let asked = 4 * words as u64;
@@ -212,7 +213,7 @@ impl Gpu {
         Ok(Buffer { inner: made.map_err(|_| too_large())?, words })
     }
 
-    /// A buffer that holds `words`.
+    /// Creates a buffer with the contents `words`.
     ///
     /// # Errors
     /// As [`Self::buffer`].
@@ -222,10 +223,10 @@ impl Gpu {
         Ok(buffer)
     }
 
-    /// Writes words into a buffer from word `at` on.
+    /// Writes words into a buffer, starting at word `at`.
     ///
     /// # Errors
-    /// [`GpuError::Device`] if they do not fit.
+    /// [`GpuError::Device`] if they exceed the buffer.
     pub fn upload(&self, buffer: &Buffer, at: usize, words: &[u32]) -> Result<(), GpuError> {
         if at + words.len() > buffer.words {
             let end = at + words.len();
@@ -235,17 +236,17 @@ impl Gpu {
         Ok(())
     }
 
-    /// Copies the first words of one buffer into another, as many as fit.
+    /// Copies the first words of one buffer to another, up to the smaller size.
     pub fn copy(&self, from: &Buffer, to: &Buffer) {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(&from.inner, 0, &to.inner, 0, 4 * from.words.min(to.words) as u64);
         self.queue.submit([encoder.finish()]);
     }
 
-    /// Starts a dispatch of `groups` workgroups with the buffers as bindings 0, 1, ...; later commands see its writes.
+    /// Dispatches `groups` workgroups with the buffers as bindings 0, 1, ...; later commands see its writes.
     ///
     /// # Errors
-    /// [`GpuError::Device`] if the buffers don't fit the pipeline or the device refuses.
+    /// [`GpuError::Device`] if the buffers don't match the pipeline or the device fails.
     pub fn dispatch(&self, pipeline: &Pipeline, buffers: &[&Buffer], groups: [u32; 3]) -> Result<(), GpuError> {
         if buffers.len() != pipeline.bindings {
             let (wanted, found) = (pipeline.bindings, buffers.len());
@@ -273,10 +274,10 @@ impl Gpu {
         self.guarded(wgpu::ErrorFilter::Validation, work).map_err(|reason| self.failed(reason))
     }
 
-    /// Waits for what was started and reads a range of words.
+    /// Waits for submitted work and reads a range of words.
     ///
     /// # Errors
-    /// [`GpuError::Device`] if the range is outside, or the device was lost.
+    /// [`GpuError::Device`] if the range exceeds the buffer, or the device was lost.
     pub fn read(&self, buffer: &Buffer, range: Range<usize>) -> Result<Vec<u32>, GpuError> {
         if range.start > range.end || range.end > buffer.words {
             return Err(self.failed(format!("read of words {range:?} of a buffer of {}", buffer.words)));
@@ -296,7 +297,7 @@ impl Gpu {
         self.queue.submit([encoder.finish()]);
         let (send, receive) = std::sync::mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver waits below; if it is gone nobody wants to know.
+            // Fails only if the receiver below was dropped.
             let _ = send.send(result);
         });
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| self.failed(e))?;
@@ -305,8 +306,8 @@ impl Gpu {
         Ok(bytemuck::pod_collect_to_vec(&view))
     }
 
-    /// One dispatch from words to words: the inputs are bindings 0, 1, ... (read only), the result is the last
-    /// binding (read and write), `out_words` zeros before.
+    /// Runs a single dispatch: the inputs are bindings 0, 1, ... (read only), the result is the last binding (read and
+    /// write), `out_words` words initialised to zero.
     ///
     /// # Errors
     /// As [`Self::pipeline`], [`Self::buffer`], [`Self::dispatch`] and [`Self::read`].

@@ -1,6 +1,6 @@
-//! An adapter's own single precision beside IEEE 754, operation by operation: which results have other bits, and which
-//! of these WGSL doesn't allow ([`crate::exec::wgsl::accuracy`]), which is a fault of the driver. The executor uses no
-//! floats of an adapter; this is for whoever has a GPU or writes a driver for one.
+//! Compares an adapter's own single precision with IEEE 754, operation by operation: reports results that differ, and
+//! those that WGSL doesn't allow ([`crate::exec::wgsl::accuracy`]), which are driver bugs. The executor uses no floats
+//! of the adapter; the probe is a tool for users and writers of drivers.
 
 use serde::Serialize;
 
@@ -8,46 +8,46 @@ use super::{Gpu, GpuError};
 use crate::exec::wgsl::accuracy::{SingleOperation, allowed, order};
 use crate::num::Format;
 
-/// Operand sets of an operation in a full probe.
+/// Operand sets per operation in a full probe.
 pub const FULL: usize = 1 << 20;
-/// Operand sets of one dispatch.
+/// Operand sets per dispatch.
 const BATCH: usize = 1 << 16;
 const FP32: Format = Format::FP32;
 
-/// What a probe saw.
+/// Result of a probe.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ProbeReport {
-    /// The adapter's name.
+    /// Name of the adapter.
     pub adapter: String,
-    /// By operation.
+    /// Results by operation.
     pub operations: Vec<OperationReport>,
 }
 
-/// What was seen of one operation.
+/// Results of one operation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct OperationReport {
     /// The operation.
     pub operation: SingleOperation,
-    /// Its name in tables.
+    /// Name in tables.
     pub name: &'static str,
-    /// Operands and results that are normal numbers or zero.
+    /// Cases whose operands and exact result are normal numbers or zero.
     pub normal: Tally,
-    /// Some operand, or the exact result, is subnormal.
+    /// Cases with a subnormal operand or exact result.
     pub denormal: Tally,
-    /// Some operand, or the exact result, is infinite or NaN.
+    /// Cases with an infinite or NaN operand or exact result.
     pub special: Tally,
 }
 
-/// Counts of one class of operands.
+/// Counts of one class of cases.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
-    /// Operand sets tried.
+    /// Operand sets tested.
     pub tried: u64,
-    /// Results with other bits than IEEE 754 has.
+    /// Results that differ from IEEE 754.
     pub different: u64,
-    /// Of these, results outside what WGSL allows.
+    /// Of these, results that WGSL does not allow.
     pub outside: u64,
-    /// The largest distance of a number from the right one, in units in the last place.
+    /// Largest error, in units in the last place.
     pub worst_ulps: u64,
     /// The first difference.
     pub first: Option<ProbeDifference>,
@@ -56,13 +56,13 @@ pub struct Tally {
 /// A result that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ProbeDifference {
-    /// Bits of the operands.
+    /// Operands, as bits.
     pub operands: Vec<u32>,
-    /// Bits that the device gave.
+    /// Result of the adapter, as bits.
     pub got: u32,
-    /// Bits of IEEE 754.
+    /// Result of IEEE 754, as bits.
     pub want: u32,
-    /// Their distance; `None` beside a NaN.
+    /// Error in units in the last place; `None` if one of them is NaN.
     pub ulps: Option<u64>,
 }
 
@@ -72,29 +72,29 @@ impl OperationReport {
         Self { operation, name: operation.name(), normal: empty(), denormal: empty(), special: empty() }
     }
 
-    /// Whether no result differed.
+    /// Returns `true` if no result differs from IEEE 754.
     pub fn exact(&self) -> bool {
         [&self.normal, &self.denormal, &self.special].iter().all(|t| t.different == 0)
     }
 
-    /// Whether no result lay outside what WGSL allows.
+    /// Returns `true` if WGSL allows all results.
     pub fn conforms(&self) -> bool {
         [&self.normal, &self.denormal, &self.special].iter().all(|t| t.outside == 0)
     }
 }
 
 impl ProbeReport {
-    /// Whether no result lay outside what WGSL allows.
+    /// Returns `true` if WGSL allows all results.
     pub fn conforms(&self) -> bool {
         self.operations.iter().all(OperationReport::conforms)
     }
 }
 
-/// Tries every operation on `count` operand sets: all pairs of edge values as far as they fit, then others drawn from a
-/// fixed seed. [`FULL`] for a verdict.
+/// Tests every operation on `count` operand sets: first all pairs of edge cases, then pseudo-random ones from a fixed
+/// seed. Use [`FULL`] for a verdict.
 ///
 /// # Errors
-/// What the device refuses.
+/// Errors of the device.
 pub fn probe(gpu: &Gpu, count: usize) -> Result<ProbeReport, GpuError> {
     let text = include_str!("probe.wgsl");
     let mut operations = Vec::new();
@@ -118,7 +118,7 @@ pub fn probe(gpu: &Gpu, count: usize) -> Result<ProbeReport, GpuError> {
     Ok(ProbeReport { adapter: gpu.adapter().name.clone(), operations })
 }
 
-/// Adds a result to the tally that it belongs to.
+/// Adds a result to its tally.
 fn note(report: &mut OperationReport, operands: [u32; 3], got: u32) {
     let operation = report.operation;
     let want = operation.exact(operands);
@@ -143,7 +143,7 @@ fn note(report: &mut OperationReport, operands: [u32; 3], got: u32) {
     tally.first.get_or_insert_with(|| ProbeDifference { operands: used.to_vec(), got, want, ulps });
 }
 
-/// Operand sets, the same in every run.
+/// Deterministic sequence of operand sets.
 struct OperandSets {
     operation: SingleOperation,
     edges: Vec<u32>,
@@ -154,7 +154,7 @@ struct OperandSets {
 impl OperandSets {
     fn new(operation: SingleOperation) -> Self {
         // Zero, smallest and largest subnormal, smallest normal, around one half, one and two, largest, infinity, NaN,
-        // and an integer that no longer fits.
+        // and an integer beyond 24 bits.
         let places: [u32; 12] = [
             0,
             1,
@@ -176,7 +176,7 @@ impl OperandSets {
         Self { operation, edges, made: 0, state: 0x0070_726f_6265 }
     }
 
-    /// splitmix64
+    /// Next word of splitmix64.
     fn word(&mut self) -> u32 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.state;
@@ -185,7 +185,7 @@ impl OperandSets {
         ((z ^ (z >> 31)) >> 32) as u32
     }
 
-    /// Any bits, bits around one (where rounding shows), short significands (where results are exact), edges.
+    /// Random bits, numbers near one (for rounding), short significands (for exact results), or edge cases.
     fn operand(&mut self) -> u32 {
         let word = self.word();
         let kind = self.word() % 8;
@@ -214,7 +214,7 @@ impl OperandSets {
 mod tests {
     use super::*;
 
-    /// A probe that saw these results: operation, operands, bits.
+    /// A report of these results: operation, operands, bits.
     fn seen(results: &[(SingleOperation, [u32; 3], u32)]) -> ProbeReport {
         let mut operations: Vec<OperationReport> = SingleOperation::ALL.into_iter().map(OperationReport::new).collect();
         for &(operation, operands, got) in results {

@@ -1,4 +1,4 @@
-//! What tests do where there may be no GPU.
+//! Access to an adapter for tests, on hosts with or without a GPU.
 
 use super::{Gpu, GpuError};
 use std::sync::{Arc, LazyLock};
@@ -8,13 +8,13 @@ static SHARED: LazyLock<Result<Arc<Gpu>, GpuError>> = LazyLock::new(|| {
     Gpu::open(asked.as_deref()).map(Arc::new)
 });
 
-/// The adapter that tests of one process share: the one that the environment variable `CROSSBAR_ADAPTER` names, or the
-/// best there is.
+/// The adapter shared by the tests of one process: the one named by the environment variable `CROSSBAR_ADAPTER`, or
+/// else the best one.
 ///
-/// `Ok(None)` without any adapter: the test is to be counted as ignored.
+/// `Ok(None)` if there is no adapter: the test should count as ignored.
 ///
 /// # Errors
-/// Where the environment variable `CI` is set, no adapter is a failure too; as is one that can't be opened.
+/// If an adapter cannot be opened, or if there is none although the environment variable `CI` is set.
 pub fn shared() -> Result<Option<Arc<Gpu>>, GpuError> {
     match &*SHARED {
         Ok(gpu) => Ok(Some(Arc::clone(gpu))),

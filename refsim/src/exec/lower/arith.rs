@@ -1,4 +1,4 @@
-//! Instructions as graph nodes: the arithmetic ones, under the rules of a device.
+//! Arithmetic as graph nodes, under the rules of a device.
 
 use super::formats::Formats;
 use super::graph::TRUE;
@@ -9,13 +9,13 @@ use crate::num::{self, DotOrder, NumberOperation as Op};
 /// Four components.
 pub(crate) type NodeVector = [NodeId; 4];
 
-/// Makes nodes. The methods are the operations of the instruction set in one format, with the rounding sequence that
-/// the rules ask for.
+/// Builds nodes. Its methods are the operations of the instruction set in one format, with the rounding sequence given
+/// by the rules.
 pub(crate) struct Maker<'a> {
     pub(crate) graph: Graph,
     pub(crate) formats: Formats,
     pub(crate) rules: &'a Rules,
-    /// Whether zero times anything is zero in register arithmetic.
+    /// `true` if zero times anything is zero in register arithmetic.
     legacy_zero: bool,
 }
 
@@ -24,7 +24,7 @@ impl<'a> Maker<'a> {
         Self { graph: Graph::default(), formats, rules, legacy_zero: pixel && rules.zero_times_anything }
     }
 
-    /// A bit pattern of a format in every lane.
+    /// A constant given as a bit pattern of a format.
     pub(crate) fn pattern(&mut self, k: Arith, bits: u32) -> NodeId {
         let raw = self.formats.decode(k, bits);
         self.graph.constant(raw)
@@ -49,7 +49,7 @@ impl<'a> Maker<'a> {
         self.graph.node(NodeKind::Compute(k, code, [a, b, c]))
     }
 
-    /// A mask that needs no computing: of constants, or of masks that say nothing new.
+    /// A mask that can be simplified: of constants, or of redundant masks.
     fn known_mask(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> Option<NodeId> {
         let constant = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Constant(raw) => Some(raw),
@@ -78,13 +78,13 @@ impl<'a> Maker<'a> {
         self.binary(k, code, a, word)
     }
 
-    /// A word with a part more, at this bit.
+    /// Inserts a part into a word at bit `bit`.
     pub(crate) fn join(&mut self, k: Arith, code: Op, word: NodeId, part: NodeId, bit: u32) -> NodeId {
         let bit = self.graph.constant(bit);
         self.compute(k, code, word, part, bit)
     }
 
-    /// Times two to a power.
+    /// Multiplies by a power of two.
     pub(crate) fn scale(&mut self, k: Arith, a: NodeId, power: i8) -> NodeId {
         self.immediate(k, Op::Scale, a, i32::from(power).cast_unsigned())
     }
@@ -93,13 +93,13 @@ impl<'a> Maker<'a> {
         self.compute(k, code, a, b, a)
     }
 
-    /// `a` of format `from` rounded into `to`.
+    /// Converts `a` from format `from` to `to`, rounded once.
     pub(crate) fn convert(&mut self, from: Arith, to: Arith, a: NodeId) -> NodeId {
         if self.formats.format(from) == self.formats.format(to) {
             return a;
         }
-        // Single precision holds every number of a format of up to 24 significant bits: there and back is the same
-        // number, which also fits the format's wrapping twin.
+        // Single precision represents every number of a format with up to 24 significant bits, so the round trip
+        // preserves the number, which also fits the format's wrapping variant.
         if let NodeKind::Convert(origin, Arith::Single, number) = self.graph.kind(a)
             && from == Arith::Single
             && (origin == to || (origin, to) == (Arith::Main, Arith::Wrapped))
@@ -110,7 +110,7 @@ impl<'a> Maker<'a> {
         self.graph.node(NodeKind::Convert(from, to, a))
     }
 
-    /// The factors of a product.
+    /// Operands of a product.
     fn factors(&mut self, k: Arith, a: NodeId, b: NodeId) -> (NodeId, NodeId) {
         if !self.legacy_zero || k == Arith::Single {
             return (a, b);
@@ -139,7 +139,7 @@ impl<'a> Maker<'a> {
         self.unary(k, Op::Neg, a)
     }
 
-    /// A product rounded, and a sum rounded.
+    /// Multiply-add with product and sum rounded separately.
     fn mul_add(&mut self, k: Arith, a: NodeId, b: NodeId, c: NodeId) -> NodeId {
         let (a, b) = self.factors(k, a, b);
         self.compute(k, Op::Mad, a, b, c)
@@ -155,7 +155,7 @@ impl<'a> Maker<'a> {
         }
     }
 
-    /// The dot product of the first `terms` components, 1 to 4.
+    /// Dot product of the first `terms` components, 1 to 4.
     pub(crate) fn dot(&mut self, k: Arith, terms: usize, a: &[NodeId], b: &[NodeId]) -> NodeId {
         match self.rules.dot {
             DotOrder::Sequential => {
@@ -205,12 +205,12 @@ impl<'a> Maker<'a> {
         self.compute(Arith::Single, Op::Select, condition, a, b)
     }
 
-    /// The mask of a comparison with both operands in `k`.
+    /// Mask of a comparison of two operands in format `k`.
     pub(crate) fn holds(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         self.binary(k, code, a, b)
     }
 
-    /// A component after its source modifier.
+    /// Applies a source modifier to a component.
     pub(crate) fn modified(&mut self, k: Arith, modifier: crate::isa::Modifier, x: NodeId) -> NodeId {
         use crate::isa::Modifier as M;
         let biased = |maker: &mut Self| {

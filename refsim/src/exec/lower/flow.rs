@@ -1,5 +1,5 @@
-//! Programs with flow control as nodes: an instruction at a time, each merged into registers under the mask of active
-//! lanes, and its predicate.
+//! Translation of programs with flow control: each instruction is a set of nodes, whose results are merged into
+//! registers under the mask of active lanes and the predicate.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use super::translate::{Effect, RegisterComponent, Translator};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
 use crate::num::NumberOperation as Op;
 
-/// Slots with a fixed meaning; registers follow.
+/// Slots with a fixed meaning; register slots follow.
 pub(crate) const ACTIVE: Slot = 0;
 pub(crate) const KILLED: Slot = 1;
 pub(crate) const DECIDED: Slot = 2;
 pub(crate) const COUNTER: Slot = 3;
 const FIRST_REGISTER: Slot = 4;
 
-/// Every register component that a program writes.
+/// All register components that a program writes.
 fn written(program: &Program) -> Vec<RegisterComponent> {
     let mut out = Vec::new();
     for instruction in &program.instructions {
@@ -31,13 +31,13 @@ fn written(program: &Program) -> Vec<RegisterComponent> {
     out
 }
 
-/// The instructions of a program as graph nodes, each merged into registers that have slots of their own.
+/// Instructions of a program as graph nodes, and the slots of the registers that they are merged into.
 pub(crate) struct MaskedProgram {
-    /// One for each instruction.
+    /// One entry per instruction.
     pub(crate) parts: Vec<MaskedInstruction>,
-    /// The slot of each register component that the program writes.
+    /// Slot of each register component that the program writes.
     pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
-    /// The first slot that no register has.
+    /// First slot after the registers.
     pub(crate) first_free: Slot,
 }
 
@@ -59,7 +59,7 @@ impl MaskedProgram {
     }
 }
 
-/// What an instruction computes and where it goes.
+/// Values computed by an instruction, and their destination slots.
 pub(crate) struct MaskedInstruction {
     pub(crate) roots: Vec<NodeId>,
     pub(crate) to: Vec<Slot>,
@@ -100,7 +100,7 @@ fn part(
                 }
             }
             Effect::Kill(mask) => {
-                // Several components of one instruction: the masks add up before they reach the slot.
+                // Several components of one instruction: their masks are combined before they reach the slot.
                 let killing = t.make.binary(MASK, Op::And, active, mask);
                 let before = match part.to.iter().position(|&s| s == KILLED) {
                     Some(i) => part.roots[i],
@@ -115,7 +115,7 @@ fn part(
                     }
                 }
             }
-            // No version with flow control decides depth but by oDepth.
+            // In versions with flow control only oDepth writes depth.
             Effect::Depth(..) => {}
         }
     }

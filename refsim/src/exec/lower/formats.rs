@@ -1,4 +1,4 @@
-//! The number formats of a program, and numbers as executors hold them.
+//! Number formats of a program, and the executors' raw representation of numbers.
 
 use super::graph::Arith;
 use super::raw;
@@ -11,17 +11,17 @@ use crate::num::{Format, NumberOperation as Op, Overflow};
 pub(crate) struct Formats([Format; 6]);
 
 impl Formats {
-    /// Those of a pixel program.
+    /// Formats of a pixel program.
     pub(crate) fn pixel(rules: &Rules) -> Self {
         Self::new(rules.format, rules.partial)
     }
 
-    /// Those of a vertex program.
+    /// Formats of a vertex program.
     pub(crate) fn vertex(format: Format) -> Self {
         Self::new(format, None)
     }
 
-    /// Registers in `main`, `_pp` arithmetic in `partial`.
+    /// Formats with registers in `main` and `_pp` arithmetic in `partial`.
     fn new(main: Format, partial: Option<Format>) -> Self {
         let FragmentFormats { half, fixed, .. } = FragmentFormats::of_registers(main, partial);
         Self([main, partial.unwrap_or(main), Format::FP32, main.with_overflow(Overflow::Wrap), half, fixed])
@@ -31,22 +31,22 @@ impl Formats {
         self.0[arith as usize]
     }
 
-    /// All of them, in the order of [`Arith`].
+    /// All formats, in the order of [`Arith`].
     pub(crate) fn all(&self) -> [Format; 6] {
         self.0
     }
 
-    /// The raw value of a bit pattern.
+    /// Converts a bit pattern to a raw value.
     pub(crate) fn decode(&self, arith: Arith, bits: u32) -> u32 {
         raw::decode(&self.format(arith), bits)
     }
 
-    /// The bit pattern of a raw value.
+    /// Converts a raw value to a bit pattern.
     pub(crate) fn encode(&self, arith: Arith, raw: u32) -> u32 {
         raw::encode(&self.format(arith), raw)
     }
 
-    /// Whether `a < b`, `a <= b` or `a == b`, as the operation says, of raw values.
+    /// Evaluates the comparison `operation` (`a < b`, `a <= b` or `a == b`) on raw values.
     pub(crate) fn compares(&self, arith: Arith, operation: Op, a: u32, b: u32) -> bool {
         let order = if self.format(arith).is_fixed() {
             Some(a.cast_signed().cmp(&b.cast_signed()))

@@ -1,5 +1,5 @@
-//! OpenGL's fragment programs as graph nodes: three precisions, condition codes, packing. What the instructions mean is
-//! written at the scalar executor's `fragment`.
+//! OpenGL fragment programs as graph nodes: three precisions, condition codes, packing. The scalar executor's
+//! `fragment` documents the instructions.
 
 use super::arith::NodeVector;
 use super::graph::TRUE;
@@ -10,7 +10,7 @@ use crate::isa::{
 };
 use crate::num::NumberOperation as Op;
 
-/// The arithmetic of a precision.
+/// Arithmetic of a precision.
 fn arith(precision: Precision) -> Arith {
     match precision {
         Precision::Full => Arith::Main,
@@ -19,13 +19,13 @@ fn arith(precision: Precision) -> Arith {
     }
 }
 
-/// The arithmetic whose numbers a file's registers hold.
+/// Arithmetic of the numbers in a register file.
 pub(crate) fn of_file(file: RegisterFile) -> Arith {
     if file.is_half() { Arith::Half } else { Arith::Main }
 }
 
 impl Translator<'_> {
-    /// One instruction.
+    /// Translates an instruction.
     pub(crate) fn fragment(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let value = match (instruction.opcode, instruction.opcode.info().class, instruction.destination) {
             (Opcode::Kil, ..) => return self.kil(instruction, effects),
@@ -39,7 +39,7 @@ impl Translator<'_> {
         self.fragment_writes(instruction, value, effects);
     }
 
-    /// An operand in the format of its file: swizzled, absolute, negated.
+    /// Loads an operand in the format of its file: swizzled, absolute, negated.
     fn loaded(&mut self, source: &Source, negate: u8) -> NodeVector {
         let k = of_file(source.register.file);
         std::array::from_fn(|i| {
@@ -56,13 +56,13 @@ impl Translator<'_> {
         })
     }
 
-    /// An operand in the format of the operation.
+    /// Loads an operand in the format of the operation.
     fn fragment_operand(&mut self, source: &Source, to: Arith, negate: u8) -> NodeVector {
         let from = of_file(source.register.file);
         self.loaded(source, negate).map(|x| self.make.convert(from, to, x))
     }
 
-    /// What may be any bits, as the number that they are a pattern of.
+    /// Interprets a value that may be arbitrary bits as the number that they encode.
     pub(crate) fn number(&mut self, node: NodeId) -> NodeId {
         if !self.words.contains(&node) {
             return node;
@@ -70,18 +70,18 @@ impl Translator<'_> {
         self.make.graph.node(NodeKind::Convert(Arith::Main, Arith::Main, node))
     }
 
-    /// The bits of what a full precision register holds.
+    /// The bits of a full-precision register's contents.
     fn word(&mut self, node: NodeId) -> NodeId {
         if self.words.contains(&node) { node } else { self.make.unary(Arith::Main, Op::Encode, node) }
     }
 
-    /// Whether full precision registers hold any 32 bits.
+    /// Returns `true` if full-precision registers can hold any 32 bits.
     fn keeps_words(&self) -> bool {
         let format = self.make.formats.format(Arith::Main);
         format.width() == 32 && !format.is_fixed()
     }
 
-    /// What is carried as bits: packed words, and what a plain `MOV` finds in `R#`.
+    /// A result that is moved as bits: a packed word, or the source of a plain `MOV` from `R#`.
     fn carried(&mut self, instruction: &Instruction) -> Option<NodeVector> {
         let destination = instruction.destination?;
         let source = instruction.sources.first()?;
@@ -101,7 +101,7 @@ impl Translator<'_> {
         }
     }
 
-    /// A word as full precision registers keep it.
+    /// Contents of a full-precision register after a word is written to it.
     fn kept(&mut self, word: NodeId) -> NodeId {
         if self.keeps_words() {
             self.words.insert(word);
@@ -113,7 +113,7 @@ impl Translator<'_> {
         self.make.unary(Arith::Main, Op::Decode, low)
     }
 
-    /// The word that a packing instruction makes.
+    /// The result of a packing instruction.
     fn packed(&mut self, opcode: Opcode, source: &Source) -> NodeId {
         let value = self.fragment_operand(source, Arith::Main, 0);
         let mut word = self.make.zero();
@@ -249,7 +249,7 @@ impl Translator<'_> {
         self.loaded(source, 0).map(|x| self.make.convert(from, Arith::Single, x))
     }
 
-    /// The mask of a condition for a component.
+    /// Mask of a condition for a component.
     fn passes(&mut self, condition: &Condition, component: usize) -> NodeId {
         let code = self.codes[usize::from(condition.swizzle.0[component] & 3)];
         let all = self.make.graph.constant(TRUE);
@@ -266,7 +266,7 @@ impl Translator<'_> {
         }
     }
 
-    /// `condition ? a : b`, where constants and equals need no choosing.
+    /// `condition ? a : b`, simplified for constant conditions and equal operands.
     fn chosen(&mut self, condition: NodeId, a: NodeId, b: NodeId) -> NodeId {
         match self.make.graph.kind(condition) {
             NodeKind::Constant(TRUE) => a,
@@ -276,7 +276,7 @@ impl Translator<'_> {
         }
     }
 
-    /// Of two values of a register the one that a condition chooses; words stay words.
+    /// Selects between two values of a register by a condition; packed words are selected as bits.
     fn merged(&mut self, condition: NodeId, new: NodeId, old: NodeId) -> NodeId {
         let words = self.words.contains(&new) || self.words.contains(&old);
         if !words {
@@ -288,7 +288,7 @@ impl Translator<'_> {
         merged
     }
 
-    /// Writes under mask and condition, and the condition codes.
+    /// Writes a result subject to mask and condition, and updates the condition codes.
     fn fragment_writes(&mut self, instruction: &Instruction, value: NodeVector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
@@ -337,7 +337,7 @@ impl Translator<'_> {
         };
     }
 
-    /// The condition codes before anything ran.
+    /// Initial condition codes.
     pub(crate) fn first_codes(make: &mut super::arith::Maker<'_>) -> [CodeNodes; 4] {
         let (zero, all) = (make.zero(), make.graph.constant(TRUE));
         [CodeNodes { less: zero, equal: all, greater: zero }; 4]
@@ -360,7 +360,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The colour at the end, in the register format.
+    /// The final colour, in the register format.
     pub(crate) fn fragment_color(&mut self, half: bool) -> NodeVector {
         let file = if half { RegisterFile::HalfColorOut } else { RegisterFile::ColorOut };
         std::array::from_fn(|c| {

@@ -1,22 +1,22 @@
-//! A program as a graph of component values, before execution order and storage are decided.
+//! A program as a graph of component values, independent of execution order and storage.
 //!
-//! Equal computations are one node, and what nothing needs is never scheduled: masked components, repeated `dp3`
-//! results and moves cost nothing at run time.
+//! Equal computations share a node, and unused nodes are never scheduled: masked components, repeated `dp3` results and
+//! moves cost nothing at run time.
 
 use crate::num::NumberOperation as Op;
 use std::collections::BTreeMap;
 
-/// Index of a slot: where an executor keeps a value for all its lanes.
+/// Index of a slot, in which an executor stores a value for all its lanes.
 pub(in crate::exec) type Slot = u16;
 
-/// The value of a mask where it holds.
+/// Value of a mask that is true.
 pub(in crate::exec) const TRUE: u32 = u32::MAX;
 
-/// A value.
+/// A value of the graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct NodeId(pub(crate) u32);
 
-/// In which number format a value is computed.
+/// Number format of a computation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Arith {
     /// The register format.
@@ -25,7 +25,7 @@ pub(crate) enum Arith {
     Partial,
     /// Single precision: coordinates and addresses.
     Single,
-    /// The register format, wrapping: coordinates delivered by `texcrd` with their fraction kept.
+    /// The register format with wrapping overflow, for coordinates delivered by `texcrd` with their fraction preserved.
     Wrapped,
     /// H in OpenGL's fragment programs.
     Half,
@@ -34,7 +34,7 @@ pub(crate) enum Arith {
 }
 
 impl Arith {
-    /// Its number in shaders' tables of formats, where those of targets and textures stand in between.
+    /// Index in the shaders' tables of formats, which also contain those of targets and textures.
     pub(crate) const fn number(self) -> u32 {
         match self {
             Self::Main => 0,
@@ -47,48 +47,49 @@ impl Arith {
     }
 }
 
-/// How a texture read finds its level of detail.
+/// Source of a read's level of detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Detail {
-    /// From differences across the quad.
+    /// Differences across the quad.
     Implicit,
-    /// Likewise, plus a bias.
+    /// The same, plus a bias.
     Biased(NodeId),
-    /// From derivatives given by the program.
+    /// Derivatives given by the program.
     Gradients([NodeId; 4], [NodeId; 4]),
 }
 
-/// What a node is.
+/// Definition of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum NodeKind {
     /// The same host bits in every lane.
     Constant(u32),
-    /// What a fixed slot holds when the block starts: a register of a program with flow control.
+    /// Contents of a fixed slot at the start of the block: a register of a program with flow control.
     Held(Slot),
     /// An interpolated component, or a component of a vertex attribute; single precision.
     Input(u16),
-    /// An operation; what it does not take is no operand. Immediates are constants.
+    /// An operation; surplus operands are ignored. Immediates are constants.
     Compute(Arith, Op, [NodeId; 3]),
-    /// A difference across the quad: right less left, or (if true) lower less upper.
+    /// A difference across the quad: right minus left, or (if `true`) lower minus upper.
     Difference(Arith, bool, NodeId),
-    /// A dot product of so many terms, rounded once.
+    /// A dot product with the given number of terms, rounded once.
     Dot(Arith, u8, [NodeId; 4], [NodeId; 4]),
-    /// A value of one format rounded into another.
+    /// A conversion between formats, rounded once.
     Convert(Arith, Arith, NodeId),
-    /// A single precision value clamped to [0, 1], rounded to so many steps, and then into the register format.
+    /// A single-precision value clamped to [0, 1], rounded to a multiple of 1 / steps, and converted to the register
+    /// format.
     Steps(u32, NodeId),
     /// A texture read: sampler, single precision coordinates, detail.
     Fetch(u8, [NodeId; 4], Detail),
-    /// The cosine, or the sine, of an angle: format, whether it is the sine, angle.
+    /// The cosine or (if `true`) sine of an angle.
     Circle(Arith, bool, NodeId),
     /// A component of a texture read's result.
     Texel(NodeId, u8),
-    /// A float constant with a relative number: `c[index + a]`, component, `a` an integer.
+    /// A relatively addressed float constant: `c[index + a]`, component, integer `a`.
     Relative(i32, u8, NodeId),
 }
 
 impl NodeKind {
-    /// Calls `visit` with every node that this one needs.
+    /// Calls `visit` with every operand of this node.
     pub(crate) fn needs(&self, mut visit: impl FnMut(NodeId)) {
         match *self {
             NodeKind::Constant(_) | NodeKind::Held(_) | NodeKind::Input(_) => {}
@@ -115,7 +116,7 @@ impl NodeKind {
     }
 }
 
-/// The nodes, each after those it needs.
+/// The nodes; each follows its operands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Graph {
     kinds: Vec<NodeKind>,
@@ -123,7 +124,7 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// The node of this kind; the one there is, if there is one.
+    /// Returns the node with this definition, creating it if it is new.
     pub(crate) fn node(&mut self, kind: NodeKind) -> NodeId {
         *self.known.entry(kind).or_insert_with(|| {
             self.kinds.push(kind);
@@ -135,7 +136,7 @@ impl Graph {
         self.node(NodeKind::Constant(raw))
     }
 
-    /// Whether mask `a` is `b`, or one of several that are or'ed together of which `b` is one.
+    /// Returns `true` if mask `a` is `b`, or a disjunction that contains `b`.
     pub(crate) fn includes(&self, mut a: NodeId, b: NodeId) -> bool {
         while a != b {
             match self.kind(a) {
@@ -159,7 +160,7 @@ impl Graph {
         self.kinds.len()
     }
 
-    /// For each node whether a root needs it.
+    /// For each node, `true` if a root depends on it.
     pub(crate) fn live(&self, roots: impl IntoIterator<Item = NodeId>) -> Vec<bool> {
         let mut live = vec![false; self.kinds.len()];
         for root in roots {
@@ -173,16 +174,16 @@ impl Graph {
         live
     }
 
-    /// For each node whether it is the same in every lane, given which inputs are, and which kinds of node look at
-    /// other lanes.
+    /// For each node, `true` if it has the same value in all lanes, given the uniform inputs and the kinds of nodes
+    /// that read other lanes.
     pub(crate) fn uniform(&self, input: impl Fn(u16) -> bool, across: impl Fn(&NodeKind) -> bool) -> Vec<bool> {
         let mut uniform = Vec::with_capacity(self.kinds.len());
         for kind in &self.kinds {
             let same = match *kind {
                 NodeKind::Constant(_) => true,
                 NodeKind::Input(component) => input(component),
-                // Where what is uniform is computed, neighbours are other triangles. (A difference of equal lanes is a
-                // zero, whose sign depends on the format.)
+                // Uniform values are computed where adjacent lanes are other triangles. (A difference of equal lanes is
+                // a zero, whose sign depends on the format.)
                 NodeKind::Difference(..) => false,
                 NodeKind::Held(_) | NodeKind::Relative(..) => false,
                 _ if across(kind) => false,

@@ -1,4 +1,4 @@
-//! Operations of several rounded steps, as graph nodes. The sequences are those that the scalar executor documents.
+//! Operations of several rounded steps, as graph nodes. The scalar executor documents the sequences.
 
 use super::arith::{Maker, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
@@ -6,7 +6,7 @@ use crate::isa::Opcode;
 use crate::num::{self, NumberOperation as Op};
 
 impl Maker<'_> {
-    /// What an arithmetic operation makes of its operands; operands that it lacks are zeros.
+    /// The result of an arithmetic operation; missing operands are zeros.
     pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[NodeVector; 3], bump: &NodeVector) -> NodeVector {
         let [a, b, c] = *s;
         match opcode {
@@ -73,7 +73,7 @@ impl Maker<'_> {
         }
     }
 
-    /// One where a comparison holds, else zero.
+    /// One if a comparison holds, else zero.
     fn flag(&mut self, k: Arith, code: Op, a: NodeId, b: NodeId) -> NodeId {
         let holds = self.holds(k, code, a, b);
         let (one, zero) = (self.one(k), self.zero());

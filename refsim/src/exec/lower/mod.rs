@@ -1,11 +1,10 @@
-//! The executors' shared middle: a program as a graph of component values under a device's rules, before anybody
-//! decides in which order, where and by what arithmetic they are computed. `batch` and `wgsl` start from it; `scalar`
-//! does not use it.
+//! Common intermediate representation of `batch` and `wgsl`: a program as a graph of component values under a device's
+//! rules, independent of order, storage and arithmetic of execution. `scalar` does not use it.
 //!
-//! - [`Graph`]: values, computed by [`crate::num::NumberOperation`]s; [`Formats`]: in which number formats.
-//! - `arith`, `macros`, `translate`, `translate_texture`, `fragment`: instructions as nodes.
-//! - `program`, `flow`: whole programs without and with flow control.
-//! - `raw`: how executors hold numbers.
+//! - [`Graph`]: values computed by [`crate::num::NumberOperation`]s; [`Formats`]: their number formats.
+//! - `arith`, `macros`, `translate`, `translate_texture`, `fragment`: translation of instructions to nodes.
+//! - `program`, `flow`: translation of programs without and with flow control.
+//! - `raw`: representation of numbers in the executors.
 
 mod arith;
 mod flow;

@@ -1,11 +1,11 @@
-//! Pixel programs without flow control as nodes, and single instructions of any program.
+//! Translation of pixel programs without flow control, and of single instructions of any program.
 
 use super::graph::{Arith, NodeId};
 use super::translate::{Effect, Translator};
 use crate::isa::{Instruction, Opcode, OpcodeClass, Program, RegisterFile};
 use crate::num::NumberOperation as Op;
 
-/// What a straight pixel program leaves behind.
+/// Outputs of a straight-line pixel program.
 #[derive(Debug)]
 pub(crate) struct Ends {
     pub(crate) colors: [Option<[NodeId; 4]>; 4],
@@ -13,7 +13,7 @@ pub(crate) struct Ends {
     pub(crate) depth: Option<(Arith, NodeId)>,
 }
 
-/// Whether a program needs lane masks and registers that are kept.
+/// Returns `true` if a program needs lane masks and registers in memory.
 pub(crate) fn has_flow(program: &Program) -> bool {
     program
         .instructions
@@ -22,13 +22,13 @@ pub(crate) fn has_flow(program: &Program) -> bool {
 }
 
 impl Ends {
-    /// The values to compute.
+    /// The values to be computed.
     pub(crate) fn roots(&self) -> Vec<NodeId> {
         self.colors.iter().flatten().flatten().copied().chain(self.killed).chain(self.depth.map(|d| d.1)).collect()
     }
 }
 
-/// Translates a straight vertex program: its registers hold the results.
+/// Translates a straight-line vertex program; its registers hold the results.
 pub(crate) fn translate_straight_vertex(t: &mut Translator<'_>, program: &Program) {
     for instruction in &program.instructions {
         let mut effects = Vec::new();
@@ -41,7 +41,7 @@ pub(crate) fn translate_straight_vertex(t: &mut Translator<'_>, program: &Progra
     }
 }
 
-/// Translates a straight pixel program; `visit` sees what each instruction does.
+/// Translates a straight-line pixel program; `visit` receives the effects of each instruction.
 pub(crate) fn translate_straight(
     t: &mut Translator<'_>,
     program: &Program,
@@ -56,7 +56,7 @@ pub(crate) fn translate_straight(
         translate_instruction(t, instruction, &mut effects);
         visit(at, &effects);
         if let Some(partner) = pair {
-            // Both read what stood before the pair.
+            // Both instructions read the state before the pair.
             let first = effects.len();
             translate_instruction(t, partner, &mut effects);
             visit(at + 1, effects.get(first..).unwrap_or_default());
@@ -83,7 +83,7 @@ fn is_arithmetic(instruction: &Instruction) -> bool {
     instruction.opcode.info().class == OpcodeClass::Arithmetic
 }
 
-/// The effects of one instruction.
+/// Translates an instruction and returns its effects.
 pub(crate) fn translate_instruction(t: &mut Translator<'_>, instruction: &Instruction, effects: &mut Vec<Effect>) {
     if t.program.version.is_fragment_program() {
         return t.fragment(instruction, effects);
@@ -99,7 +99,7 @@ pub(crate) fn translate_instruction(t: &mut Translator<'_>, instruction: &Instru
     }
 }
 
-/// What the colours hold at the end.
+/// Final values of the colours.
 fn final_colors(t: &mut Translator<'_>, program: &Program) -> [Option<[NodeId; 4]>; 4] {
     let zero = t.make.zero();
     let mut colors = [None; 4];

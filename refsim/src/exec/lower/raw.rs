@@ -1,31 +1,31 @@
-//! Raw values: numbers of any format as `batch` and `wgsl` hold them in 32 bits.
+//! Raw values: representation of numbers of any format in 32 bits in `batch` and `wgsl`.
 //!
-//! A fixed-point number is its two's complement integer, sign-extended. A float is the binary32 pattern of the same
+//! A fixed-point number is a sign-extended two's complement integer. A float is the binary32 pattern of the same
 //! number, which exists for every format; NaN is always `0x7fc0_0000`.
 
 use crate::num::{Denormals, Format, FormatKind};
 
-/// `2^e`, `e` of a normal double.
+/// `2^e`; `e` must be the exponent of a normal double.
 #[inline(always)]
 pub(crate) fn pow2(e: i32) -> f64 {
     f64::from_bits(((e + 1023) as u64) << 52)
 }
 
-/// Where the fields of a float format lie, and the sizes that follow.
+/// Field layout of a float format, and derived quantities.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloatLayout {
     man_bits: u32,
     exp_bits: u32,
     /// Smallest normal number.
     pub(crate) min_normal: f64,
-    /// `2^-man_bits`: a binade times this is the unit in the last place.
+    /// `2^-man_bits`: a binade's power of two times this is its unit in the last place.
     pub(crate) unit: f64,
-    /// Whether subnormal patterns stand for zero.
+    /// `true` if subnormal patterns are read as zero.
     flushes: bool,
 }
 
 impl FloatLayout {
-    /// Of a format with these field widths.
+    /// The layout of a format with these field widths.
     pub(crate) fn new(exp_bits: u8, man_bits: u8, denormals: Denormals) -> Self {
         Self {
             man_bits: man_bits.into(),
@@ -36,7 +36,7 @@ impl FloatLayout {
         }
     }
 
-    /// The number behind a bit pattern.
+    /// Decodes a bit pattern.
     #[inline(always)]
     pub(crate) fn decode(&self, bits: u32) -> f32 {
         let (m, x) = (self.man_bits, self.exp_bits);
@@ -55,7 +55,7 @@ impl FloatLayout {
         f32::from_bits((value as f32).to_bits() | sign)
     }
 
-    /// The bit pattern of a number of the format; NaN gives the canonical one.
+    /// Encodes a number of the format; NaN becomes the canonical one.
     #[inline(always)]
     pub(crate) fn encode(&self, x: f32) -> u32 {
         let (m, w) = (self.man_bits, self.man_bits + self.exp_bits);
@@ -78,7 +78,7 @@ impl FloatLayout {
     }
 }
 
-/// The raw value of a bit pattern of a format.
+/// Converts a bit pattern of a format to a raw value.
 pub(super) fn decode(format: &Format, bits: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } => {
@@ -91,7 +91,7 @@ pub(super) fn decode(format: &Format, bits: u32) -> u32 {
     }
 }
 
-/// The bit pattern of a raw value.
+/// Converts a raw value to a bit pattern.
 pub(super) fn encode(format: &Format, raw: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } => raw & format.mask(),

@@ -1,4 +1,4 @@
-//! One instruction at a time from the instruction set to graph nodes: operands, modifiers, results.
+//! Translation of single instructions to graph nodes: operands, modifiers, results.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,43 +25,43 @@ pub(crate) struct CodeNodes {
     pub(super) greater: NodeId,
 }
 
-/// What an instruction does besides computing.
+/// Effect of an instruction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effect {
-    /// Writes a component of a register; the second node, if there is one, is the predicate's mask.
+    /// Writes a component of a register; the second node is the mask of the predicate, if any.
     Write(RegisterComponent, NodeId, Option<NodeId>),
-    /// Kills where the mask holds.
+    /// Kills lanes in which the mask holds.
     Kill(NodeId),
-    /// Decides the depth.
+    /// Sets the depth.
     Depth(Arith, NodeId),
 }
 
-/// Makes the nodes of one program.
+/// Translates one program.
 pub(crate) struct Translator<'a> {
     pub(crate) make: Maker<'a>,
     pub(crate) program: &'a Program,
     pub(crate) constants: &'a ResolvedConstants,
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
-    /// What registers hold now. In a program with flow control each component has a slot of its own, and what it holds
-    /// is not known here.
+    /// Current values of registers. In a program with flow control each component is in its own slot, and its value is
+    /// not known here.
     pub(crate) registers: BTreeMap<RegisterComponent, NodeId>,
     /// The slot of `aL` in a program with flow control.
     pub(crate) loop_counter: Option<Slot>,
-    /// Dot products left by `texm3x2pad` and `texm3x3pad`, and how many are waiting.
+    /// Dot products left by `texm3x2pad` and `texm3x3pad`, and their number.
     pub(crate) padded: [NodeId; 2],
     pub(crate) pads: usize,
     /// Condition codes of an OpenGL program.
     pub(crate) codes: [CodeNodes; 4],
-    /// What may be any 32 bits, and not a number as arithmetic leaves it.
+    /// Nodes that may be arbitrary 32 bits rather than canonical numbers.
     pub(crate) words: BTreeSet<NodeId>,
-    /// Texture reads by sampler, one an instruction.
+    /// Sampler of each texture read, one entry per instruction.
     pub(crate) fetches: Vec<usize>,
-    /// Whether float constants are inputs from [`CONSTANT_INPUTS`] on, four a register, in the format of the program;
-    /// else they are part of what is made.
+    /// `true` if float constants are inputs from [`CONSTANT_INPUTS`] on, four per register, in the format of the
+    /// program; `false` if they are constants of the graph.
     pub(crate) open_constants: bool,
 }
 
-/// The first input that is a constant's, after those of 16 attributes.
+/// The first input of constants, after those of 16 attributes.
 pub(crate) const CONSTANT_INPUTS: u16 = 64;
 
 impl<'a> Translator<'a> {
@@ -100,7 +100,7 @@ impl<'a> Translator<'a> {
         self.bindings.and_then(|b| b.bump.get(usize::from(stage)).copied()).unwrap_or_default()
     }
 
-    /// An interpolated coordinate, single precision; zero past the last set.
+    /// An interpolated coordinate, single precision; zero beyond the last set.
     pub(crate) fn coordinate(&mut self, set: u16, component: usize) -> NodeId {
         if set >= 8 {
             return self.make.zero();
@@ -109,7 +109,7 @@ impl<'a> Translator<'a> {
         self.make.graph.node(NodeKind::Input(number as u16))
     }
 
-    /// A colour as the program gets it: clamped, through the iterator's precision, in the register format.
+    /// A colour as the program reads it: clamped, rounded to the iterator's precision, in the register format.
     fn color(&mut self, number: u16, component: usize) -> NodeId {
         if number >= 2 {
             return self.make.zero();
@@ -128,7 +128,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// What a component of a register holds, in the register format.
+    /// Contents of a register component, in the register format.
     pub(crate) fn held(&mut self, register: &Register, component: usize) -> NodeId {
         let place = (register.file, register.index, component as u8);
         if let Some(&node) = self.registers.get(&place) {
@@ -183,7 +183,7 @@ impl<'a> Translator<'a> {
         self.make.graph.node(NodeKind::Relative(i32::from(register.index), component as u8, address))
     }
 
-    /// The format that an instruction computes in.
+    /// Format in which an instruction computes.
     pub(crate) fn arith(&self, partial: bool) -> Arith {
         if partial && self.is_pixel() && self.make.rules.partial.is_some() { Arith::Partial } else { Arith::Main }
     }
@@ -197,14 +197,14 @@ impl<'a> Translator<'a> {
         })
     }
 
-    /// A component of a result on its way into a register.
+    /// Finishes a component of a result: shift, saturation, conversion to the register format.
     fn finished(&mut self, k: Arith, destination: &Destination, x: NodeId) -> NodeId {
         let shifted = if destination.shift == 0 { x } else { self.make.scale(k, x, destination.shift) };
         let clamped = if destination.saturate { self.make.unary(k, Op::Saturate, shifted) } else { shifted };
         self.make.convert(k, Arith::Main, clamped)
     }
 
-    /// The mask of a predicate for a component, `None` where there is no predicate.
+    /// Mask of a predicate for a component; `None` without a predicate.
     pub(crate) fn predicate(&mut self, instruction: &Instruction, component: usize) -> Option<NodeId> {
         let predicate = instruction.predicate?;
         let register = Register::new(RegisterFile::Predicate, 0);
@@ -218,7 +218,7 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Single, Op::AndNot, mask, all)
     }
 
-    /// A result on its way into a pixel register, clamped to [-1, 1] where the rules ask for it.
+    /// Clamps a result for a pixel register to [-1, 1] if the rules require it.
     fn in_range(&mut self, x: NodeId) -> NodeId {
         if !self.is_pixel() || self.make.rules.result_range == ResultRange::Format {
             return x;
@@ -229,7 +229,7 @@ impl<'a> Translator<'a> {
         self.make.binary(Arith::Main, Op::Max, below, minus)
     }
 
-    /// Writes of the components in the destination's mask.
+    /// Writes the components in the destination's mask.
     pub(crate) fn writes(&mut self, instruction: &Instruction, mut value: NodeVector, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let (file, index) = (destination.register.file, destination.register.index);
@@ -237,7 +237,7 @@ impl<'a> Translator<'a> {
             value = value.map(|x| self.in_range(x));
         }
         if file == RegisterFile::DepthOut {
-            // A scalar: the lowest component of the mask carries it.
+            // A scalar is taken from the lowest component of the mask.
             if let Some(c) = destination.mask.components().next() {
                 let allowed = self.predicate(instruction, c);
                 effects.push(Effect::Write((file, 0, 0), value[c], allowed));
@@ -250,7 +250,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// An arithmetic instruction.
+    /// Translates an arithmetic instruction.
     pub(crate) fn arithmetic(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         let k = self.arith(destination.partial_precision);
@@ -313,7 +313,7 @@ impl<'a> Translator<'a> {
         product
     }
 
-    /// The mask of a comparison of two numbers.
+    /// Mask of a comparison of two numbers.
     pub(crate) fn comparison(&mut self, k: Arith, comparison: Comparison, a: NodeId, b: NodeId) -> NodeId {
         let (code, a, b) = match comparison {
             Comparison::Gt => (Op::Less, b, a),
@@ -326,7 +326,7 @@ impl<'a> Translator<'a> {
         if comparison == Comparison::Ne { self.inverted(holds) } else { holds }
     }
 
-    /// The mask of a flow instruction's condition.
+    /// Mask of a flow instruction's condition.
     pub(crate) fn condition(&mut self, instruction: &Instruction) -> NodeId {
         let [a, b] = [instruction.sources.first(), instruction.sources.get(1)];
         match instruction.opcode {
@@ -341,7 +341,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// The mask of a boolean operand.
+    /// Mask of a boolean operand.
     fn truth(&mut self, source: Option<&Source>) -> NodeId {
         let Some(source) = source else { return self.make.zero() };
         let value = match source.register.file {

@@ -1,4 +1,4 @@
-//! Texture instructions as graph nodes.
+//! Translation of texture instructions to graph nodes.
 
 use super::arith::NodeVector;
 use super::graph::{Arith, Detail, NodeId, NodeKind};
@@ -13,7 +13,7 @@ use crate::texture::unbound;
 const S: Arith = Arith::Single;
 
 impl Translator<'_> {
-    /// A texture instruction.
+    /// Translates a texture instruction.
     pub(crate) fn texture(&mut self, instruction: &Instruction, effects: &mut Vec<Effect>) {
         let Some(destination) = &instruction.destination else { return };
         match instruction.opcode {
@@ -64,7 +64,7 @@ impl Translator<'_> {
         }
     }
 
-    /// The operand of `texld` and `texcrd` in ps_1_4: with `_dz` and `_dw` divided, 1 where the divisor is zero.
+    /// The operand of `texld` and `texcrd` in ps_1_4: divided with `_dz` and `_dw`, 1 if the divisor is zero.
     fn selected(&mut self, source: &Source) -> NodeVector {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(&plain);
@@ -82,7 +82,7 @@ impl Translator<'_> {
         [x, y, zero, zero]
     }
 
-    /// One row of a texture matrix.
+    /// A row of a texture matrix.
     fn row(&mut self, stage: u16, source: &Source) -> NodeId {
         let (own, vector) = (self.set(stage), self.in_single(source));
         self.make.dot(S, 3, &own, &vector)
@@ -200,7 +200,7 @@ impl Translator<'_> {
             return unbound(self.make.rules.format).map(|bits| self.make.pattern(Arith::Main, bits));
         };
         let detail = if binding.needs_detail() { detail } else { Detail::Implicit };
-        // What the texture has no axis for is not waited for.
+        // Components without a texture axis are dropped, so that reads don't depend on them.
         let axes = match binding.image.kind() {
             TextureKind::D1 => 1,
             TextureKind::D2 | TextureKind::Rectangle => 2,

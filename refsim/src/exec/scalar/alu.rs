@@ -1,14 +1,14 @@
-//! Arithmetic of one format under the rules of one device: a thin layer over [`crate::num::ops`] that chooses the
-//! rounding sequence the profile asks for and collects the exception flags.
+//! Arithmetic in one format under a device's rules: a thin layer over [`crate::num::ops`] that selects the rounding
+//! sequence of the profile and collects exception flags.
 
 use crate::device::{LrpMode, MadMode, ResultRange, Rules};
 use crate::num::{self, Flags, Format, ops};
 
-/// Operations in `format`, under `rules`, with the flags raised since they were last taken.
+/// Operations in `format` under `rules`; accumulates exception flags.
 pub(crate) struct Alu<'r> {
     rules: &'r Rules,
     legacy_zero: bool,
-    /// Whether results are clamped to [-1, 1] on their way into a register.
+    /// `true` if results are clamped to [-1, 1] when written to a register.
     to_one: bool,
     /// Format of operands and results.
     pub(crate) format: Format,
@@ -16,7 +16,7 @@ pub(crate) struct Alu<'r> {
     pub(crate) flags: Flags,
 }
 
-/// Operations of [`ops`] under their names, in the format of the [`Alu`], their flags kept.
+/// Wrappers of functions in [`ops`] that use the format of the [`Alu`] and accumulate flags.
 macro_rules! kept {
     ($($name:ident($($operand:ident),+) = $definition:path;)*) => {$(
         pub(crate) fn $name(&mut self, $($operand: u32),+) -> u32 {
@@ -26,19 +26,19 @@ macro_rules! kept {
 }
 
 impl<'r> Alu<'r> {
-    /// Pixel arithmetic in `format`.
+    /// Creates pixel arithmetic in `format`.
     pub(crate) fn new(rules: &'r Rules, format: Format) -> Self {
         let to_one = rules.result_range == ResultRange::One;
         Self { rules, legacy_zero: rules.zero_times_anything, to_one, format, flags: Flags::empty() }
     }
 
-    /// Vertex and address arithmetic in `format`: as pixel arithmetic, without the legacy rule for zero and the range
-    /// of pixel results.
+    /// Creates vertex and address arithmetic in `format`: without the legacy rule for zero and without the range of
+    /// pixel results.
     pub(crate) fn plain(rules: &'r Rules, format: Format) -> Self {
         Self { legacy_zero: false, to_one: false, ..Self::new(rules, format) }
     }
 
-    /// The flags raised so far; none are left.
+    /// Returns and clears the accumulated flags.
     pub(crate) fn take_flags(&mut self) -> Flags {
         std::mem::replace(&mut self.flags, Flags::empty())
     }
@@ -48,7 +48,7 @@ impl<'r> Alu<'r> {
         outcome.bits
     }
 
-    /// One (the largest number in formats that have no one).
+    /// One (the largest number in formats without one).
     pub(crate) fn one(&self) -> u32 {
         self.format.one()
     }
@@ -58,7 +58,7 @@ impl<'r> Alu<'r> {
         num::from_ratio(self.format, false, 1, 2).bits
     }
 
-    /// `bits` of format `from` in this format, rounded once.
+    /// Converts `bits` from format `from` to this format, rounded once.
     pub(crate) fn enter(&mut self, from: Format, bits: u32) -> u32 {
         if from == self.format {
             return bits;
@@ -66,13 +66,13 @@ impl<'r> Alu<'r> {
         self.keep(ops::convert(&from, self.format, bits))
     }
 
-    /// [`Self::enter`] that makes a NaN canonical and flushes subnormals even where the formats are the same: for
-    /// values that no operation has made yet.
+    /// [`Self::enter`] that also canonicalises NaN and flushes subnormals if the formats are equal; for values that are
+    /// not results of an operation.
     pub(crate) fn convert(&mut self, from: Format, bits: u32) -> u32 {
         self.keep(ops::convert(&from, self.format, bits))
     }
 
-    /// `bits` of this format in format `to`, rounded once.
+    /// Converts `bits` from this format to format `to`, rounded once.
     pub(crate) fn leave(&mut self, to: Format, bits: u32) -> u32 {
         if to == self.format {
             return bits;
@@ -101,8 +101,8 @@ impl<'r> Alu<'r> {
         cnd(condition, a, b) = ops::cnd;
     }
 
-    /// The operands of a product. With the legacy rule `zero_times_anything`, a zero beside an infinity or a NaN
-    /// turns both into +0, so that the product is +0.
+    /// Operands of a product. With the legacy rule `zero_times_anything`, a zero together with an infinity or NaN
+    /// replaces both by +0, so that the product is +0.
     fn factors(&self, a: u32, b: u32) -> (u32, u32) {
         let f = &self.format;
         let zero = f.is_zero(a) || f.is_zero(b);
@@ -114,7 +114,7 @@ impl<'r> Alu<'r> {
         self.keep(ops::mul(self.format, a, b))
     }
 
-    /// `a * b + c`: product and sum rounded one after the other, or the exact result rounded once, as the rules say.
+    /// `a * b + c`: product and sum rounded separately, or the exact result rounded once, according to the rules.
     pub(crate) fn mad(&mut self, a: u32, b: u32, c: u32) -> u32 {
         match self.rules.mad {
             MadMode::TwoRoundings => {
@@ -128,7 +128,7 @@ impl<'r> Alu<'r> {
         }
     }
 
-    /// The dot product of equally long vectors (at most 4 terms), summed in the order the rules name.
+    /// Dot product of equally long vectors (at most 4 terms), summed in the order given by the rules.
     pub(crate) fn dot(&mut self, a: &[u32], b: &[u32]) -> u32 {
         let n = a.len().min(b.len()).min(4);
         let mut terms = [(0, 0); 4];
@@ -139,7 +139,7 @@ impl<'r> Alu<'r> {
     }
 
     /// `factor * (a - b) + b`, the last two steps as one [`Self::mad`], or `factor * a + (1 - factor) * b` with each
-    /// step rounded, as the rules say.
+    /// step rounded, according to the rules.
     pub(crate) fn lrp(&mut self, factor: u32, a: u32, b: u32) -> u32 {
         match self.rules.lrp {
             LrpMode::SubMulAdd => {
@@ -163,8 +163,7 @@ impl<'r> Alu<'r> {
         self.keep(ops::scale(self.format, a, i32::from(shift)))
     }
 
-    /// A result on its way into a register: `max(min(a, 1), -1)` where the rules ask for it. A clamp that changes the
-    /// number counts as an overflow.
+    /// Clamps a result to [-1, 1] if the rules require it. A clamp that changes the number counts as an overflow.
     pub(crate) fn in_range(&mut self, a: u32) -> u32 {
         if !self.to_one {
             return a;

@@ -1,4 +1,4 @@
-//! Texture instructions that decide on the fragment: `texdepth` and `texkill`.
+//! Texture instructions that affect the fragment as a whole: `texdepth` and `texkill`.
 
 use super::interpreter::Interpreter;
 use crate::device::{TexdepthDenominator, TexkillComponents};
@@ -6,8 +6,8 @@ use crate::exec::Observer;
 use crate::isa::{Destination, Instruction, RegisterFile};
 
 impl<O: Observer> Interpreter<'_, '_, O> {
-    /// `texdepth`: `r / g` of the register (always r5), rounded into the register format, becomes the depth; 1.0 where
-    /// g is zero. With [`TexdepthDenominator::Min1`] the divisor is at most 1.
+    /// `texdepth`: the depth becomes `r / g` of the register (always r5), rounded into the register format, or 1.0 if g
+    /// is zero. With [`TexdepthDenominator::Min1`] the divisor is at most 1.
     pub(super) fn texdepth(&mut self, at: usize, destination: &Destination) {
         for lane in self.active_lanes() {
             let register = usize::from(destination.register.index);
@@ -22,8 +22,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `texkill`: a fragment is dropped if a component is below zero (-0 and NaN are not). Three components count in
-    /// ps_1_x, in ps_2_x those the rules name. In ps_1_x `t#` is tested as interpolated, in ps_2_x as delivered.
+    /// `texkill`: kills the fragment if a component is below zero (-0 and NaN are not). ps_1_x tests three components,
+    /// ps_2_x those given by the rules. In ps_1_x `t#` is tested as interpolated, in ps_2_x in the register format.
     pub(super) fn texkill(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let version = self.prepared.program.version;
         let four = version.is_ps_2() && self.prepared.rules.texkill_components == TexkillComponents::Four;

@@ -1,4 +1,4 @@
-//! Flow control by lane masks over the resolved jump structure.
+//! Flow control by lane masks and resolved jump targets.
 
 use super::interpreter::{Interpreter, OpenBlock};
 use crate::exec::Observer;
@@ -6,7 +6,7 @@ use crate::exec::budget::{MAX_LOOP_PASSES, loop_counter};
 use crate::isa::{Instruction, Modifier, Opcode, RegisterFile, Source};
 
 impl<O: Observer> Interpreter<'_, '_, O> {
-    /// Executes the flow instruction `at`; returns where the program goes on, or `None` if it ends.
+    /// Executes the flow instruction `at`; returns the next instruction, or `None` if the program ends.
     pub(super) fn flow(&mut self, at: usize, instruction: &Instruction) -> Option<usize> {
         let target = self.prepared.flow.target(at);
         match instruction.opcode {
@@ -43,7 +43,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             }
             Opcode::Call | Opcode::CallNz => Some(self.call(at, target, instruction)),
             Opcode::Ret => self.ret(at),
-            // Running into a label ends the subroutine before it, or the main program.
+            // Reaching a label ends the preceding subroutine or the main program.
             Opcode::Label => self.return_from_call(),
             _ => Some(at + 1),
         }
@@ -63,7 +63,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         holds
     }
 
-    /// A boolean operand: `b#` or a component of `p0`, perhaps inverted.
+    /// Value of a boolean operand: `b#` or a component of `p0`, possibly inverted.
     fn truth(&self, lane: usize, source: &Source) -> bool {
         let value = match source.register.file {
             RegisterFile::Predicate => self.lanes[lane].predicate[usize::from(source.swizzle.0[0] & 3)],
@@ -113,7 +113,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         at + 1
     }
 
-    /// Takes `lanes` out of everything up to and including the innermost loop's passes.
+    /// Removes `lanes` from all open blocks up to and including the innermost loop.
     fn leave_loop(&mut self, lanes: u8) {
         let in_loop = self
             .open
@@ -140,8 +140,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `call`, `callnz`. Calls lead forward only, as on the cards, so that every program ends; one that leads
-    /// back is passed over.
+    /// `call`, `callnz`. As on the cards, calls lead forward only, so that every program ends; a call that leads
+    /// backward is skipped.
     fn call(&mut self, at: usize, target: usize, instruction: &Instruction) -> usize {
         let entering = match instruction.opcode {
             Opcode::CallNz => self.condition(instruction),
@@ -155,8 +155,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         target + 1
     }
 
-    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step
-    /// left.
+    /// Counts a step for every active lane before instruction `at`, and stops lanes whose budget is used up.
     pub(super) fn charge(&mut self, at: usize, budget: u32) {
         let mut cut = 0;
         for lane in self.active_lanes() {
@@ -186,7 +185,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `ret`: the active lanes are done with the subroutine, or with the program.
+    /// `ret`: the active lanes leave the subroutine, or end the program.
     fn ret(&mut self, at: usize) -> Option<usize> {
         match self.open.last() {
             None => return None,
@@ -211,7 +210,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         Some(at + 1)
     }
 
-    /// Ends the innermost subroutine and returns where its caller goes on; `None` in the main program.
+    /// Ends the innermost subroutine; returns the instruction after the call, or `None` in the main program.
     pub(super) fn return_from_call(&mut self) -> Option<usize> {
         while let Some(block) = self.open.pop() {
             if let OpenBlock::Call { restore, back } = block {

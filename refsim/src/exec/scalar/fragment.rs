@@ -1,12 +1,12 @@
-//! OpenGL's fragment programs: three precisions, condition codes, packing. Read beside GL_NV_fragment_program and
-//! GL_ARB_fragment_program, whose instructions carry the same names.
+//! OpenGL fragment programs: three precisions, condition codes, packing. Follows GL_NV_fragment_program and
+//! GL_ARB_fragment_program, whose mnemonics it uses.
 //!
-//! The order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted into the
-//! format of the operation; the result is saturated, converted into the format of its destination, and written where
-//! the mask and the condition say; there the condition codes take it too, if the instruction asks.
+//! Order within an instruction: operands are loaded, swizzled, made absolute, negated, then converted to the format of
+//! the operation. The result is saturated, converted to the format of the destination, and written subject to mask and
+//! condition; the written components also update the condition codes, if requested.
 //!
-//! A packed word lies in `R#` as bits. `MOV` in full precision without modifiers carries bits; everything else, and the
-//! end of the program, takes them for the number that they are a pattern of.
+//! A packed word is stored in `R#` as bits. Full-precision `MOV` without modifiers copies bits; everything else,
+//! including the end of the program, interprets them as a number of the register format.
 
 use super::alu::Alu;
 use super::fragment_state::{ConditionCode, FragmentState};
@@ -19,7 +19,7 @@ use crate::isa::{Instruction, Mask, Modifier, Opcode, OpcodeClass, Precision, Re
 use crate::num::ops;
 
 impl<'a, O: Observer> Interpreter<'_, 'a, O> {
-    /// One instruction in all lanes.
+    /// Executes an instruction in all lanes.
     pub(super) fn fragment_instruction(&mut self, at: usize, instruction: &Instruction) {
         match (instruction.opcode, instruction.opcode.info().class) {
             (Opcode::Kil, _) => self.kil(instruction),
@@ -41,7 +41,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         FragmentFormats::new(self.prepared.rules)
     }
 
-    /// The arithmetic of a precision.
+    /// Arithmetic of a precision.
     pub(super) fn unit(&mut self, precision: Precision) -> &mut Alu<'a> {
         match (&mut self.fragment, precision) {
             (Some(fragment), Precision::Half) => &mut fragment.half,
@@ -50,7 +50,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         }
     }
 
-    /// What a register holds, in the format of its file.
+    /// Contents of a register, in the format of its file.
     fn fragment_value(&self, lane: usize, source: &Source) -> Components {
         let register = &source.register;
         let number = usize::from(register.index);
@@ -62,12 +62,12 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         }
     }
 
-    /// The bits of a component without any conversion.
+    /// Bits of a component, unconverted.
     fn bits(&self, lane: usize, source: &Source, component: usize) -> u32 {
         self.fragment_value(lane, source)[usize::from(source.swizzle.0[component] & 3)]
     }
 
-    /// An operand in the format of its file: swizzled, absolute, negated. Components outside `wanted` are zero.
+    /// Loads an operand in the format of its file: swizzled, absolute, negated. Components outside `wanted` are zero.
     pub(super) fn loaded(&mut self, lane: usize, source: &Source, wanted: Mask, negate: u8) -> Components {
         let value = self.fragment_value(lane, source);
         let half = source.register.file.is_half();
@@ -86,7 +86,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         out
     }
 
-    /// An operand in the format of the operation.
+    /// Loads an operand in the format of the operation.
     fn fragment_operand(
         &mut self,
         lane: usize,
@@ -104,7 +104,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         out
     }
 
-    /// The result in the format of the destination.
+    /// Computes the result in the format of the destination.
     fn fragment_result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else { return [0; 4] };
         let to = self.fragment_formats().of_file(destination.register.file);
@@ -123,7 +123,8 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         out
     }
 
-    /// What is carried as bits: packed words, and what a plain `MOV` finds in `R#`. `None` for everything else.
+    /// Computes a result that is moved as bits: a packed word, or the source of a plain `MOV` from `R#`. `None` for
+    /// other instructions.
     fn moved_bits(&mut self, lane: usize, instruction: &Instruction) -> Option<Components> {
         let destination = instruction.destination.as_ref()?;
         let source = instruction.sources.first()?;
@@ -149,13 +150,13 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         pack::pack(&formats, instruction.opcode, &value)
     }
 
-    /// The result in the format of the operation, before saturation.
+    /// Computes the result in the format of the operation, before saturation.
     fn fragment_raw(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
         let opcode = instruction.opcode;
         match opcode {
             Opcode::Dsx | Opcode::Dsy => return self.fragment_difference(lane, instruction, k, mask),
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
-                // Into half precision: the number that the word is a pattern of.
+                // Into half precision: the number that the word encodes.
                 let Some(source) = instruction.sources.first() else { return [0; 4] };
                 let word = self.packed(lane, instruction, source);
                 let full = self.full.format;
@@ -177,11 +178,11 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         let arb = self.prepared.program.version == Version::ArbFp1_0;
         let unit = self.unit(k);
         if arb && opcode == Opcode::Rsq {
-            // ARB takes the magnitude, whatever the card's own instruction does.
+            // ARB takes the magnitude, unlike NV's instruction.
             s[0] = s[0].map(|x| unit.abs(x));
         }
         if opcode == Opcode::Cmp {
-            // ARB chooses by `< 0`, Direct3D by `>= 0`: a NaN chooses the other operand.
+            // ARB selects by `< 0`, Direct3D by `>= 0`: a NaN selects the other operand.
             return operation::each(mask, |i| if unit.less(s[0][i], 0) { s[1][i] } else { s[2][i] });
         }
         operation::compute(unit, opcode, &s, &Context { bump: [0; 4], mask })
@@ -197,7 +198,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         pack::unpack(&self.fragment_formats(), instruction.opcode, word)
     }
 
-    /// `DDX`, `DDY`: the difference across the quad's row or column, the same for both lanes of it.
+    /// `DDX`, `DDY`: the difference across the quad's row or column; both of its lanes get the same value.
     fn fragment_difference(&mut self, lane: usize, instruction: &Instruction, k: Precision, mask: Mask) -> Components {
         let Some(source) = instruction.sources.first() else { return [0; 4] };
         let (low, high) = match instruction.opcode {
@@ -210,8 +211,8 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         operation::each(mask, |i| unit.sub(to[i], from[i]))
     }
 
-    /// Writes a result, in the format of its destination, where the mask and the condition say, and lets the condition
-    /// codes take it there. The observer gets what the masked components hold then.
+    /// Writes a result, in the format of its destination, subject to mask and condition, and updates the condition
+    /// codes. The observer receives the resulting contents of the masked components.
     pub(super) fn fragment_store(&mut self, at: usize, lane: usize, instruction: &Instruction, value: Components) {
         let Some(destination) = &instruction.destination else { return };
         let file = destination.register.file;
@@ -234,7 +235,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             RegisterFile::Temp => self.lanes[lane].temp.get_mut(number),
             RegisterFile::ColorOut => self.lanes[lane].color_out.get_mut(number),
             _ => {
-                // Depth: a scalar, which a condition keeps from being written but not from being replaced by zero.
+                // Depth is a scalar. If the condition disables the write, the old depth remains, or zero if there is none.
                 let old = self.lanes[lane].depth_out.unwrap_or(0);
                 let kept = destination.mask.components().next();
                 let new = kept.map_or(old, |c| if mask.contains(c) { value[c] } else { old });
@@ -250,7 +251,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
         self.tell(at, lane, Some((destination.mask, holds)));
     }
 
-    /// `KIL`: a fragment is dropped if one of the four condition codes passes; ARB's, if a component is below zero.
+    /// `KIL`: kills the fragment if one of the four condition codes passes; in ARB, if a component is below zero.
     fn kil(&mut self, instruction: &Instruction) {
         for lane in 0..LANES {
             let mut killed = false;

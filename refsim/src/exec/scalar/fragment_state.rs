@@ -1,4 +1,4 @@
-//! What an OpenGL fragment program has besides the registers of Direct3D.
+//! State that only OpenGL fragment programs have.
 
 use super::alu::Alu;
 use super::registers::{Components, LANES};
@@ -7,10 +7,10 @@ use crate::exec::FragmentFormats;
 use crate::isa::{Condition, ConditionTest, Instruction, Program, RegisterFile};
 use crate::num::{Flags, Format, ops};
 
-/// Half precision temporaries.
+/// Number of half-precision temporaries.
 const HALVES: usize = 64;
 
-/// What a component of the last result was beside zero.
+/// Condition code: comparison of a result component with zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ConditionCode {
     Less,
@@ -46,8 +46,7 @@ impl ConditionCode {
     }
 }
 
-/// What a fragment program has besides the registers of Direct3D, for four lanes. All starts at zero, the codes at
-/// equal.
+/// State that only OpenGL fragment programs have, for four lanes. Registers start at zero, condition codes at equal.
 pub(super) struct FragmentState<'a> {
     formats: FragmentFormats,
     pub(super) half: Alu<'a>,
@@ -82,7 +81,7 @@ impl<'a> FragmentState<'a> {
         self.half.take_flags() | self.fixed.take_flags()
     }
 
-    /// The colour that the program leaves in a lane, in the register format: `o[COLR]`, which is given, or `o[COLH]`.
+    /// Final colour of a lane in the register format: `o[COLR]`, passed as `full`, or `o[COLH]`.
     pub(super) fn color(&self, program: &Program, lane: usize, full: Components) -> Components {
         let is_half = |i: &Instruction| i.destination.is_some_and(|d| d.register.file == RegisterFile::HalfColorOut);
         let (from, value) = match program.instructions.iter().any(is_half) {

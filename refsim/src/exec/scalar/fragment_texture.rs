@@ -1,5 +1,5 @@
-//! Texture reads of OpenGL's fragment programs. Addresses are single precision whatever the registers are, as in
-//! Direct3D's programs; the texel is taken into full precision and from there into the destination's.
+//! Texture reads of OpenGL fragment programs. As in Direct3D's programs, addresses are single precision whatever the
+//! register format; the texel is converted to full precision and then to the destination's.
 
 use super::interpreter::Interpreter;
 use super::registers::{Components, LANES, modified};

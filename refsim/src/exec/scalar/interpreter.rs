@@ -1,8 +1,7 @@
-//! The interpreter: runs a program on four lanes in lockstep; arithmetic, stores, calls of the observer.
+//! The interpreter: executes a program on the four lanes of a quad in lockstep, including stores and observer calls.
 //!
-//! A vertex runs as a quad of which one lane is active. Lanes masked off by flow control keep their registers; helper
-//! lanes (outside the primitive) run like the others, so that differences between lanes exist, and are dropped at
-//! the end.
+//! A vertex is executed as a quad with one active lane. Lanes masked off by flow control keep their registers. Helper
+//! lanes (outside the primitive) execute like the others, so that derivatives exist, and are discarded at the end.
 
 use super::alu::Alu;
 use super::fragment_state::FragmentState;
@@ -14,39 +13,39 @@ use crate::exec::{Observer, Step};
 use crate::isa::{Comparison, Destination, Instruction, Mask, Opcode, OpcodeClass, RegisterFile, Source};
 use crate::num::{Flags, Format};
 
-/// What an open block remembers.
+/// State of an open block.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum OpenBlock {
     /// `if`
     If {
-        /// Lanes that run again after `endif`.
+        /// Lanes reactivated at `endif`.
         restore: u8,
-        /// Lanes that take `else`.
+        /// Lanes that execute `else`.
         otherwise: u8,
     },
     /// `rep`, `loop`
     Loop {
         /// Lanes that have not left by `break`.
         live: u8,
-        /// Lanes that run again after the loop.
+        /// Lanes reactivated after the loop.
         restore: u8,
-        /// Passes still to do, this one included.
+        /// Remaining iterations, including the current one.
         left: i32,
-        /// What `aL` grows by.
+        /// Increment of `aL`.
         step: i32,
-        /// `aL` outside.
+        /// Value of `aL` outside the loop.
         outer_counter: i32,
     },
     /// `call`
     Call {
-        /// Lanes that run again after the call.
+        /// Lanes reactivated after the call.
         restore: u8,
         /// The instruction after the call.
         back: usize,
     },
 }
 
-/// Four lanes on their way through a program.
+/// Execution state of a quad.
 pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) prepared: &'p Prepared<'a>,
     pub(super) lanes: [Registers; LANES],
@@ -54,21 +53,21 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) coordinates: [[Components; 8]; LANES],
     /// Dot products left by `texm3x2pad` and `texm3x3pad`, single precision.
     pub(super) padded: [[u32; 2]; LANES],
-    /// How many of them are waiting.
+    /// Number of such dot products.
     pub(super) pads: usize,
     /// Arithmetic in the register format.
     pub(super) full: Alu<'a>,
-    /// Arithmetic of `_pp` instructions, where the device has any.
+    /// Arithmetic of `_pp` instructions, if the device has one.
     partial: Option<Alu<'a>>,
     /// Single precision arithmetic of texture addresses.
     pub(super) address: Alu<'a>,
-    /// Lanes that flow control lets run, a bit each.
+    /// Lanes enabled by flow control, one bit each.
     pub(super) active: u8,
-    /// Lanes that are fragments of the primitive.
+    /// Lanes covered by the primitive.
     pub(super) covered: u8,
-    /// Lanes that `texkill` removed.
+    /// Lanes killed.
     pub(super) killed: u8,
-    /// Depth that the program decided, by lane.
+    /// Depth written by the program, per lane.
     pub(super) depth: [Option<(Format, u32)>; LANES],
     pub(super) loop_counter: i32,
     pub(super) open: Vec<OpenBlock>,
@@ -76,10 +75,10 @@ pub(super) struct Interpreter<'p, 'a, O> {
     pub(super) slots: u64,
     pub(super) fetches: [u64; SAMPLERS],
     pub(super) flags: [Flags; LANES],
-    /// Steps made, where a budget is enforced, and the instruction in front of which a lane ran out of them.
+    /// Steps executed, if a budget is enforced, and the instruction before which a lane was stopped.
     pub(super) steps: [u32; LANES],
     pub(super) cut_at: [Option<usize>; LANES],
-    /// What only an OpenGL fragment program has.
+    /// State of OpenGL fragment programs.
     pub(super) fragment: Option<Box<FragmentState<'a>>>,
     pub(super) observer: &'p mut O,
 }
@@ -114,7 +113,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// Runs the program to its end.
+    /// Executes the program to its end.
     pub(super) fn run(&mut self) {
         let program = self.prepared.program;
         let mut at = 0;
@@ -163,14 +162,13 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// Numbers of the active lanes.
+    /// Indices of the active lanes.
     pub(super) fn active_lanes(&self) -> impl Iterator<Item = usize> + use<'p, 'a, O> {
         let active = self.active;
         (0..LANES).filter(move |&lane| active >> lane & 1 == 1)
     }
 
-    /// `phase`: colour survives, the alpha of every temporary is lost. Lost means zero, a defined value where the
-    /// card had none.
+    /// `phase`: keeps the colour of every temporary and clears its alpha. Cards leave alpha undefined; here it is zero.
     fn phase(&mut self) {
         for lane in &mut self.lanes {
             for register in &mut lane.temp {
@@ -179,8 +177,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// One arithmetic instruction, or a co-issued pair whose members both read what stood before the pair. Returns
-    /// where the program goes on.
+    /// Executes an arithmetic instruction, or a co-issued pair whose members both read the state before the pair.
+    /// Returns the next instruction.
     fn arithmetic(&mut self, at: usize, instruction: &Instruction) -> usize {
         let program = self.prepared.program;
         let partner = program.instructions.get(at + 1).filter(|_| self.prepared.flow.pairs_with_next(at));
@@ -207,7 +205,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         next
     }
 
-    /// The result of an arithmetic instruction in one lane, ready to be stored.
+    /// Computes the result of an arithmetic instruction in one lane, ready to be stored.
     fn result(&mut self, lane: usize, instruction: &Instruction) -> Components {
         let Some(destination) = &instruction.destination else {
             return [0; 4];
@@ -254,7 +252,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
             }
         };
         let done = match opcode {
-            // A comparison mask or an address: no number of the register format, nothing to finish.
+            // A comparison mask or an address is not a number of the register format, so it needs no final steps.
             Opcode::Setp => {
                 let comparison = instruction.comparison.unwrap_or(Comparison::Eq);
                 let mut truth = [0; 4];
@@ -271,7 +269,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
-    /// An operand of one lane in the format of the operation.
+    /// Loads an operand of one lane in the format of the operation.
     pub(super) fn source(&mut self, lane: usize, source: &Source, wanted: Mask, partial: bool) -> Components {
         let prepared = self.prepared;
         let value = self.lanes[lane].value(&source.register, &prepared.constants, self.loop_counter);
@@ -282,8 +280,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         operand(alu, prepared.format, source, value, wanted)
     }
 
-    /// `dsx`, `dsy`: the difference across the quad's row or column, the same for both lanes of it. Lanes masked off
-    /// take part with what their registers hold.
+    /// `dsx`, `dsy`: the difference across the quad's row or column; both of its lanes get the same value. Inactive
+    /// lanes contribute the contents of their registers.
     fn difference(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Components {
         let Some(source) = instruction.sources.first() else {
             return [0; 4];
@@ -308,8 +306,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         done
     }
 
-    /// Writes a finished result where the instruction says, as far as its mask and predicate allow and clamped to the
-    /// range of results, and tells the observer.
+    /// Clamps a result to the range of results, writes it subject to mask and predicate, and notifies the observer.
     pub(super) fn store(&mut self, at: usize, lane: usize, instruction: &Instruction, mut value: Components) {
         let Some(destination) = &instruction.destination else {
             return;
@@ -345,7 +342,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         self.tell(at, lane, Some((mask, value)));
     }
 
-    /// Tells the observer that a lane has executed an instruction.
+    /// Notifies the observer that a lane has executed an instruction.
     pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Components)>) {
         self.settle(lane);
         let flags = std::mem::take(&mut self.flags[lane]);
@@ -355,7 +352,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
         }
     }
 
-    /// Puts the flags raised since the last time down to a lane; a lane that is masked off has none.
+    /// Assigns the flags raised since the last call to a lane; discards them if the lane is inactive.
     pub(super) fn settle(&mut self, lane: usize) {
         let partial = self.partial.as_mut().map(Alu::take_flags).unwrap_or_default();
         let own = self.fragment.as_mut().map(|f| f.take_flags()).unwrap_or_default();
@@ -379,7 +376,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 }
 
-/// A comparison of two numbers. Only `ne` holds where a NaN takes part.
+/// Compares two numbers. With a NaN only `ne` holds.
 fn compare(alu: &Alu<'_>, comparison: Comparison, a: u32, b: u32) -> bool {
     match comparison {
         Comparison::Gt => alu.less(b, a),

@@ -1,5 +1,5 @@
-//! Operations that cards carry out as several rounded steps. Each function's documentation states the sequence; it
-//! is a definition, because no source tells what the cards did.
+//! Operations that cards execute as several rounded steps. The documentation of each function states the sequence,
+//! which is a definition of this project, because no source describes the cards' own.
 
 use super::alu::Alu;
 use super::registers::Components;
@@ -17,8 +17,8 @@ pub(super) fn bem(alu: &mut Alu<'_>, base: &Components, offset: &Components, bum
 }
 
 /// `pow`: `exp2(exponent * log2(base))` in three rounded steps, as the slot cost of 3 and NV30's `pow(0, 0) = NaN`
-/// suggest. What `log2` makes of a negative base (its magnitude, or NaN) is the format's rule for special values.
-/// Source: Direct3D, "pow - ps".
+/// suggest. The format's rule for special values decides whether a negative base gives the result of its magnitude, or
+/// NaN. Source: Direct3D, "pow - ps".
 pub(super) fn pow(alu: &mut Alu<'_>, base: u32, exponent: u32) -> u32 {
     let log = alu.log2(base);
     let product = alu.mul(exponent, log);
@@ -46,7 +46,7 @@ pub(super) fn logp(alu: &mut Alu<'_>, w: u32) -> Components {
     [exponent, alu.mul(magnitude, scale), log, alu.one()]
 }
 
-/// `crs`: a product and a `mad` a component, `a.y*b.z + -(a.z*b.y)` and so on cyclically; w gives 0.
+/// `crs`: a product and a `mad` per component, `a.y*b.z + -(a.z*b.y)` and so on cyclically; w gives 0.
 ///
 /// Source: Direct3D, "crs - ps" (two slots: `mul`, then `mad` with the negated product).
 pub(super) fn crs(alu: &mut Alu<'_>, a: &Components, b: &Components) -> Components {
@@ -58,7 +58,8 @@ pub(super) fn crs(alu: &mut Alu<'_>, a: &Components, b: &Components) -> Componen
     [component(1, 2), component(2, 0), component(0, 1), 0]
 }
 
-/// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number where d is zero; all four components times f.
+/// `nrm`: `d = dp3(a, a)`; `f = rsq(d)`, or the largest finite number where d is zero; then all four components times
+/// f.
 ///
 /// Source: Direct3D, "nrm - ps" (the factor is `FLT_MAX` for a zero vector).
 pub(super) fn nrm(alu: &mut Alu<'_>, a: &Components) -> Components {
@@ -113,7 +114,7 @@ pub(super) fn lit(alu: &mut Alu<'_>, a: &Components) -> Components {
 }
 
 /// `RFL`: the direction `d` reflected about the axis `a`: `q = (a.d + a.d) / (a.a)`, then `q * a - d`, a product and a
-/// difference a component; w gives 0. Source: GL_NV_fragment_program.
+/// difference per component; w gives 0. Source: GL_NV_fragment_program.
 pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) -> Components {
     let along = alu.dot(&axis[..3], &direction[..3]);
     let twice = alu.add(along, along);
@@ -126,8 +127,8 @@ pub(super) fn rfl(alu: &mut Alu<'_>, axis: &Components, direction: &Components) 
     [component(0), component(1), component(2), 0]
 }
 
-/// `X2D`: a point moved by a matrix: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and `a.y` in y and w,
-/// each step a `mad` under the rules. Source: GL_NV_fragment_program.
+/// `X2D`: a point displaced by a transformed vector: `(a.x + b.x*c.x) + b.y*c.y` in x and z, with `c.z`, `c.w` and
+/// `a.y` in y and w, each step a `mad` under the rules. Source: GL_NV_fragment_program.
 pub(super) fn x2d(alu: &mut Alu<'_>, a: &Components, b: &Components, c: &Components) -> Components {
     let mut row = |base: u32, i: usize| {
         let first = alu.mad(b[0], c[i], base);

@@ -1,16 +1,15 @@
-//! The reference executor: one value at a time, integers alone, in the order the documents state.
+//! The reference executor: one value at a time, in integer arithmetic, in the order of the specifications.
 //!
-//! - `interpreter`: four lanes in lockstep through the program; `flow`: which of them run.
-//! - `operation`, `macros`: what each arithmetic operation computes; `texture`: what each texture instruction does.
-//! - `registers`: how operands are read and results written; `alu`: arithmetic under the device's rules.
-//! - `fragment`, `fragment_state`, `fragment_texture`: the instructions of OpenGL's fragment programs, in three
-//!   precisions.
-//! - `prepared`: what is worked out once a draw. `pixel`, `vertex`, `tile`: the ways in.
+//! - `interpreter`: executes programs on four lanes in lockstep; `flow`: flow control by lane masks.
+//! - `operation`, `macros`: arithmetic operations; `texture`: texture instructions.
+//! - `registers`: reads and writes of registers; `alu`: arithmetic under the device's rules.
+//! - `fragment`, `fragment_state`, `fragment_texture`: instructions of OpenGL fragment programs, in three precisions.
+//! - `prepared`: per-draw preparation; `pixel`, `vertex`, `tile`: entry points.
 //!
 //! The order within an instruction is Direct3D's: swizzle, source modifier, operation, shift, saturation, write mask.
-//! Everything a card left undefined has a defined value here: unwritten registers and the alpha lost at `phase` are
-//! zero, a constant outside its file is zero, an unbound sampler reads (0, 0, 0, 1), a loop makes at most 255 passes,
-//! a call that leads backward is passed over.
+//! Whatever cards leave undefined has a defined value here: unwritten registers and the alpha lost at `phase` are zero,
+//! a constant outside its file is zero, an unbound sampler reads (0, 0, 0, 1), a loop makes at most 255 iterations, and
+//! a call that leads backward is skipped.
 
 mod alu;
 mod depth_and_kill;
@@ -36,8 +35,8 @@ pub use vertex::{VertexProgram, VertexResult};
 use crate::isa::Opcode;
 use crate::num::{Format, Unpacked, ops, unpack};
 
-/// A number on its way into `a0`: rounded to the nearest integer, ties to even (`mova`), or down (`mov` in vs_1_1), and
-/// saturated to 32 bits. NaN gives 0.
+/// Converts a number for `a0`: rounded to nearest even (`mova`), or down (`mov` in vs_1_1), and saturated to 32 bits.
+/// NaN gives 0.
 fn address_value(format: Format, opcode: Opcode, bits: u32) -> i32 {
     let rounded = match opcode {
         Opcode::Mova => ops::round_to_int_with(format, bits, crate::num::Rounding::NearestEven, false),

@@ -1,25 +1,24 @@
-//! What each arithmetic operation computes, for one lane: operands after swizzle and source modifier in, result
-//! before shift, saturation and write mask out. Read beside the Direct3D shader assembly reference, whose
-//! instruction pages carry the same names.
+//! Arithmetic operations for one lane: map operands (after swizzle and source modifier) to a result (before shift,
+//! saturation and write mask). Follows the instruction pages of the Direct3D shader assembly reference.
 
 use super::alu::Alu;
 use super::macros;
 use super::registers::Components;
 use crate::isa::{Mask, Opcode};
 
-/// What an operation may need besides its operands.
+/// Inputs of an operation besides its operands.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Context {
     /// Bump matrix `M00 M01 M10 M11` of the destination's stage, in the register format (`bem`).
     pub(crate) bump: [u32; 4],
-    /// The components wanted. Component-wise operations leave the others zero and raise no flags for them.
+    /// The components needed. Component-wise operations leave the others zero and raise no flags for them.
     pub(crate) mask: Mask,
 }
 
-/// Computes `opcode` on `s`, operands that the operation lacks being zero.
+/// Computes `opcode` on `s`; unused operands are zero.
 ///
-/// Operations that need more than their operands' values (`dsx`, `dsy`, `setp`, `mova`, the matrix products and all
-/// texture and flow operations) are computed elsewhere; here they give zero.
+/// Operations that need more than the values of their operands (`dsx`, `dsy`, `setp`, `mova`, the matrix products and
+/// all texture and flow operations) are computed elsewhere; here they return zero.
 pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], context: &Context) -> Components {
     let [a, b, c] = *s;
     let mask = context.mask;
@@ -79,7 +78,7 @@ pub(crate) fn compute(alu: &mut Alu<'_>, opcode: Opcode, s: &[Components; 3], co
     }
 }
 
-/// The components of `mask`, each from its number; zero elsewhere.
+/// Computes the components of `mask` by index; the others are zero.
 pub(crate) fn each(mask: Mask, mut component: impl FnMut(usize) -> u32) -> Components {
     let mut vector = [0; 4];
     for i in mask.components() {
@@ -94,7 +93,7 @@ mod tests {
     use crate::device::Profile;
     use crate::isa::OpcodeClass;
 
-    /// An operation that is in the table and not above would give zero in silence.
+    /// An operation in the opcode table that `compute` lacks would silently return zero.
     #[test]
     fn every_arithmetic_operation_is_here_or_elsewhere() {
         const ELSEWHERE: [Opcode; 4] = [Opcode::Mova, Opcode::Dsx, Opcode::Dsy, Opcode::Setp];

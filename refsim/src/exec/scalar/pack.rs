@@ -1,12 +1,13 @@
-//! Numbers in parts of a 32-bit word: `PK2H`, `PK2US`, `PK4B`, `PK4UB` and back. Source: GL_NV_fragment_program.
+//! Packing of numbers into a 32-bit word: `PK2H`, `PK2US`, `PK4B`, `PK4UB` and the inverse. Source:
+//! GL_NV_fragment_program.
 
 use super::registers::Components;
 use crate::exec::{FragmentFormats, unorm_steps};
 use crate::isa::Opcode;
 use crate::num::{self, Format, ops};
 
-/// The word that a packing instruction makes of a vector of full precision. Integers are rounded to the nearest, halves
-/// up; NaN is 0 (the extension leaves both open).
+/// Packs a full-precision vector. Integers are rounded to nearest, halves up; NaN gives 0 (the extension leaves both
+/// open).
 pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Components) -> u32 {
     let single = |i: usize| ops::convert(&formats.full, Format::FP32, value[i]).bits;
     match opcode {
@@ -20,8 +21,8 @@ pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Components
     }
 }
 
-/// A word as a register of the format keeps it: its bits where the register has as many, or else the number that the
-/// lower bits are a pattern of.
+/// Contents of a register of the format after a word is written to it: the word's bits, if the register is a 32-bit
+/// float, else the number encoded by its lower bits.
 pub(super) fn kept(format: Format, word: u32) -> u32 {
     if format.width() == 32 && !format.is_fixed() {
         word
@@ -30,7 +31,7 @@ pub(super) fn kept(format: Format, word: u32) -> u32 {
     }
 }
 
-/// `128 + 127 x`, x clamped to [-128/127, 1], rounded to the nearest, halves up.
+/// Computes `128 + 127 x`, with x clamped to [-128/127, 1], rounded to nearest, halves up.
 fn signed_byte(bits: u32) -> u32 {
     let (negative, magnitude) = (bits >> 31 == 1, bits & 0x7fff_ffff);
     if magnitude > 0x7f80_0000 {
@@ -56,7 +57,7 @@ fn signed_byte(bits: u32) -> u32 {
     128 - u32::try_from(down_steps).unwrap_or(128).min(128)
 }
 
-/// The vector of full precision that an unpacking instruction makes of a register's bits.
+/// Unpacks a register's bits into a full-precision vector.
 pub(super) fn unpack(formats: &FragmentFormats, opcode: Opcode, word: u32) -> Components {
     let full = formats.full;
     let ratio = |k: u32, steps: u128| num::from_ratio(full, false, k.into(), steps).bits;

@@ -1,4 +1,4 @@
-//! Pixel programs, a quad at a time.
+//! Execution of pixel programs, one quad at a time.
 
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
@@ -11,46 +11,45 @@ use crate::isa::{Register, RegisterFile};
 use crate::num::{Format, ops};
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FragmentInput, POSITION_COMPONENT, TEXCOORD_COMPONENT};
 
-/// A pixel program ready to run on fragments.
+/// A pixel program prepared for a draw.
 pub struct PixelProgram<'a> {
     prepared: Prepared<'a>,
 }
 
 impl<'a> PixelProgram<'a> {
-    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`, however long that
-    /// takes.
+    /// Prepares a pixel program to run under `rules` with `bindings`, without a step budget.
     pub fn new(program: &'a CheckedProgram, rules: &'a Rules, bindings: &PixelBindings<'a>) -> Self {
         Self { prepared: Prepared::pixel(program, rules, bindings) }
     }
 
-    /// The same within a step budget.
+    /// Sets a step budget.
     pub(super) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self
     }
 
-    /// The interpolated components that the program can read; the others need not be filled in.
+    /// Interpolated components that the program can read; the others need not be provided.
     pub fn inputs_read(&self) -> ComponentMask {
         self.prepared.reads
     }
 
-    /// A colour as instructions read it.
+    /// Converts an interpolated colour to the value that instructions read.
     fn color(&self, interpolated: [u32; 4]) -> [u32; 4] {
         interpolated.map(|x| delivered_color(self.prepared.rules, x))
     }
 
-    /// What is interpolated in FP32 as arithmetic instructions read it.
+    /// Converts interpolated FP32 values to those that arithmetic instructions read.
     fn coordinates(&self, interpolated: [u32; 4]) -> [u32; 4] {
         interpolated.map(|x| ops::convert(&Format::FP32, self.prepared.format, x).bits)
     }
 
-    /// The fog coordinate as instructions of OpenGL's programs read it.
+    /// The fog coordinate as read by instructions of OpenGL programs.
     fn fog(&self, input: &FragmentInput) -> [u32; 4] {
         let [x, ..] = self.coordinates([input.fog; 4]);
         [x, 0, 0, self.prepared.format.one()]
     }
 
-    /// The input registers that hold interpolated values, as instructions read them.
+    /// Input registers with interpolated values, as read by instructions.
     pub(super) fn delivered(&self, input: &FragmentInput) -> Vec<(Register, [u32; 4])> {
         let value = |register: &Register| {
             let number = usize::from(register.index);
@@ -64,10 +63,10 @@ impl<'a> PixelProgram<'a> {
         registers_delivered(self.prepared.program).into_iter().map(|register| (register, value(&register))).collect()
     }
 
-    /// Runs a quad: lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set for lanes that are fragments; the
-    /// others run as helpers, of which the observer is told too, but whose results mean nothing. Texture reads of
-    /// covered lanes are added to `fetches`. Gives also the instruction in front of which each lane was cut off, if it
-    /// was.
+    /// Executes a quad with lanes (0, 0), (1, 0), (0, 1), (1, 1). Bit `i` of `covered` is set if lane `i` is a
+    /// fragment; the others are helpers, which the observer sees too but whose results are meaningless. Texture reads
+    /// of covered lanes are added to `fetches`. Also returns, for each lane that was stopped by the step budget, the
+    /// instruction before which it was stopped.
     pub fn run<O: Observer>(
         &self,
         inputs: &[FragmentInput; LANES],

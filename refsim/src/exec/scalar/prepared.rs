@@ -1,4 +1,4 @@
-//! What is worked out once a draw: constants, jumps, bindings, which inputs are read.
+//! Per-draw preparation: constants, jump targets, bindings, and inputs read.
 
 use crate::device::Rules;
 use crate::exec::budget::enforced;
@@ -11,7 +11,7 @@ use crate::num::{Format, ops};
 use crate::raster::ComponentMask;
 use crate::texture::SampleRules;
 
-/// A program with everything it is run with.
+/// A program with its inputs.
 pub(crate) struct Prepared<'a> {
     pub(crate) program: &'a Program,
     pub(crate) rules: &'a Rules,
@@ -20,7 +20,7 @@ pub(crate) struct Prepared<'a> {
     /// Format of registers and arithmetic.
     pub(crate) format: Format,
     pub(crate) sample_rules: SampleRules,
-    /// The interpolated components that the program can read.
+    /// Interpolated components that the program can read.
     pub(crate) reads: ComponentMask,
     /// The step budget, if the program may exceed it.
     pub(crate) budget: Option<u32>,
@@ -69,12 +69,12 @@ impl<'a> Prepared<'a> {
         self.bindings.as_ref()?.samplers.get(stage)?.as_ref()
     }
 
-    /// What the coordinates of a stage are divided by.
+    /// Texture projection of a stage.
     pub(crate) fn projection(&self, stage: u16) -> Projection {
         self.bindings.as_ref().and_then(|b| b.projections.get(usize::from(stage))).copied().unwrap_or_default()
     }
 
-    /// Bump state of a stage; all zero where there is none.
+    /// Bump state of a stage; zero by default.
     pub(crate) fn bump(&self, stage: u16) -> BumpStage {
         self.bindings.as_ref().and_then(|b| b.bump.get(usize::from(stage))).copied().unwrap_or_default()
     }

@@ -1,11 +1,11 @@
-//! The registers of one lane, and how instructions read and write them.
+//! Registers of one lane, and how instructions read and write them.
 
 use super::alu::Alu;
 use crate::exec::ResolvedConstants;
 use crate::isa::{Destination, Mask, Modifier, Register, RegisterFile, Relative, Source};
 use crate::num::Format;
 
-/// Temporaries that a program can name, the largest file of any version.
+/// Number of temporaries: the maximum of all versions.
 const TEMPORARIES: usize = 32;
 
 /// Lanes of a quad: (0, 0), (1, 0), (0, 1), (1, 1).
@@ -14,17 +14,17 @@ pub(super) const LANES: usize = 4;
 /// Four components of one register.
 pub(super) type Components = [u32; 4];
 
-/// Everything that one fragment or vertex can name, as patterns of the register format. All starts at zero, which is
-/// therefore what reading an unwritten register gives.
+/// Registers of one fragment or vertex, as patterns of the register format. All start at zero, so that unwritten
+/// registers read as zero.
 #[derive(Clone)]
 pub(super) struct Registers {
     pub(super) temp: [Components; TEMPORARIES],
     /// `v#`
     pub(super) input: [Components; 16],
-    /// `t#` as arithmetic sees them: texture results in ps_1_1 to 1_3, coordinates in ps_2_x.
+    /// `t#` as read by arithmetic: texture results in ps_1_1 to 1_3, coordinates in ps_2_x.
     pub(super) texture: [Components; 8],
     pub(super) color_out: [Components; 4],
-    /// What was written to `oDepth`, if anything was.
+    /// Value written to `oDepth`, if any.
     pub(super) depth_out: Option<u32>,
     pub(super) position: Components,
     pub(super) fog: Components,
@@ -53,7 +53,7 @@ impl Registers {
         }
     }
 
-    /// The register's number with relative addressing resolved; `None` if it is negative.
+    /// Register number with relative addressing resolved; `None` if it is negative.
     fn number(&self, register: &Register, loop_counter: i32) -> Option<usize> {
         let offset = match register.relative {
             None => 0,
@@ -63,8 +63,8 @@ impl Registers {
         usize::try_from(i64::from(register.index) + i64::from(offset)).ok()
     }
 
-    /// The value of a register before swizzle and modifiers. A register outside its file, constants with a relative
-    /// address above all, reads as zero, and so does a file that holds no numbers.
+    /// Value of a register before swizzle and modifiers. Registers outside their file (in particular relatively
+    /// addressed constants) read as zero, and so do files that hold no numbers.
     pub(super) fn value(&self, register: &Register, constants: &ResolvedConstants, loop_counter: i32) -> Components {
         let Some(number) = self.number(register, loop_counter) else {
             return [0; 4];
@@ -79,7 +79,7 @@ impl Registers {
         file.get(number).copied().unwrap_or_default()
     }
 
-    /// Writes the components of `mask`; a register outside its file is not written.
+    /// Writes the components of `mask`; ignores registers outside their file.
     pub(super) fn write(&mut self, register: &Register, mask: Mask, value: Components) {
         let number = usize::from(register.index);
         let slot = match register.file {
@@ -92,7 +92,7 @@ impl Registers {
             RegisterFile::FogOut => Some(&mut self.fog),
             RegisterFile::PointSizeOut => Some(&mut self.point_size),
             RegisterFile::DepthOut => {
-                // A scalar: the lowest component of the mask carries it.
+                // A scalar is taken from the lowest component of the mask.
                 if let Some(component) = mask.components().next() {
                     self.depth_out = Some(value[component]);
                 }
@@ -108,7 +108,7 @@ impl Registers {
     }
 }
 
-/// An operand as an operation sees it: converted into the operation's format where that differs from the registers'
+/// An operand as an operation reads it: converted to the operation's format where that differs from the registers'
 /// (`_pp`), swizzled, modified. Components outside `wanted` are zero.
 pub(super) fn operand(
     alu: &mut Alu<'_>,
@@ -126,10 +126,10 @@ pub(super) fn operand(
     out
 }
 
-/// One component after its source modifier. Each step rounds once; negation comes last.
+/// Applies a source modifier to a component. Each step rounds once; negation comes last.
 ///
-/// Division (`_dz`, `_dw`) is a matter of texture addressing and logical negation one of predicates; neither
-/// changes anything here.
+/// Division (`_dz`, `_dw`) belongs to texture addressing and logical negation to predicates, so neither has an effect
+/// here.
 pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
     match modifier {
         Modifier::None | Modifier::Dz | Modifier::Dw | Modifier::Not => x,
@@ -162,8 +162,8 @@ pub(super) fn modified(alu: &mut Alu<'_>, modifier: Modifier, x: u32) -> u32 {
     }
 }
 
-/// A result on its way into a register: shift, then saturation, then conversion into the registers' format where
-/// the operation had another (`_pp`).
+/// Finishes a result for a register: shift, then saturation, then conversion to the registers' format if the operation
+/// has another one (`_pp`).
 pub(super) fn finished(
     alu: &mut Alu<'_>,
     registers: Format,

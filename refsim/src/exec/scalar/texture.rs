@@ -1,6 +1,6 @@
-//! Texture instructions. Addresses are single precision whatever the register format: coordinates `t#` reach a
-//! sampler unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is
-//! single precision with one rounding a step and dot products in the device's order.
+//! Texture instructions. Addresses are single precision whatever the register format: coordinates `t#` reach a sampler
+//! unrounded, registers are converted exactly, and address arithmetic (`texbem`, `texm3x3tex`, `_dw`) is single
+//! precision with one rounding per step and dot products in the device's order.
 
 use super::interpreter::Interpreter;
 use super::registers::{Components, LANES};
@@ -13,16 +13,16 @@ use crate::texture::{Lod, lod_from_derivatives, sample, unbound};
 /// Single precision 1.0.
 const ONE: u32 = 0x3f80_0000;
 
-/// One vector for each lane.
+/// A vector per lane.
 pub(super) type Quad = [Components; LANES];
 
-/// How a read finds its level of detail.
+/// Source of a read's level of detail.
 pub(super) enum Detail {
-    /// From the differences of the coordinates across the quad.
+    /// Differences of the coordinates across the quad.
     Implicit,
-    /// As [`Detail::Implicit`], plus a bias a lane.
+    /// [`Detail::Implicit`] plus a bias per lane.
     Biased([u32; LANES]),
-    /// From derivatives that the program gives, along x and y.
+    /// Derivatives along x and y given by the program.
     Gradients(Box<[Quad; 2]>),
 }
 
@@ -44,7 +44,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// Instructions that read a texel.
+    /// Executes an instruction that reads a texel.
     fn with_texel(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let version = self.prepared.program.version;
         let stage = match instruction.sources.get(1) {
@@ -75,7 +75,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// Where a lane reads, single precision.
+    /// Texture coordinates of a lane, single precision.
     fn coordinates_of(&mut self, lane: usize, instruction: &Instruction, destination: &Destination) -> Components {
         let own = self.coordinate_set(lane, destination.register.index);
         let Some(source) = instruction.sources.first() else {
@@ -129,12 +129,12 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// Interpolated coordinate set `number`; zeros where there is none.
+    /// Interpolated coordinate set `number`; zero if it does not exist.
     pub(super) fn coordinate_set(&self, lane: usize, number: u16) -> Components {
         self.coordinates[lane].get(usize::from(number)).copied().unwrap_or_default()
     }
 
-    /// Coordinates divided as the projection of a stage says; by zero as single precision divides.
+    /// Divides coordinates by the stage's projection, in IEEE single precision (division by zero included).
     fn projected(&mut self, [x, y, z, w]: Components, stage: u16) -> Components {
         let unit = &mut self.address;
         match self.prepared.projection(stage) {
@@ -150,7 +150,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         self.source(lane, source, Mask::ALL, false).map(|x| ops::convert(&format, Format::FP32, x).bits)
     }
 
-    /// A coordinate operand: `t#` as interpolated, anything else converted to single precision.
+    /// A coordinate operand: `t#` as interpolated, other registers converted to single precision.
     fn address_of(&mut self, lane: usize, source: &Source) -> Components {
         if source.register.file == RegisterFile::Texture {
             let set = self.coordinate_set(lane, source.register.index);
@@ -160,8 +160,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// The operand of `texld` and `texcrd` in ps_1_4, where `_dz` and `_dw` divide: x and y by z (w), each 1.0 where
-    /// the divisor is zero; the third and fourth component, undefined on the cards, are 0 then.
+    /// The operand of `texld` and `texcrd` in ps_1_4. `_dz` and `_dw` divide x and y by z (w), or set them to 1.0 if
+    /// the divisor is zero; the third and fourth component, undefined on the cards, become 0.
     fn selected(&mut self, lane: usize, source: &Source) -> Components {
         let plain = Source { modifier: Modifier::None, ..*source };
         let [x, y, z, w] = self.address_of(lane, &plain);
@@ -190,8 +190,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         [moved(own[0], m[0], m[2]), moved(own[1], m[1], m[3]), own[2], own[3]]
     }
 
-    /// `texbeml`: all four channels times `b * scale + offset`, the factor computed in single precision with two
-    /// roundings and then converted into the register format.
+    /// `texbeml`: multiplies all four channels by `b * scale + offset`. The factor is computed in single precision with
+    /// two roundings and then converted to the register format.
     fn brightened(&mut self, lane: usize, instruction: &Instruction, stage: usize, texel: Components) -> Components {
         let Some(source) = instruction.sources.first() else {
             return texel;
@@ -204,20 +204,20 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         texel.map(|x| self.full.mul(x, factor))
     }
 
-    /// One row of a texture matrix: the coordinate set dotted with the source register.
+    /// A row of a texture matrix: the dot product of coordinate set and source register.
     fn row(&mut self, lane: usize, own: Components, source: &Source) -> u32 {
         let vector = self.in_single(lane, source);
         self.address.dot(&own[..3], &vector[..3])
     }
 
-    /// The three rows: two padded, one new.
+    /// The three rows: two from pad instructions, and a new one.
     fn normal(&mut self, lane: usize, own: Components, source: &Source) -> [u32; 3] {
         let [x, y] = self.padded[lane];
         [x, y, self.row(lane, own, source)]
     }
 
-    /// The eye ray reflected at the normal: `(2 (n.e) / (n.n)) n - e`; in steps `q = dp3(n, e) / dp3(n, n)`, `q + q`,
-    /// times n, minus e.
+    /// The eye ray reflected at the normal, `(2 (n.e) / (n.n)) n - e`, in the steps `q = dp3(n, e) / dp3(n, n)`, `q +
+    /// q`, times n, minus e.
     fn reflected(&mut self, n: [u32; 3], e: [u32; 3]) -> Components {
         let unit = &mut self.address;
         let (ne, nn) = (unit.dot(&n, &e), unit.dot(&n, &n));
@@ -231,7 +231,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         out
     }
 
-    /// Derivatives that `texldd` is given, all lanes.
+    /// Derivatives passed to `texldd`, in all lanes.
     fn gradient(&mut self, source: Option<&Source>) -> Quad {
         let mut out = [[0; 4]; LANES];
         if let Some(source) = source {
@@ -242,7 +242,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         out
     }
 
-    /// Reads a texel for one lane and counts it. An unbound sampler gives (0, 0, 0, 1).
+    /// Reads a texel for one lane and counts the read. An unbound sampler returns (0, 0, 0, 1).
     pub(super) fn fetch(&mut self, stage: usize, lane: usize, coordinates: &Quad, detail: &Detail) -> Components {
         let prepared = self.prepared;
         if self.covered >> lane & 1 == 1
@@ -278,7 +278,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         [0, 1, 2, 3].map(|i: usize| self.address.sub(b[i], a[i]))
     }
 
-    /// `_pp` on a texture read: the texel is rounded through the partial format.
+    /// `_pp` on a texture read: rounds the texel to the partial format.
     fn through_partial(&mut self, destination: &Destination, texel: Components) -> Components {
         let format = self.prepared.format;
         match self.prepared.rules.partial {
@@ -290,7 +290,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// Instructions that turn coordinates into register values.
+    /// Executes an instruction that converts coordinates to register values.
     fn without_texel(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         for lane in self.active_lanes() {
             let own = self.coordinate_set(lane, destination.register.index);
@@ -324,8 +324,8 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         self.full.convert(Format::FP32, single)
     }
 
-    /// `texcrd`: a coordinate in the register format; beyond its range saturated, or wrapped so that the fraction is
-    /// kept (fixed point only), as the rules say.
+    /// `texcrd`: converts a coordinate to the register format. Out of range it saturates, or wraps so that the fraction
+    /// is preserved (fixed point only), according to the rules.
     fn coordinate_in_register(&mut self, single: u32) -> u32 {
         let format = self.prepared.format;
         match self.prepared.rules.texcrd_overflow {
@@ -337,7 +337,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `texm3x2pad`, `texm3x3pad`: a row kept for the instruction that closes the matrix.
+    /// `texm3x2pad`, `texm3x3pad`: stores a row for the instruction that completes the matrix.
     fn pad(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let Some(source) = instruction.sources.first() else {
             return;
@@ -354,7 +354,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         }
     }
 
-    /// `texm3x2depth`: the quotient of the two rows, in single precision, becomes the depth; 1.0 where the divisor is
+    /// `texm3x2depth`: the depth becomes the quotient of the two rows in single precision, or 1.0 if the divisor is
     /// zero.
     fn texm3x2depth(&mut self, at: usize, instruction: &Instruction, destination: &Destination) {
         let Some(source) = instruction.sources.first() else {

@@ -1,4 +1,4 @@
-//! The reference executor on a tile: triangle by triangle, quad by quad, fragment by fragment.
+//! The reference executor for tiles: triangle by triangle, quad by quad, fragment by fragment.
 
 use super::pixel::PixelProgram;
 use crate::event::{FragmentCounts, SAMPLERS};
@@ -12,7 +12,7 @@ use crate::output::{FragmentFate, FragmentOutput, OutputRules, OutputState, Targ
 use crate::raster::{FragmentInput, PixelQuad, TriangleSetup};
 use crate::texture::Region;
 
-/// The scalar tile executor of one draw.
+/// Scalar tile executor of a draw.
 pub struct ScalarTiles<'a> {
     program: PixelProgram<'a>,
     source: &'a CheckedProgram,
@@ -40,10 +40,10 @@ impl<'a> ScalarTiles<'a> {
         })
     }
 
-    /// Draws the part of one triangle that lies in a region of a tile, with an observer.
+    /// Draws the part of a triangle within a region of a tile, with an observer.
     ///
     /// # Errors
-    /// As [`Self::run_tile`]; the triangle counts as number 0.
+    /// As [`Self::run_tile`]; the triangle is reported as 0.
     pub fn run_region<O: Observer>(
         &self,
         triangle: &TriangleSetup,
@@ -54,7 +54,7 @@ impl<'a> ScalarTiles<'a> {
         let mut counts = FragmentCounts::default();
         let mut first: Option<Overrun> = None;
         for quad in triangle.quads(region) {
-            // Quads that can only have later ones need not run.
+            // Quads that can only contain later overruns are skipped.
             if first.is_some_and(|known| (known.y, known.x) < (quad.y, quad.x)) {
                 continue;
             }
@@ -92,7 +92,7 @@ impl<'a> ScalarTiles<'a> {
     }
 
     fn merge(&self, result: &FragmentResult, depth: u32, place: (u32, u32), tile: &mut TargetTile) -> FragmentFate {
-        // A depth that is single precision already (texm3x2depth) goes the way of the interpolated one.
+        // A single-precision depth (texm3x2depth) is treated like the interpolated one.
         let (own, depth) = match result.depth {
             Some(DepthValue { format, bits }) if format == self.rules.format => (Some(bits), depth),
             Some(DepthValue { format: Format::FP32, bits }) => (None, bits),
@@ -105,13 +105,14 @@ impl<'a> ScalarTiles<'a> {
 }
 
 impl ScalarTiles<'_> {
-    /// Draws the triangles `order` (indices into `triangles`, in the order of submission) into a tile. A triangle that
-    /// does not touch the tile may be among them. Per pixel the order of the triangles is kept.
+    /// Draws the triangles `order` (indices into `triangles`, in order of submission) into a tile. Triangles that do
+    /// not touch the tile are allowed. The order of triangles is preserved per pixel.
     ///
-    /// Returns what became of the fragments; helper lanes are not counted.
+    /// Returns the fragment counts, without helper lanes.
     ///
     /// # Errors
-    /// The first fragment, as [`Overrun`]s order, that does not end within the step budget. The tile is of no use then.
+    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are invalid
+    /// then.
     pub fn run_tile(
         &self,
         triangles: &[TriangleSetup],
@@ -128,7 +129,7 @@ impl ScalarTiles<'_> {
     }
 }
 
-/// The first fragment of a quad that was cut off, as one of triangle 0.
+/// The first fragment of a quad that was stopped; its triangle is reported as 0.
 fn overrun(quad: &PixelQuad, cut_at: &[Option<usize>; 4]) -> Option<Overrun> {
     let of = |lane: usize| {
         let instruction = cut_at[lane].filter(|_| quad.mask >> lane & 1 == 1)?;

@@ -1,4 +1,4 @@
-//! Vertex programs, a vertex at a time.
+//! Execution of vertex programs, one vertex at a time.
 
 use super::interpreter::Interpreter;
 use super::prepared::Prepared;
@@ -7,34 +7,35 @@ use crate::exec::{CheckedProgram, Constants, Observer};
 use crate::num::{Format, ops};
 use crate::raster::Vertex;
 
-/// A vertex program ready to run.
+/// A vertex program prepared for a draw.
 pub struct VertexProgram<'a> {
     prepared: Prepared<'a>,
 }
 
-/// What a vertex program made of one vertex.
+/// Result of a vertex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VertexResult {
-    /// The vertex, in single precision. Outputs that the program does not write are zero; colours are clamped to [0, 1]
-    /// as Direct3D does before it iterates them.
+    /// The vertex, in single precision. Unwritten outputs are zero; colours are clamped to [0, 1], as Direct3D does
+    /// before interpolation.
     pub vertex: Vertex,
     /// Instruction slots executed (a matrix product counts its rows).
     pub slots: u64,
 }
 
 impl<'a> VertexProgram<'a> {
-    /// Prepares a program, which must be a vertex program, to run under `rules`, however long that takes.
+    /// Prepares a vertex program to run under `rules`, without a step budget.
     pub fn new(program: &'a CheckedProgram, rules: &'a Rules, constants: &Constants) -> Self {
         Self { prepared: Prepared::vertex(program, rules, constants) }
     }
 
-    /// The same within a step budget.
+    /// Sets a step budget.
     pub(crate) fn within(mut self, budget: u32) -> Self {
         self.prepared.set_budget(budget);
         self
     }
 
-    /// Runs the program on the attributes `v0` to `v15`, single precision patterns; for the observer the vertex is lane
+    /// Executes the program on the attributes `v0` to `v15`, single-precision patterns; to the observer the vertex is
+    /// lane 0. Also returns the instruction before which the vertex was stopped by the step budget, if it was.
     /// 0. Gives also the instruction in front of which the vertex was cut off, if it was.
     pub fn run<O: Observer>(&self, attributes: &[[u32; 4]; 16], observer: &mut O) -> (VertexResult, Option<usize>) {
         let format = self.prepared.format;

@@ -1,4 +1,4 @@
-//! What WGSL lets an adapter's own `f32` operations give.
+//! Accuracy that WGSL requires of an adapter's own `f32` operations.
 //!
 //! Source: "WebGPU Shading Language", sections 15.7 (floating point evaluation: subnormal numbers may be flushed on the
 //! way in and out, results of infinite or NaN operands and of overflow are indeterminate, multiply and add may be
@@ -10,10 +10,10 @@ use serde::Serialize;
 use crate::num::{Flags, Format, NumberOperation, Rounding, from_ratio, ops};
 
 const FP32: Format = Format::FP32;
-/// Neighbours below and above an exact result.
+/// Rounding down, for the neighbours of an exact result.
 const BELOW: Format = FP32.with_rounding(Rounding::Down);
 
-/// A single precision operation of an adapter.
+/// A single-precision operation of an adapter.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -33,9 +33,9 @@ pub enum SingleOperation {
     Rcp,
     /// Square root.
     Sqrt,
-    /// The integer below.
+    /// Rounds down to an integer.
     Floor,
-    /// The number of an `i32`.
+    /// Converts an `i32`.
     FromInteger,
     /// The smaller number.
     Min,
@@ -44,7 +44,7 @@ pub enum SingleOperation {
 }
 
 impl SingleOperation {
-    /// All of them, in the order of their numbers.
+    /// All operations, in the order of their numbers.
     pub const ALL: [SingleOperation; 11] = [
         Self::Add,
         Self::Sub,
@@ -59,7 +59,7 @@ impl SingleOperation {
         Self::Max,
     ];
 
-    /// How many operands it has.
+    /// Number of operands.
     pub const fn arity(self) -> usize {
         match self {
             Self::FromInteger => 1,
@@ -67,7 +67,7 @@ impl SingleOperation {
         }
     }
 
-    /// As the report names it.
+    /// Name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Add => "add",
@@ -84,7 +84,7 @@ impl SingleOperation {
         }
     }
 
-    /// The library's operation of the same meaning.
+    /// The equivalent [`NumberOperation`].
     pub const fn operation(self) -> NumberOperation {
         match self {
             Self::Add => NumberOperation::Add,
@@ -101,12 +101,12 @@ impl SingleOperation {
         }
     }
 
-    /// What IEEE 754 gives, a NaN in its one form, as [`crate::num::ops`] has it.
+    /// IEEE 754 result with canonical NaN, as computed by [`crate::num::ops`].
     pub fn exact(self, operands: [u32; 3]) -> u32 {
         self.rounded(&FP32, operands)
     }
 
-    /// The operation, rounded as `format` says; the steps of [`Self::MulAdd`] too.
+    /// Result rounded by `format`'s rules; for [`Self::MulAdd`] each step.
     fn rounded(self, format: &Format, operands: [u32; 3]) -> u32 {
         let integer = operands[0].cast_signed();
         let outcome = match self {
@@ -117,17 +117,17 @@ impl SingleOperation {
     }
 }
 
-/// The results that WGSL allows.
+/// Results that WGSL allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Allowed {
-    /// Any bits at all.
+    /// Any bits.
     Any,
-    /// The numbers from the first to the second of any of these pairs, by [`order`]; both zeros are one.
+    /// Numbers within any of these inclusive ranges of [`order`]; both zeros are equal.
     Within(Vec<(i64, i64)>),
 }
 
 impl Allowed {
-    /// Whether the bits of a result are among them.
+    /// Returns `true` if a result is allowed.
     pub fn contains(&self, bits: u32) -> bool {
         match self {
             Allowed::Any => true,
@@ -138,14 +138,14 @@ impl Allowed {
     }
 }
 
-/// Consecutive integers for consecutive single precision numbers; both zeros give 0. The difference of two is their
-/// distance in units in the last place.
+/// Maps single-precision numbers to consecutive integers; both zeros map to 0. Differences are distances in units in
+/// the last place.
 pub fn order(bits: u32) -> i64 {
     let magnitude = i64::from(bits & 0x7fff_ffff);
     if bits >> 31 == 1 { -magnitude } else { magnitude }
 }
 
-/// The bits of a place in that order.
+/// Inverse of [`order`].
 fn at(order: i64) -> u32 {
     let magnitude = order.unsigned_abs() as u32;
     if order < 0 { magnitude | 1 << 31 } else { magnitude }
@@ -155,7 +155,8 @@ fn negated(bits: u32) -> u32 {
     bits ^ 1 << 31
 }
 
-/// The neighbours of the exact result, the same twice if it is a number. Rounding up is rounding the negative down.
+/// Neighbours of the exact result; equal if it is representable. Rounding up is computed as rounding the negated
+/// operation down.
 fn neighbours(operation: SingleOperation, [a, b, c]: [u32; 3]) -> (i64, i64) {
     use SingleOperation as Op;
     let low = operation.rounded(&BELOW, [a, b, c]);
@@ -163,23 +164,23 @@ fn neighbours(operation: SingleOperation, [a, b, c]: [u32; 3]) -> (i64, i64) {
         Op::Add | Op::Sub => [negated(a), negated(b), c],
         Op::Mul | Op::Div | Op::Rcp => [negated(a), b, c],
         Op::MulAdd => [negated(a), b, negated(c)],
-        // Handled by what is known of them: see below.
+        // Computed separately: see below.
         Op::Sqrt | Op::Floor | Op::Min | Op::Max => return (order(low), order(low)),
         Op::FromInteger => [a.wrapping_neg(), b, c],
     };
     (order(low), -order(operation.rounded(&BELOW, mirrored)))
 }
 
-/// So many units in the last place around a pair of neighbours, plus half a unit where `half`.
+/// Widens a pair of neighbours by `units` units in the last place, and half a unit more if `half`.
 ///
-/// Units are those of the larger binade at hand; below a power of two numbers lie twice as close.
+/// Units are those of the larger binade involved; below a power of two, numbers are twice as dense.
 fn widened((low, high): (i64, i64), units: i64, half: bool) -> (i64, i64) {
     let close = |place: i64| if (place.unsigned_abs() & 0x007f_ffff) <= 4 { 2 } else { 1 };
     let reach = if low == high { units } else { units - 1 + i64::from(half) };
     (low - reach * close(low), high + reach * close(high))
 }
 
-/// The results of finite operands.
+/// Allowed results for finite operands.
 fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
     let magnitude = |bits: u32| bits & 0x7fff_ffff;
     // 2^-126 and 2^126.
@@ -202,13 +203,13 @@ fn plain(operation: SingleOperation, operands: [u32; 3]) -> Option<(i64, i64)> {
     }
 }
 
-/// Whether a result between two places may be flushed.
+/// Returns `true` if a result in this range may be flushed.
 fn may_be_subnormal((low, high): (i64, i64)) -> bool {
     let normal = order(0x0080_0000);
     low < normal && high > -normal
 }
 
-/// What WGSL allows for an operation on these bits (of `i32` for [`SingleOperation::FromInteger`]).
+/// Results that WGSL allows for an operation on these bits (of `i32` for [`SingleOperation::FromInteger`]).
 pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
     let used = &operands[..operation.arity()];
     let integer = operation == SingleOperation::FromInteger;
@@ -216,7 +217,7 @@ pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
         return Allowed::Any;
     }
     let mut ranges = Vec::new();
-    // Each subnormal operand as it is, and flushed.
+    // Each subnormal operand unchanged, and flushed.
     for flushed in 0..1u32 << used.len() {
         let mut taken = operands;
         for (i, operand) in taken.iter_mut().enumerate().take(used.len()) {
@@ -227,7 +228,7 @@ pub fn allowed(operation: SingleOperation, operands: [u32; 3]) -> Allowed {
                 *operand &= 1 << 31;
             }
         }
-        // So may a product on its way into a sum be.
+        // A product may be flushed before it is added, too.
         let product_flushed = [0, taken[1], taken[2]];
         let flushes = operation == SingleOperation::MulAdd && may_be_subnormal(neighbours(SingleOperation::Mul, taken));
         for taken in [taken].into_iter().chain(flushes.then_some(product_flushed)) {

@@ -1,4 +1,4 @@
-//! The kernel that follows single pixels: its text, what it is told, and its records.
+//! Kernel for pixel traces: its text, its parameters, and its records.
 
 use super::kernel::{DrawWords, with_entry};
 use super::program::{Interpolation, TRACE_WORDS, trace_delivered, trace_steps};
@@ -10,20 +10,20 @@ use crate::num::Format;
 use crate::output::FragmentFate;
 use crate::raster::{COLOR_COMPONENT, ComponentMask, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT};
 
-/// The kernel's entry point: a workgroup of one invocation a pixel.
+/// Entry point; one invocation per pixel, in workgroups of one.
 pub const ENTRY: &str = "follow_main";
-/// Words of `tiles` a pixel: column, row, first of its triangles there, how many, column in the targets.
+/// Words of `tiles` per pixel: column, row, offset and length of its triangle list, column in the targets.
 pub const JOB_WORDS: usize = 5;
 /// Words of a record before its steps.
 pub const HEAD: usize = RESULTS + 19;
-/// Where a record holds interpolated components and depth, what the program left.
+/// Offsets in a record: interpolated components and depth; outputs of the program.
 const INPUT: usize = 4;
 const RESULTS: usize = INPUT + 45;
 const NOTHING: u32 = 1;
 const FRAGMENT: u32 = 2;
 const UNFINISHED: u32 = 3;
 
-/// The text of the kernel with all its parts, without program and textures.
+/// The kernel's complete text, without program and textures.
 pub fn text() -> String {
     let names = [("NOTHING", NOTHING), ("FRAGMENT", FRAGMENT), ("UNFINISHED", UNFINISHED)];
     let places = [("HEAD", HEAD as u32), ("INPUT", INPUT as u32), ("RESULTS", RESULTS as u32)];
@@ -32,34 +32,34 @@ pub fn text() -> String {
     with_entry(&(constants + include_str!("follow.wgsl")))
 }
 
-/// One dispatch of the kernel.
+/// Parameters of a dispatch.
 #[derive(Clone, Copy, Debug)]
 pub struct FollowDispatch {
-    /// Pixels.
+    /// Number of pixels.
     pub jobs: usize,
-    /// Rows of `scratch` that the program's registers take; [`super::kernel::EXTRA_ROWS`] follow.
+    /// Register rows of the program in `scratch`; [`super::kernel::EXTRA_ROWS`] follow.
     pub registers: usize,
-    /// Whether it goes on where the one before, which was the same, ran out of its passes.
+    /// `true` if it resumes the previous dispatch, which exceeded its iteration limit and had the same parameters.
     pub resumes: bool,
-    /// Loop passes of an invocation, about.
+    /// Approximate limit of loop iterations per invocation.
     pub passes: u32,
-    /// The first word of the records in `video`.
+    /// Offset of the records in `video`, in words.
     pub records: usize,
-    /// Steps that a record has room for.
+    /// Capacity of a record, in steps.
     pub room: usize,
-    /// The number of the first step that is kept.
+    /// Number of initial steps that are not stored.
     pub skipped: usize,
 }
 
 impl FollowDispatch {
-    /// Words of a record.
+    /// Size of a record, in words.
     pub fn record_words(&self) -> usize {
         HEAD + TRACE_WORDS * self.room
     }
 }
 
 impl DrawWords {
-    /// The words of `draw` for following pixels.
+    /// Encodes the words of `draw` for a pixel trace.
     pub fn follow(&mut self, dispatch: &FollowDispatch) -> &[u32] {
         let cost = self.cost();
         let resumes = u32::from(dispatch.resumes);
@@ -72,41 +72,41 @@ impl DrawWords {
     }
 }
 
-/// What the kernel tells of a pixel.
+/// The kernel's record of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Record<'w> {
     words: &'w [u32],
 }
 
 impl<'w> Record<'w> {
-    /// Out of its words: at least [`HEAD`].
+    /// Wraps the words of a record, at least [`HEAD`].
     pub fn new(words: &'w [u32]) -> Option<Self> {
         (words.len() >= HEAD).then_some(Self { words })
     }
 
-    /// Whether the dispatch must be made again.
+    /// Returns `true` if the dispatch must be repeated.
     pub fn is_unfinished(&self) -> bool {
         self.words[0] == UNFINISHED
     }
 
-    /// The place in the pixel's list of the first triangle that covers it; `None` if none does.
+    /// Index, in the pixel's list, of the first triangle that covers it; `None` if none does.
     pub fn triangle(&self) -> Option<usize> {
         (self.words[0] == FRAGMENT).then_some(self.words[1] as usize)
     }
 
-    /// Steps that there were, kept or not.
+    /// Total number of steps, including those not stored.
     pub fn steps(&self) -> usize {
         self.words[3] as usize / TRACE_WORDS
     }
 
-    /// The words of the steps that are kept; `skipped` is that of the dispatch.
+    /// Words of the stored steps; `skipped` as in the dispatch.
     pub fn kept(&self, skipped: usize) -> &'w [u32] {
         let words = &self.words[HEAD..];
         let count = self.steps().saturating_sub(skipped) * TRACE_WORDS;
         &words[..count.min(words.len())]
     }
 
-    /// What happened to the fragment, of which `steps` are the words of all steps.
+    /// Decodes the execution of the fragment; `steps` are the words of all steps.
     pub fn shading(&self, steps: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Shading {
         Shading {
             input: self.input(inputs_read(program(checked))),
@@ -122,7 +122,7 @@ impl<'w> Record<'w> {
         }
     }
 
-    /// The interpolated components that the program reads.
+    /// Decodes the interpolated components that the program reads.
     fn input(&self, read: ComponentMask) -> FragmentInput {
         let at = |component: usize| if read.has(component) { self.words[INPUT + component] } else { 0 };
         let position = read.has(Interpolation::RECIPROCAL);
@@ -140,7 +140,7 @@ impl<'w> Record<'w> {
         let main = |raw| formats.encode(Arith::Main, raw);
         let words = &self.words[RESULTS..HEAD];
         let (killed, depth, is_main) = (words[16] != 0, words[17], words[18] != 0);
-        // One instruction decides depth in single precision, always.
+        // Only texm3x2depth writes depth in single precision, and it always does.
         let single = program(checked).instructions.iter().any(|i| i.opcode == Opcode::TexM3x2Depth);
         FragmentResult {
             killed,

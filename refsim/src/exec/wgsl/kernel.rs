@@ -1,4 +1,4 @@
-//! The pixel kernel: its text, and what a draw tells it in words.
+//! The pixel kernel: its text, and the encoding of draw parameters in words.
 
 use super::number::{format_words, library};
 use super::parts::Parts;
@@ -16,39 +16,39 @@ const RASTER: &str = include_str!("raster.wgsl");
 const OUTPUT: &str = include_str!("output.wgsl");
 const KERNEL: &str = include_str!("kernel.wgsl");
 
-/// The comparison that always holds.
+/// Set of all orders, for comparisons that always pass.
 const ALL_ORDERS: u32 = 15;
-/// Depth formats that are floats, in `draw`.
+/// Codes of float depth formats in `draw`.
 const DEPTH_FLOAT32: u32 = 3;
 const DEPTH_FLOAT24: u32 = 4;
 
-/// The kernel's entry point: a workgroup a tile, an invocation a quad.
+/// Entry point; one workgroup per tile, one invocation per quad.
 pub const ENTRY: &str = "pixel_main";
-/// Invocations of a workgroup.
+/// Invocations per workgroup.
 pub const INVOCATIONS: usize = 64;
-/// Words of `counts`: the fates of fragments and the reads of each sampler, two words each; then [`UNFINISHED`],
-/// [`CUT`] and [`OVERRUN`].
+/// Words of `counts`: outcomes of fragments and reads per sampler, two words each; then [`UNFINISHED`], [`CUT`] and
+/// [`OVERRUN`].
 pub const COUNT_WORDS: usize = 47;
-/// The word of `counts` that says how many invocations have work left: the dispatch must be made again.
+/// Index in `counts`: invocations with work left, in which case the dispatch must be repeated.
 pub const UNFINISHED: usize = 44;
-/// The word of `counts` that says how many invocations had their loops ended by the driver: what they drew is wrong.
+/// Index in `counts`: invocations whose loops the driver terminated, in which case the results are invalid.
 pub const CUT: usize = 45;
-/// The word of `counts` that says how many quads had a fragment that ran out of its step budget.
+/// Index in `counts`: quads with a fragment that exceeded its step budget.
 pub const OVERRUN: usize = 46;
-/// Rows of `scratch` after the program's registers: what goes in and out, and how far an invocation came.
+/// Rows of `scratch` after the program's registers: inputs, outputs, and saved state of an invocation.
 pub const EXTRA_ROWS: usize = IN_OUT_ROWS + SAVED_ROWS;
 const SAVED_ROWS: usize = 4;
 
-/// What lies in `draw`, one after the other, and how many words it has.
+/// Fields of `draw`, in order, and their sizes in words.
 const FIELDS: [(&str, usize); 22] = [
     ("D_FORMATS", 8 * 11),
     ("D_STRIDE", 1),
     ("D_SETUP_WORDS", 1),
     ("D_GROUPS", 1),
     ("D_TILES", 1),
-    // Set of orders, reference.
+    // Set of orders that pass, reference.
     ("D_ALPHA", 2),
-    // Set of orders, whether it writes.
+    // Set of orders that pass, write enable.
     ("D_DEPTH", 2),
     ("D_DEPTH_FORMAT", 1),
     ("D_DEPTH_SCALE", 1),
@@ -56,30 +56,30 @@ const FIELDS: [(&str, usize); 22] = [
     ("D_DEPTH_WIDTH", 1),
     ("D_DEPTH_NEAREST", 1),
     ("D_NEAREST", 1),
-    // Whether it is on, the equation of colours, that of alpha.
+    // Enable, equation of colours, equation of alpha.
     ("D_BLEND", 7),
-    // Row of `scratch` after the program's registers; whether this goes on with a dispatch; loop passes of an
-    // invocation, of a triangle.
+    // First row of `scratch` after the program's registers; resume flag; limit of loop iterations per invocation, and
+    // their number per triangle.
     ("D_ROWS", 1),
     ("D_RESUMES", 1),
     ("D_PASSES", 1),
     ("D_COST", 1),
-    // Two numbers to multiply by adding.
+    // Two numbers that are multiplied by repeated addition, to detect drivers that cut loops off.
     ("D_PROOF", 2),
-    // Where records begin in `video`, words of each, how many words of steps are kept, and from which on.
+    // Offset of records in `video`, words per record, number of step words stored, and first one stored.
     ("D_FOLLOW", 4),
-    // How many steps a fragment may make.
+    // Step budget per fragment.
     ("D_STEP_BUDGET", 1),
     ("D_TARGETS", 4 * target::WORDS),
 ];
 
-/// Words of `draw` that the kernel reads.
+/// Size of `draw` in words.
 pub const DRAW_WORDS: usize = field("");
 
-/// Loop passes of finding out whether a triangle covers anything.
+/// Loop iterations for testing whether a triangle covers anything.
 const LOOK_COST: u32 = 12;
 
-/// Where a field lies; the end of all without such a name.
+/// Offset of a field; the total size for an unknown name.
 const fn field(name: &str) -> usize {
     let (mut at, mut i) = (0, 0);
     while i < FIELDS.len() {
@@ -102,12 +102,12 @@ const fn same(a: &str, b: &str) -> bool {
     equal
 }
 
-/// The text of the kernel with all its parts, without program and textures: `shade` is missing.
+/// The kernel's complete text, without program and textures: `shade` is undefined.
 pub fn text() -> String {
     with_entry(KERNEL)
 }
 
-/// The parts of the kernel around another way to walk through the triangles.
+/// The common parts of the kernel, with another entry point.
 pub(super) fn with_entry(entry: &str) -> String {
     let fields = FIELDS.iter().map(|&(name, _)| (name, field(name)));
     let others = [
@@ -126,25 +126,25 @@ pub(super) fn with_entry(entry: &str) -> String {
     constants.collect::<String>() + &parts
 }
 
-/// A depth buffer within `video`.
+/// A depth buffer in `video`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DepthPlace {
     /// The format.
     pub format: DepthFormat,
-    /// The first word.
+    /// Offset of the first word.
     pub base: u32,
-    /// Words from one row to the next.
+    /// Row stride in words.
     pub width: u32,
 }
 
-/// What stays the same over a draw.
+/// State that is constant over a draw.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawState<'a> {
-    /// How the device computes.
+    /// Arithmetic rules of the device.
     pub rules: &'a Rules,
     /// Tests, blending, masks.
     pub output: &'a OutputState,
-    /// Roundings into targets.
+    /// Rounding into targets.
     pub output_rules: &'a OutputRules,
     /// Components that the program reads.
     pub components: ComponentMask,
@@ -154,37 +154,38 @@ pub struct DrawState<'a> {
     pub targets: [Option<target::TargetPlace>; 4],
     /// The depth buffer.
     pub depth: Option<DepthPlace>,
-    /// Steps that a fragment may make, if the program may make more.
+    /// Step budget per fragment, if the program may exceed it.
     pub step_budget: Option<u32>,
 }
 
-/// One dispatch of the kernel.
+/// Parameters of a dispatch.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawDispatch {
-    /// Tiles.
+    /// Number of tiles.
     pub tiles: usize,
-    /// Workgroups in a row.
+    /// Workgroups per row.
     pub groups: usize,
-    /// Rows of `scratch` that the program's registers take; [`EXTRA_ROWS`] follow.
+    /// Register rows of the program in `scratch`; [`EXTRA_ROWS`] follow.
     pub registers: usize,
-    /// Whether it goes on where the one before, which was the same, ran out of its passes.
+    /// `true` if it resumes the previous dispatch, which exceeded its iteration limit and had the same parameters.
     pub resumes: bool,
-    /// Loop passes of an invocation, about: not those of the program, those of the shader that runs it.
+    /// Approximate limit of loop iterations per invocation. These are iterations of the shader, not of the program that
+    /// it executes.
     pub passes: u32,
 }
 
-/// The words of `draw` for a draw.
+/// Encoded parameters of a draw, for the binding `draw`.
 #[derive(Clone, Debug)]
 pub struct DrawWords {
     words: Vec<u32>,
     interpolation: Interpolation,
     parts: Parts,
-    /// Loop passes of the program, for each triangle.
+    /// Loop iterations of the program, per triangle.
     program_cost: u32,
 }
 
 impl DrawWords {
-    /// Of a draw.
+    /// Encodes the state of a draw.
     pub fn new(state: &DrawState<'_>) -> Self {
         let rules = state.rules;
         let components: Vec<usize> =
@@ -224,12 +225,12 @@ impl DrawWords {
         words
     }
 
-    /// What is interpolated.
+    /// The interpolated components.
     pub fn interpolation(&self) -> &Interpolation {
         &self.interpolation
     }
 
-    /// The parts of the kernel that the draw uses, with those of its program.
+    /// Parts of the kernel that the draw uses, including those of its program.
     pub fn parts_with(&mut self, code: &Microcode) -> Parts {
         self.program_cost = code.passes;
         let mut parts = code.parts.clone();
@@ -263,7 +264,7 @@ impl DrawWords {
             [orders(test.function), raw(&main, bits)]
         });
         self.set("D_ALPHA", &alpha);
-        // Every order passes, should the kernel test depth for another draw.
+        // All orders pass: the kernel may contain the depth test because of another draw.
         self.set("D_DEPTH", &[ALL_ORDERS, 0]);
         self.parts.add_if(state.output.alpha.is_some(), "HAS_ALPHA_TEST");
         if let (Some(function), Some(place)) = (state.output.depth.test, state.depth) {
@@ -296,18 +297,18 @@ impl DrawWords {
         &self.words
     }
 
-    /// Words of one set-up.
+    /// Words per set-up.
     pub fn setup_words(&self) -> usize {
         usize::from(PLANES) + 3 * self.interpolation.components.len()
     }
 
-    /// Loop passes that a triangle costs an invocation, with its program, unless that may be broken off.
+    /// Loop iterations that a triangle costs an invocation, including its program, unless that can be suspended.
     pub(super) fn cost(&self) -> u32 {
         let targets = (0..4).filter(|i| self.words[field("D_TARGETS") + i * target::WORDS] == 1).count();
         1500 + 110 * self.interpolation.components.len() as u32 + 1500 * targets as u32 + self.program_cost
     }
 
-    /// The words of `draw` for one dispatch.
+    /// Encodes the words of `draw` for a dispatch.
     pub fn dispatch(&mut self, dispatch: &DrawDispatch) -> &[u32] {
         self.set("D_TILES", &[dispatch.tiles as u32]);
         self.set("D_GROUPS", &[dispatch.groups as u32]);
@@ -362,15 +363,15 @@ fn equation(equation: &BlendEquation) -> [u32; 3] {
     [factor(equation.source), factor(equation.destination), op]
 }
 
-/// The orders for which a comparison holds: bit 0 below, 1 equal, 2 above, 3 unordered.
+/// Set of orders for which a comparison passes: bit 0 less, 1 equal, 2 greater, 3 unordered.
 fn orders(function: CompareFunction) -> u32 {
     use std::cmp::Ordering::{Equal, Greater, Less};
     let cases = [Some(Less), Some(Equal), Some(Greater), None];
     cases.into_iter().zip(0..).fold(0, |set, (order, bit)| set | u32::from(function.holds(order)) << bit)
 }
 
-/// A pattern of a format as the shaders hold it: a sign-extended integer, or the single precision pattern of the same
-/// number with the one NaN.
+/// Converts a pattern of a format to the shaders' representation: a sign-extended integer, or the single-precision
+/// pattern of the same number with canonical NaN.
 pub fn raw(format: &Format, bits: u32) -> u32 {
     match format.kind {
         FormatKind::Fixed { .. } => {

@@ -1,19 +1,18 @@
-//! Arithmetic in WGSL: the text of the library and the words by which a shader is told a format.
+//! Arithmetic in WGSL: the text of the number library, and the encoding of formats in words.
 //!
-//! The definition is [`crate::num`]: the exact result, rounded once. The text computes with integers of 32 bits alone,
-//! for every format, so its results are the same on every adapter that conforms to WGSL, whatever its own floating
-//! point does.
+//! It implements [`crate::num`]: the exact result, rounded once. It uses 32-bit integer arithmetic for every format, so
+//! its results are the same on every adapter that conforms to WGSL, whatever its floating point.
 
 use crate::num::{Denormals, Format, FormatKind, NumberOperation, Overflow, Rounding, Specials};
 
-/// How shaders name the operations of the table. Values are raw; comparisons give masks.
+/// Names of the operations in shaders. Values are raw; comparisons return masks.
 impl NumberOperation {
-    /// Its number in the shader.
+    /// Number of the operation in shaders.
     pub const fn word(self) -> u32 {
         self as u32
     }
 
-    /// The constant that means it in the shader: `N_` and its name in capitals.
+    /// Name of the operation's constant in shaders: `N_` and its name in capitals.
     pub fn constant(self) -> String {
         let mut name = String::from("N");
         for (i, c) in format!("{self:?}").chars().enumerate() {
@@ -26,10 +25,10 @@ impl NumberOperation {
     }
 }
 
-/// A format as the shader's `struct Format` has it: kind, integer or exponent bits, fraction or mantissa bits,
-/// rounding, overflow, denormals, special values, and a word to spare.
+/// Encodes a format as the shader's `struct Format`: kind, integer or exponent bits, fraction or mantissa bits,
+/// rounding, overflow, denormals, special values, and an unused word.
 ///
-/// Rules without meaning for the kind are replaced by the kind's default, as [`Format`] has it.
+/// Rules that do not apply to the kind are replaced by its default, as in [`Format`].
 pub fn format_words(format: &Format) -> [u32; 8] {
     let (kind, upper, frac) = match format.kind {
         FormatKind::Fixed { int_bits, frac_bits } => (0, int_bits, frac_bits),
@@ -52,7 +51,7 @@ pub fn format_words(format: &Format) -> [u32; 8] {
     [kind, upper.into(), frac.into(), rounding, overflow, flush, special, 0]
 }
 
-/// The operand `b` by which [`NumberOperation::Convert`] knows the format that `a` comes from.
+/// Operand `b` of [`NumberOperation::Convert`] that encodes the format of `a`.
 pub fn source_word(format: &Format) -> u32 {
     match format.kind {
         FormatKind::Fixed { frac_bits, .. } => 1 + u32::from(frac_bits),
@@ -60,7 +59,7 @@ pub fn source_word(format: &Format) -> u32 {
     }
 }
 
-/// The text of the library: `struct Format`, the functions `n_...` for any format and `s_...` for single precision.
+/// The text of the number library: `struct Format`, functions `n_...` for any format and `s_...` for single precision.
 pub fn library() -> String {
     let constants =
         NumberOperation::ALL.map(|operation| format!("const {}: u32 = {}u;\n", operation.constant(), operation.word()));

@@ -1,23 +1,23 @@
-//! Which parts of the machine a draw uses, and the text with those alone.
+//! Reduction of the shader text to the parts that a draw uses.
 //!
-//! Drivers put every function in line and compile what no branch reaches, so a machine for everything takes them
-//! minutes. Here a text is cut down before a driver sees it. It stays WGSL as it stands: parts are arms of switches
-//! (`case VM_DOT: {`) whose labels are names of parts, blocks under `if (HAS_CUBES) {`, and functions that nothing
-//! calls any more.
+//! Drivers inline every function and compile code that is never reached, so a complete machine takes them minutes.
+//! Therefore unused parts are removed from the text first. The text is valid WGSL before and after. Parts are arms of
+//! switches (`case VM_DOT: {`) labelled with names of parts, blocks under `if (HAS_CUBES) {`, and functions that become
+//! unreachable.
 
 use super::program::operations;
 use crate::num::NumberOperation;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What draws may need beyond operations. In the text a block stands under an `if` of its own for each.
+/// Features of draws besides operations. In the text, each guards blocks with an `if`.
 const FEATURES: [&str; 15] = [
-    // Numbers: registers in fixed point; any format but single precision with the default rules.
+    // Numbers: fixed-point registers; formats other than single precision with default rules.
     "HAS_FIXED",
     "HAS_FORMATS",
-    // Programs: that may be longer than a dispatch; whose steps are counted.
+    // Programs: may exceed one dispatch; steps are counted.
     "HAS_SUSPENSION",
     "HAS_STEP_BUDGET",
-    // Textures: arithmetic before texels are read; cubes; texels that are ratios or floats; floats that are blended.
+    // Textures: arithmetic before the read; cube maps; fixed-point texels; float texels; filtered float texels.
     "HAS_TEXTURE_DETAIL",
     "HAS_CUBES",
     "HAS_RATIO_TEXELS",
@@ -30,8 +30,8 @@ const FEATURES: [&str; 15] = [
     "HAS_FLOAT_BLENDING",
     "HAS_INTEGER_BLENDING",
 ];
-/// Operations whose arms cost compilers much, in groups that come and go together; all others are always there, so that
-/// programs which differ in them alone share a text.
+/// Operations that are expensive to compile, in groups that are included together. All others are always included, so
+/// that programs that differ only in them share a text.
 const COSTLY: [&[NumberOperation]; 4] = [
     &[NumberOperation::Exp2, NumberOperation::Log2],
     &[NumberOperation::Sin, NumberOperation::Cos],
@@ -50,7 +50,7 @@ const COSTLY: [&[NumberOperation]; 4] = [
         NumberOperation::SplitSignedByte,
     ],
 ];
-/// Arms for cubes.
+/// Arms needed for cube maps.
 const CUBES: [&str; 12] = [
     "TEXTURE_STEP_MOVE",
     "TEXTURE_STEP_QUOTIENT",
@@ -66,12 +66,12 @@ const CUBES: [&str; 12] = [
     "S_DIVIDE",
 ];
 
-/// Parts of the machine, by their names in the text.
+/// Set of parts, by name.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Parts(BTreeSet<String>);
 
 impl Default for Parts {
-    /// What every draw has.
+    /// The parts that every draw needs.
     fn default() -> Self {
         let costly: Vec<NumberOperation> = COSTLY.concat();
         let plain = NumberOperation::ALL.into_iter().filter(|operation| !costly.contains(operation));
@@ -80,14 +80,14 @@ impl Default for Parts {
 }
 
 impl Parts {
-    /// Everything there is.
+    /// All parts.
     pub fn all() -> Self {
         let features = FEATURES.iter().chain(&CUBES).map(|&name| name.to_owned());
         let operations = NumberOperation::ALL.into_iter().map(NumberOperation::constant);
         Self(features.chain(operations).chain(operations::all()).collect())
     }
 
-    /// With a part more.
+    /// Adds a part.
     pub fn add(&mut self, name: &str) {
         if name == "HAS_CUBES" {
             self.0.extend(CUBES.iter().map(|&arm| arm.to_owned()));
@@ -95,49 +95,49 @@ impl Parts {
         self.0.insert(name.to_owned());
     }
 
-    /// With a part more if `used`.
+    /// Adds a part if `used`.
     pub fn add_if(&mut self, used: bool, name: &str) {
         if used {
             self.add(name);
         }
     }
 
-    /// With an operation on numbers more.
+    /// Adds a number operation, with its group.
     pub fn add_operation(&mut self, operation: NumberOperation) {
         let group = COSTLY.into_iter().find(|group| group.contains(&operation)).unwrap_or_default();
         self.0.extend(group.iter().map(|operation| operation.constant()));
     }
 
-    /// How many there are.
+    /// Number of parts.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether a part is among these.
+    /// Returns `true` if the part is in the set.
     pub fn contains(&self, name: &str) -> bool {
         self.0.contains(name)
     }
 
-    /// With all parts of another more.
+    /// Adds all parts of another set.
     pub fn extend(&mut self, other: &Self) {
         self.0.extend(other.0.iter().cloned());
     }
 
-    /// Whether all parts of another are among these.
+    /// Returns `true` if all parts of another set are in this one.
     pub fn covers(&self, other: &Self) -> bool {
         other.0.is_subset(&self.0)
     }
 
-    /// What a whole text comes to with these parts, started at `entry`.
+    /// Reduces a complete text to these parts and to what is reachable from `entry`.
     pub fn of(&self, text: &str, entry: &str) -> String {
         let all = Self::all();
         constants() + &reachable(&self.arms(text, &all), entry)
     }
 
-    /// The text without the arms and blocks of other parts.
+    /// Removes arms and blocks of other parts.
     fn arms(&self, text: &str, all: &Self) -> String {
         let mut out = String::with_capacity(text.len());
-        // Braces that are open within what is left out.
+        // Nesting depth of braces within removed text.
         let mut open = 0;
         for line in text.lines() {
             let code = line.split("//").next().unwrap_or_default();
@@ -157,7 +157,7 @@ impl Parts {
         out
     }
 
-    /// A line as it stays; `None` if it begins an arm or a block that goes.
+    /// Reduces a line; `None` if it begins an arm or block to be removed.
     fn heading(&self, line: &str, all: &Self) -> Option<String> {
         let trimmed = line.trim_start();
         if let Some(feature) = trimmed.strip_prefix("if (").and_then(|rest| rest.strip_suffix(") {")) {
@@ -173,17 +173,17 @@ impl Parts {
     }
 }
 
-/// The constants that blocks stand under: a text with all parts is valid with them.
+/// The feature constants, all `true`: blocks of removed features are gone from the text.
 pub fn constants() -> String {
     FEATURES.iter().map(|name| format!("const {name}: bool = true;\n")).collect()
 }
 
-/// A text without the functions that its entry point never calls. Functions end at a brace in the first column.
+/// Removes functions that the entry point never calls. A function ends at a brace in the first column.
 fn reachable(text: &str, entry: &str) -> String {
     let mut items: Vec<(Option<&str>, String)> = vec![(None, String::new())];
     for line in text.lines() {
         if let Some((name, _)) = line.strip_prefix("fn ").and_then(|rest| rest.split_once('(')) {
-            // Attributes stand on the line before.
+            // Attributes are on the line before.
             let mut item = String::new();
             if let Some((None, other)) = items.last_mut()
                 && let Some(at) = other.find("@compute")

@@ -1,9 +1,9 @@
-//! Programs for GPUs. A checked program becomes words ([`Microcode`]) for one machine written in WGSL ([`machine`]), of
-//! which a draw compiles the parts that it uses ([`super::parts`]).
+//! Pixel programs on GPUs. A checked program is encoded as words ([`Microcode`]) for a virtual machine written in WGSL
+//! ([`machine`]), of which a draw compiles the parts that it uses ([`super::parts`]).
 //!
-//! The machine is `fn shade()`, which works on the variables and rows of [`super::INTERFACE`]. Inputs are single
-//! precision patterns with NaN canonical. The module also has the number library, the texture library, and what
-//! [`NO_TRACE`] stands in for.
+//! The machine is `fn shade()`, which operates on the variables and rows of [`super::INTERFACE`]. Inputs are
+//! single-precision patterns with canonical NaN. The module also needs the number library, the texture library, and
+//! either a trace function or [`NO_TRACE`].
 
 mod assembler;
 mod interpolate;
@@ -23,30 +23,30 @@ use lower::Lowered;
 pub use microcode::{Microcode, ProgramError};
 pub use trace::{TRACE_WORDS, trace_delivered, trace_steps};
 
-/// The function that puts down what a followed lane does, in a module that follows none. Words are numbered from 0.
+/// Definition of `trace_put`, which records a word of a trace, for modules without traces.
 pub const NO_TRACE: &str = "fn trace_put(at: u32, word: u32) {\n}\n";
 
-/// The machine that runs a [`Microcode`]: `fn shade()` in WGSL, with all its parts.
+/// The WGSL text of the virtual machine that executes [`Microcode`], `fn shade()`, with all parts.
 pub fn machine() -> String {
     let names = (0..).zip(operations::NAMES);
     let constants = names.map(|(number, name)| format!("const {}: u32 = {number}u;\n", operations::constant(name)));
     constants.collect::<String>() + include_str!("program/vm.wgsl")
 }
 
-/// A pixel program ready to be put into words.
+/// A pixel program, ready to be encoded.
 #[derive(Clone, Debug)]
 pub struct PixelShader {
     lowered: Lowered,
 }
 
 impl PixelShader {
-    /// Prepares a program, which must be a pixel program, to run under `rules` with `bindings`; with `traced`, what
-    /// each instruction writes in the followed lane is put down ([`trace_steps`]).
+    /// Prepares a pixel program to run under `rules` with `bindings`. If `traced`, the results of every instruction are
+    /// recorded ([`trace_steps`]).
     pub fn new(checked: &CheckedProgram, rules: &Rules, bindings: &PixelBindings<'_>, traced: bool) -> Self {
         Self { lowered: Lowered::pixel(program(checked), rules, Formats::pixel(rules), bindings, traced) }
     }
 
-    /// The words for [`machine`], which interpolate first unless inputs are given.
+    /// Encodes the program for [`machine`], preceded by interpolation if given.
     ///
     /// # Errors
     /// [`ProgramError::TooLarge`].

@@ -1,25 +1,25 @@
-//! What the kernel knows of a colour target.
+//! Encoding of colour targets for the kernel.
 
 use super::texture::texel_words;
 use crate::num::Format;
 use crate::output::WriteMask;
 use crate::texture::{Channel, ChannelClass, TexelFormat};
 
-/// Words of a target in `draw`.
+/// Words per target in `draw`.
 pub const WORDS: usize = 64;
 
-/// A colour target within `video`.
+/// A colour target in `video`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TargetPlace {
     /// The texel format.
     pub format: TexelFormat,
-    /// The first word.
+    /// Offset of the first word.
     pub base: u32,
-    /// Texels from one row to the next.
+    /// Row stride in texels.
     pub width: u32,
 }
 
-/// The words of a target that is drawn into under a mask; the first is 0 if nothing is written.
+/// Encodes a target with a write mask; the first word is 0 if nothing is written.
 pub fn words(place: &TargetPlace, mask: WriteMask) -> [u32; WORDS] {
     let record = place.format.record();
     let stored = record.stored();
@@ -39,7 +39,7 @@ pub fn words(place: &TargetPlace, mask: WriteMask) -> [u32; WORDS] {
         *word = (written >> (32 * i)) as u32;
     }
     out[11] = alpha.map_or(4, |i| i as u32);
-    // An alpha that is not stored is blended as an unsigned channel as wide as the widest.
+    // An alpha that is not stored is blended as an unsigned channel with the width of the widest channel.
     let widest = stored.iter().map(|c| c.bits).max().unwrap_or(8);
     let spare = Channel { shift: 0, bits: widest, class: ChannelClass::Unorm, stored_from: 3 };
     let channels = stored.iter().chain((stored.len()..4).map(|_| &spare)).chain([&spare]);
@@ -58,7 +58,7 @@ fn channel_words(channel: &Channel) -> [u32; 6] {
         ChannelClass::Unorm => (0, 0),
         ChannelClass::Snorm => (1, 0),
         ChannelClass::SplitSnorm => (2, 0),
-        // Their places in the table of formats.
+        // Their indices in the table of formats.
         ChannelClass::Float(Format::FP16) => (3, 5),
         ChannelClass::Float(Format::FP24) => (3, 6),
         ChannelClass::Float(_) => (3, 7),

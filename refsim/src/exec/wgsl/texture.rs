@@ -1,11 +1,11 @@
-//! Texture reads in WGSL: the sampler table, texels as words, and the text that reads them.
+//! Texture reads in WGSL: the sampler table, images as words, and the text of the texture library.
 //!
-//! The text defines `texture_read` and `texel_decode`. It takes from the rest of its module: the bindings `samplers`
+//! The text defines `texture_read` and `texel_decode`. It requires from the rest of its module: the bindings `samplers`
 //! and `video` (both `array<u32>`), `format(k: u32) -> Format` with `MAIN`, `texture_operand` and `texture_result` for
-//! what goes in and out, and of the number library `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu`.
+//! operands and results, and `Format`, `n_round`, `n_infinite`, `n_nan` and `s_alu` of the number library.
 //!
-//! Everything that a read depends on comes from the sampler table, so one module serves all textures and states. A
-//! sampler has [`SAMPLER_WORDS`] words; what is at which place the constants say, which the text has by the same names.
+//! All parameters of a read are in the sampler table, so one module serves all textures and states. A sampler has
+//! [`SAMPLER_WORDS`] words at the offsets given by the constants, which have the same names in the text.
 
 use super::parts::Parts;
 use crate::exec::SamplerBinding;
@@ -15,7 +15,7 @@ use crate::texture::{
     TargetRounding, TexelFormat, TextureError, TextureKind, encode,
 };
 
-/// Constants that Rust and WGSL share: made here, written out at the head of the text.
+/// Defines constants shared by Rust and WGSL; they are written at the head of the text.
 macro_rules! shared {
     ($($(#[$doc:meta])* $name:ident = $value:literal;)*) => {
         $($(#[$doc])* pub const $name: usize = $value;)*
@@ -24,19 +24,19 @@ macro_rules! shared {
 }
 
 shared! {
-    /// Words of a sampler in the table.
+    /// Words per sampler in the table.
     SAMPLER_WORDS = 80;
-    /// Small things in one word, from the bits named `FLAG_*` on.
+    /// Flags, at the bits named `FLAG_*`.
     SAMPLER_FLAGS = 0;
-    /// The largest level that may be read (bits 0 to 7), the smallest one (8 to 15).
+    /// Finest level that may be read (bits 0 to 7), coarsest level (8 to 15).
     SAMPLER_LEVEL_RANGE = 1;
     /// Bias of the level of detail, FP32 bits.
     SAMPLER_LOD_BIAS = 2;
-    /// Texels of level 0 along the axes for a coordinate of 1, FP32 bits.
+    /// Texels of level 0 per unit of a coordinate, by axis, FP32 bits.
     SAMPLER_SCALES = 4;
     /// The four components: class (`TEXEL_*`, bits 0 to 7), shift (8 to 15), width (from 16 on).
     SAMPLER_COMPONENTS = 8;
-    /// The border texel as it would be stored, four words.
+    /// The encoded border texel, four words.
     SAMPLER_BORDER = 12;
     /// The levels, four words each.
     SAMPLER_LEVELS = 16;
@@ -44,57 +44,57 @@ shared! {
     FLAG_KIND = 0;
     /// Filter between levels (2 bits): `MIP_*`.
     FLAG_MIP = 3;
-    /// Address modes of the three axes, as the kind of texture lets them be (2 bits each): `ADDRESS_*`.
+    /// Address modes of the three axes after adjustment to the kind of texture (2 bits each): `ADDRESS_*`.
     FLAG_ADDRESS = 5;
     /// Fraction bits of filter weights, at most 12 (4 bits).
     FLAG_FILTER_BITS = 11;
     /// Fraction bits of the level of detail, at most 8 (4 bits).
     FLAG_LOD_BITS = 15;
-    /// Words of a texel: 1, 2 or 4 (3 bits).
+    /// Words per texel: 1, 2 or 4 (3 bits).
     FLAG_TEXEL_WORDS = 19;
-    /// Axes along which texels lie; 0 where nothing is bound (2 bits).
+    /// Number of texture axes; 0 if nothing is bound (2 bits).
     FLAG_AXES = 22;
-    /// Linear filtering where texels are smaller than pixels.
+    /// Linear minification filter.
     FLAG_MIN = 24;
-    /// Linear filtering elsewhere.
+    /// Linear magnification filter.
     FLAG_MAG = 25;
-    /// The level of detail matters to a read.
+    /// The level of detail affects reads.
     FLAG_DETAIL = 26;
-    /// Every stored channel is floating-point.
+    /// All stored channels are floating-point.
     FLAG_FLOAT = 27;
-    /// Coordinates go from 0 to 1; else they count texels.
+    /// Coordinates are normalised (0 to 1); else they are in texels.
     FLAG_NORMALISED = 28;
-    /// First word of a level in `video`.
+    /// Offset of a level in `video`, in words.
     LEVEL_OFFSET = 0;
-    /// Texels of a row.
+    /// Texels per row.
     LEVEL_WIDTH = 1;
-    /// Rows of a slice.
+    /// Rows per slice.
     LEVEL_HEIGHT = 2;
-    /// Slices (or faces).
+    /// Number of slices (or faces).
     LEVEL_SLICES = 3;
-    /// A row.
+    /// 1-D texture.
     KIND_D1 = 0;
-    /// A plane.
+    /// 2-D texture.
     KIND_D2 = 1;
-    /// A plane addressed in texels.
+    /// Rectangle texture.
     KIND_RECTANGLE = 2;
-    /// Six faces.
+    /// Cube map.
     KIND_CUBE = 3;
-    /// A block.
+    /// Volume texture.
     KIND_VOLUME = 4;
-    /// Only the largest level allowed.
+    /// Finest allowed level only.
     MIP_NONE = 0;
-    /// The nearest level.
+    /// Nearest level.
     MIP_NEAREST = 1;
-    /// The nearest two levels.
+    /// Interpolation between the nearest two levels.
     MIP_LINEAR = 2;
-    /// The image repeats.
+    /// Repeats the image.
     ADDRESS_WRAP = 0;
-    /// The image repeats mirrored.
+    /// Repeats the image mirrored.
     ADDRESS_MIRROR = 1;
-    /// The outermost texel goes on.
+    /// Repeats the texel at the edge.
     ADDRESS_CLAMP = 2;
-    /// The border texel.
+    /// Returns the border texel.
     ADDRESS_BORDER = 3;
     /// Always 0.
     TEXEL_ZERO = 0;
@@ -102,9 +102,9 @@ shared! {
     TEXEL_ONE = 1;
     /// `k / (2^n - 1)`
     TEXEL_UNORM = 2;
-    /// `k / (2^(n-1) - 1)`, the smallest below -1.
+    /// `k / (2^(n-1) - 1)`, with the smallest value below -1.
     TEXEL_SNORM = 3;
-    /// The same, the smallest -1.
+    /// The same, with the smallest value clamped to -1.
     TEXEL_SNORM_CLAMPED = 4;
     /// `k / 15` above zero, `k / 16` below.
     TEXEL_SPLIT = 5;
@@ -114,15 +114,15 @@ shared! {
     TEXEL_FP24 = 7;
     /// fp32
     TEXEL_FP32 = 8;
-    /// `texture_read` takes the differences across the quad.
+    /// Level of detail from differences across the quad.
     DETAIL_IMPLICIT = 0;
-    /// The same plus a bias.
+    /// The same, plus a bias.
     DETAIL_BIASED = 1;
-    /// Derivatives given.
+    /// Level of detail from given derivatives.
     DETAIL_GRADIENTS = 2;
 }
 
-/// The most levels that an image has: 16384 texels a side.
+/// Maximum number of levels of an image: 16384 texels per axis.
 const MAX_LEVELS: usize = 15;
 
 /// The text: constants, then functions.
@@ -143,8 +143,8 @@ pub fn library() -> String {
     text
 }
 
-/// The words of one sampler. `first_word` is where its image ([`image_words`]) begins in `video`; an unbound sampler
-/// reads as (0, 0, 0, 1).
+/// Encodes a sampler. `first_word` is the offset of its image ([`image_words`]) in `video`; an unbound sampler reads
+/// (0, 0, 0, 1).
 pub fn sampler_words(
     binding: Option<&SamplerBinding<'_>>,
     rules: &SampleRules,
@@ -193,7 +193,7 @@ pub fn sampler_words(
     words
 }
 
-/// The parts of the text that reads through a sampler use.
+/// Adds the parts of the text that reads through a sampler use.
 pub fn parts(sampler: &[u32], parts: &mut Parts) {
     let flag = |at: usize| sampler[SAMPLER_FLAGS] >> at;
     let is_cube = flag(FLAG_KIND) & 7 == KIND_CUBE as u32;
@@ -216,7 +216,7 @@ fn kind_word(kind: TextureKind) -> u32 {
     word as u32
 }
 
-/// Along the faces of a cube coordinates are clamped, on a rectangle wrap and mirror act as clamp.
+/// Cube face coordinates are always clamped; on a rectangle, wrap and mirror act as clamp.
 fn address_word(kind: TextureKind, asked: AddressMode) -> u32 {
     let mode = match (kind, asked) {
         (TextureKind::Cube, _) => ADDRESS_CLAMP,
@@ -236,7 +236,7 @@ fn axes(kind: TextureKind) -> u32 {
     }
 }
 
-/// What derivatives are multiplied by to be in texels of level 0.
+/// Factors that convert derivatives to texels of level 0.
 fn scales(image: &Image) -> [u32; 3] {
     let single = crate::texture::value::from_integer;
     match image.kind() {
@@ -246,8 +246,8 @@ fn scales(image: &Image) -> [u32; 3] {
     }
 }
 
-/// What a sampler (or a target's read-back, see `texel_decode`) takes as red, green, blue and alpha of a texel: the
-/// words at [`SAMPLER_COMPONENTS`].
+/// Encodes the sources of red, green, blue and alpha in a texel, for a sampler or for reading a target
+/// (`texel_decode`): the words at [`SAMPLER_COMPONENTS`].
 pub fn component_words(format: TexelFormat, minimum: SignedTexelMinimum) -> [u32; 4] {
     let record = format.record();
     record.components.map(|source| match source {
@@ -257,7 +257,8 @@ pub fn component_words(format: TexelFormat, minimum: SignedTexelMinimum) -> [u32
     })
 }
 
-/// One stored channel: class, shift and width. Channels that are ratios have at most 16 bits, and none crosses a word.
+/// Encodes a stored channel: class, shift and width. Fixed-point channels have at most 16 bits, and no channel crosses
+/// a word.
 pub fn channel_word(channel: Channel, minimum: SignedTexelMinimum) -> u32 {
     let class = match channel.class {
         ChannelClass::Unorm => TEXEL_UNORM,
@@ -271,7 +272,7 @@ pub fn channel_word(channel: Channel, minimum: SignedTexelMinimum) -> u32 {
     class as u32 | u32::from(channel.shift) << 8 | u32::from(channel.bits) << 16
 }
 
-/// Whole words that a texel takes in `video`: 1, 2 or 4.
+/// Words per texel in `video`: 1, 2 or 4.
 pub fn texel_words(format: TexelFormat) -> usize {
     format.bytes().div_ceil(4)
 }
@@ -280,30 +281,30 @@ fn split(raw: u128) -> [u32; 4] {
     [0, 32, 64, 96].map(|shift| (raw >> shift) as u32)
 }
 
-/// Words that [`image_words`] makes of an image.
+/// Number of words of an encoded image.
 pub fn image_size(image: &Image) -> usize {
     image.bytes().len() / image.format().bytes() * texel_words(image.format())
 }
 
-/// An image as the device holds it: each texel as little-endian words, padded with zeros to whole ones, levels, slices
-/// and rows one after the other.
+/// Encodes an image: each texel as little-endian words, padded with zeros to whole words; levels, slices and rows in
+/// order.
 pub fn image_words(image: &Image) -> Vec<u32> {
     let (bytes, words) = (image.format().bytes(), texel_words(image.format()));
     let mut out = Vec::with_capacity(image_size(image));
     if bytes == 4 * words {
         out.extend(image.bytes().chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])));
     } else {
-        // One or two bytes.
+        // One or two bytes per texel.
         let wide = |texel: &[u8]| texel.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b));
         out.extend(image.bytes().chunks_exact(bytes).map(wide));
     }
     out
 }
 
-/// Overwrites all texels of an image with what [`image_words`] made, or a shader changed.
+/// Decodes all texels of an image from the words of [`image_words`], possibly modified by a shader.
 ///
 /// # Errors
-/// If there are too many or too few words.
+/// If the number of words is wrong.
 pub fn words_to_image(words: &[u32], image: &mut Image) -> Result<(), TextureError> {
     let expected = image_size(image);
     if words.len() != expected {

@@ -1,4 +1,4 @@
-//! How the triangles of a round are cut into dispatches.
+//! Partition of a round's triangles into dispatches.
 
 use crate::exec::TILE;
 use crate::raster::TriangleSetup;
@@ -11,15 +11,15 @@ struct Bin {
     triangles: Vec<u32>,
 }
 
-/// One dispatch: the words of `tiles` (for each tile its column, its row, where its triangles begin and how many they
-/// are; then the triangles) and the number of tiles.
+/// A dispatch: the kernel's words for `tiles` (per tile its column, its row, the offset of its triangle list and the
+/// list's length; then the lists), and the number of tiles.
 pub(super) struct TileBatch {
     pub(super) words: Vec<u32>,
     pub(super) tiles: usize,
 }
 
-/// Cuts a round into dispatches of at most so many tiles and so many triangles over all tiles. A tile is at most once
-/// in a dispatch, and its triangles come in order over the dispatches.
+/// Partitions a round into dispatches of at most `most_tiles` tiles and `most_triangles` triangles over all tiles. A
+/// tile occurs at most once per dispatch, and its triangles stay in order across dispatches.
 pub(super) fn dispatches(
     setups: &[TriangleSetup],
     region: Region,
@@ -63,7 +63,7 @@ fn dispatch(parts: &[(u32, u32, &[u32])]) -> TileBatch {
     TileBatch { words, tiles: parts.len() }
 }
 
-/// The tiles that triangles touch, row by row.
+/// Triangle lists of the tiles that triangles touch, row by row.
 fn bins(setups: &[TriangleSetup], region: Region) -> Vec<Bin> {
     let (right, bottom) = (region.x + region.width, region.y + region.height);
     let (columns, rows) = (right.div_ceil(TILE) as usize, bottom.div_ceil(TILE) as usize);

@@ -1,4 +1,4 @@
-//! A draw on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
+//! Draws on the GPU: vertices, assembly and set-up on the host, then the kernel over the tiles.
 
 use super::shader::{DRAW, load};
 use super::{Card, batches};
@@ -23,20 +23,19 @@ use crate::output::MAX_TARGETS;
 use crate::raster::TriangleSetup;
 use std::sync::Arc;
 
-/// Triangles, counted once a tile, that one dispatch draws at most: so that none runs for seconds.
+/// Maximum number of triangles per dispatch, counted once per tile, so that no dispatch runs for seconds.
 const MAX_TRIANGLES: usize = 8192;
-/// Tiles of one dispatch at most.
+/// Maximum number of tiles per dispatch.
 const MAX_TILES: usize = 4096;
-/// Loop passes of an invocation in one dispatch: on software a quarter of lavapipe's 65,535, since lanes that take
-/// different ways through a program cost more than any of them. They are the shader's own; a program's step budget is
-/// another matter.
+/// Maximum number of loop iterations per invocation and dispatch. On software adapters a quarter of lavapipe's 65,535,
+/// because divergent lanes add up. These are the shader's own loops, independent of the program's step budget.
 const SOFTWARE_PASSES: u32 = 16_000;
 const PASSES: u32 = 1 << 22;
-/// Workgroups in a row: WebGPU's limit is 65,535.
+/// Workgroups per row of a dispatch: WebGPU's limit is 65,535.
 const ROW: usize = 256;
 
 impl Machine {
-    /// A machine that draws on a GPU. The bits are the same on every GPU.
+    /// Creates a machine that draws on a GPU. The bits are the same on every GPU.
     ///
     /// # Errors
     /// [`MachineError::Gpu`] if the GPU has no memory for it.
@@ -46,10 +45,10 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Draws a checked call on the GPU; the best one that the computer has, if none was given.
+    /// Executes a checked call on the GPU: the given one, or the best adapter of the host.
     ///
-    /// Where programs may exceed their step budgets the host keeps what targets hold, for the case that they do. Which
-    /// fragment it was the batch executor finds out: the GPU knows that there was one.
+    /// If fragments may exceed the step budget, the host keeps copies of the targets. The GPU reports only that a
+    /// fragment did; the batch executor then finds which one.
     pub(in crate::machine) fn draw_on_gpu(
         &mut self,
         call: &DrawCall<'_>,
@@ -87,7 +86,7 @@ impl Machine {
         Err(self.disagreement())
     }
 
-    /// The GPU cut a fragment off that the host does not.
+    /// Error: the GPU reported an exceeded budget that the host does not find.
     pub(in crate::machine) fn disagreement(&self) -> MachineError {
         let name = |card: &Card| card.board.gpu().adapter().name.clone();
         let adapter = self.memory.card.as_ref().map_or_else(|| "the best there is".to_owned(), name);
@@ -95,7 +94,7 @@ impl Machine {
         GpuError::Device { adapter, reason }.into()
     }
 
-    /// Whether the pixel program of a call may exceed its step budget.
+    /// Classifies the pixel program of a call by its step budget.
     pub(in crate::machine) fn step_budget(&self, call: &DrawCall<'_>) -> StepBudget {
         let (checked, source) = (call.pixel_program, program(call.pixel_program));
         let constants = ResolvedConstants::pixel(source, &self.profile.rules, call.pixel_constants);
@@ -115,19 +114,20 @@ impl Machine {
     }
 }
 
-/// How a pixel program stands to its step budget.
+/// Relation of a pixel program to its step budget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::machine) enum StepBudget {
-    /// Every fragment exceeds it: it has no flow control and is too long. The scalar executor counts its steps.
+    /// Every fragment exceeds it: the program has no flow control and is too long. The scalar executor counts its
+    /// steps.
     Exceeded,
-    /// A fragment may exceed it.
+    /// A fragment may exceed it; the value is the budget.
     Enforced(u32),
-    /// No fragment can.
+    /// No fragment can exceed it.
     Kept,
 }
 
 impl Card {
-    /// Draws; `None` if a fragment did not end within the step budget.
+    /// Draws; returns `None` if a fragment exceeded the step budget.
     fn draw(
         &mut self,
         (memory, profile): (&Memory, &Profile),
@@ -165,7 +165,7 @@ impl Card {
         Ok(Some(events))
     }
 
-    /// The counts, if no loop was cut off.
+    /// The counts; an error if the driver cut a loop off.
     pub(super) fn uncut(&self) -> Result<Vec<u32>, MachineError> {
         let found = self.board.counts(COUNT_WORDS)?;
         if found.get(CUT).is_some_and(|&n| n != 0) {
@@ -176,7 +176,7 @@ impl Card {
         Ok(found)
     }
 
-    /// Makes sure that targets are on the GPU; what the kernel is told of the draw.
+    /// Ensures that targets are on the GPU; returns the draw parameters of the kernel.
     fn place(
         &mut self,
         memory: &Memory,
@@ -215,7 +215,7 @@ impl Card {
         }))
     }
 
-    /// Draws some triangles.
+    /// Draws a group of triangles.
     fn shade(
         &mut self,
         words: &mut DrawWords,
@@ -234,7 +234,7 @@ impl Card {
         Ok(())
     }
 
-    /// Makes a dispatch as often as it takes to finish.
+    /// Repeats a dispatch until all its invocations have finished.
     fn dispatch(
         &mut self,
         words: &mut DrawWords,
@@ -258,7 +258,7 @@ impl Card {
     }
 }
 
-/// Loop passes that an invocation may make in one dispatch.
+/// Maximum loop iterations per invocation and dispatch.
 pub(super) fn passes(gpu: &Gpu) -> u32 {
     match gpu.adapter().kind {
         AdapterKind::Software => SOFTWARE_PASSES,
@@ -266,7 +266,7 @@ pub(super) fn passes(gpu: &Gpu) -> u32 {
     }
 }
 
-/// Counts out of their words.
+/// Decodes the 64-bit counts.
 fn counts(words: &[u32]) -> FragmentCounts {
     let of = |k: usize| match words.get(2 * k..2 * k + 2) {
         Some(&[low, high]) => u64::from(high) << 32 | u64::from(low),

@@ -1,7 +1,7 @@
-//! Following pixels on the GPU: each round takes every pixel to the next triangle that covers it.
+//! Pixel tracing on the GPU: each round advances every pixel to the next triangle that covers it.
 //!
 //! The kernel works on copies of the pixels' targets, so a trace changes nothing. All pixels of a round share a
-//! dispatch, which is why this is no [`crate::exec::PixelTracer`].
+//! dispatch, so this does not implement [`crate::exec::PixelTracer`].
 
 use super::shader::{FOLLOW, load};
 use super::{Card, draw};
@@ -20,13 +20,13 @@ use crate::texture::{Image, TextureKind};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Steps of a record in a program with flow control, which may run any number.
+/// Capacity of a record, in steps, for programs with flow control, whose number of steps is unbounded.
 const FLOW_STEPS: usize = 256;
-/// Input registers that are told of before the steps, at most.
+/// Maximum number of input registers recorded before the steps.
 const INPUTS: usize = 12;
 
-/// A fragment of a followed pixel: the triangle's place among the set-ups of the pass; what it found, what was done,
-/// what it left.
+/// A fragment of a traced pixel: the index of the triangle's set-up within the pass, the pixel's state before, the
+/// execution of the program, and the pixel's state after.
 pub(in crate::machine) struct Followed {
     pub(in crate::machine) triangle: usize,
     pub(in crate::machine) before: PixelState,
@@ -34,7 +34,7 @@ pub(in crate::machine) struct Followed {
     pub(in crate::machine) after: PixelState,
 }
 
-/// Pixels on their way through a draw.
+/// Traces pixels through a draw.
 pub(in crate::machine) struct Follower<'a> {
     card: Card,
     machine: &'a Machine,
@@ -43,24 +43,24 @@ pub(in crate::machine) struct Follower<'a> {
     states: Vec<PixelState>,
     words: DrawWords,
     shader: LoadedProgram,
-    /// The targets of the followed pixels, a row, and one column more for what is run again.
+    /// Copies of the targets with one row: a column per traced pixel, plus one for re-execution.
     colors: Vec<(usize, Image)>,
     depth: Option<usize>,
     records: usize,
     room: usize,
-    /// Whether a fragment did not end within the step budget.
+    /// `true` if a fragment exceeded the step budget.
     pub(in crate::machine) overrun: bool,
 }
 
-/// A pixel's way through one pass.
+/// Progress of a pixel through one pass.
 struct PixelWay {
     triangles: Vec<u32>,
-    /// How many of them it is past.
+    /// Number of triangles already processed.
     at: usize,
 }
 
 impl<'a> Follower<'a> {
-    /// Pixels, and what the targets hold there.
+    /// Creates a tracer for pixels with the given target contents.
     pub(in crate::machine) fn new(
         machine: &'a Machine,
         call: &'a DrawCall<'a>,
@@ -114,7 +114,7 @@ impl<'a> Follower<'a> {
         Ok(follower)
     }
 
-    /// Sends what the pixels' targets hold.
+    /// Uploads the current contents of the pixels' targets.
     fn send(&self) -> Result<(), MachineError> {
         for (i, (base, image)) in self.colors.iter().enumerate() {
             let mut image = image.clone();
@@ -130,7 +130,7 @@ impl<'a> Follower<'a> {
         Ok(())
     }
 
-    /// What they hold now.
+    /// Downloads the current contents of the pixels' targets.
     fn fetch(&self) -> Result<Vec<PixelState>, MachineError> {
         let mut states = self.states.clone();
         for (i, (base, image)) in self.colors.iter().enumerate() {
@@ -149,7 +149,7 @@ impl<'a> Follower<'a> {
         Ok(states)
     }
 
-    /// Takes the pixels through some triangles: the fragments of each pixel, in order.
+    /// Traces the pixels through a group of triangles; returns the fragments of each pixel, in order.
     pub(in crate::machine) fn pass(&mut self, setups: &[&TriangleSetup]) -> Result<Vec<Vec<Followed>>, MachineError> {
         let mut packed = Vec::with_capacity(setups.len() * self.words.setup_words());
         setups.iter().for_each(|setup| self.words.setup(setup, &mut packed));
@@ -166,7 +166,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// Takes pixels to the next triangle that covers each.
+    /// Advances pixels to the next triangle that covers each.
     fn round(&mut self, jobs: &[usize], ways: &mut [PixelWay], out: &mut [Vec<Followed>]) -> Result<(), MachineError> {
         let lists: Vec<_> = jobs.iter().map(|&p| (p, p, ways[p].at..ways[p].triangles.len())).collect();
         let words = self.run(&lists, ways, 0)?;
@@ -191,7 +191,7 @@ impl<'a> Follower<'a> {
         Ok(())
     }
 
-    /// The words of all steps: those that a record had no room for are found by running the pixel again.
+    /// Returns the words of all steps; those beyond the record's capacity are obtained by re-executing the pixel.
     fn steps(
         &mut self,
         record: &Record<'_>,
@@ -212,7 +212,8 @@ impl<'a> Follower<'a> {
         Ok(steps)
     }
 
-    /// The records of pixels: their numbers, columns in the targets, parts of their lists.
+    /// Runs the kernel and returns the records. A job is a pixel's index, its column in the targets, and a range of its
+    /// triangle list.
     fn run(
         &mut self,
         jobs: &[(usize, usize, Range<usize>)],
@@ -245,7 +246,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// The triangles whose bounds hold a pixel.
+/// Triangles whose bounds contain a pixel.
 fn near(setups: &[&TriangleSetup], (x, y): (u32, u32)) -> Vec<u32> {
     let holds = |setup: &TriangleSetup| {
         let b = &setup.bounds;

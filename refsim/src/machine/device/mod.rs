@@ -1,7 +1,7 @@
 //! Memory and draws of a machine on a GPU of the host.
 //!
-//! Textures, targets and depth buffers stay there between draws. The host's copy goes there before a draw that needs
-//! it, if the host wrote it last; what was drawn comes back once, when the host asks.
+//! Textures, targets and depth buffers stay on the GPU between draws. A host copy is uploaded before a draw that needs
+//! it if the host wrote it last; a drawn target is downloaded once, when the host asks for it.
 
 mod batches;
 mod draw;
@@ -19,7 +19,7 @@ use crate::texture::Image;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-/// What of a machine's memory is on the GPU.
+/// GPU copies of a machine's resources.
 #[derive(Debug)]
 pub(super) struct Card {
     board: Board,
@@ -27,20 +27,20 @@ pub(super) struct Card {
     depths: BTreeMap<usize, Held<DepthSurface>>,
 }
 
-/// Something that is on the GPU.
+/// The GPU copy of a resource.
 #[derive(Debug)]
 struct Held<T> {
     base: usize,
     words: usize,
     newer: Newer,
-    /// What came back since the last draw into it.
+    /// Downloaded contents since the last draw into it.
     back: OnceLock<T>,
 }
 
-/// Who wrote last.
+/// The copy that was written last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Newer {
-    /// Both hold the same.
+    /// Both copies are equal.
     Neither,
     Host,
     Device,
@@ -51,7 +51,7 @@ impl<T> Held<T> {
         Ok(Self { base: board.allocate(words)?, words, newer: Newer::Host, back: OnceLock::new() })
     }
 
-    /// Sends the host's copy, if it is newer.
+    /// Uploads the host's copy if it is newer.
     fn send(&mut self, board: &Board, words: impl FnOnce() -> Vec<u32>) -> Result<(), GpuError> {
         if self.newer == Newer::Host {
             board.write(self.base, &words())?;
@@ -60,7 +60,7 @@ impl<T> Held<T> {
         Ok(())
     }
 
-    /// The newest contents, given the host's copy.
+    /// Returns the newest contents, given the host's copy.
     fn fetch<'a>(
         &'a self,
         board: &Board,
@@ -88,10 +88,10 @@ impl<T> Held<T> {
     }
 }
 
-/// The image that stands on the GPU as these words.
+/// Decodes an image from its GPU words.
 fn image_of(like: &Image, words: &[u32]) -> Image {
     let mut image = like.clone();
-    // As many words as the image was sent with: nothing to go wrong.
+    // The number of words matches by construction, so this cannot fail.
     let _ = texture::words_to_image(words, &mut image);
     image
 }
@@ -107,7 +107,7 @@ impl Card {
         Ok(Self { board: Board::new(gpu)?, textures: BTreeMap::new(), depths: BTreeMap::new() })
     }
 
-    /// The contents of texture `number`, of which the host holds `host`.
+    /// Contents of texture `number`, given the host's copy.
     pub(super) fn image<'a>(&'a self, number: usize, host: &'a Image) -> Result<&'a Image, MachineError> {
         match self.textures.get(&number) {
             Some(held) => held.fetch(&self.board, host, |words| image_of(host, &words)),
@@ -115,7 +115,7 @@ impl Card {
         }
     }
 
-    /// The contents of depth buffer `number`, of which the host holds `host`.
+    /// Contents of depth buffer `number`, given the host's copy.
     pub(super) fn surface<'a>(
         &'a self,
         number: usize,
@@ -127,21 +127,21 @@ impl Card {
         }
     }
 
-    /// The host overwrites all of a texture.
+    /// Marks a texture as overwritten by the host.
     pub(super) fn texture_overwritten(&mut self, number: usize) {
         if let Some(held) = self.textures.get_mut(&number) {
             held.overwritten();
         }
     }
 
-    /// The host overwrites all of a depth buffer.
+    /// Marks a depth buffer as overwritten by the host.
     pub(super) fn depth_overwritten(&mut self, number: usize) {
         if let Some(held) = self.depths.get_mut(&number) {
             held.overwritten();
         }
     }
 
-    /// Forgets a texture; its contents, if the host does not have them.
+    /// Frees a texture's GPU copy; returns its contents if it is newer than the host's.
     pub(super) fn release_texture(&mut self, number: usize, host: &Image) -> Result<Option<Image>, MachineError> {
         let Some(held) = self.textures.get(&number) else { return Ok(None) };
         let newest = held.fetch(&self.board, host, |words| image_of(host, &words))?;
@@ -152,7 +152,7 @@ impl Card {
         Ok(newest)
     }
 
-    /// Forgets a depth buffer; its contents, if the host does not have them.
+    /// Frees a depth buffer's GPU copy; returns its contents if it is newer than the host's.
     pub(super) fn release_depth(
         &mut self,
         number: usize,
@@ -167,7 +167,7 @@ impl Card {
         Ok(newest)
     }
 
-    /// Makes sure that a texture is on the GPU; its first word in `video`.
+    /// Ensures that a texture is on the GPU; returns its offset in `video`, in words.
     fn place_texture(&mut self, number: usize, host: &Image) -> Result<usize, GpuError> {
         let held = match self.textures.entry(number) {
             std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),
@@ -179,7 +179,7 @@ impl Card {
         Ok(held.base)
     }
 
-    /// Makes sure that a depth buffer is on the GPU; its first word in `video`.
+    /// Ensures that a depth buffer is on the GPU; returns its offset in `video`, in words.
     fn place_depth(&mut self, number: usize, host: &DepthSurface) -> Result<usize, GpuError> {
         let held = match self.depths.entry(number) {
             std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),

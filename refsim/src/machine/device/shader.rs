@@ -1,4 +1,4 @@
-//! The pixel program of a draw as the GPU runs it.
+//! The pixel program of a draw, encoded for the GPU.
 
 use super::Card;
 use crate::device::Profile;
@@ -11,21 +11,21 @@ use crate::exec::{PixelBindings, SamplerBinding, sample_rules};
 use crate::machine::memory::Memory;
 use crate::machine::{DrawCall, MachineError};
 
-/// Draws tiles.
+/// Kernel that draws tiles.
 pub(super) const DRAW: Kernel = Kernel {
     entry: kernel::ENTRY,
     text: || kernel::text() + &program::machine() + program::NO_TRACE + &texture::library(),
     bindings: &BINDINGS,
 };
 
-/// Follows pixels.
+/// Kernel that traces pixels.
 pub(super) const FOLLOW: Kernel = Kernel {
     entry: follow::ENTRY,
     text: || follow::text() + &program::machine() + &texture::library(),
     bindings: &BINDINGS,
 };
 
-/// Program and samplers of a draw, or of pixels that are followed through one; the textures are on the GPU then.
+/// Encodes and uploads the program and the samplers of a draw, and the textures they read.
 pub(super) fn load(
     card: &mut Card,
     memory: &Memory,

@@ -6,7 +6,7 @@ use crate::num::env::Env;
 use crate::num::flags::{Flags, Outcome};
 use crate::num::unpack::{Unpacked, key, unpack};
 
-/// The order of two values, or `None` beside a NaN; and whether one of them is a signalling NaN.
+/// Compares two values: their order (`None` with a NaN), and `true` if one of them is a signalling NaN.
 pub(crate) fn order(env: &Env, a: u32, b: u32) -> (Option<Ordering>, bool) {
     let format = &env.format;
     if format.is_nan(a) || format.is_nan(b) {
@@ -16,7 +16,7 @@ pub(crate) fn order(env: &Env, a: u32, b: u32) -> (Option<Ordering>, bool) {
     (Some(key(format, a).cmp(&key(format, b))), false)
 }
 
-/// `quiet`: only a signalling NaN raises `INVALID`; else any NaN does.
+/// Compares two values. If `quiet`, only signalling NaNs raise `INVALID`; else all NaNs do.
 fn compare(env: Env, a: u32, b: u32, quiet: bool, holds: impl Fn(Ordering) -> bool) -> Outcome {
     let (order, signaling) = order(&env, a, b);
     let raise = signaling || (order.is_none() && !quiet);

@@ -13,8 +13,8 @@ pub fn div(env: impl Into<Env>, a: u32, b: u32) -> Outcome {
     div_values(&env, unpack(&env.format, a), unpack(&env.format, b))
 }
 
-/// `1 / x`, rounded once; the one is exact even in formats that can't hold it. `1 / 0` as in [`div`]: in fixed point
-/// the largest number.
+/// `1 / x`, rounded once; the dividend 1 is exact even in formats that can't represent it. `1 / 0` as in [`div`]; in
+/// fixed point it gives the largest number.
 pub fn rcp(env: impl Into<Env>, x: u32) -> Outcome {
     let env = env.into();
     div_values(&env, Unpacked::Finite { sign: false, sig: 1, exp: 0 }, unpack(&env.format, x))

@@ -1,4 +1,4 @@
-//! Dot products in a stated order.
+//! Dot products with a given order of summation.
 
 use num_bigint::BigInt;
 use num_traits::ToPrimitive;
@@ -10,7 +10,8 @@ use crate::num::round::{from_parts, infinite, zero};
 use crate::num::sum::{Term, cancelled};
 use crate::num::unpack::{Unpacked, invalid, nan_result, unpack};
 
-/// How a dot product is summed. The cards' documents don't say; it is a switch of the device profile.
+/// Order in which the terms of a dot product are summed. The cards' documents leave it open; it is a switch of the
+/// device profile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DotOrder {
     /// Each product is rounded, then `((x + y) + z) + w`, each sum rounded.
@@ -21,7 +22,7 @@ pub enum DotOrder {
     Exact,
 }
 
-/// The sum of the products of `terms` (dp2, dp3, dp4; any number works, none gives +0).
+/// Sums the products of `terms` (dp2, dp3, dp4; any number works, an empty sum is +0).
 pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcome {
     let env = env.into();
     let products = || terms.iter().map(|&(a, b)| mul(env, a, b));
@@ -46,7 +47,7 @@ pub fn dot(env: impl Into<Env>, order: DotOrder, terms: &[(u32, u32)]) -> Outcom
     }
 }
 
-/// One rounding: special values first, then the finite terms.
+/// Computes a dot product with one rounding: special values first, then the finite terms.
 fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
     use Unpacked::{Finite, Inf, Nan};
     let format = &env.format;
@@ -82,7 +83,7 @@ fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
 fn exact_finite(env: &Env, terms: &[Term]) -> Outcome {
     let nonzero = || terms.iter().filter(|t| t.sig != 0);
     let Some(unit) = nonzero().map(|t| t.exp).min() else {
-        // All products are zeros: their common sign, if they have one.
+        // All products are zeros: the result has their common sign, if they have one.
         let sign = match terms.iter().map(|t| t.sign).collect::<Vec<_>>().as_slice() {
             [] => false,
             [first, rest @ ..] if rest.iter().all(|s| s == first) => *first,

@@ -26,8 +26,8 @@ pub fn round_to_int_exact(env: impl Into<Env>, x: u32) -> Outcome {
 
 /// `x` rounded to an integer by the given rounding; `exact` asks for `INEXACT` when that changes the value.
 ///
-/// A zero result keeps the operand's sign. The integer may lie outside a short format's range (8 in `s3.12`); then
-/// it overflows as any result does.
+/// A zero result keeps the operand's sign. The integer may lie outside a short format's range (8 in `s3.12`); then the
+/// format's overflow rule applies.
 pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact: bool) -> Outcome {
     let env = env.into();
     let value = unpack(&env.format, x);
@@ -50,9 +50,9 @@ pub fn round_to_int_with(env: impl Into<Env>, x: u32, rounding: Rounding, exact:
     outcome.also(if exact && rest != 0 { Flags::INEXACT } else { Flags::empty() })
 }
 
-/// `sig * 2^exp` for negative `exp` as integer and rest, with the rest that would be one half.
+/// Splits `sig * 2^exp`, `exp` negative, into integer part, remainder, and the remainder that equals one half.
 fn split(sig: u64, exp: i32) -> (u64, u64, u64) {
-    // Nothing is longer than 32 bits, so with 40 places dropped the rest is below one half as it should be.
+    // `sig` has at most 32 bits, so with 40 places dropped the remainder compares below one half as it should.
     let places = exp.unsigned_abs().min(40);
     let integer = sig >> places;
     (integer, sig - (integer << places), 1 << (places - 1))
@@ -69,7 +69,7 @@ pub fn frc(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
     };
     let rest = if exp >= 0 { 0 } else { split(sig, exp).1 };
-    // x - floor(x) is the rest of a positive x, and one minus the rest of a negative one.
+    // x - floor(x) is the remainder for positive x, and one minus the remainder for negative x.
     let fraction = Term { sign, sig: rest, exp };
     let whole = Term { sign: !sign, sig: u64::from(sign && rest != 0), exp: 0 };
     if rest == 0 {

@@ -1,4 +1,4 @@
-//! The operations: free functions from a format and bit patterns to an [`Outcome`](super::Outcome).
+//! The operations: functions from a format and bit patterns to an [`Outcome`](super::Outcome).
 //!
 //! Each takes `impl Into<Env>`, so a [`Format`](super::Format), a `&Format` or an [`Env`](super::Env). Operands are
 //! bit patterns in the low bits; bits above the width are ignored. Every result is the exact real result rounded

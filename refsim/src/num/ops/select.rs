@@ -1,6 +1,6 @@
-//! Minimum, maximum and the two selects of the shading languages.
+//! Minimum, maximum, and the two conditional selects of the shading languages.
 //!
-//! A selected value is passed on: NaN made canonical, subnormals flushed where the format flushes.
+//! Selected values are normalised: NaNs become canonical, and subnormals are flushed where the format flushes.
 
 use super::compare::order;
 use crate::num::env::Env;

@@ -1,7 +1,7 @@
-//! Enclosures of `2^f` and `log2 m`: quick ones in machine words, long ones to any number of places.
+//! Enclosures of `2^f` and `log2 m`: fast ones in machine words, and ones of arbitrary precision.
 //!
-//! Every step truncates, so the lower end is a lower bound by construction; the upper end adds a bound on all that
-//! was cut off, which each function states.
+//! Every step truncates, so the lower end is a lower bound; the upper end adds the bound on the truncation error that
+//! each function states.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::One;
@@ -16,17 +16,17 @@ pub(super) struct Enclosure<T> {
 
 /// ln 2 in units of `2^-64`, truncated.
 const LN2: u64 = 0xB172_17F7_D1CF_79AB;
-/// Bits carried beyond the places asked for.
+/// Guard bits beyond the places requested.
 const GUARD: u32 = 32;
 
 fn high_half(a: u64, b: u64) -> u64 {
     ((u128::from(a) * u128::from(b)) >> 64) as u64
 }
 
-/// `2^(x - floor x)` for `x = (-1)^sign * sig * 2^exp`, no integer, in units of `2^-62`.
+/// Encloses `2^(x - floor x)` for `x = (-1)^sign * sig * 2^exp`, no integer, in units of `2^-62`.
 ///
-/// Cut off: one unit of `2^-64` in `f`, two more in `t = f ln 2`, and at most two of `2^-62` in each Horner step,
-/// which later steps shrink by `t/k`: below 8 units in all. The series' tail from `t^23/23!` on is below `2^-80`.
+/// Truncation error: one unit of `2^-64` in `f`, two more in `t = f ln 2`, and at most two of `2^-62` in each Horner
+/// step, which later steps shrink by `t/k`: below 8 units in all. The series' tail from `t^23/23!` on is below `2^-80`.
 pub(super) fn exp2_quick(sign: bool, sig: u64, exp: i32) -> Enclosure<i128> {
     let places = exp.unsigned_abs();
     let f = if places <= 64 {
@@ -44,10 +44,10 @@ pub(super) fn exp2_quick(sign: bool, sig: u64, exp: i32) -> Enclosure<i128> {
     Enclosure { low: i128::from(sum), high: i128::from(sum) + 16, exp: -62 }
 }
 
-/// The same in units of `2^-places`.
+/// The same with arbitrary precision, in units of `2^-places`.
 ///
-/// Cut off, in units of `2^-(places + 32)`: one a bit in ln 2, three in `t`, four a term of the series; with fewer
-/// than `2^13` bits and terms that is below `2^20`, a small part of one unit of `2^-places`.
+/// Truncation error in units of `2^-(places + 32)`: one per bit of ln 2, three in `t`, four per term of the series.
+/// With fewer than `2^13` bits and terms the total is below `2^20`, a small part of one unit of `2^-places`.
 pub(super) fn exp2_long(sign: bool, sig: u64, exp: i32, places: u32) -> Enclosure<BigInt> {
     let bits = places + GUARD;
     let one = BigInt::one() << bits;
@@ -93,7 +93,7 @@ pub(super) fn log2_quick(sig: u64) -> Enclosure<i128> {
     Enclosure { low: digits, high: digits + 4, exp: -60 }
 }
 
-/// The same in units of `2^-places`.
+/// The same with arbitrary precision, in units of `2^-places`.
 pub(super) fn log2_long(sig: u64, places: u32) -> Enclosure<BigInt> {
     let bits = u64::from(places + GUARD);
     let top = u64::from(63 - sig.leading_zeros());
@@ -112,8 +112,8 @@ pub(super) fn log2_long(sig: u64, places: u32) -> Enclosure<BigInt> {
 mod tests {
     use super::*;
 
-    /// Whether the finer enclosure lies within the coarser one: a wrong constant or error bound shows here, where
-    /// rounded results would hide it all but once in a billion operands.
+    /// Returns `true` if the finer enclosure lies within the coarser one. A wrong constant or error bound fails here,
+    /// while rounded results would hide it but for one operand in a billion.
     fn nested<T: Into<BigInt>>(coarse: Enclosure<T>, fine: Enclosure<BigInt>) -> bool {
         let shift = (coarse.exp - fine.exp).unsigned_abs();
         let (low, high): (BigInt, BigInt) = (coarse.low.into(), coarse.high.into());

@@ -1,43 +1,44 @@
-//! One fragment in a pixel pipeline.
+//! Cost of a fragment in a pixel pipeline.
 
 use crate::device::Rates;
 use crate::event::{ArithmeticSlot, MipKind, PhaseWork, ProgramWork, SamplerRecord, TextureSlot};
 use crate::isa::Opcode;
 use crate::timing::Clocks;
 
-/// Bytes of a plain texel.
+/// Bytes of a texel in the default 32-bit format.
 pub(super) const PLAIN_TEXEL: u64 = 4;
 
-/// How long one fragment keeps the units of its pipeline busy.
+/// Busy clocks of a pipeline's units per fragment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentClocks {
     /// Arithmetic.
     pub arithmetic: Clocks,
     /// Texture issue.
     pub textures: Clocks,
-    /// Whether the two take turns; else they work side by side, on different fragments.
+    /// `true` if the two alternate; else they overlap, working on different fragments.
     pub takes_turns: bool,
 }
 
 impl FragmentClocks {
-    /// From one fragment to the next.
+    /// Clocks from one fragment to the next.
     pub fn total(&self) -> Clocks {
         if self.takes_turns { self.arithmetic + self.textures } else { self.arithmetic.max(self.textures) }
     }
 }
 
-/// What a phase asks of arithmetic, in clocks of a unit that issues one slot a clock.
+/// Arithmetic work of a phase, in clocks at one slot per clock.
 #[derive(Clone, Copy, Debug, Default)]
 struct FragmentWork {
-    /// Of the float unit.
+    /// Clocks of the float unit.
     float: u64,
-    /// Of a fixed point unit: multiplications, of which it does two a clock, and the rest.
+    /// Fixed-point multiplications, two per clock and unit; `operations` are the other fixed-point operations, one per
+    /// clock.
     multiplications: u64,
     operations: u64,
 }
 
-/// The clocks of a fragment. A phase is a pass through the units, and takes whole clocks of each; a program takes at
-/// least one. Of samplers that are not named, plain 32-bit texels are taken.
+/// Clocks per fragment. A phase is one pass through the units and takes whole clocks of each; a program takes at least
+/// one clock. Samplers that are not listed read 32-bit texels.
 pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates: &Rates) -> FragmentClocks {
     let takes_turns = rates.texture_blocks_arithmetic == Some(1);
     let (mut arithmetic, mut textures) = (0_u64, 0_u64);
@@ -51,8 +52,8 @@ pub fn fragment_clocks(program: &ProgramWork, samplers: &[SamplerRecord], rates:
     FragmentClocks { arithmetic: Clocks(pressed(arithmetic).max(1)), textures: Clocks(pressed(textures)), takes_turns }
 }
 
-/// Slots over slots per clock. Fixed point goes to its own units, where there are any, while the float unit is busy
-/// (reading textures for `blocked` clocks too); what is left over is shared with the float unit.
+/// Arithmetic clocks of a phase. Fixed point runs on its own units, if there are any, while the float unit is busy
+/// (including `blocked` clocks of texture reads); the rest is shared with the float unit.
 fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     let units = rates.fixed_units.unwrap_or(0);
     let mut work = FragmentWork::default();
@@ -69,10 +70,11 @@ fn arithmetic_clocks(phase: &PhaseWork, blocked: u64, rates: &Rates) -> u64 {
     float.saturating_add(taken_over(&work, float.saturating_add(blocked), units))
 }
 
-/// Clocks that the float unit spends on fixed point so that the fixed point units get done with the rest meanwhile; it
-/// is busy for `busy` clocks before. An operation is worth two multiplications, so operations are taken over first.
+/// Clocks that the float unit spends on fixed-point work so that the fixed-point units finish the rest at the same
+/// time; the float unit is busy for `busy` clocks before. An operation is worth two multiplications, so operations move
+/// first.
 fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
-    // In multiplications, of which the units do this many a clock.
+    // In multiplications, of which the units do `done` per clock.
     let [operations, multiplications, done] =
         [work.operations, work.multiplications, units.saturating_mul(2)].map(u128::from);
     let meanwhile = done * u128::from(busy);
@@ -85,7 +87,7 @@ fn taken_over(work: &FragmentWork, busy: u64, units: u64) -> u64 {
     u64::try_from(clocks).unwrap_or(u64::MAX)
 }
 
-/// Clocks of a slot in a unit that issues one a clock.
+/// Clocks of a slot in a unit that issues one slot per clock.
 fn slot_clocks(slot: &ArithmeticSlot, rates: &Rates) -> u64 {
     let first = listed(slot.opcode, rates).unwrap_or(u64::from(slot.slots));
     let Some(partner) = slot.partner else { return first };
@@ -97,8 +99,8 @@ fn listed(opcode: Opcode, rates: &Rates) -> Option<u64> {
     rates.instruction_clocks.get(opcode.info().mnemonic).map(|&n| u64::from(n))
 }
 
-/// Reads with interpolated coordinates at one rate, dependent ones at theirs; a texture instruction that reads no texel
-/// takes its place in the unit all the same.
+/// Texture clocks of a phase: interpolated and dependent reads at their own rates. Texture instructions that read no
+/// texel occupy the unit too.
 fn texture_clocks(phase: &PhaseWork, samplers: &[SamplerRecord], rates: &Rates) -> u64 {
     let plain_rate = rates.texture_reads_per_clock.unwrap_or(1).max(1);
     let dependent_rate = rates.dependent_reads_per_clock.unwrap_or(plain_rate).max(1);
@@ -126,7 +128,7 @@ fn read_clocks(slot: &TextureSlot, samplers: &[SamplerRecord], rates: &Rates) ->
     issue.max(1).saturating_mul(wide.max(1)).saturating_mul(levels.max(1))
 }
 
-/// NV30: every two fp32 registers beyond those at full speed add a share of the clocks.
+/// NV30: every two live fp32 registers beyond the full-speed number add a percentage of the clocks.
 fn under_pressure(clocks: u64, live_halves: u32, rates: &Rates) -> u64 {
     let (Some(free), Some(step)) = (rates.full_speed_registers, rates.register_step_percent) else { return clocks };
     // Two registers are four halves.

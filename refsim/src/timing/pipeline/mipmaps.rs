@@ -1,5 +1,5 @@
-//! Generated mip levels through the units of a card: each level is a quad over it whose fragments make one bilinear
-//! read of the level before (a trilinear one of a volume).
+//! Cost of generating mip levels: each level is drawn as a quad whose fragments make one bilinear read of the previous
+//! level (a trilinear read for volumes).
 
 use super::fragment::PLAIN_TEXEL;
 use super::{PipelineClocks, QUAD, Traffic, clocks, memory, wide};
@@ -7,12 +7,12 @@ use crate::device::Rates;
 use crate::event::{MipmapLevel, MipmapRecord};
 use crate::timing::Clocks;
 
-/// Triangles of a quad.
+/// Triangles per quad.
 const TRIANGLES: u64 = 2;
-/// Texels of a bilinear read.
+/// Texels per bilinear read.
 const BILINEAR: u64 = 4;
 
-/// The clocks of each level: a level starts when the one before is done.
+/// Clocks of each level; a level starts when the previous one is finished.
 pub(in crate::timing) fn mipmap_clocks(record: &MipmapRecord, rates: &Rates) -> Vec<PipelineClocks> {
     record.levels.iter().map(|level| level_clocks(level, record.texel_bytes.into(), rates)).collect()
 }
@@ -42,7 +42,7 @@ fn level_clocks(level: &MipmapLevel, texel_bytes: u64, rates: &Rates) -> Pipelin
     }
 }
 
-/// Clocks of a fragment's texture unit: a whole number, at least one.
+/// Texture clocks per fragment: an integer, at least 1.
 fn read_clocks(level: &MipmapLevel, texel_bytes: u64, rates: &Rates) -> u64 {
     let reads = level.texels_read.div_ceil(level.texels_written().max(1)).div_ceil(BILINEAR).max(1);
     let bytes = rates.texel_bytes_per_clock.unwrap_or(PLAIN_TEXEL).max(1);

@@ -1,7 +1,7 @@
-//! A draw through the units of a card: what keeps each of them busy, in clocks of the core.
+//! Cost of a draw in a card's pipeline: busy clocks of each unit, in core clocks.
 //!
-//! All units work at once on different parts of the draw, so the draw takes as long as the busiest of them, and the
-//! time in which the pipeline fills and drains. docs/timing.md has the formulas with a worked example.
+//! All units work in parallel on different parts of the draw, so the draw takes as long as the busiest unit, plus the
+//! time to fill and drain the pipeline. docs/timing.md has the formulas with a worked example.
 
 mod fragment;
 mod mipmaps;
@@ -15,12 +15,12 @@ use super::{Bottleneck, Clocks};
 use crate::device::Rates;
 use crate::event::DrawRecord;
 
-/// Components of a register: a scalar processor computes one a clock.
+/// Components per register: a scalar processor computes one per clock.
 const COMPONENTS: u64 = 4;
-/// Fragments of a quad.
+/// Fragments per quad.
 const QUAD: u64 = 4;
 
-/// How long a draw keeps each unit busy.
+/// Busy clocks of each unit for a draw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PipelineClocks {
     /// Vertex units.
@@ -31,17 +31,17 @@ pub struct PipelineClocks {
     pub arithmetic: Clocks,
     /// Texture units.
     pub textures: Clocks,
-    /// Whether the two take turns, so that their clocks add up.
+    /// `true` if arithmetic and textures alternate, so that their clocks add up.
     pub takes_turns: bool,
     /// Raster back end.
     pub output: Clocks,
     /// Memory.
     pub memory: Clocks,
-    /// Command processor: fixed, before anything else.
+    /// Command processor: a fixed cost that precedes all else.
     pub command: Clocks,
-    /// Fill and drain: fixed.
+    /// Pipeline fill and drain: a fixed cost.
     pub fill: Clocks,
-    /// What memory moved.
+    /// Memory traffic.
     pub traffic: Traffic,
 }
 
@@ -62,12 +62,12 @@ impl PipelineClocks {
         self.vertices.max(self.setup).max(self.shader()).max(self.memory)
     }
 
-    /// From the first clock to the last.
+    /// Duration from the first clock to the last.
     pub fn total(&self) -> Clocks {
         self.command + self.busiest() + self.fill
     }
 
-    /// What the draw waits for most.
+    /// The limiting factor.
     pub fn bottleneck(&self) -> Bottleneck {
         let busiest = self.busiest();
         if self.command + self.fill >= busiest {
@@ -87,7 +87,7 @@ impl PipelineClocks {
     }
 }
 
-/// The clocks of a draw, with its texture cache and its cache of finished vertices.
+/// Clocks of a draw, for given sizes of the texture cache and the post-transform vertex cache.
 pub(super) fn pipeline_clocks(
     draw: &DrawRecord,
     rates: &Rates,
@@ -115,8 +115,8 @@ pub(super) fn pipeline_clocks(
     }
 }
 
-/// Clocks of the core that one instruction takes a pipeline, as a fraction: 1 on cards whose pipelines are four
-/// components wide; on those of scalar processors four of their own clocks.
+/// Core clocks per instruction of a pipeline, as a fraction: 1 on cards with four-component pipelines; on scalar
+/// processors, four of their own clocks.
 struct Shaders {
     numerator: u128,
     denominator: u128,
@@ -133,14 +133,15 @@ impl Shaders {
     }
 }
 
-/// The instructions of the vertices that are run, over the units; at least what the stated vertex rate takes.
+/// Vertex clocks: instructions of the processed vertices, divided among the units; at least the time at the stated
+/// vertex rate.
 fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Shaders)) -> Clocks {
     let (run, each) = (wide(cache.vertices_run(draw)), wide(draw.counts.vertices).max(1));
     let instructions = (wide(draw.counts.vertex_instructions) * run).div_ceil(each);
     let slots = instructions * wide(rates.vertex_clocks_per_slot.unwrap_or(1));
     let executed = match rates.vertex_units {
         Some(units) => clocks(slots, wide(units)),
-        // One pool of processors for vertices and pixels.
+        // Unified processors for vertices and pixels.
         None => clocks(slots * shaders.numerator, wide(rates.pixel_pipes.unwrap_or(1)) * shaders.denominator),
     };
     let fetched = match (rates.vertices_per_s, rates.core_clock_hz) {
@@ -150,7 +151,7 @@ fn vertices(draw: &DrawRecord, rates: &Rates, (cache, shaders): (CacheSize, &Sha
     executed.max(fetched)
 }
 
-/// Pixels that reach the back end: all that the program did not kill.
+/// Back-end clocks for all pixels that the program did not kill.
 fn output(draw: &DrawRecord, rates: &Rates) -> Clocks {
     let fragments = &draw.counts.fragments;
     let pixels = fragments.generated.saturating_sub(fragments.killed);

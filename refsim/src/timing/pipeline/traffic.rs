@@ -1,24 +1,24 @@
-//! What a draw moves to and from memory.
+//! Memory traffic of a draw.
 
 use crate::device::Rates;
 use crate::event::{DrawRecord, SamplerRecord, SamplerTraffic};
 
-/// Which size of a cache a model takes: the record of a draw knows them all, those of textures if it was observed.
+/// Cache size assumed by a model. Draw records have the misses of all sizes (for textures only if observed).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum CacheSize {
-    /// Of half the size that the profile states.
+    /// Half the size that the profile states.
     Half,
-    /// As the profile states.
+    /// The size that the profile states.
     #[default]
     Stated,
-    /// Of twice the size.
+    /// Twice that size.
     Double,
-    /// None: every access fetches a line.
+    /// No cache: every access fetches a line.
     None,
 }
 
 impl CacheSize {
-    /// Lines that one sampler fetched.
+    /// Lines fetched by one sampler.
     fn misses(self, seen: &SamplerTraffic) -> u64 {
         let [half, stated, double] = seen.misses;
         match self {
@@ -29,7 +29,7 @@ impl CacheSize {
         }
     }
 
-    /// Vertices that are processed.
+    /// Number of vertices processed.
     pub(super) fn vertices_run(self, draw: &DrawRecord) -> u64 {
         let [half, stated, double] = draw.vertices_run;
         match self {
@@ -40,32 +40,31 @@ impl CacheSize {
     }
 }
 
-/// Bytes between the card and its memory.
+/// Bytes moved between the card and its memory.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
-    /// Texels: cache lines fetched, or the estimate where the draw was not observed.
+    /// Texture bytes: cache lines fetched, or an estimate for draws that were not observed.
     pub textures: u64,
-    /// Cache lines among them; 0 where the draw was not observed.
+    /// Number of texture cache misses; 0 for draws that were not observed.
     pub misses: u64,
-    /// Depth, read and written.
+    /// Depth bytes, read and written.
     pub depth: u64,
-    /// Colour, read and written.
+    /// Colour bytes, read and written.
     pub color: u64,
-    /// Vertices.
+    /// Vertex bytes.
     pub vertices: u64,
 }
 
 impl Traffic {
-    /// All of it.
+    /// Total bytes.
     pub fn total(&self) -> u64 {
         [self.textures, self.depth, self.color, self.vertices].into_iter().fold(0, u64::saturating_add)
     }
 }
 
-/// The traffic of a draw, with its texture cache and its cache of finished vertices. Depth and colour move once an
-/// access, vertices each time that they are processed: these cards' compression and early rejection
-/// are not modelled. Textures move by cache lines that the simulated cache missed; of a draw that was not observed an
-/// estimate is taken: compulsory misses.
+/// Memory traffic of a draw, for given sizes of the texture cache and the post-transform vertex cache. Depth and colour
+/// move once per access and vertices each time they are processed; compression and early depth rejection are not
+/// modelled. Textures move by missed cache lines; for draws that were not observed, compulsory misses are estimated.
 pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSize, CacheSize)) -> Traffic {
     let bytes = &draw.counts.bytes;
     let line = rates.texture_cache_line_bytes.unwrap_or(1);
@@ -81,15 +80,15 @@ pub fn traffic(draw: &DrawRecord, rates: &Rates, (cache, vertex_cache): (CacheSi
     }
 }
 
-/// Bytes of the vertices that are processed: those not kept are fetched again.
+/// Bytes of the vertices processed; vertices that have left the cache are fetched again.
 fn fetched(draw: &DrawRecord, cache: CacheSize) -> u64 {
     let (bytes, run) = (u128::from(draw.counts.bytes.vertices), u128::from(cache.vertices_run(draw)));
     u64::try_from((bytes * run).div_ceil(u128::from(draw.counts.vertices.max(1)))).unwrap_or(u64::MAX)
 }
 
-/// Without a cache each read fetches a line. With one there are compulsory misses: if all textures that the draw reads
-/// fit into the cache, each of their texels comes once; if not, each comes once for every primitive. Never more than
-/// one texel for each read: a filter finds its neighbours in the cache.
+/// Without a cache each read fetches a line. With a cache, compulsory misses are estimated: if all textures of the draw
+/// fit into the cache, each texel is fetched once, else once per primitive. At most one texel per read, because the
+/// neighbours that a filter needs hit the cache.
 fn estimate(draw: &DrawRecord, rates: &Rates, cache: CacheSize) -> u64 {
     if cache == CacheSize::None {
         let line = rates.texture_cache_line_bytes.unwrap_or(1);

@@ -1,30 +1,30 @@
-//! Fences, after `NV_fence`: a mark in the command stream that the host can test or wait for.
+//! Fences as in `NV_fence`: marks in the command stream that the host can test or wait for.
 //!
 //! There is one condition, `ALL_COMPLETED`: a fence is passed when every command before it, transfers included, is
-//! done. A name that was made but never set can be neither tested nor waited for. A fence can be set again; the old
-//! mark is forgotten.
+//! done. A fence that was generated but never set can be neither tested nor waited for. Setting a fence again replaces
+//! its mark.
 
 use crate::timing::timeline::Mark;
 
-/// The name of a fence, of one [`super::Queue`].
+/// Name of a fence of one [`super::Queue`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Fence(pub u32);
 
-/// A fence that can't be asked.
+/// Error of testing or waiting for a fence.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 pub enum FenceError {
-    /// The name was made, but the fence was never set.
+    /// The fence was generated but never set.
     #[error("expected a fence that has been set, found fence {} that was not", .0.0)]
     #[diagnostic(code(timing::unset_fence), help("set the fence before it is tested or waited for"))]
     Unset(Fence),
-    /// The queue has made no such name.
+    /// The queue has not generated this fence.
     #[error("expected the name of a fence of this queue, found {}", .0.0)]
     #[diagnostic(code(timing::unknown_fence), help("take the name from the queue that is asked"))]
     Unknown(Fence),
 }
 
-/// When the fences of a queue are passed.
+/// Times at which the fences of a queue are passed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Fences(Vec<Option<Mark>>);
 

@@ -1,11 +1,11 @@
-//! Costs of commands on the host, and the limits of the queue.
+//! Host cost of commands, and limits of the queue.
 
 use crate::device::{Confidence, FigureRow};
 
 macro_rules! queue_figures {
     ($($(#[$doc:meta])* $field:ident = $value:literal $unit:literal $source:literal;)*) => {
-        /// What commands cost the host, and how far the card may fall behind. None of it has been published for these
-        /// cards: every figure is a guess, and `crossbar timeline --sensitivity` shows what each one does.
+        /// Host cost of commands, and how far the card may run behind. None of it is published for these cards: every
+        /// figure is a guess; `crossbar timeline --sensitivity` shows the effect of each.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub struct QueueFigures {
             $($(#[$doc])* pub $field: u64,)*
@@ -23,7 +23,7 @@ macro_rules! queue_figures {
                 vec![$(row(stringify!($field), self.$field, $unit, $source),)*]
             }
 
-            /// The figure of this key, to be changed; `None` if there is no such key.
+            /// Mutable access to the figure with this key; `None` if there is no such key.
             pub fn figure_mut(&mut self, key: &str) -> Option<&mut u64> {
                 match key.strip_prefix("queue.")? {
                     $(stringify!($field) => Some(&mut self.$field),)*
@@ -35,32 +35,32 @@ macro_rules! queue_figures {
 }
 
 queue_figures! {
-    /// Host time to start an upload, beside the transfer, in picoseconds.
+    /// Host time to start an upload, without the transfer, in picoseconds.
     upload_ps = 2_000_000 "ps" "no source was found; a driver call with an address check on a processor of 2002";
     /// Host time to change state, in picoseconds.
     state_ps = 200_000 "ps" "no source was found; a few hundred clocks of a processor of 2002";
-    /// Host time to hand over a constant of four numbers, in picoseconds.
+    /// Host time per constant of four numbers, in picoseconds.
     constant_ps = 20_000 "ps" "no source was found; 16 bytes written to a command buffer, with the driver's share";
-    /// Host time to ask for a clear, in picoseconds.
+    /// Host time to submit a clear, in picoseconds.
     clear_ps = 500_000 "ps" "no source was found";
-    /// Host time to ask for a draw, in picoseconds.
+    /// Host time to submit a draw, in picoseconds.
     draw_ps = 1_000_000 "ps" "no source was found; about a million draws a second when nothing else is done";
-    /// Host time to ask for a read-back, beside the transfer, in picoseconds.
+    /// Host time to submit a read-back, without the transfer, in picoseconds.
     read_back_ps = 2_000_000 "ps" "no source was found; taken like an upload";
     /// Host time to set a fence, in picoseconds.
     set_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
     /// Host time to test a fence, in picoseconds.
     test_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
-    /// Host time to start to wait for a fence, in picoseconds.
+    /// Host time to start waiting for a fence, in picoseconds.
     finish_fence_ps = 200_000 "ps" "no source was found; taken like a change of state";
     /// Commands that the queue holds before the host has to wait; at least 1.
     commands = 256 "command" "no source was found; a command buffer of some KiB";
-    /// Draws whose vertices may be done before the pixel pipelines get to them, beside the one that they are at.
+    /// Draws that the front end may be ahead of the pixel pipelines, not counting the draw that they work on.
     draws_ahead = 4 "draw" "no source was found; set-up keeps some primitives ready";
 }
 
 impl QueueFigures {
-    /// Commands cost the host nothing.
+    /// The figures with zero host cost of commands.
     #[must_use]
     pub fn without_overhead(self) -> Self {
         Self {

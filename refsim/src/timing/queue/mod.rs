@@ -1,9 +1,8 @@
 //! The command queue: the host submits commands, the card executes them in order, the buses transfer data in parallel.
 //!
-//! The simulator is online: each call places its command at once, from what was placed before it. A start is always the
-//! latest of some ends, so that making anything shorter, or taking away a reason to wait, never makes the whole longer.
-//! All durations are given from outside; nothing here knows what a draw is. docs/timing.md has the rules one by one,
-//! and an example.
+//! The simulation is online: each call schedules its command immediately, from what was scheduled before. Every start
+//! is a maximum of ends, so shortening an operation or removing a dependency never lengthens the whole. All durations
+//! are inputs. docs/timing.md lists the rules, with an example.
 
 mod double;
 mod fence;
@@ -23,34 +22,34 @@ use super::{DrawCost, Picoseconds};
 use fence::Fences;
 use schedule::{Schedule, SpanWork};
 
-/// The name of a texture, target or depth buffer; the caller chooses the numbers.
+/// Name of a texture, target or depth buffer; the caller chooses the numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ResourceId(pub u64);
 
-/// When a resource is free to be read and to be written.
+/// Times at which a resource is free for reading and writing.
 #[derive(Clone, Copy, Debug, Default)]
 struct ResourceUse {
     written: Mark,
     read: Mark,
 }
 
-/// Host, queue, card and buses, with everything that they were given to do.
+/// Host, queue, card and buses, with everything submitted to them.
 #[derive(Clone, Debug)]
 pub struct Queue {
     figures: QueueFigures,
     schedule: Schedule,
-    /// When each of the last commands left the queue.
+    /// Times at which the last commands left the queue.
     taken: VecDeque<Mark>,
-    /// The ends of the last draws and clears.
+    /// End times of the last draws and clears.
     bodies: VecDeque<Mark>,
-    /// The end of everything that the card was given, transfers included.
+    /// End of all work submitted to the card, transfers included.
     done: Mark,
     resources: BTreeMap<ResourceId, ResourceUse>,
     fences: Fences,
     commands: u32,
 }
 
-/// A submitted command: when it reaches the card, and the label of its spans.
+/// A submitted command: its arrival at the card, and the label of its spans.
 struct Given {
     ready: Mark,
     label: Label,
@@ -78,24 +77,24 @@ impl Queue {
         }
     }
 
-    /// The host's present: the end of all that it has done and waited for.
+    /// Current time of the host: the end of all that it has done and waited for.
     pub fn now(&self) -> Picoseconds {
         self.schedule.free(Unit::Host).time
     }
 
-    /// When everything given so far will be done.
+    /// Time at which everything submitted so far is done.
     pub fn end(&self) -> Picoseconds {
         self.schedule.free(Unit::Host).or_later(self.done).time
     }
 
-    /// The host works.
+    /// Adds work of the host.
     pub fn host(&mut self, duration: Picoseconds, label: impl Into<Label>) {
         let given = self.name(label.into());
         self.on_host(SpanKind::HostWork, duration, &given);
     }
 
-    /// Data for the whole of a resource go to the card, beside its work. The bus waits for draws before that read or
-    /// write the resource.
+    /// Uploads data for a whole resource, in parallel with the card's work. The bus waits for earlier draws that read
+    /// or write the resource.
     pub fn upload(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
         let given = self.give(self.figures.upload_ps, label.into());
         let taken = self.take(given.ready);
@@ -107,7 +106,7 @@ impl Queue {
         self.done = self.done.or_later(sent);
     }
 
-    /// The card changes its state, so many constants among it.
+    /// Changes state on the card, including `constants` constants.
     pub fn state(&mut self, duration: Picoseconds, constants: u32, label: impl Into<Label>) {
         let handed = self.figures.constant_ps.saturating_mul(constants.into());
         let given = self.give(self.figures.state_ps.saturating_add(handed), label.into());
@@ -115,7 +114,7 @@ impl Queue {
         self.done = self.done.or_later(end);
     }
 
-    /// The card fills a resource with one value; takes its memory's time.
+    /// Fills a resource with one value, in memory time.
     pub fn clear(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
         let given = self.give(self.figures.clear_ps, label.into());
         let (start, _) = self.front_end(&given, Picoseconds::ZERO, SpanKind::State);
@@ -124,11 +123,11 @@ impl Queue {
         self.body_ends(end, &[], &[resource]);
     }
 
-    /// The card draws: reads some resources and writes others. The front end may be ahead of the pixel pipelines by
-    /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory are busy side by side, for one draw at a time.
+    /// Submits a draw that reads some resources and writes others. The front end may be ahead of the pixel pipelines by
+    /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel, on one draw at a time.
     pub fn draw(&mut self, reads: &[ResourceId], writes: &[ResourceId], cost: DrawCost, label: impl Into<Label>) {
         let given = self.give(self.figures.draw_ps, label.into());
-        // What is left of the total when the longest unit is taken away: the pipeline fills, and it drains.
+        // Remainder of the total without the busiest unit: the time to fill and drain the pipeline.
         let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
         let (start, vertices) = self.front_end(&given, cost.front_end, SpanKind::Vertices);
         let needs = self.body_needs(start.plus(fill), reads, writes);
@@ -139,10 +138,9 @@ impl Queue {
         self.body_ends(shaded.or_later(moved).or_later(vertices.plus(fill)), reads, writes);
     }
 
-    /// Data of a resource go to the host, after all draws before. Synchronous, the host waits for all earlier work and
-    /// for the transfer, as with `glReadPixels`. Asynchronous, host and card go on, and only writes into the resource
-    /// waits, and it returns a fence that is passed when they have arrived and everything before is done; setting it
-    /// costs nothing.
+    /// Reads a resource back, after all earlier draws. If synchronous, the host waits for all earlier work and the
+    /// transfer, as with `glReadPixels`. If asynchronous, host and card continue, only writes to the resource wait, and
+    /// a fence is returned that is passed when the data have arrived and all earlier work is done; setting it is free.
     pub fn read_back(
         &mut self,
         resource: ResourceId,
@@ -169,27 +167,27 @@ impl Queue {
         }
     }
 
-    /// A fence behind all commands so far that no command sets: part of another one.
+    /// A fence after all commands so far, at no cost: it is part of another command.
     pub(super) fn fence_for_free(&mut self) -> Fence {
         let fence = self.fences.generate();
-        // The name is new, so it is known.
+        // The name is new, so setting it can't fail.
         self.fences.set(fence, self.done).ok();
         fence
     }
 
-    /// The name of a fence that is not set yet.
+    /// Generates a fence that is not set yet.
     pub fn generate_fence(&mut self) -> Fence {
         self.fences.generate()
     }
 
-    /// A new fence behind all commands so far.
+    /// Generates a fence and sets it after all commands so far.
     pub fn set_fence(&mut self) -> Fence {
         let fence = self.fences.generate();
         self.mark_fence(fence);
         fence
     }
 
-    /// Sets a fence, perhaps again, behind all commands so far.
+    /// Sets a fence, possibly again, after all commands so far.
     ///
     /// # Errors
     /// [`FenceError::Unknown`].
@@ -205,7 +203,7 @@ impl Queue {
         self.fences.set(fence, self.done.or_later(taken)).ok();
     }
 
-    /// Whether the fence is passed when the host, having paid for the question, gets the answer.
+    /// Tests a fence: `true` if it is passed when the host, after paying the cost of the test, gets the answer.
     ///
     /// # Errors
     /// [`FenceError`] for a fence that is not set or not known.
@@ -216,7 +214,7 @@ impl Queue {
         Ok(passed.time <= self.now())
     }
 
-    /// The host waits until the fence is passed.
+    /// Waits on the host until the fence is passed.
     ///
     /// # Errors
     /// [`FenceError`] for a fence that is not set or not known.
@@ -228,13 +226,13 @@ impl Queue {
         Ok(())
     }
 
-    /// The host waits until everything is done, as `glFinish` does.
+    /// Waits on the host until everything is done, as `glFinish` does.
     pub fn finish_all(&mut self) {
         let given = self.name("finish".into());
         self.schedule.host_waits(self.done, WaitReason::Finish, given.command);
     }
 
-    /// Everything that was given, on the time axis.
+    /// Returns everything submitted as a timeline.
     pub fn timeline(self) -> Timeline {
         self.schedule.finish(self.done)
     }
@@ -249,7 +247,7 @@ impl Queue {
         self.schedule.place(Unit::Host, Mark::default(), &[], duration, &given.work(kind)).end
     }
 
-    /// The host puts a command into the queue, once there is room, at this cost.
+    /// Submits a command at the given host cost, once the queue has room.
     fn give(&mut self, cost_ps: u64, label: Label) -> Given {
         let mut given = self.name(label);
         let room = usize::try_from(self.figures.commands.max(1)).unwrap_or(usize::MAX);
@@ -262,14 +260,14 @@ impl Queue {
         given
     }
 
-    /// A command leaves the queue at `moment`, or when the one before it has.
+    /// Removes a command from the queue at `moment`, but not before its predecessor.
     fn take(&mut self, moment: Mark) -> Mark {
         let taken = moment.or_later(self.taken.back().copied().unwrap_or_default());
         self.taken.push_back(taken);
         taken
     }
 
-    /// The front end works on a command, and takes it from the queue for that. Start and end.
+    /// Executes a command in the front end, which takes it from the queue. Returns start and end.
     fn front_end(&mut self, given: &Given, duration: Picoseconds, kind: SpanKind) -> (Mark, Mark) {
         let ahead = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX);
         let behind = self.bodies.len().checked_sub(ahead.saturating_add(1)).map_or(Mark::default(), |i| self.bodies[i]);
@@ -280,7 +278,7 @@ impl Queue {
         (placed.start, placed.end)
     }
 
-    /// What a draw or clear needs before its first pixel, `filled` being the moment at which the pipeline has one.
+    /// Dependencies of a draw's or clear's first pixel; `filled` is when the pipeline has one.
     fn body_needs(&self, filled: Mark, reads: &[ResourceId], writes: &[ResourceId]) -> [(Mark, WaitReason); 3] {
         let inputs = reads.iter().map(|resource| self.held(*resource).written);
         let outputs = writes.iter().map(|resource| {

@@ -3,7 +3,7 @@
 use crate::timing::Picoseconds;
 use crate::timing::timeline::{Label, Mark, SpanId, SpanKind, Timeline, TimelineSpan, Unit, Wait, WaitReason};
 
-/// What a span is, apart from its time.
+/// Description of a span, without its time.
 #[derive(Clone, Debug)]
 pub(super) struct SpanWork<'a> {
     pub(super) kind: SpanKind,
@@ -11,14 +11,14 @@ pub(super) struct SpanWork<'a> {
     pub(super) command: u32,
 }
 
-/// When work starts and ends.
+/// Start and end of scheduled work.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
     pub(super) start: Mark,
     pub(super) end: Mark,
 }
 
-/// The timeline so far, and when each unit is free.
+/// The timeline so far, and the time at which each unit becomes free.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Schedule {
     timeline: Timeline,
@@ -26,14 +26,15 @@ pub(super) struct Schedule {
 }
 
 impl Schedule {
-    /// When the unit has done all that it was given.
+    /// Time at which the unit has finished all scheduled work.
     pub(super) fn free(&self, unit: Unit) -> Mark {
         self.free[unit.index()]
     }
 
-    /// Places work of `duration` on the unit, behind all that it was given before. `ready`: the unit could know of it.
+    /// Schedules work of `duration` on the unit, after all its earlier work. `ready` is when the command reaches the
+    /// unit.
     ///
-    /// Work that takes no time keeps its place in the order but leaves no span.
+    /// Work of zero duration keeps its place in the order but has no span.
     pub(super) fn place(
         &mut self,
         unit: Unit,
@@ -72,7 +73,7 @@ impl Schedule {
         Placed { start, end }
     }
 
-    /// The host does nothing until `moment`.
+    /// Blocks the host until `moment`.
     pub(super) fn host_waits(&mut self, moment: Mark, reason: WaitReason, command: u32) {
         let now = self.free(Unit::Host);
         self.wait(Unit::Host, now.time, moment, reason, command);
@@ -85,7 +86,7 @@ impl Schedule {
         }
     }
 
-    /// The timeline up to now, `done` being the end of the card's work.
+    /// Returns the timeline; `done` is the end of the card's work.
     pub(super) fn finish(mut self, done: Mark) -> Timeline {
         self.timeline.end = self.free(Unit::Host).or_later(done);
         self.timeline

@@ -12,7 +12,7 @@ use strum::Display;
 
 use super::Picoseconds;
 
-/// The text of a span: the name of a draw, of an upload, of host work. Shared by the spans of one command.
+/// Label of a span: the name of a draw, an upload, or host work. Shared by the spans of one command.
 pub type Label = Arc<str>;
 
 /// A unit of host, card or bus. Each does one thing at a time.
@@ -20,7 +20,7 @@ pub type Label = Arc<str>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Unit {
-    /// The host's processor: its own work, and what it spends on giving commands.
+    /// The host's processor: its own work, and the submission of commands.
     Host,
     /// Host to card.
     #[strum(to_string = "upload bus")]
@@ -43,18 +43,18 @@ impl Unit {
     pub const ALL: [Self; 6] =
         [Self::Host, Self::UploadBus, Self::FrontEnd, Self::ShaderArray, Self::Memory, Self::ReadBackBus];
 
-    /// The place in [`Unit::ALL`].
+    /// Index in [`Unit::ALL`].
     pub const fn index(self) -> usize {
         self as usize
     }
 
-    /// Whether the unit is part of the card, rather than the host or a bus.
+    /// Returns `true` if the unit is part of the card.
     pub const fn on_card(self) -> bool {
         matches!(self, Self::FrontEnd | Self::ShaderArray | Self::Memory)
     }
 }
 
-/// The kind of work of a span.
+/// Kind of work of a span.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
@@ -62,18 +62,17 @@ pub enum SpanKind {
     /// The host's own work.
     #[strum(to_string = "host work")]
     HostWork,
-    /// The host gives a command to the card, or asks for a fence.
+    /// Submission of a command or a fence operation by the host.
     Submit,
-    /// Data go to the card.
+    /// Transfer to the card.
     Upload,
-    /// The card changes its state.
+    /// State change on the card.
     State,
-    /// The card clears a surface.
+    /// Clear of a surface.
     Clear,
     /// Commands, vertices and set-up of a draw.
     Vertices,
-    /// The pipeline fills and drains; takes time but keeps no unit busy, so that it is found on the critical path
-    /// alone.
+    /// Fill and drain of the pipeline. It takes time but occupies no unit, so it appears on the critical path only.
     #[strum(to_string = "pipeline fill")]
     Fill,
     /// Fragments of a draw.
@@ -81,95 +80,95 @@ pub enum SpanKind {
     /// Memory traffic of a draw.
     #[strum(to_string = "memory traffic")]
     Traffic,
-    /// Data come from the card.
+    /// Transfer from the card.
     #[strum(to_string = "read-back")]
     ReadBack,
 }
 
-/// The place of a span in [`Timeline::spans`].
+/// Index of a span in [`Timeline::spans`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SpanId(pub u32);
 
-/// A unit busy with one thing. Never of no length.
+/// A busy interval of a unit; never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TimelineSpan {
     /// The unit.
     pub unit: Unit,
-    /// Its start.
+    /// Start time.
     pub start: Picoseconds,
-    /// Its end.
+    /// End time.
     pub end: Picoseconds,
-    /// With what.
+    /// Kind of work.
     pub kind: SpanKind,
-    /// For people.
+    /// Label, for display.
     pub label: Label,
-    /// The command that it belongs to, counted from 0 in the order of the program; host work counts too.
+    /// Index of the command in program order, from 0; host work counts too.
     pub command: u32,
-    /// The span that it waited for last: the end of that one, and [`TimelineSpan::latency`], is the start of this one.
-    /// `None` where nothing had to end before.
+    /// The dependency that ended last: this span starts [`TimelineSpan::latency`] after its end. `None` without
+    /// dependencies.
     pub after: Option<SpanId>,
-    /// Time between the two in which the pipeline filled or drained.
+    /// Latency between the two, in which the pipeline fills or drains.
     pub latency: Picoseconds,
 }
 
 impl TimelineSpan {
-    /// Its length.
+    /// Duration.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
 }
 
-/// Why a unit waits that has something to do.
+/// Reason for which a unit with pending work waits.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum WaitReason {
-    /// The host: the command queue is full.
+    /// Host: the command queue is full.
     #[strum(to_string = "queue full")]
     QueueFull,
-    /// The host: a fence.
+    /// Host: a fence.
     Fence,
-    /// The host: a read-back that it asked to be synchronous.
+    /// Host: a synchronous read-back.
     #[strum(to_string = "read-back")]
     Transfer,
-    /// The host: everything that it has asked for.
+    /// Host: completion of everything submitted.
     Finish,
-    /// The resource is still being read, written, sent or fetched.
+    /// The resource is still being read, written or transferred.
     #[strum(to_string = "resource in use")]
     Hazard,
-    /// Commands before this one are not done.
+    /// Earlier commands are not finished.
     #[strum(to_string = "earlier commands")]
     Order,
-    /// The units before it in the pipeline have sent nothing yet.
+    /// Earlier pipeline stages have produced nothing yet.
     #[strum(to_string = "earlier stages")]
     Input,
 }
 
-/// A unit that has something to do but can't. Never of no length, never beside a span of the same unit.
+/// An interval in which a unit with pending work waits; never empty, and never overlaps a span of the same unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wait {
     /// The unit.
     pub unit: Unit,
-    /// Its start.
+    /// Start time.
     pub start: Picoseconds,
-    /// Its end.
+    /// End time.
     pub end: Picoseconds,
     /// The reason.
     pub reason: WaitReason,
-    /// For which span, `None` for the filling of the pipeline with nothing before it.
+    /// The span waited for; `None` for a pipeline fill without a predecessor.
     pub on: Option<SpanId>,
     /// The command that waits.
     pub command: u32,
 }
 
 impl Wait {
-    /// Its length.
+    /// Duration.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
 }
 
-/// A moment, and what made it so: the end of a span, and perhaps some latency.
+/// A point in time and its cause: the end of a span, plus latency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(in crate::timing) struct Mark {
     pub(in crate::timing) time: Picoseconds,
@@ -178,19 +177,18 @@ pub(in crate::timing) struct Mark {
 }
 
 impl Mark {
-    /// The later of two; `self` of two at the same time.
+    /// The later of two marks; `self` if equal.
     pub(in crate::timing) fn or_later(self, other: Self) -> Self {
         if other.time > self.time { other } else { self }
     }
 
-    /// As much later.
+    /// The mark `latency` later.
     pub(in crate::timing) fn plus(self, latency: Picoseconds) -> Self {
         Self { time: self.time + latency, latency: self.latency + latency, ..self }
     }
 }
 
-/// A run on the time axis: spans in the order of the commands, and waits. Deterministic: the same commands give an
-/// equal timeline.
+/// The timeline of a run: spans in the order of the commands, and waits. The same commands give an equal timeline.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Timeline {
     pub(in crate::timing) spans: Vec<TimelineSpan>,
@@ -199,27 +197,27 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// What the units did. The spans of one unit come in the order of time.
+    /// All spans; those of one unit are in order of time.
     pub fn spans(&self) -> &[TimelineSpan] {
         &self.spans
     }
 
-    /// What they waited for. The waits of one unit come in the order of time.
+    /// All waits; those of one unit are in order of time.
     pub fn waits(&self) -> &[Wait] {
         &self.waits
     }
 
-    /// One span.
+    /// Returns a span.
     pub fn span(&self, id: SpanId) -> Option<&TimelineSpan> {
         self.spans.get(id.0 as usize)
     }
 
-    /// From the start to the end of everything: the host's work and what it asked for.
+    /// Duration of the run, until the host and everything it submitted are done.
     pub fn makespan(&self) -> Picoseconds {
         self.end.time
     }
 
-    /// Time that a unit is busy.
+    /// Total busy time of a unit.
     pub fn busy(&self, unit: Unit) -> Picoseconds {
         self.spans.iter().filter(|span| span.unit == unit).map(TimelineSpan::duration).sum()
     }

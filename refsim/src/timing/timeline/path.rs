@@ -1,50 +1,50 @@
-//! The critical path: the spans that the total time depends on.
+//! The critical path: the spans that determine the total time.
 
 use std::collections::BTreeMap;
 
 use super::{SpanId, SpanKind, Timeline, TimelineSpan, Unit};
 use crate::timing::Picoseconds;
 
-/// A piece of the critical path. Each begins where the one before it ends, the first at 0, the last ends with the run.
+/// A segment of the critical path. Segments are contiguous: the first starts at 0, the last ends with the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Segment {
-    /// The span, or the one after whose end the pipeline fills ([`SpanKind::Fill`]), if there is one.
+    /// The span; for [`SpanKind::Fill`] the span whose end starts the pipeline fill, if there is one.
     pub span: Option<SpanId>,
-    /// The busy unit; the front end, while the pipeline fills.
+    /// The busy unit; the front end for pipeline fills.
     pub unit: Unit,
-    /// With what.
+    /// Kind of work.
     pub kind: SpanKind,
-    /// From when.
+    /// Start time.
     pub start: Picoseconds,
-    /// Until when.
+    /// End time.
     pub end: Picoseconds,
 }
 
 impl Segment {
-    /// How long it lasts.
+    /// Duration.
     pub fn duration(&self) -> Picoseconds {
         self.start.until(self.end)
     }
 }
 
-/// A part of the critical path.
+/// Share of the critical path with one unit and kind of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PathShare {
     /// The busy unit.
     pub unit: Unit,
-    /// With what.
+    /// Kind of work.
     pub kind: SpanKind,
-    /// How often.
+    /// Number of segments.
     pub segments: u64,
-    /// How long in all.
+    /// Total duration.
     pub time: Picoseconds,
 }
 
 impl Timeline {
-    /// From the start to the end, each piece waiting for the one before it. The lengths sum to [`Timeline::makespan`].
+    /// The critical path from start to end; each segment depends on the previous one. Durations sum to
+    /// [`Timeline::makespan`].
     ///
-    /// Where two things ended at once, the path takes the unit's own last span first, then what was first in the
-    /// program.
+    /// Ties are resolved in favour of the unit's own previous span, then of program order.
     pub fn critical_path(&self) -> Vec<Segment> {
         let mut path = Vec::new();
         let (mut end, mut after, mut latency) = (self.end.time, self.end.after, self.end.latency);
@@ -62,8 +62,7 @@ impl Timeline {
         path
     }
 
-    /// Where the time went: the critical path by unit and kind, the longest first. The times sum to
-    /// [`Timeline::makespan`].
+    /// The critical path aggregated by unit and kind, longest first. Times sum to [`Timeline::makespan`].
     pub fn where_the_time_went(&self) -> Vec<PathShare> {
         let mut shares: BTreeMap<(Unit, SpanKind), (u64, Picoseconds)> = BTreeMap::new();
         for segment in self.critical_path() {

@@ -1,25 +1,25 @@
-//! How well each unit is used.
+//! Utilisation of each unit.
 
 use super::{Timeline, Unit, WaitReason};
 use crate::timing::Picoseconds;
 
-/// What became of a unit's time. The three sum to [`Timeline::makespan`].
+/// Utilisation of a unit. Busy, waiting and idle time sum to [`Timeline::makespan`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usage {
-    /// Which unit.
+    /// The unit.
     pub unit: Unit,
-    /// It works.
+    /// Time with work.
     pub busy: Picoseconds,
-    /// It has something to do but can't.
+    /// Time with pending work that waits.
     pub waiting: Picoseconds,
-    /// It has nothing to do.
+    /// Time without work.
     pub idle: Picoseconds,
-    /// What it waits for, in the order of [`WaitReason`]; the times sum to `waiting`.
+    /// Waiting time by reason, in the order of [`WaitReason`]; sums to `waiting`.
     pub reasons: Vec<(WaitReason, Picoseconds)>,
 }
 
 impl Timeline {
-    /// What became of the time of each unit, in the order of [`Unit::ALL`].
+    /// Utilisation of each unit, in the order of [`Unit::ALL`].
     pub fn usage(&self) -> Vec<Usage> {
         Unit::ALL.into_iter().map(|unit| self.usage_of(unit)).collect()
     }

@@ -1,4 +1,4 @@
-//! `exp2`, `log2` and `pow`, by comparing powers of fractions.
+//! `exp2`, `log2` and `pow`, by comparison of powers of fractions.
 
 use std::cmp::Ordering;
 
@@ -23,7 +23,7 @@ impl Reference {
         {
             return Outcome::new(self.f.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
         }
-        // 2^(n/d) against c is 2^n against c^d.
+        // Compares 2^(n/d) with c as 2^n with c^d.
         rational::round(&self.f, self.tininess, false, |c| power_of_two(negative, q.n).cmp_power(c, q.d))
     }
 
@@ -39,7 +39,7 @@ impl Reference {
         if q.cmp(ONE).is_eq() {
             return self.zero(false);
         }
-        // |log2 q| against n/d is q^d against 2^n, or 1/q against it.
+        // Compares |log2 q| with n/d as q^d, or (1/q)^d, with 2^n.
         let q = if negative { Q::new(q.d, q.n) } else { q };
         rational::round(&self.f, self.tininess, negative, |c| power_of_two(false, c.n).cmp_power(q, c.d).reverse())
     }
@@ -63,7 +63,7 @@ fn power_of_two(inverse: bool, n: i128) -> Power {
 }
 
 impl Power {
-    /// This power against `(n/d)^k`.
+    /// Compares this power with `(n/d)^k`.
     fn cmp_power(&self, c: Q, k: i128) -> Ordering {
         let power = |n: i128| Pow::pow(BigInt::from(n), u32::try_from(k).expect("a small exponent"));
         let (n, d) = (power(c.n), power(c.d));

@@ -1,24 +1,24 @@
-//! Texture addressing in rows: from coordinates to texel numbers and filter weights, in doubles that hold every step
-//! exactly.
+//! Texture addressing in rows: converts coordinates to texel indices and filter weights, in double precision, in which
+//! every step is exact.
 
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::texture::AddressMode;
 
-/// Coordinates from here on are even integers and address alike: stands for the larger ones.
+/// Coordinates from here on are even integers that address alike, so they are clamped to it.
 const FAR: f64 = 16_777_216.0;
 
-/// An axis of a level.
+/// An axis of a mip level.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TexelAxis {
-    /// Texels.
+    /// Extent in texels.
     pub(crate) size: u32,
-    /// What a coordinate of 1 is in texels.
+    /// Texels per unit of the coordinate.
     pub(crate) scale: f64,
     pub(crate) mode: AddressMode,
 }
 
-/// The two texels of linear filtering along an axis, -1 for the border, and the weight of the second in units of the
-/// filter.
+/// The two texels of linear filtering along an axis (-1 for the border), and the weight of the second in units of the
+/// filter's fraction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct AxisTaps {
     pub(crate) texels: [[i32; LANES]; 2],
@@ -29,10 +29,10 @@ impl AxisTaps {
     pub(crate) const ZERO: Self = Self { texels: [[0; LANES]; 2], weight: [0; LANES] };
 }
 
-/// Texel numbers along one axis, nearest; -1 for the border.
+/// Texel indices along an axis with nearest filtering; -1 for the border.
 ///
-/// In doubles everything is exact: the product has 24 + 15 bits, and a position of less than 2^39 divided by a size of
-/// less than 2^15 can't be rounded up to an integer that it doesn't reach.
+/// Exact in double precision: the product has 24 + 15 bits, and a position below 2^39 divided by a size below 2^15
+/// can't be rounded up to an integer that it doesn't reach.
 #[inline(always)]
 pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LANES]) {
     let (n, scale) = (f64::from(axis.size), axis.scale);
@@ -45,10 +45,11 @@ pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LAN
     }
 }
 
-/// Texels and weight of linear filtering along one axis, `bits` fraction bits of the weight, at most 12. Without
-/// fraction bits the first texel is the nearest one, and all weights are 0.
+/// Texels and weight of linear filtering along an axis, with at most 12 fraction bits of the weight. Without fraction
+/// bits the first texel is the nearest one, and all weights are 0.
 ///
-/// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`. In doubles:
+/// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`. In double
+/// precision:
 ///
 /// - p has 24 + 15 bits and is at most 2^(24 + 14 + 12): the product is exact.
 /// - From 2^-13 on the last bit of p is at least 2^-52, and below 2^51 one half is no less than the last bit of the
@@ -66,8 +67,8 @@ pub(crate) fn linear(coordinate: &LaneRow, axis: TexelAxis, bits: u8, out: &mut 
     }
 }
 
-/// Texel numbers of a rectangle's axis, clamped: coordinates are positions, and singles hold what becomes of them
-/// exactly.
+/// Texel indices along a clamped axis of a rectangle: coordinates are positions, and every step is exact in single
+/// precision.
 #[inline(always)]
 fn clamped(coordinate: &LaneRow, size: u32, out: &mut [i32; LANES]) {
     // Less than 2^24, so exact.
@@ -76,12 +77,12 @@ fn clamped(coordinate: &LaneRow, size: u32, out: &mut [i32; LANES]) {
         let c = f32::from_bits(coordinate[i]);
         let finite = if c.abs() < f32::INFINITY { c } else { 0.0 };
         let above = if finite > 0.0 { finite } else { 0.0 };
-        // Between 0 and the last, where cutting off is rounding down.
+        // Between 0 and the last texel, where truncation rounds down.
         out[i] = (if above < last { above } else { last }) as i32;
     }
 }
 
-/// Texel numbers by the position of a coordinate in texels, rounded down.
+/// Texel indices from a coordinate's position in texels, rounded down.
 #[inline(always)]
 fn each(coordinate: &LaneRow, scale: f64, out: &mut [i32; LANES], number: impl Fn(f64) -> f64) {
     for i in 0..LANES {
@@ -104,7 +105,7 @@ fn each_tap(coordinate: &LaneRow, scale: f64, bits: u8, out: &mut AxisTaps, numb
     }
 }
 
-/// A coordinate that addresses as this one does and is small enough; NaN and infinities address as 0.
+/// Replaces a coordinate by an equivalent one in a bounded range; NaN and infinities address as 0.
 #[inline(always)]
 fn tamed(coordinate: u32) -> f64 {
     let c = f64::from(f32::from_bits(coordinate));
@@ -135,8 +136,8 @@ fn border(p: f64, n: f64) -> f64 {
     if (p >= 0.0) & (p < n) { p } else { -1.0 }
 }
 
-/// The face of a cube that each direction meets, in the order of its slices, and the coordinates on it: one step of
-/// single precision after the other. NaN and infinite components count as 0.
+/// Cube face that each direction selects, in the order of slices, and the coordinates on it, in single-precision steps.
+/// NaN and infinite components count as 0.
 #[inline(always)]
 pub(crate) fn cube([x, y, z]: [&LaneRow; 3], face: &mut LaneRow, [u, v]: [&mut LaneRow; 2]) {
     let finite = |bits: u32| if bits & 0x7f80_0000 == 0x7f80_0000 { 0 } else { bits };
@@ -145,7 +146,7 @@ pub(crate) fn cube([x, y, z]: [&LaneRow; 3], face: &mut LaneRow, [u, v]: [&mut L
     for i in 0..LANES {
         let [x, y, z] = [finite(x[i]), finite(y[i]), finite(z[i])];
         let below = |c: u32| c >> 31;
-        // The last of equal magnitudes wins.
+        // Of equal magnitudes the last one wins.
         let of_x = (below(x), if below(x) == 1 { z } else { flip(z) }, flip(y), size(x));
         let of_y = (2 + below(y), x, if below(y) == 1 { flip(z) } else { z }, size(y));
         let of_z = (4 + below(z), if below(z) == 1 { flip(x) } else { x }, flip(y), size(z));

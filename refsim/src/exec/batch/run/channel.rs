@@ -1,10 +1,10 @@
-//! Channels of texels as lanes hold them.
+//! Conversion of texel channels to lane values.
 
 use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, odd, with_any_lane};
 use crate::num::Format;
 use crate::texture::{Channel, ChannelValue};
 
-/// Doubles divided by an integer below 2^24, rounded into the format.
+/// Divides doubles by an integer below 2^24 and rounds to the format.
 #[inline(always)]
 pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out: &mut LaneRow) {
     if divisor == 1.0 {
@@ -18,7 +18,7 @@ pub(crate) fn ratios<L: Lane>(lane: &L, values: &[f64; LANES], divisor: f64, out
     }
 }
 
-/// Singles rounded into the format.
+/// Rounds singles to the format.
 #[inline(always)]
 pub(crate) fn singles<L: Lane>(lane: &L, values: &LaneRow, out: &mut LaneRow) {
     for i in 0..LANES {
@@ -26,10 +26,10 @@ pub(crate) fn singles<L: Lane>(lane: &L, values: &LaneRow, out: &mut LaneRow) {
     }
 }
 
-/// A half float as a single: exact, subnormal numbers too.
+/// Converts a half-precision pattern to single precision; exact, including subnormals.
 ///
-/// The exponent and fraction, moved to their places in a single, are the number times 2^-112; a product with a power of
-/// two whose result is normal, or zero, is exact.
+/// Exponent and fraction, shifted to their positions in a single, are the number times 2^-112; a product with a power
+/// of two whose result is normal, or zero, is exact.
 #[inline(always)]
 pub(crate) fn half_to_single(bits: u32) -> u32 {
     let (sign, rest) = ((bits & 0x8000) << 16, bits & 0x7fff);
@@ -38,7 +38,7 @@ pub(crate) fn half_to_single(bits: u32) -> u32 {
     sign | if rest & 0x7c00 == 0x7c00 { special } else { finite }
 }
 
-/// The bits of a channel.
+/// Extracts the bits of a channel.
 pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
     let first = usize::from(channel.shift / 8);
     match (channel.shift % 8, channel.bits, texel.get(first..)) {
@@ -52,7 +52,7 @@ pub(crate) fn channel_of(channel: Channel, texel: &[u8]) -> u32 {
     }
 }
 
-/// A channel's value in the register format, as slots hold it.
+/// Converts a channel's value to the register format, as a raw value.
 pub(crate) fn channel_in_slot(channel: ChannelValue, format: Format, lane: &AnyLane) -> u32 {
     fn rounded<L: Lane>(lane: &L, x: f64) -> u32 {
         L::store(lane.round_f64(x))

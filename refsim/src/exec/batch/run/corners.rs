@@ -1,13 +1,13 @@
-//! What linear filtering adds up: the texels at the corners of a cell, their weights, and their sums.
+//! Linear filtering: texels at the corners of a cell, their weights, and weighted sums.
 
 use super::address::AxisTaps;
 use crate::exec::batch::lanes::{LANES, LaneRow};
 
-/// The number of a texel of the border.
+/// Index of the border texel.
 pub(super) const BORDER: u32 = u32::MAX;
 
-/// The numbers of the texels at the corners (bit `a` of a corner: the second tap along axis `a`), those of `face`
-/// further on by as many slices.
+/// Indices of the texels at the corners (bit `a` of a corner selects the second tap along axis `a`), offset by `face`
+/// slices.
 #[inline(always)]
 pub(super) fn corner_numbers<const AXES: usize, const CORNERS: usize>(
     taps: &[AxisTaps; AXES],
@@ -28,7 +28,8 @@ pub(super) fn corner_numbers<const AXES: usize, const CORNERS: usize>(
     }
 }
 
-/// The weights of the corners, in units of the filter to the power of the number of axes: integers of at most 36 bits.
+/// Weights of the corners, in units of the filter's fraction to the power of the number of axes: integers of at most 36
+/// bits.
 #[inline(always)]
 pub(super) fn corner_weights<const AXES: usize, const CORNERS: usize>(
     taps: &[AxisTaps; AXES],
@@ -48,8 +49,8 @@ pub(super) fn corner_weights<const AXES: usize, const CORNERS: usize>(
     }
 }
 
-/// Adds weight times numerator, in units of `unit`, a power of two. Weights add up to at most 2^36 and numerators have
-/// 16 bits and a sign: products and sums are integers of at most 2^52, exact in doubles, times a power of two.
+/// Adds weight times numerator, in units of `unit`, a power of two. Weights sum to at most 2^36 and numerators have 16
+/// bits and a sign, so products and sums are integers of at most 2^52, exact in doubles, times a power of two.
 #[inline(always)]
 pub(super) fn add_weighted(numerators: &LaneRow, weights: &[f64; LANES], unit: f64, sum: &mut [f64; LANES]) {
     for i in 0..LANES {
@@ -57,8 +58,8 @@ pub(super) fn add_weighted(numerators: &LaneRow, weights: &[f64; LANES], unit: f
     }
 }
 
-/// Singles at the corners combined along one axis after the other: `a + w (b - a)`, every step rounded, and `a` itself
-/// where the weight is 0. A weight has at most 12 bits: exact.
+/// Interpolates singles at the corners along one axis after the other: `a + w (b - a)`, each step rounded, or `a`
+/// itself if the weight is 0. A weight has at most 12 bits, so it is exact.
 #[inline(always)]
 pub(super) fn combine<const AXES: usize, const CORNERS: usize>(
     corners: &mut [LaneRow; CORNERS],

@@ -1,8 +1,8 @@
-//! Levels of detail in rows: which levels each lane reads, and with which filter.
+//! Level of detail in rows: the levels that each lane reads, and the filter within them.
 //!
-//! Derivatives, their lengths and what is added to the level are singles, one rounded step after the other, as
-//! [`crate::texture::lod_from_derivatives`] defines them. The logarithm is made of the exponent and of a table by the
-//! leading bits of the fraction.
+//! Derivatives, their lengths and biases are computed in single precision, rounded after each step, as
+//! [`crate::texture::lod_from_derivatives`] defines. The logarithm is the exponent plus a table lookup by the leading
+//! bits of the fraction.
 
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, LaneRow, SimdLevel};
@@ -11,25 +11,27 @@ use crate::texture::{Filter, Image, MipFilter, SampleRules, SamplerState, Textur
 
 /// Fraction bits of a single.
 const FRACTION: u32 = 23;
-/// Leading fraction bits that the table goes by: narrower than the steps of 2^(1/256), so that none holds two.
+/// Leading fraction bits that index the table. Intervals are narrower than the steps of 2^(1/256), so that none
+/// contains two.
 const LEADING: u32 = 9;
-/// The largest magnitude of a level of detail, in levels.
+/// Maximum magnitude of a level of detail, in levels.
 const FARTHEST: i32 = 128;
 
-/// `floor(2^bits log2 m)` of significands `m` of 1 to 2, as a table.
+/// Table of `floor(2^bits log2 m)` for significands `m` from 1 to 2.
 #[derive(Debug)]
 struct LogTable {
     bits: u8,
-    /// By leading bits of the fraction: the value at the first of them, and the fraction from which it is one more.
+    /// By leading bits of the fraction: the value at the start of the interval, and the fraction at which it increases
+    /// by one.
     entries: Vec<(i32, u32)>,
 }
 
 impl LogTable {
-    /// For so many fraction bits, at most 8.
+    /// Creates the table for `bits` fraction bits, at most 8.
     ///
     /// The fraction at which the logarithm reaches `k 2^-bits` is rounded up from a product of at most eight roots of
-    /// 2, in doubles. It is off by less than 2^-24 units of a single, and none of the 255 numbers `2^(k/256)` is
-    /// nearer to a single than 2^-16.
+    /// 2, in double precision. Its error is less than 2^-24 units in the last place of a single, and none of the 255
+    /// numbers `2^(k/256)` is closer to a single than 2^-16 units.
     fn new(bits: u8) -> Self {
         let one = f64::from(1u32 << FRACTION);
         let steps = 1i32 << bits;
@@ -50,7 +52,7 @@ impl LogTable {
         Self { bits, entries: (0..1 << LEADING).map(entry).collect() }
     }
 
-    /// Half the logarithm to base 2 of a single of at least 0, rounded down to the table's bits.
+    /// Computes log2(x) / 2 of a non-negative single, rounded down to the table's bits.
     #[inline(always)]
     fn half_log2(&self, x: f32) -> f32 {
         // Subnormal singles are normal doubles.
@@ -66,28 +68,28 @@ impl LogTable {
     }
 }
 
-/// How a sampler's reads find their levels.
+/// Parameters of level selection of a sampler.
 #[derive(Debug)]
 pub(super) struct LevelChoice {
     log: LogTable,
     state: SamplerState,
-    /// What a derivative is multiplied by, by axis: texels of level 0.
+    /// Factors by axis that convert derivatives to texels of level 0.
     scales: Vec<f32>,
     last: i32,
 }
 
-/// The levels that each lane reads.
+/// Levels read by each lane.
 #[derive(Debug)]
 pub(super) struct PickedLevels {
     pub(super) first: LaneRow,
-    /// Of the level after the first, in units of `2^-lod_fraction_bits`.
+    /// Weight of the next level, in units of `2^-lod_fraction_bits`.
     pub(super) weight: LaneRow,
-    /// Whether the filter is that of smaller texels, 0 or 1.
+    /// 1 for the minification filter, 0 for the magnification filter.
     pub(super) smaller: LaneRow,
 }
 
 impl LevelChoice {
-    /// `None` for a cube, whose derivatives are those on a face.
+    /// Creates the parameters; `None` for cube maps, whose derivatives depend on the face.
     pub(super) fn new(image: &Image, state: &SamplerState, rules: &SampleRules) -> Option<Self> {
         let sizes = [image.width(), image.height(), image.slices()];
         let axes = match image.kind() {
@@ -105,17 +107,17 @@ impl LevelChoice {
         })
     }
 
-    /// Fraction bits of a level of detail.
+    /// Fraction bits of the level of detail.
     pub(super) fn bits(&self) -> u8 {
         self.log.bits
     }
 
-    /// The filter of lanes whose texels are smaller than pixels, or are not.
+    /// The minification filter if `smaller`, else the magnification filter.
     pub(super) fn filter(&self, smaller: bool) -> Filter {
         if smaller { self.state.min } else { self.state.mag }
     }
 
-    /// Chooses for all lanes.
+    /// Selects the levels of all lanes.
     pub(super) fn pick(&self, step: &FetchStep, slots: &Slots, simd: SimdLevel) -> PickedLevels {
         let mut squares = [[0.0_f32; LANES]; 2];
         for (axis, &scale) in self.scales.iter().enumerate() {
@@ -183,7 +185,7 @@ impl LevelChoice {
     }
 }
 
-/// Adds the square of a derivative in texels; the first is where the sum begins.
+/// Adds the square of a derivative in texels; `begins` for the first term.
 #[inline(always)]
 fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {
@@ -192,7 +194,7 @@ fn add_square(derivative: &LaneRow, scale: f32, begins: bool, sum: &mut [f32; LA
     }
 }
 
-/// Likewise of the difference across a quad between lanes that differ in `bit` of their number.
+/// The same for the difference across a quad, between lanes whose indices differ in `bit`.
 #[inline(always)]
 fn add_difference(coordinate: &LaneRow, bit: usize, scale: f32, begins: bool, sum: &mut [f32; LANES]) {
     for i in 0..LANES {
@@ -207,8 +209,8 @@ mod tests {
     use super::*;
     use crate::texture::{TexelFormat, lod_from_derivatives};
 
-    /// Against the texture room: a derivative of every size, along the one axis of a texture of one texel. The squares
-    /// of singles are few of all singles: every significand is tried below.
+    /// Compares with `texture`: derivatives of every magnitude, along the single axis of a one-texel texture. Squares
+    /// of singles cover few singles; the next test covers every significand.
     #[test]
     fn levels_are_those_of_the_texture_room() {
         let image = Image::new(TexelFormat::L8, TextureKind::D1, [1, 1, 1], 1).unwrap();
@@ -222,7 +224,7 @@ mod tests {
         }
     }
 
-    /// Against squaring in whole numbers, 62 bits kept: all significands (one in eleven in the short form).
+    /// Compares with squaring in integers with 62 bits kept, for all significands (one in eleven in the short form).
     #[test]
     fn every_significand_has_its_logarithm() {
         let step = if std::env::var_os("CROSSBAR_FULL").is_some() { 1 } else { 11 };

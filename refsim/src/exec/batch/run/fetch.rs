@@ -1,5 +1,6 @@
-//! Texture reads of a batch: whole rows of texels wherever that is exact, the texture room's own functions per lane
-//! otherwise (levels of cubes, channels of more than 16 bits, three axes with the finest weights).
+//! Texture reads of a batch: in whole rows where that is exact, else lane by lane with the functions of
+//! [`crate::texture`] (level of detail on cube maps, channels of more than 16 bits, three axes with the finest
+//! weights).
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use crate::exec::lower::Arith;
 use crate::num::{Format, ops};
 use crate::texture::{Lod, SampleRules, SamplerState, lod_from_derivatives, sample};
 
-/// A bound texture, ready to be read by batches.
+/// A bound texture, prepared for reads by batches.
 #[derive(Debug)]
 pub(crate) struct BatchTexture<'a> {
     binding: SamplerBinding<'a>,
@@ -24,10 +25,10 @@ pub(crate) struct BatchTexture<'a> {
     table: Option<Arc<TextureTable>>,
 }
 
-/// What a table is made from: the name of the texture's contents, the sampler's state, the device's rules.
+/// Key of a table: stamp of the texture's contents, sampler state, sampling rules.
 pub(crate) type TableKey = (u64, SamplerState, SampleRules);
 
-/// The tables last used, of textures whose contents have a name, which changes with them.
+/// Cache of tables, for textures whose contents have a stamp.
 pub(crate) type TextureTables = Cache<TableKey, TextureTable>;
 
 /// A texture that is read in rows.
@@ -39,7 +40,7 @@ pub(crate) enum TextureTable {
 }
 
 impl TextureTable {
-    /// Prepares a binding; `None` where it is read lane by lane.
+    /// Prepares a binding; `None` if it must be read lane by lane.
     fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
         if TexelTable::fits(binding) {
             return Some(Self::Nearest(TexelTable::new(binding, rules, lane)));
@@ -50,12 +51,12 @@ impl TextureTable {
         FilteredLevel::new(binding, rules, lane).map(Self::Filtered)
     }
 
-    /// Whether there is little to keep.
+    /// Returns `true` if the table is small enough to be cached.
     fn is_small(&self) -> bool {
         match self {
             Self::Nearest(table) => !table.large,
             Self::Filtered(level) => !level.is_large(),
-            // Only levels that are small are kept, when they are first read.
+            // Contains tables of small levels only, built on first use.
             Self::Leveled(_) => true,
         }
     }
@@ -76,7 +77,7 @@ impl<'a> BatchTexture<'a> {
         Self { binding, rules, table }
     }
 
-    /// Reads texels for the lanes that `run` names into the slots of the step.
+    /// Reads texels into the slots of the step, for the lanes enabled in `run`.
     pub(crate) fn read(&self, step: &FetchStep, formats: &LaneFormats, run: &LaneRow, slots: &mut Slots) {
         match self.table.as_deref() {
             Some(TextureTable::Nearest(table)) => {
@@ -109,7 +110,8 @@ impl<'a> BatchTexture<'a> {
 
     fn read_lanes(&self, step: &FetchStep, formats: &LaneFormats, run: &LaneRow, slots: &mut Slots) {
         let single = formats.lane(Arith::Single);
-        // Lanes that are not run still take part in arithmetic: a number of the format, not what the slot held before.
+        // Disabled lanes still take part in arithmetic, so they get a number of the format instead of the slot's old
+        // contents.
         for to in step.to.iter().flatten() {
             slots.fill(*to, 0);
         }

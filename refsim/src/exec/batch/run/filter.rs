@@ -1,7 +1,8 @@
-//! Filtered reads in rows: one level of a texture of any kind, nearest or linear.
+//! Filtered reads in rows, from one level of a texture of any kind, nearest or linear.
 //!
-//! Every lane's texels and weights come first (`address`), then, component by component, what they add up to: integer
-//! texels as an exact sum that is rounded once, floats in the steps of single precision that the texture room defines.
+//! First the texels and weights of every lane are computed (`address`), then, component by component, their
+//! combination: fixed-point texels as an exact sum that is rounded once, floats in the single-precision steps defined
+//! by [`crate::texture`].
 
 use std::sync::OnceLock;
 
@@ -20,33 +21,34 @@ use crate::texture::{
     SamplerState, TargetRounding, TextureKind, decode_channel, encode,
 };
 
-/// Bits of the widest channel of integers whose sums are exact: weights of three axes have 36 bits, a double 53.
+/// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
 const WIDEST: u8 = 16;
 
-/// A level that is read in rows, and how.
+/// A level that is read in rows.
 #[derive(Debug)]
 pub(crate) struct FilteredLevel {
     kind: TextureKind,
     axes: [TexelAxis; 3],
-    /// Texels of a slice.
+    /// Texels per slice.
     slice: u32,
-    /// Fraction bits of weights of a linear filter.
+    /// Fraction bits of linear filter weights.
     bits: u8,
     components: [FilteredComponent; 4],
-    /// By texel and component: the numerator, or the single; made when they are first read, never of a large level.
+    /// By texel and component: the numerator, or the single-precision value. Built on first use; never for a large
+    /// level.
     texels: OnceLock<Vec<[u32; 4]>>,
     border: [u32; 4],
-    /// The first byte of the level, and its texels.
+    /// Byte offset of the level, and its number of texels.
     start: usize,
     count: usize,
 }
 
-/// What a component of the result is made of.
+/// Source of a result component.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum FilteredComponent {
-    /// As slots hold it.
+    /// A raw constant.
     Constant(u32),
-    /// Numerators over this.
+    /// A fixed-point channel and its denominator.
     Ratio(Channel, f64),
     Single(Channel),
 }
@@ -71,7 +73,7 @@ impl FilteredComponent {
         }
     }
 
-    /// The numerator or the single of a stored texel.
+    /// Decodes a stored texel to its numerator or single-precision value.
     fn decode(self, texel: &[u8], rules: &SampleRules) -> u32 {
         let (Self::Ratio(channel, _) | Self::Single(channel)) = self else { return 0 };
         match decode_channel(channel, channel_of(channel, texel), rules.signed_texel_minimum) {
@@ -81,10 +83,10 @@ impl FilteredComponent {
     }
 }
 
-/// What reads of all lanes add up to, by component, before it is rounded: numerators, or singles.
+/// Unrounded results of all lanes, by component: sums of numerators, or single-precision values.
 pub(super) type FilteredRows = [[f64; LANES]; 4];
 
-/// A read: the image and the rules, and the lanes that are wanted of a large one.
+/// Image and rules of a read, and the lanes to be read from a large image.
 #[derive(Clone, Copy)]
 pub(super) struct TexelSource<'t> {
     pub(super) image: &'t Image,
@@ -93,7 +95,7 @@ pub(super) struct TexelSource<'t> {
 }
 
 impl FilteredLevel {
-    /// Prepares the one level that a binding reads; `None` where the level of detail decides.
+    /// Prepares the single level that a binding reads; `None` if it depends on the level of detail.
     pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
         let SamplerBinding { image, state } = binding;
         if binding.needs_detail() {
@@ -149,12 +151,12 @@ impl FilteredLevel {
         })
     }
 
-    /// Whether its texels are decoded as they are read.
+    /// Returns `true` if texels are decoded on each read instead of being cached.
     pub(crate) fn is_large(&self) -> bool {
         self.count > MAX_TABLE_TEXELS
     }
 
-    /// The texels of the level, slice by slice, row by row; none of a large level.
+    /// The decoded texels of the level, slice by slice, row by row; `None` for a large level.
     fn texels(&self, source: TexelSource<'_>) -> Option<&[[u32; 4]]> {
         if self.is_large() {
             return None;
@@ -164,7 +166,7 @@ impl FilteredLevel {
         Some(self.texels.get_or_init(|| stored().map(decoded).collect()))
     }
 
-    /// Reads texels by the filter of the sampler into the slots of the step; a large image's for the lanes that run.
+    /// Reads texels with the sampler's filter into the slots of the step; from a large image only for enabled lanes.
     pub(crate) fn read(
         &self,
         (image, state): (&Image, &SamplerState),
@@ -178,7 +180,7 @@ impl FilteredLevel {
         self.round(&rows, step, formats, slots);
     }
 
-    /// What the texels at the coordinates of a step add up to, for the components that it wants.
+    /// Computes the unrounded results of a step, for the components that it needs.
     pub(super) fn add_up(
         &self,
         filter: Filter,
@@ -198,7 +200,7 @@ impl FilteredLevel {
         }
     }
 
-    /// Rounds rows into the slots of the step.
+    /// Rounds results into the slots of the step.
     pub(super) fn round(&self, rows: &FilteredRows, step: &FetchStep, formats: &LaneFormats, slots: &mut Slots) {
         let (simd, lane) = (formats.simd(), formats.lane(Arith::Main));
         for (c, to) in step.to.iter().enumerate() {
@@ -221,12 +223,12 @@ impl FilteredLevel {
         }
     }
 
-    /// What the texels hold of a component.
+    /// Source of a component.
     pub(super) fn component(&self, number: usize) -> FilteredComponent {
         self.components[number]
     }
 
-    /// [`Self::add_up`] along `AXES` axes, of whose texels `CORNERS` are combined.
+    /// [`Self::add_up`] along `AXES` axes with `CORNERS` texels.
     fn read_axes<const AXES: usize, const CORNERS: usize>(
         &self,
         source: TexelSource<'_>,
@@ -238,7 +240,7 @@ impl FilteredLevel {
         let mut taps = [AxisTaps::ZERO; AXES];
         let mut numbers = [[0; LANES]; CORNERS];
         self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, bits), &mut taps, &mut numbers);
-        // Units of weights of all axes; a power of two, and so is its reciprocal.
+        // Unit of the weights of all axes; a power of two, and so is its reciprocal.
         let unit = 1.0 / (1u64 << (usize::from(bits) * AXES)) as f64;
         let mut weights = [[1.0; LANES]; CORNERS];
         let integers = self.components.iter().any(|c| matches!(c, FilteredComponent::Ratio(..)));
@@ -277,7 +279,7 @@ impl FilteredLevel {
         }
     }
 
-    /// The taps of every lane, and the numbers of the texels at their corners.
+    /// Taps of every lane, and indices of the texels at their corners.
     fn place<const AXES: usize, const CORNERS: usize>(
         &self,
         [x, y, z, _]: [&LaneRow; 4],
@@ -306,7 +308,7 @@ impl FilteredLevel {
         );
     }
 
-    /// A component of the texels of these numbers.
+    /// Gathers a component of the texels with these indices.
     fn gather(
         &self,
         component: usize,

@@ -1,4 +1,4 @@
-//! A run of a program with flow control: which lanes are active, and where the program goes on.
+//! Execution of a program with flow control: mask of active lanes, and the current instruction.
 
 use super::slots::Slots;
 use super::steps::{Surroundings, run_steps};
@@ -9,7 +9,7 @@ use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::exec::lower::{ACTIVE, COUNTER, DECIDED, KILLED, TRUE};
 use crate::isa::{Opcode, OpcodeClass};
 
-/// What an open block remembers.
+/// State of an open block.
 enum OpenBlock {
     If { restore: Box<LaneRow>, otherwise: Box<LaneRow> },
     Loop { live: Box<LaneRow>, restore: Box<LaneRow>, left: i32, step: i32, outer: i32 },
@@ -17,7 +17,7 @@ enum OpenBlock {
 }
 
 impl OpenBlock {
-    /// The lanes that it remembers.
+    /// The lane masks of the block.
     fn masks(&mut self) -> impl Iterator<Item = &mut Box<LaneRow>> {
         let (restore, more) = match self {
             Self::If { restore, otherwise: more } | Self::Loop { restore, live: more, .. } => (restore, Some(more)),
@@ -27,20 +27,20 @@ impl OpenBlock {
     }
 }
 
-/// Called around every executed instruction but flow control. The default does nothing.
+/// Called around every executed instruction except flow control. The default does nothing.
 pub(crate) trait FlowObserver {
-    /// An instruction is about to run.
+    /// Called before an instruction runs.
     fn before(&mut self, _at: usize, _slots: &Slots) {}
-    /// It has run.
+    /// Called after it has run.
     fn after(&mut self, _at: usize, _slots: &Slots) {}
 }
 
-/// Observes nothing.
+/// Observer that does nothing.
 struct NoFlowObserver;
 
 impl FlowObserver for NoFlowObserver {}
 
-/// One run of a program over a batch.
+/// An execution of a program over a batch.
 pub(crate) struct FlowRun<'p> {
     plan: &'p FlowPlan,
     around: &'p Surroundings<'p>,
@@ -48,11 +48,11 @@ pub(crate) struct FlowRun<'p> {
     covered: &'p LaneRow,
     open: Vec<OpenBlock>,
     counter: i32,
-    /// Instruction slots, summed over the lanes.
+    /// Instruction slots executed, in total over the lanes.
     pub(crate) executed: u64,
-    /// Steps of each lane, where a budget is enforced.
+    /// Steps of each lane, if a budget is enforced.
     steps: Option<Box<LaneRow>>,
-    /// Lanes that were cut off by the step budget, and the instruction in front of which.
+    /// Lanes stopped by the step budget, and the instruction before which each was stopped.
     pub(crate) cut: Vec<(usize, usize)>,
 }
 
@@ -67,7 +67,7 @@ fn remove(from: &mut LaneRow, lanes: &LaneRow) {
 }
 
 impl<'p> FlowRun<'p> {
-    /// A run of the lanes in `run`, of which those in `covered` are fragments (or vertices).
+    /// Creates an execution of the lanes in `run`, of which those in `covered` are fragments (or vertices).
     pub(crate) fn new(
         plan: &'p FlowPlan,
         around: &'p Surroundings<'p>,
@@ -78,7 +78,7 @@ impl<'p> FlowRun<'p> {
         Self { plan, around, run, covered, open: Vec::new(), counter: 0, executed: 0, steps, cut: Vec::new() }
     }
 
-    /// Runs the program to its end.
+    /// Executes the program to its end.
     pub(crate) fn run(&mut self, slots: &mut Slots, fetches: &mut [u64; SAMPLERS]) {
         self.run_watched(slots, fetches, &mut NoFlowObserver);
     }
@@ -131,12 +131,11 @@ impl<'p> FlowRun<'p> {
         }
     }
 
-    /// Counts the step in front of instruction `at` for every active lane, and cuts off the lanes that have no step
-    /// left.
+    /// Counts a step for every active lane before instruction `at`, and stops lanes whose budget is used up.
     fn charge(&mut self, at: usize, slots: &mut Slots) {
         let (Some(steps), Some(budget)) = (&mut self.steps, self.plan.budget) else { return };
         let mut cut = [0; LANES];
-        // An active lane's mask is all ones: less it is one more.
+        // The mask of an active lane is all ones, i.e. -1: subtracting it adds one.
         for ((count, &active), cut) in steps.iter_mut().zip(slots.row(ACTIVE)).zip(&mut cut) {
             *cut = if *count == budget { active } else { 0 };
             *count = count.wrapping_sub(active & !*cut);
@@ -307,7 +306,7 @@ pub(crate) fn fill_plan(plan: &FlowPlan, slots: &mut Slots) {
     }
 }
 
-/// A mask of the first `count` lanes.
+/// Mask of the first `count` lanes.
 pub(crate) fn first_lanes(count: usize) -> LaneRow {
     std::array::from_fn(|i| if i < count { TRUE } else { 0 })
 }

@@ -1,15 +1,15 @@
-//! What a fast arithmetic leaves to the general one: results that came out infinite or NaN.
+//! Recomputation of results that a fast arithmetic may get wrong: those that are infinite or NaN.
 //!
-//! Some arithmetics are fast because they ask nothing about the end of the range, or about products of zero and
-//! infinity. Whatever goes wrong there, an intermediate result of a longer operation too, ends in an infinity or a NaN,
-//! and only such results are made again.
+//! Fast arithmetics omit checks for the end of the range, and for products of zero and infinity. Any error there, also
+//! in an intermediate result of a longer operation, leads to an infinity or a NaN, so only such results are recomputed
+//! with the general arithmetic.
 
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, Lane, apply, is_finite};
 use crate::exec::batch::schedule::{LaneCode, LaneOp};
 use crate::num::NumberOperation as Op;
 
-/// Makes the results in the scratch row again that are not finite.
+/// Recomputes the non-finite results in the scratch row.
 pub(crate) fn mend<L: Lane>(lane: Option<L>, op: &LaneOp, slots: &mut Slots) {
     let Some(lane) = lane else { return };
     let Slots { rows, scratch, values, .. } = slots;
@@ -34,7 +34,7 @@ pub(crate) fn mend<L: Lane>(lane: Option<L>, op: &LaneOp, slots: &mut Slots) {
     }
 }
 
-/// The result of one lane; `None` for operations that need no second look.
+/// Computes the result of one lane; `None` for operations that need no recomputation.
 fn value<L: Lane>(lane: &L, op: &LaneOp, x: impl Fn(usize) -> L::T) -> Option<L::T> {
     let factors = |k: usize| match (x(2 * k), x(2 * k + 1)) {
         (a, b) if op.zero_wins => (lane.factor(a, b), lane.factor(b, a)),

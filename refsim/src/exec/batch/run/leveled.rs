@@ -1,8 +1,8 @@
-//! Filtered reads in rows where the level of detail decides: every level that some lane reads is read for all of them,
-//! and each lane takes what it asked for.
+//! Filtered reads in rows that depend on the level of detail: every level needed by some lane is read for all lanes,
+//! and each lane selects its own.
 //!
-//! Most tiles need one level, or two neighbours. Values stay unrounded until levels are combined: of integers the exact
-//! sum, of floats singles.
+//! Most tiles need one level, or two adjacent ones. Values stay unrounded until levels are combined: exact sums for
+//! fixed point, singles for floats.
 
 use super::detail::{LevelChoice, PickedLevels};
 use super::filter::{FilteredComponent, FilteredLevel, FilteredRows, TexelSource};
@@ -12,11 +12,11 @@ use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel}
 use crate::exec::batch::schedule::FetchStep;
 use crate::texture::{Image, MipFilter, SampleRules, TextureKind};
 
-/// Fraction bits of weights, along all axes and between levels, up to which sums are exact: numerators have 16 bits and
-/// a sign, their differences one more, a double 53.
+/// Maximum total fraction bits of weights, along all axes and between levels, for which sums are exact: numerators have
+/// 16 bits and a sign, their differences one more, a double 53.
 const EXACT_BITS: usize = 35;
 
-/// The levels of a texture, and how they are chosen.
+/// The levels of a texture, and their selection.
 #[derive(Debug)]
 pub(crate) struct LeveledTexture {
     choice: LevelChoice,
@@ -24,7 +24,7 @@ pub(crate) struct LeveledTexture {
 }
 
 impl LeveledTexture {
-    /// Prepares a binding; `None` for cubes, and where weights are too fine.
+    /// Prepares a binding; `None` for cube maps, and for weights with too many bits.
     pub(crate) fn new(binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
         let SamplerBinding { image, state } = binding;
         let choice = LevelChoice::new(image, state, rules)?;
@@ -38,7 +38,7 @@ impl LeveledTexture {
         Some(Self { choice, levels })
     }
 
-    /// Reads texels into the slots of the step; a large level's for the lanes that run.
+    /// Reads texels into the slots of the step; from a large level only for enabled lanes.
     pub(crate) fn read(
         &self,
         (image, rules): (&Image, &SampleRules),
@@ -68,7 +68,7 @@ impl LeveledTexture {
         self.levels[0].round(&rows, step, formats, slots);
     }
 
-    /// Adds the weighted difference of the second level of the lanes that have one.
+    /// Adds the weighted difference to the second level, for lanes that have one.
     fn combine(
         &self,
         picked: &PickedLevels,
@@ -114,16 +114,16 @@ impl LeveledTexture {
     }
 }
 
-/// The first level of a lane, and whether its filter is that of smaller texels.
+/// First level of a lane, and `true` for the minification filter.
 #[inline(always)]
 fn key(picked: &PickedLevels, lane: usize) -> (usize, bool) {
     (picked.first[lane] as usize, picked.smaller[lane] != 0)
 }
 
-/// The keys that occur: bit 2 level + filter. A texture has at most 32 levels.
+/// Sets of occurring keys: bit 2 level + filter. A texture has at most 32 levels.
 struct LevelSets {
     first: u64,
-    /// Of the lanes that read the next level too.
+    /// Keys of lanes that also read the next level.
     second: u64,
 }
 
@@ -147,7 +147,7 @@ impl LevelSets {
     }
 }
 
-/// Copies the lanes that are wanted of the components of a step.
+/// Copies selected lanes of the components of a step.
 fn take(step: &FetchStep, wanted: impl Fn(usize) -> bool, from: &FilteredRows, to: &mut FilteredRows) {
     for c in (0..4).filter(|&c| step.to[c].is_some()) {
         for i in (0..LANES).filter(|&i| wanted(i)) {

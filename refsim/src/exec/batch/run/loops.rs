@@ -1,14 +1,14 @@
-//! Loops over rows: a function of lanes carried out in all of them.
+//! Loops over rows: apply a function of lane values to all lanes.
 //!
-//! Every row comes in as an argument of its own, so that the compiler knows the result to be apart from the operands:
-//! behind a box or in a slice of rows it doesn't, and makes no vector code.
+//! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. Behind a
+//! box or in a slice of rows it can't tell, and doesn't vectorise.
 
 use super::slots::Slots;
 use crate::exec::batch::lanes::{LANES, Lane, LaneRow, is_finite};
 use crate::exec::batch::schedule::LaneOp;
 use crate::exec::lower::TRUE;
 
-/// A function of pairs of rows.
+/// Applies a function of pairs of rows.
 #[inline(always)]
 pub(crate) fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
     let Slots { rows, scratch, .. } = slots;
@@ -33,7 +33,7 @@ pub(crate) fn pairs<L: Lane, const N: usize>(
     }
 }
 
-/// A function of pairs of a value that is the same in all lanes and a row.
+/// Applies a function of pairs of a uniform value and a row.
 #[inline(always)]
 pub(crate) fn dot_by<L: Lane, const N: usize>(
     op: &LaneOp,
@@ -113,7 +113,7 @@ pub(crate) fn bitwise(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(u3
 #[inline(always)]
 pub(crate) fn select(mask: &LaneRow, a: &LaneRow, b: &LaneRow, out: &mut LaneRow) {
     for i in 0..LANES {
-        // Masks are all zeros or all ones; a choice would become a choice of addresses.
+        // Masks are all zeros or all ones; a conditional would become a selection of addresses.
         out[i] = mask[i] & a[i] | !mask[i] & b[i];
     }
 }
@@ -132,7 +132,7 @@ pub(crate) fn narrow<L: Lane>(lane: &L, a: &[f64; LANES], out: &mut LaneRow) {
     }
 }
 
-/// Whether no float of a row is infinite or NaN.
+/// Returns `true` if no float of a row is infinite or NaN.
 #[inline(always)]
 pub(crate) fn all_finite(row: &LaneRow) -> bool {
     let mut largest = 0;
@@ -142,7 +142,7 @@ pub(crate) fn all_finite(row: &LaneRow) -> bool {
     is_finite(largest)
 }
 
-/// Lane partners: the lower and the higher lane of a pair that differs in `bit` of its number.
+/// Differences between lane pairs whose indices differ in `bit`: higher minus lower.
 #[inline(always)]
 pub(crate) fn difference<L: Lane>(lane: &L, a: &LaneRow, out: &mut LaneRow, bit: usize) {
     for i in 0..LANES {
@@ -150,7 +150,7 @@ pub(crate) fn difference<L: Lane>(lane: &L, a: &LaneRow, out: &mut LaneRow, bit:
     }
 }
 
-/// An integer in a double as an address; NaN gives 0.
+/// Converts an integer in a double to an address; NaN gives 0.
 pub(crate) fn address(x: f64) -> u32 {
     (x as i32).cast_unsigned()
 }

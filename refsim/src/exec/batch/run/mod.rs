@@ -1,10 +1,10 @@
-//! Carrying out scheduled steps, 256 lanes at a time.
+//! Execution of scheduled steps, 256 lanes at a time.
 //!
-//! - `slots`: where values are kept; `ops`, `loops`, `pack`: lane operations on rows; `guard`: what fast
-//!   arithmetics leave to the general one; `steps`: blocks of operations.
-//! - Texture reads: `fetch` chooses; `table`, `stored`: nearest; `filter`: one level, linear or not; `detail`: which
-//!   levels; `leveled`: several; `address`: from coordinates to texels; `corners`: their weighted sums; `channel`:
-//!   values of texels.
+//! - `slots`: storage of values; `ops`, `loops`, `pack`: lane operations on rows; `guard`: recomputation of results
+//!   that fast arithmetics get wrong; `steps`: execution of blocks.
+//! - Texture reads: `fetch`: entry point; `table`, `stored`: nearest; `filter`: one level, nearest or linear; `detail`:
+//!   level selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums; `channel`:
+//!   texel values.
 //! - `flow`: programs with flow control.
 
 mod address;

@@ -1,4 +1,4 @@
-//! Lane operations: what decoded programs consist of, and the loops that carry them out.
+//! Execution of lane operations, of which decoded programs consist.
 
 use super::guard;
 use super::loops::{
@@ -10,7 +10,7 @@ use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, with_a
 use crate::exec::batch::schedule::{LaneCode, LaneOp};
 use crate::num::NumberOperation as Op;
 
-/// Runs operations in the arithmetic of a format. The one place where a processor's vector width is chosen.
+/// Executes operations in the arithmetic of a format. The only place where the SIMD level is selected.
 pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
     with_any_lane!(lane, |lane| {
         simd.run(
@@ -20,7 +20,7 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
     });
 }
 
-/// The longer functions of lanes are inlined by order: outside they would be compiled for any processor.
+/// Forced inlining: out of line, longer lane functions would be compiled for the baseline processor.
 #[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
@@ -198,7 +198,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         LaneCode::Plain(Op::Or) => bitwise(a, b, out, |a, b| a | b),
         LaneCode::Plain(Op::AndNot) => bitwise(a, b, out, |a, b| !a & b),
         LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
-        // Carried out by the caller, or by steps of their own.
+        // Executed by the caller, or by separate steps.
         LaneCode::Dot(_) | LaneCode::Sum(_) | LaneCode::SumBy(_) | LaneCode::Difference | LaneCode::Widen => {}
         LaneCode::Plain(_) | LaneCode::Immediate(..) => {}
     }

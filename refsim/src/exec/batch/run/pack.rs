@@ -1,8 +1,8 @@
-//! Numbers in parts of a word, lane by lane.
+//! Packing of numbers into words, lane by lane.
 
 use crate::exec::batch::lanes::{LANES, Lane, LaneRow, odd};
 
-/// The word of each lane with one part more.
+/// Inserts a part into the word of each lane.
 #[inline(always)]
 pub(crate) fn join<L: Lane>(
     words: &LaneRow,
@@ -16,7 +16,7 @@ pub(crate) fn join<L: Lane>(
     }
 }
 
-/// A number out of the word of each lane.
+/// Extracts a number from the word of each lane.
 #[inline(always)]
 pub(crate) fn split<L: Lane>(words: &LaneRow, out: &mut LaneRow, part: impl Fn(u32) -> L::T) {
     for i in 0..LANES {
@@ -24,8 +24,8 @@ pub(crate) fn split<L: Lane>(words: &LaneRow, out: &mut LaneRow, part: impl Fn(u
     }
 }
 
-/// A number of single precision clamped to [0, 1], to the nearest step, halves up. The product is exact, and so is the
-/// sum where it comes near an integer.
+/// Clamps a single-precision number to [0, 1] and rounds it to an integer number of steps, halves up. The product is
+/// exact, and so is the sum near an integer.
 #[inline(always)]
 pub(crate) fn unsigned(x: f64, steps: f64) -> u32 {
     let low = if x > 0.0 { x } else { 0.0 };
@@ -33,7 +33,7 @@ pub(crate) fn unsigned(x: f64, steps: f64) -> u32 {
     (clamped * steps + 0.5).floor() as u32
 }
 
-/// `128 + 127 x`, x from -128/127 to 1, to the nearest step, halves up; 128 for NaN.
+/// Computes `128 + 127 x`, with x clamped to [-128/127, 1], rounded to nearest, halves up; 128 for NaN.
 #[inline(always)]
 pub(crate) fn signed(x: f64) -> u32 {
     let scaled = 127.0 * x;

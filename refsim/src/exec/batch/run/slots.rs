@@ -1,10 +1,10 @@
-//! Where a batch keeps its values: one array of 256 lanes for each component that is live, and plain numbers for what
-//! is the same in all lanes.
+//! Storage of a batch: an array of 256 lanes per live component, and scalars for values that are uniform over all
+//! lanes.
 
 use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::exec::lower::Slot;
 
-/// A row where vectors of 64 bytes don't straddle cache lines.
+/// A row aligned so that 64-byte vectors don't straddle cache lines.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(crate) struct Aligned(LaneRow);
@@ -29,22 +29,22 @@ impl std::ops::DerefMut for Aligned {
     }
 }
 
-/// The slots of one batch, and a spare row that results are made in before they change places with what they replace.
+/// The slots of one batch, and a scratch row in which results are computed before it is swapped with their slot's row.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots {
     #[expect(clippy::vec_box, reason = "a row changes places with the spare one by its pointer, not by its 1 KiB")]
     pub(crate) rows: Vec<Box<Aligned>>,
     pub(crate) scratch: Box<Aligned>,
-    /// What slots of constants and given values hold in every lane.
+    /// Uniform values of slots of constants and given values.
     pub(crate) values: Vec<u32>,
-    /// Slots whose value is wanted as a row too.
+    /// `false` for slots of which only the uniform value is read.
     as_rows: Vec<bool>,
-    /// Doubles on their way from one format to another.
+    /// Doubles between two conversion steps.
     pub(crate) wide: Box<[f64; LANES]>,
 }
 
 impl Slots {
-    /// So many slots, all zero.
+    /// Creates `count` slots, all zero.
     pub(crate) fn new(count: usize) -> Self {
         Self {
             rows: std::iter::repeat_with(Aligned::zeros).take(count).collect(),
@@ -55,7 +55,7 @@ impl Slots {
         }
     }
 
-    /// Marks a slot that is read only as a number, never as a row.
+    /// Marks a slot of which only the uniform value is read, never the row.
     pub(crate) fn without_row(&mut self, slot: Slot) {
         self.as_rows[usize::from(slot)] = false;
     }
@@ -68,19 +68,19 @@ impl Slots {
         &mut self.rows[usize::from(slot)]
     }
 
-    /// The scratch row becomes the slot's row.
+    /// Swaps the scratch row with the slot's row.
     pub(crate) fn commit(&mut self, slot: Slot) {
         std::mem::swap(&mut self.rows[usize::from(slot)], &mut self.scratch);
     }
 
-    /// Puts a value that is the same in all lanes into a slot.
+    /// Sets a slot to a uniform value.
     pub(crate) fn fill(&mut self, slot: Slot, raw: u32) {
         self.values[usize::from(slot)] = raw;
         self.row_mut(slot).fill(raw);
     }
 
-    /// As [`Slots::fill`], for a slot of a given value, which nothing else writes: cheap where it holds the value
-    /// already, and where the row is not read.
+    /// [`Slots::fill`] for a slot that nothing else writes: cheap if it already has the value, or if the row is never
+    /// read.
     pub(crate) fn give(&mut self, slot: Slot, raw: u32) {
         let i = usize::from(slot);
         if self.values[i] != raw {

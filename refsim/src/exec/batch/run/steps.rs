@@ -1,4 +1,4 @@
-//! Carrying out scheduled steps.
+//! Execution of scheduled steps.
 
 use super::fetch::BatchTexture;
 use super::ops;
@@ -8,13 +8,13 @@ use crate::exec::batch::schedule::{BatchStep, StepBlock};
 use crate::exec::lower::{Arith, Slot};
 use crate::num::ops as definition;
 
-/// What steps need besides slots.
+/// Inputs of steps besides slots.
 #[derive(Debug)]
 pub(crate) struct Surroundings<'a> {
     pub(crate) formats: &'a LaneFormats,
     /// By sampler.
     pub(crate) textures: &'a [Option<BatchTexture<'a>>],
-    /// Float constants as slots hold them.
+    /// Raw float constants.
     pub(crate) constants: &'a [[u32; 4]],
 }
 
@@ -28,7 +28,7 @@ pub(crate) fn fill_constants(block: &StepBlock, slots: &mut Slots) {
     }
 }
 
-/// Runs steps. Reads that can't be made in rows are made for the lanes that `run` names.
+/// Executes steps. Texture reads that can't be made in rows are made for the lanes enabled in `run`.
 pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &LaneRow, slots: &mut Slots) {
     for step in steps {
         match step {
@@ -53,7 +53,7 @@ pub(crate) fn run_steps(steps: &[BatchStep], around: &Surroundings<'_>, run: &La
     }
 }
 
-/// Cosines or sines, by the definition itself: no vector code of ours is worth its proof for them.
+/// Cosines or sines, computed by [`crate::num`]: a vectorised version would not be worth its proof.
 fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Slot), slots: &mut Slots) {
     let (format, lane) = (formats.format(arith), formats.lane(arith));
     let value = |bits| if sine { definition::sin(format, bits).bits } else { definition::cos(format, bits).bits };
@@ -67,20 +67,20 @@ fn circle(formats: &LaneFormats, arith: Arith, sine: bool, (from, to): (Slot, Sl
     }
 }
 
-/// Clamps to [0, 1] and rounds to the nearest of evenly spaced steps, halves up; the exact fraction, rounded to odd,
-/// goes into the wide row.
+/// Clamps to [0, 1] and rounds to a multiple of 1 / steps, halves up; the fraction, rounded to odd, goes into the wide
+/// row.
 fn to_steps(steps: u32, from: u16, slots: &mut Slots) {
     let count = f64::from(steps);
     for i in 0..LANES {
         let x = f64::from(f32::from_bits(slots.row(from)[i]));
         let low = if x > 0.0 { x } else { 0.0 };
         let clamped = if low < 1.0 { low } else { 1.0 };
-        // 24 and 16 bits: the product is exact, and so is the sum where it comes near an integer.
+        // 24 and 16 bits: the product is exact, and so is the sum near an integer.
         slots.wide[i] = odd::div_odd_long((clamped * count + 0.5).floor(), count);
     }
 }
 
-/// Float constants as slots hold them.
+/// Float constants as raw values.
 pub(crate) fn raw_constants(constants: &[[u32; 4]], formats: &LaneFormats) -> Vec<[u32; 4]> {
     let lane = formats.lane(Arith::Main);
     constants.iter().map(|c| c.map(|bits| lane.decode(bits))).collect()

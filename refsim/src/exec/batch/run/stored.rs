@@ -1,4 +1,4 @@
-//! Nearest texels of images that are too large for a table: decoded as they are read, those of the lanes that run.
+//! Nearest reads of images that are too large for a table: texels are decoded on each read, for enabled lanes only.
 
 use super::channel::{channel_in_slot, channel_of, half_to_single, ratios, singles};
 use super::slots::Slots;
@@ -12,21 +12,21 @@ use crate::texture::{Channel, ChannelValue, ComponentSource, Image, SampleRules,
 pub(crate) struct Stored<'a> {
     bytes: &'a [u8],
     texels: usize,
-    /// Bytes of a texel.
+    /// Bytes per texel.
     size: usize,
     components: [Component; 4],
     rules: &'a SampleRules,
 }
 
-/// Where a component comes from.
+/// Source of a component.
 #[derive(Clone, Copy, PartialEq)]
 enum Component {
     Constant(ChannelValue),
-    /// A single float at this byte of the texel.
+    /// Single-precision float at this byte offset.
     Single(usize),
-    /// A half float at this byte of the texel.
+    /// Half-precision float at this byte offset.
     Half(usize),
-    /// A numerator over this, both below 2^24.
+    /// Fixed-point channel and its denominator; numerator and denominator are below 2^24.
     Ratio(Channel, f64),
     Other(Channel),
 }
@@ -47,7 +47,7 @@ impl Component {
         }
     }
 
-    /// What is kept of a stored texel until whole rows are rounded: a single, or a numerator.
+    /// Intermediate value of a stored texel until whole rows are rounded: a single, or a numerator.
     #[inline(always)]
     fn kept(self, texel: &[u8], rules: &SampleRules) -> u32 {
         match self {
@@ -76,8 +76,8 @@ impl<'a> Stored<'a> {
         Self { bytes, texels, size: image.format().bytes(), components, rules }
     }
 
-    /// Reads the texels of these numbers; beyond the last lies the border, if there is one. Lanes that do not run are
-    /// 0.
+    /// Reads the texels with these indices; the index after the last one is the border, if there is one. Disabled lanes
+    /// are 0.
     pub(crate) fn read(
         &self,
         index: &LaneRow,
@@ -143,7 +143,7 @@ impl<'a> Stored<'a> {
         self.bytes.get(number as usize * self.size..)?.get(..self.size)
     }
 
-    /// What is kept of the texels of the lanes that run.
+    /// Gathers the intermediate values of the enabled lanes' texels.
     fn gather_any(&self, (index, run): (&LaneRow, &LaneRow), kept: &mut [LaneRow; 4]) {
         for i in (0..LANES).filter(|&i| run[i] != 0) {
             let Some(texel) = self.texel(index[i]) else { continue };
@@ -153,7 +153,7 @@ impl<'a> Stored<'a> {
         }
     }
 
-    /// Likewise, for texels of `SIZE` bytes whose components `part` gives.
+    /// The same for texels of `SIZE` bytes, whose components `part` extracts.
     #[inline(always)]
     fn gather<const SIZE: usize>(
         &self,

@@ -1,4 +1,4 @@
-//! Nearest texels in rows: a plane whose texels have been decoded.
+//! Nearest reads in rows from decoded 1-D, 2-D and rectangle textures.
 
 use super::address::{TexelAxis, nearest};
 use super::channel::{channel_in_slot, channel_of, ratios};
@@ -10,24 +10,22 @@ use crate::texture::{
     fetch_nearest,
 };
 
-/// Texels of the largest image that gets a table: 4 MiB of it. Those of larger ones are decoded as they are read.
+/// Maximum number of texels of an image with a table: 4 MiB. Texels of larger images are decoded on each read.
 pub(crate) const MAX_TABLE_TEXELS: usize = 1 << 18;
-/// Texels up to which narrow channels are decoded one by one; where there are more, each of their codes is decoded
-/// once.
+/// Up to this number of texels, narrow channels are decoded one by one; beyond it, each of their codes is decoded once.
 const FEW_TEXELS: usize = 1024;
 
-/// A plane that is read in rows.
+/// A decoded 1-D, 2-D or rectangle texture.
 #[derive(Debug)]
 pub(crate) struct TexelTable {
-    /// All texels in the register format, as slots hold them, the border texel last; of a large image the border texel
-    /// alone.
+    /// All texels in the register format as raw values, the border texel last; for a large image only the border texel.
     pub(crate) texels: Vec<[u32; 4]>,
     pub(crate) large: bool,
     axes: [TexelAxis; 2],
 }
 
 impl TexelTable {
-    /// Whether a binding can be read out of a table.
+    /// Returns `true` if a table applies to the binding.
     pub(crate) fn fits(binding: &SamplerBinding<'_>) -> bool {
         let image = binding.image;
         let plane = matches!(image.kind(), TextureKind::D1 | TextureKind::D2 | TextureKind::Rectangle);
@@ -65,7 +63,7 @@ impl TexelTable {
         Self { texels, large, axes: [axis(0, width), axis(1, height)] }
     }
 
-    /// The index of each lane's texel.
+    /// Index of each lane's texel.
     #[inline(always)]
     pub(crate) fn indices(&self, u: &LaneRow, v: &LaneRow, out: &mut LaneRow) {
         let (mut x, mut y) = ([0i32; LANES], [0i32; LANES]);
@@ -80,12 +78,12 @@ impl TexelTable {
     }
 }
 
-/// Whether a table of an image's texels would be too large.
+/// Returns `true` if an image is too large for a table.
 pub(crate) fn is_large(image: &Image) -> bool {
     image.width() as usize * image.height() as usize > MAX_TABLE_TEXELS
 }
 
-/// All texels of level 0 in the register format, as slots hold them, row by row.
+/// Decodes all texels of level 0 to raw values in the register format, row by row.
 fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4]> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let record = image.format().record();
@@ -101,7 +99,7 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
                 continue;
             }
         };
-        // Rows stand one after the other without a gap.
+        // Rows are contiguous.
         let size = image.format().bytes();
         let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
         let bytes = image.bytes().get(start..).unwrap_or_default();
@@ -126,7 +124,8 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
     texels
 }
 
-/// One channel of up to 256 texels: ratios of up to 24 bits and single precision in rows, the rest one by one.
+/// Decodes one channel of up to 256 texels: fixed point of up to 24 bits and single precision in rows, others one by
+/// one.
 fn decode_block<'t>(
     channel: Channel,
     texels: impl Iterator<Item = &'t [u8]>,
@@ -153,7 +152,7 @@ fn decode_block<'t>(
         }
         raw[i] = u32::MAX;
     }
-    // Bits do not depend on the level, so the table is made with the widest there is.
+    // The bits do not depend on the SIMD level, so the table is built with the widest one.
     let mut rounded = [0; LANES];
     with_any_lane!(lane, |lane| {
         SimdLevel::widest().run(

@@ -1,4 +1,4 @@
-//! From a graph of values to steps on slots.
+//! Scheduling of a graph as steps on slots.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,17 +6,17 @@ use super::code::{LaneCode, LaneOp, OPERANDS};
 use super::fuse::{Fused, Fusion};
 use crate::exec::lower::{Arith, Detail, Graph, NodeId, NodeKind, Slot};
 
-/// A texture read with its operands in slots.
+/// A texture read with operands in slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FetchStep {
     pub(crate) sampler: usize,
     pub(crate) coordinates: [Slot; 4],
     pub(crate) detail: FetchDetail,
-    /// Where the components that are needed go.
+    /// Slots of the components that are needed.
     pub(crate) to: [Option<Slot>; 4],
 }
 
-/// [`Detail`] in slots.
+/// [`Detail`] with operands in slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum FetchDetail {
     Implicit,
@@ -24,12 +24,12 @@ pub(crate) enum FetchDetail {
     Gradients([Slot; 4], [Slot; 4]),
 }
 
-/// What is done at run time, in order.
+/// A step of execution.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum BatchStep {
     /// Lane operations of one format.
     Lanes(Arith, Vec<LaneOp>),
-    /// Single precision values to steps of [0, 1], into the wide row.
+    /// Rounds single-precision values to fractions in [0, 1], into the wide row.
     Unorm {
         /// Number of steps.
         steps: u32,
@@ -40,24 +40,24 @@ pub(crate) enum BatchStep {
     Fetch(FetchStep),
     /// Cosines or sines.
     Circle {
-        /// Their format.
+        /// Format.
         arith: Arith,
-        /// Whether they are sines.
+        /// `true` for sines.
         sine: bool,
-        /// The angles.
+        /// Angles.
         from: Slot,
-        /// Where the values go.
+        /// Results.
         to: Slot,
     },
-    /// Constants with relative numbers.
+    /// Relatively addressed constants.
     Relative {
-        /// Number without the address.
+        /// Index without the address.
         base: i32,
         /// Component.
         component: usize,
-        /// The addresses.
+        /// Addresses.
         address: Slot,
-        /// Where the values go.
+        /// Results.
         to: Slot,
     },
 }
@@ -65,25 +65,25 @@ pub(crate) enum BatchStep {
 /// A scheduled block.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepBlock {
-    /// Slots with the same host bits in all lanes, filled before the first run and never overwritten.
+    /// Uniform slots, filled before the first run and never overwritten.
     pub(crate) constants: Vec<(Slot, u32)>,
     /// Slots that the caller fills before each run: `(input component, slot)`.
     pub(crate) inputs: Vec<(u16, Slot)>,
-    /// Slots of values given by another block: `(node, slot)`.
+    /// Slots of values computed by another block: `(node, slot)`.
     pub(crate) given: Vec<(NodeId, Slot)>,
     pub(crate) steps: Vec<BatchStep>,
-    /// Where the roots lie at the end, in the order they were asked for.
+    /// Slots of the roots at the end, in the order requested.
     pub(crate) roots: Vec<Slot>,
-    /// Slots used.
+    /// Number of slots used.
     pub(crate) slots: usize,
-    /// Slots of constants and given values of which no step reads the row, only the number.
+    /// Slots of constants and given values of which steps read only the uniform value, never the row.
     pub(crate) without_row: Vec<Slot>,
 }
 
-/// Schedules the nodes that `roots` need and for which `given` says no, in the order they were made.
+/// Schedules the nodes that `roots` depend on, except those that are `given`, in the order of their creation.
 ///
-/// Slots below `first_slot` belong to the caller, who has put the nodes of `placed` there. Temporary slots are used
-/// again as soon as their value is read for the last time; constants, inputs, given values and roots keep theirs.
+/// Slots below `first_slot` belong to the caller, who has stored the nodes of `placed` there. Slots of temporaries are
+/// reused after the last read; constants, inputs, given values and roots keep theirs.
 pub(crate) fn schedule(
     graph: &Graph,
     roots: &[NodeId],
@@ -128,7 +128,7 @@ pub(crate) fn schedule(
     maker.block
 }
 
-/// For each node its last user, roots living for ever; and the nodes needed, in order.
+/// Last user of each node (roots live forever), and the nodes needed, in order.
 fn uses(
     graph: &Graph,
     fusion: &Fusion<'_>,
@@ -161,7 +161,7 @@ struct Scheduler<'g> {
     place: BTreeMap<NodeId, Slot>,
     last_use: BTreeMap<NodeId, u32>,
     free: Vec<Slot>,
-    /// Slots below are the caller's and keep what they hold.
+    /// Slots below belong to the caller and keep their contents.
     first: usize,
     next: usize,
     texels: BTreeMap<NodeId, Vec<(u8, NodeId)>>,
@@ -175,7 +175,7 @@ impl Scheduler<'_> {
         (self.next - 1) as Slot
     }
 
-    /// Gives a slot to a node that no step computes.
+    /// Assigns a slot to a node that no step computes.
     fn leaf(&mut self, node: NodeId, given: &impl Fn(NodeId) -> bool) {
         let slot = match self.graph.kind(node) {
             NodeKind::Constant(raw) => {
@@ -199,8 +199,8 @@ impl Scheduler<'_> {
         self.place.insert(node, slot);
     }
 
-    /// A slot for a result, after the slots of operands that it is the last to read are free again. A lane
-    /// operation may write the slot that it reads: results are made in a spare row.
+    /// Allocates the slot of a result, after the slots of operands that it reads last were freed. A lane operation may
+    /// write a slot that it reads, because results are computed in the scratch row.
     fn result(&mut self) -> Slot {
         match self.free.pop() {
             Some(slot) => slot,
@@ -208,7 +208,7 @@ impl Scheduler<'_> {
         }
     }
 
-    /// Frees the slots of temporaries that `node` reads last.
+    /// Frees the slots of temporaries whose last reader is `node`.
     fn release(&mut self, node: NodeId) {
         let mut done = Vec::new();
         let (last_use, place, graph) = (&self.last_use, &self.place, self.graph);
@@ -233,14 +233,14 @@ impl Scheduler<'_> {
         }
     }
 
-    /// The slot of a value whose row is read.
+    /// Slot of a value that is read as a row.
     fn at(&mut self, node: NodeId) -> Slot {
         let slot = self.place.get(&node).copied().unwrap_or_default();
         self.read.insert(slot);
         slot
     }
 
-    /// A lane operation with its result.
+    /// Appends a lane operation and assigns the slot of its result.
     fn operation(&mut self, node: NodeId, fused: &Fused) {
         let mut args = [0; OPERANDS];
         for (i, &operand) in fused.operands().iter().enumerate() {
@@ -250,7 +250,7 @@ impl Scheduler<'_> {
                 self.at(operand)
             };
         }
-        // Operands that an operation lacks read as its first: a slot that exists.
+        // Missing operands read the first one: a slot that exists.
         for i in fused.operands().len()..OPERANDS {
             args[i] = args[0];
         }
@@ -319,7 +319,7 @@ impl Scheduler<'_> {
                 self.release(node);
                 self.block.steps.push(BatchStep::Fetch(FetchStep { sampler: sampler.into(), coordinates, detail, to }));
             }
-            // Leaves have their places, texels got theirs with the read.
+            // Leaves were assigned earlier, texels together with their read.
             NodeKind::Compute(..)
             | NodeKind::Difference(..)
             | NodeKind::Dot(..)
@@ -331,19 +331,19 @@ impl Scheduler<'_> {
     }
 }
 
-/// Where the results of a program lie.
+/// Slots of a program's results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ResultSlots {
-    /// The components of the colours.
+    /// Colour components.
     pub(crate) colors: [Option<[Slot; 4]>; 4],
     /// Mask of killed lanes.
     pub(crate) killed: Option<Slot>,
-    /// Depth of the program's own, its format, and the mask of lanes that have one, if not all do.
+    /// Depth written by the program: format, slot, and the mask of lanes that have one, unless all do.
     pub(crate) depth: Option<(Arith, Slot, Option<Slot>)>,
 }
 
 impl ResultSlots {
-    /// Whether the program decides the depth of every fragment.
+    /// Returns `true` if the program writes the depth of every fragment.
     pub(crate) fn decide_depth(&self) -> bool {
         matches!(self.depth, Some((_, _, None)))
     }

@@ -1,28 +1,28 @@
-//! Lane operations: what scheduled blocks consist of.
+//! Lane operations, of which scheduled blocks consist.
 
 use crate::exec::lower::Slot;
 use crate::num::NumberOperation;
 
-/// What a lane operation computes: an operation of the table, or several in one pass over the lanes.
+/// Code of a lane operation: an operation of the table, or several of them fused into one pass over the lanes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LaneCode {
     Plain(NumberOperation),
     /// An operation whose last operand is this integer.
     Immediate(NumberOperation, i8),
-    /// Right neighbour less left one, or (if true) lower less upper, for both.
+    /// Right minus left neighbour, or (if `true`) lower minus upper, for both lanes.
     Neighbors(bool),
-    /// `a` into the wide row; the wide row, rounded, into the destination.
+    /// Copies `a` to the wide row; rounds the wide row to the destination.
     Widen,
     Narrow,
-    /// So many products, 2 to 4, summed exactly and rounded once.
+    /// 2 to 4 products, summed exactly and rounded once.
     Dot(u8),
-    /// So many products, 2 to 4, added in order, each product and each sum rounded.
+    /// 2 to 4 products, added in order, each product and each sum rounded.
     Sum(u8),
-    /// Likewise, 1 to 4, with the first factor of each the same in all lanes.
+    /// The same with 1 to 4 products whose first factors are uniform.
     SumBy(u8),
-    /// `a b - c d`, every step rounded.
+    /// `a b - c d`, each step rounded.
     Difference,
-    /// Operations whose `a` is the same in all lanes: `a + b`, `a - b`, `b - a`, `a b + c` in two roundings.
+    /// Operations with uniform `a`: `a + b`, `a - b`, `b - a`, `a b + c` with two roundings.
     AddTo,
     SubFrom,
     SubOff,
@@ -32,7 +32,7 @@ pub(crate) enum LaneCode {
 }
 
 impl LaneCode {
-    /// How many slots the operation reads.
+    /// Number of slots read.
     pub(crate) fn arity(self) -> usize {
         match self {
             Self::Plain(operation) => operation.operands(),
@@ -45,7 +45,7 @@ impl LaneCode {
         }
     }
 
-    /// Whether the operand is read as a number that all lanes share, and not as a row.
+    /// Returns `true` if the operand is read as a uniform value instead of a row.
     pub(crate) fn is_shared(self, operand: usize) -> bool {
         match self {
             Self::SumBy(_) => operand.is_multiple_of(2),
@@ -54,7 +54,7 @@ impl LaneCode {
         }
     }
 
-    /// Whether a guarded arithmetic may be wrong about an infinite result or a NaN of this operation.
+    /// Returns `true` if a fast arithmetic may get infinite or NaN results of this operation wrong.
     pub(crate) fn is_guarded(self) -> bool {
         use NumberOperation::{Add, Div, Mad, Mul, Rcp, Sub};
         match self {
@@ -65,17 +65,17 @@ impl LaneCode {
     }
 }
 
-/// Slots that an operation reads at most.
+/// Maximum number of slots read by an operation.
 pub(crate) const OPERANDS: usize = 8;
 
-/// One operation on whole rows.
+/// An operation on whole rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LaneOp {
     pub(crate) code: LaneCode,
     pub(crate) to: Slot,
     /// The operands `a`, `b`, `c`, or the factors of one product after the other.
     pub(crate) args: [Slot; OPERANDS],
-    /// Whether products with a zero are zero, whatever the other factor is.
+    /// `true` if a product with a zero factor is zero, whatever the other factor.
     pub(crate) zero_wins: bool,
 }
 

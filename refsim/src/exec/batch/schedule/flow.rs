@@ -1,8 +1,8 @@
-//! Programs with flow control, and vertex programs: an instruction at a time under lane masks.
+//! Programs with flow control, and vertex programs: executed one instruction at a time under lane masks.
 //!
-//! Registers have slots of their own. An instruction is a small block whose results are merged into them where the
-//! mask of active lanes, and the predicate, allow. Jumps are taken for the batch as a whole: a branch is walked if any
-//! lane takes it.
+//! Each register component has its own slot. An instruction is a small block whose results are merged into registers
+//! under the mask of active lanes and the predicate. Jumps are taken by the batch as a whole: a branch is executed if
+//! any lane takes it.
 
 use std::collections::BTreeMap;
 
@@ -15,19 +15,19 @@ use crate::exec::lower::{
 use crate::exec::{FlowMap, PixelBindings, ResolvedConstants};
 use crate::isa::{Opcode, Program, RegisterFile};
 
-/// One instruction.
+/// A decoded instruction.
 #[derive(Debug)]
 pub(crate) struct PlannedInstruction {
     pub(crate) opcode: Opcode,
-    /// What is computed.
+    /// Computation of its results.
     pub(crate) block: StepBlock,
-    /// Where the block's roots are merged to; for conditions there is one root and no place.
+    /// Destination slots of the block's roots; conditions have one root and no destination.
     pub(crate) to: Vec<Slot>,
-    /// The sampler that a texture instruction reads.
+    /// Sampler read by a texture instruction.
     pub(crate) sampler: Option<usize>,
-    /// Slots that it counts for.
+    /// Instruction slots that it counts for.
     pub(crate) cost: u64,
-    /// Number of the integer constant of a loop.
+    /// Integer constant of a loop: count, start, step.
     pub(crate) counter: [i32; 4],
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct FlowPlan {
     pub(crate) flow: FlowMap,
     /// The step budget, if the program may exceed it.
     pub(crate) budget: Option<u32>,
-    /// Slots with the same host bits in all lanes, filled before the first run.
+    /// Uniform slots, filled before the first run.
     pub(crate) constants: Vec<(Slot, u32)>,
     inputs: Vec<(u16, Slot)>,
     pub(crate) registers: BTreeMap<RegisterComponent, Slot>,
@@ -109,7 +109,7 @@ impl FlowPlan {
         self.slots
     }
 
-    /// Input components and the slots they are expected in, before each run.
+    /// Input components and their slots, to be filled before each run.
     pub(crate) fn inputs(&self) -> &[(u16, Slot)] {
         &self.inputs
     }
@@ -118,13 +118,13 @@ impl FlowPlan {
         &self.results
     }
 
-    /// The slot of a register component, if the program writes it.
+    /// Slot of a register component, if the program writes it.
     pub(crate) fn register(&self, file: RegisterFile, index: u16, component: u8) -> Option<Slot> {
         self.registers.get(&(file, index, component)).copied()
     }
 }
 
-/// The result slots of a pixel program; components that are never written share a slot of zeros.
+/// Result slots of a pixel program; components that are never written share a slot of zeros.
 fn results(
     t: &mut Translator<'_>,
     program: &Program,

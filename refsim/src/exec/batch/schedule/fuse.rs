@@ -1,5 +1,5 @@
-//! Which nodes are computed as part of another: sums of products, and operands that are the same in all lanes. A row
-//! that is not made is neither stored nor loaded, nor is a number copied into 256 lanes to be multiplied with.
+//! Fusion of nodes into operations: sums of products, and operations with uniform operands. This avoids storing and
+//! loading intermediate rows, and copying a scalar into 256 lanes.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::code::{LaneCode, OPERANDS};
 use crate::exec::lower::{Arith, Graph, NodeId, NodeKind};
 use crate::num::NumberOperation as Op;
 
-/// An operation as it is carried out.
+/// A fused operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Fused {
     pub(crate) arith: Arith,
     pub(crate) code: LaneCode,
-    /// As many as the code's arity says.
+    /// Operands, as many as the code's arity.
     pub(crate) args: [NodeId; OPERANDS],
-    /// Whether products with a zero are zero, whatever the other factor is.
+    /// `true` if a product with a zero factor is zero, whatever the other factor.
     pub(crate) zero_wins: bool,
 }
 
@@ -31,21 +31,21 @@ impl Fused {
     }
 }
 
-/// The operations of a block.
+/// The operations of a block after fusion.
 ///
-/// A product, a sum of products or a negated product that one operation alone reads becomes part of it. Which
-/// roundings take place, and in what order, stays the same; only sums change sides, and no arithmetic here can tell.
-/// Factors that a zero makes zero become a property of the product.
+/// A product, a sum of products or a negated product with a single reader is fused into that reader. Roundings and
+/// their order stay the same; only the operands of additions are swapped, which has no effect in any arithmetic here.
+/// `Factor` operands become a property of the product.
 pub(crate) struct Fusion<'g> {
     graph: &'g Graph,
-    /// How many operations or roots read a node.
+    /// Number of operations and roots that read a node.
     readers: Vec<u32>,
     fused: BTreeMap<NodeId, Fused>,
 }
 
 impl<'g> Fusion<'g> {
-    /// Decides for the nodes that `roots` need. Those that are `given` are not computed here; those that are `shared`,
-    /// and constants, are the same in all lanes.
+    /// Fuses the nodes that `roots` depend on. Nodes that are `given` are not computed here; those that are `shared`,
+    /// and constants, are uniform.
     pub(crate) fn new(
         graph: &'g Graph,
         roots: &[NodeId],
@@ -54,7 +54,7 @@ impl<'g> Fusion<'g> {
     ) -> Self {
         let mut readers = vec![0u32; graph.len()];
         for root in roots {
-            // Never part of anything.
+            // Two readers, so that roots are never fused.
             readers[root.0 as usize] += 2;
         }
         for i in (0..graph.len() as u32).rev() {
@@ -75,12 +75,12 @@ impl<'g> Fusion<'g> {
         fusion
     }
 
-    /// How a node is carried out, if it is a lane operation.
+    /// The operation that computes a node, if it is a lane operation.
     pub(crate) fn operation(&self, node: NodeId) -> Option<&Fused> {
         self.fused.get(&node)
     }
 
-    /// Calls `visit` with every node that this one reads as it is carried out.
+    /// Calls `visit` with every node that this one reads after fusion.
     pub(crate) fn needs(&self, node: NodeId, visit: impl FnMut(NodeId)) {
         match self.fused.get(&node) {
             Some(fused) => fused.operands().iter().copied().for_each(visit),
@@ -112,7 +112,7 @@ impl<'g> Fusion<'g> {
         self.fused.insert(node, fused);
     }
 
-    /// The operands of a product behind its factors, if those are operands of which a zero makes the other zero.
+    /// The operands of a product whose factors are `Factor` nodes of each other.
     fn factors(&self, k: Arith, a: NodeId, b: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<(NodeId, NodeId)> {
         let factor = |n: NodeId| match self.graph.kind(n) {
             NodeKind::Compute(arith, Op::Factor, [x, y, _]) if arith == k && !given(n) => Some((x, y)),
@@ -122,7 +122,7 @@ impl<'g> Fusion<'g> {
         ((x, y) == (first, other)).then_some((x, y))
     }
 
-    /// An operation of the table with its immediate, if it has one.
+    /// The code of an operation, with its immediate if it has one.
     fn code(&self, operation: Op, args: &[NodeId; 3]) -> LaneCode {
         match self.graph.kind(args[operation.operands() - 1]) {
             NodeKind::Constant(word) if operation.has_immediate() => LaneCode::Immediate(operation, word as i8),
@@ -130,10 +130,10 @@ impl<'g> Fusion<'g> {
         }
     }
 
-    /// The operation with one of its operands made part of it.
+    /// Fuses one of the operands into the operation.
     fn longer(&self, plain: &Fused, given: &impl Fn(NodeId) -> bool) -> Option<Fused> {
         let (k, args) = (plain.arith, plain.args);
-        // Products that become one operation have one rule.
+        // Products that are fused must have the same rule for zeros.
         let alike = |part: &&Fused| part.zero_wins == plain.zero_wins;
         let longer = match plain.code {
             LaneCode::Plain(Op::Mad) => {
@@ -167,25 +167,25 @@ impl<'g> Fusion<'g> {
         longer.map(|fused| Fused { zero_wins: plain.zero_wins, ..fused })
     }
 
-    /// The operation behind an operand that nothing else reads.
+    /// The operation of an operand that has no other reader.
     fn alone(&self, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         let alone = self.readers[node.0 as usize] == 1 && !given(node);
         self.fused.get(&node).filter(|_| alone)
     }
 
-    /// Likewise, in the same arithmetic.
+    /// The same, if it also has the same format.
     fn part(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         self.alone(node, given).filter(|part| part.arith == arith)
     }
 
-    /// The products behind an operand that nothing else reads.
+    /// The products of an operand that has no other reader.
     fn products(&self, arith: Arith, node: NodeId, given: &impl Fn(NodeId) -> bool) -> Option<&Fused> {
         let is_products = |part: &&Fused| matches!(part.code, LaneCode::Plain(Op::Mul) | LaneCode::Sum(_));
         self.part(arith, node, given).filter(is_products)
     }
 }
 
-/// Products and one more; `None` if there are too many.
+/// Appends a product to a sum; `None` if there are too many.
 fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
     let all = [products.operands(), last].concat();
     let code = LaneCode::Sum((all.len() / 2) as u8);
@@ -193,7 +193,7 @@ fn sum(products: &Fused, last: &[NodeId]) -> Option<Fused> {
     fits.then(|| Fused { zero_wins: products.zero_wins, ..Fused::new(products.arith, code, &all) })
 }
 
-/// The operation with its shared operands read as numbers, where there is one that does.
+/// Replaces shared operands by uniform ones, if there is such an operation.
 fn with_shared(fused: &Fused, shared: impl Fn(NodeId) -> bool) -> Fused {
     let (k, args) = (fused.arith, fused.args);
     let of = |code, operands: &[NodeId]| Fused { zero_wins: fused.zero_wins, ..Fused::new(k, code, operands) };

@@ -1,8 +1,7 @@
-//! From a graph of values to steps on slots.
+//! Scheduling of a graph as steps on slots.
 //!
-//! - `fuse`, `block`: a graph as steps, without what nothing reads, and with what only one operation reads as part of
-//!   that.
-//! - `straight`, `flow`: whole programs without and with flow control; `code`: what steps consist of.
+//! - `fuse`, `block`: fusion and scheduling of a graph, without unused nodes.
+//! - `straight`, `flow`: whole programs without and with flow control; `code`: operations of steps.
 
 mod block;
 mod code;

@@ -1,12 +1,12 @@
-//! Pixel programs without flow control: one graph, scheduled as four blocks.
+//! Pixel programs without flow control: one graph, scheduled as four blocks by frequency of evaluation.
 //!
-//! - What depends on constants alone, texels read at constant coordinates among it, is computed once per draw.
-//! - What is constant over a triangle (attributes that are, and what follows from them and constants, texels too) is
-//!   computed for 256 triangles at a time, one lane per triangle.
-//! - What depends only on the place in the tile (coordinates that vary, texels read at them) is computed for 256
-//!   fragments and kept as long as triangles have the same planes there: the crossbar reads its rays once per tile, not
-//!   per quad.
-//! - The rest is computed for 256 fragments of each triangle.
+//! - Values that depend on constants only, including texels at constant coordinates: once per draw.
+//! - Values that are constant over a triangle (constant attributes and what follows from them): for 256 triangles at a
+//!   time, one lane per triangle.
+//! - Values that depend only on the position in the tile (varying coordinates, and texels at them): for 256 fragments,
+//!   reused as long as triangles have the same planes there. So the crossbar reads its rays once per tile, not per
+//!   quad.
+//! - The rest: for 256 fragments of each triangle.
 
 use std::collections::BTreeMap;
 
@@ -18,30 +18,30 @@ use crate::exec::{PixelBindings, ResolvedConstants};
 use crate::isa::Program;
 use crate::raster::ComponentMask;
 
-/// A straight pixel program as a graph with named results.
+/// A straight-line pixel program as a graph.
 #[derive(Debug)]
 pub(crate) struct StraightProgram {
     graph: Graph,
     ends: Ends,
-    /// Texture reads by sampler, one for each read of a fragment.
+    /// Sampler of each texture read of a fragment.
     pub(crate) fetches: Vec<usize>,
-    /// Whether no lane's result depends on another lane, so that lanes of different triangles can be run together.
+    /// `true` if no lane depends on another, so that lanes of different triangles can be executed together.
     pub(crate) lanes_apart: bool,
-    /// Samplers whose level of detail, where the program does not give it, is found from neighbouring lanes.
+    /// Samplers that derive the level of detail from neighbouring lanes, unless the program gives it.
     detailed: [bool; SAMPLERS],
 }
 
-/// A straight program scheduled for triangles that have certain components constant.
+/// A straight-line program scheduled for triangles with certain constant components.
 #[derive(Debug)]
 pub(crate) struct StraightPlan {
-    /// For a whole draw: without inputs, roots the values that `invariant` is given, the same in all lanes.
+    /// Evaluated per draw: no inputs; roots are the values given to `invariant`, uniform.
     pub(crate) fixed: StepBlock,
-    /// For 256 triangles: inputs are constant components, roots the values that the other block is given.
+    /// Evaluated per 256 triangles: inputs are constant components; roots are the values given to `varying`.
     pub(crate) uniform: StepBlock,
-    /// For the fragments of a tile: what depends on components that vary, and on no other. Its roots stay where they
-    /// are while `varying` runs; `given` slots in the order of `fixed.roots`.
+    /// Evaluated per tile: depends on varying components only. Its roots keep their slots while `varying` runs; `given`
+    /// slots in the order of `fixed.roots`.
     pub(crate) invariant: StepBlock,
-    /// For the fragments of a triangle, in slots above those of `invariant`; `given` slots in the order of
+    /// Evaluated per triangle and tile, in slots above those of `invariant`; `given` slots in the order of
     /// `uniform.roots`.
     pub(crate) varying: StepBlock,
     pub(crate) results: ResultSlots,
@@ -64,7 +64,7 @@ impl StraightProgram {
         Self { ends, fetches: t.fetches, lanes_apart, detailed, graph }
     }
 
-    /// Whether slots have numbers for all values at once: a plan may keep every one.
+    /// Returns `true` if there are enough slots for all values at once, as a plan may need.
     pub(crate) fn fits_slots(&self) -> bool {
         self.graph.len() <= usize::from(Slot::MAX)
     }
@@ -77,7 +77,7 @@ impl StraightProgram {
         let invariant = self.invariant(constant);
         let roots = self.ends.roots();
         let live = self.graph.live(roots.iter().copied());
-        // Values that the varying block, or the output, reads and does not make itself.
+        // Values that the varying block, or the output, reads but does not compute.
         let is_constant = |n: NodeId| matches!(self.graph.kind(n), NodeKind::Constant(_));
         let made_before = |n: NodeId| uniform[n.0 as usize] || invariant[n.0 as usize];
         let mut wanted = vec![false; self.graph.len()];
@@ -113,7 +113,7 @@ impl StraightProgram {
         (0..self.graph.len() as u32).map(NodeId)
     }
 
-    /// For each node whether it depends on constants and on components that vary, alone.
+    /// For each node, `true` if it depends on constants and varying components only.
     fn invariant(&self, constant: ComponentMask) -> Vec<bool> {
         let mut invariant = Vec::with_capacity(self.graph.len());
         for node in self.nodes() {
@@ -130,7 +130,7 @@ impl StraightProgram {
     }
 }
 
-/// Whether a node takes differences across quads, for itself or to choose a texture's level of detail.
+/// Returns `true` if a node takes differences across quads, directly or for a texture's level of detail.
 fn looks_at_neighbours(kind: &NodeKind, detailed: &[bool; SAMPLERS]) -> bool {
     match *kind {
         NodeKind::Difference(..) => true,
@@ -142,7 +142,7 @@ fn looks_at_neighbours(kind: &NodeKind, detailed: &[bool; SAMPLERS]) -> bool {
 }
 
 impl Ends {
-    /// Where they lie, given the slots of [`Self::roots`] in their order.
+    /// Result slots, given the slots of [`Self::roots`] in order.
     pub(crate) fn results(&self, roots: &[Slot]) -> ResultSlots {
         let mut slots = roots.iter().copied();
         let mut next = || slots.next().unwrap_or_default();

@@ -1,12 +1,12 @@
-//! Blending of targets that are kept in rows: fractions of equal width in integers, floats in the host's single
-//! precision. Signed fractions and channels of several widths go through the output room.
+//! Blending of targets in rows: fixed-point channels of equal width in integers, floats in the host's single precision.
+//! Signed channels and channels of different widths are blended by [`crate::output`].
 
 use crate::exec::batch::lanes::{AnyLane, Lane, LaneFormats, with_any_lane};
 use crate::exec::lower::Arith;
 use crate::output::{BlendEquation, BlendFactor, BlendOp, BlendState};
 use crate::texture::{ChannelClass, ComponentSource, TargetRounding, TexelFormat};
 
-/// Bits of the widest fractions: multiples of the squares of their range are still integers of 64 bits.
+/// Maximum channel width: products with the square of the range fit in 64-bit integers.
 const WIDEST: u8 = 16;
 
 /// A stored channel that is written.
@@ -17,34 +17,34 @@ pub(crate) struct ChannelPlace {
     pub(crate) component: usize,
 }
 
-/// The blender of one target.
+/// Blender of one target.
 #[derive(Clone, Debug)]
 pub(crate) struct Blender {
     state: BlendState,
     values: BlendValues,
-    /// Where the components of a stored texel come from.
+    /// Sources of the components of a stored texel.
     components: [StoredComponent; 4],
 }
 
 #[derive(Clone, Debug)]
 enum BlendValues {
-    /// In units of one over this; whether results are rounded to the nearest, halves up, or cut.
+    /// Fixed point with this denominator; `true` if results are rounded to nearest, halves up, else truncated.
     Steps(i64, bool),
-    /// Patterns of a format.
+    /// Floats of a format.
     Floats(Box<AnyLane>),
 }
 
-/// A component of a stored texel.
+/// Source of a component of a stored texel.
 #[derive(Clone, Copy, Debug)]
 enum StoredComponent {
     Zero,
     One,
-    /// Word, first bit, mask.
+    /// Word, shift, mask.
     Channel(usize, u32, u32),
 }
 
 impl Blender {
-    /// `None` where the output room has to blend.
+    /// Creates a blender; `None` if [`crate::output`] has to blend.
     pub(crate) fn new(format: TexelFormat, state: &BlendState, rounding: TargetRounding) -> Option<Self> {
         let record = format.record();
         let first = record.stored().first()?;
@@ -71,8 +71,7 @@ impl Blender {
         Some(Self { state: *state, values, components })
     }
 
-    /// The bits of `channels` of a texel after a color, as slots hold it, has been blended over it: each word's, with
-    /// zeros around them.
+    /// Blends a raw colour over a texel; returns each word's bits of `channels`, zero elsewhere.
     pub(crate) fn blend(
         &self,
         color: &[u32; 4],
@@ -103,7 +102,7 @@ impl Blender {
             }
             BlendValues::Floats(lane) => {
                 let source = source.map(|x| x as f32);
-                // Patterns of 0 are 0; that of 1 depends on the format.
+                // The pattern of 0 is 0 in every format; that of 1 depends on the format.
                 let one = with_any_lane!(&**lane, |lane| { lane.encode(lane.round_f64(1.0)) });
                 let destination = stored(0, one)
                     .map(|bits| with_any_lane!(&**lane, |lane| { lane.to_f64(lane.decode(bits)) as f32 }));
@@ -120,7 +119,7 @@ impl Blender {
         if component == 3 { &self.state.alpha } else { &self.state.color }
     }
 
-    /// In units of 1 / one: with products over the square of that, everything is exact.
+    /// Blends in units of 1 / one; with a common denominator of its square, everything is exact.
     fn steps(&self, (one, nearest): (i64, bool), source: [i64; 4], destination: [i64; 4], component: usize) -> u32 {
         let equation = self.equation(component);
         let (s, d) = (source[component], destination[component]);
@@ -153,7 +152,7 @@ impl Blender {
         ((2 * squares.clamp(0, one * one) + half) / (2 * one)) as u32
     }
 
-    /// Steps of single precision. A factor of 0 takes its term out and 1 leaves it alone.
+    /// Blends in single precision. A factor of 0 removes its term and a factor of 1 leaves it unchanged.
     fn floats(&self, source: [f32; 4], destination: [f32; 4], component: usize) -> f32 {
         let equation = self.equation(component);
         let (s, d) = (source[component], destination[component]);
@@ -198,7 +197,7 @@ fn double<L: Lane>(lane: &L, raw: u32) -> f64 {
     lane.to_f64(L::load(raw))
 }
 
-/// A value clamped to [0, 1]; NaN gives 0.
+/// Clamps a value to [0, 1]; NaN gives 0.
 fn clamped(x: f64) -> f64 {
     let low = if x > 0.0 { x } else { 0.0 };
     if low < 1.0 { low } else { 1.0 }

@@ -1,4 +1,4 @@
-//! Pixel programs as decoded for a kind of draw, kept while among the last used.
+//! Cache of decoded pixel programs.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,7 +15,7 @@ use crate::isa::Program;
 use crate::raster::ComponentMask;
 use crate::texture::TextureKind;
 
-/// A decoded program, and workers' rows that are not in use, by the constant components of their plan.
+/// A decoded program, and idle buffers of workers, by the constant components of their plan.
 #[derive(Debug)]
 pub(crate) struct DecodedPixel {
     pub(crate) code: PixelCode,
@@ -25,28 +25,28 @@ pub(crate) struct DecodedPixel {
 
 #[derive(Debug)]
 pub(crate) enum PixelCode {
-    /// Scheduled once for each set of constant components that turns up.
+    /// A program without flow control, scheduled on demand for each set of constant components.
     Straight(StraightProgram, Mutex<BTreeMap<u64, Arc<StraightPlan>>>),
     Flow(FlowPlan),
 }
 
-/// What decoding depends on.
+/// Key of the cache: all inputs of decoding.
 #[derive(Debug)]
 pub(crate) struct PixelKey {
     program: Program,
     rules: Rules,
     constants: ResolvedConstants,
     budget: u32,
-    /// Of bound textures: whether reads need a level of detail, and the kind.
+    /// For bound textures: `true` if reads need a level of detail, and the kind of texture.
     samplers: [Option<(bool, TextureKind)>; SAMPLERS],
     bump: [BumpStage; BUMP_STAGES],
     projections: [Projection; BUMP_STAGES],
 }
 
-/// The pixel programs last used.
+/// Cache of pixel programs.
 pub(crate) type PixelPrograms = Cache<PixelKey, DecodedPixel>;
 
-/// A pixel program, decoded now or before.
+/// Returns a decoded pixel program, from the cache if possible.
 pub(crate) fn decoded(
     programs: &PixelPrograms,
     program: &Program,
@@ -77,7 +77,7 @@ pub(crate) fn decoded(
     })
 }
 
-/// The plan for triangles with these constant components, made once.
+/// Returns the plan for triangles with these constant components, created on first use.
 pub(crate) fn plan(
     program: &StraightProgram,
     plans: &Mutex<BTreeMap<u64, Arc<StraightPlan>>>,

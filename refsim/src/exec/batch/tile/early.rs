@@ -1,4 +1,4 @@
-//! The depth test before the program has run, where the program has no say in it.
+//! Early depth test, for programs that do not affect its outcome.
 
 use super::output::{OutputStage, depth_test, population};
 use super::packed::PackedLanes;
@@ -10,13 +10,13 @@ use crate::exec::lower::{Arith, TRUE};
 use crate::output::DepthFormat;
 
 impl OutputStage {
-    /// Whether the outcome of the depth test does not depend on the program: it neither kills nor has a depth of its
-    /// own, and no alpha is tested before.
+    /// Returns `true` if the depth test does not depend on the program: it neither kills nor writes depth, and there is
+    /// no alpha test.
     pub(crate) fn tests_early(&self, results: &ResultSlots) -> bool {
         results.killed.is_none() && results.depth.is_none() && self.state.alpha.is_none()
     }
 
-    /// The depth test of lanes of the tile that no program has run for.
+    /// Tests the depth of a tile's lanes before the program runs.
     pub(crate) fn test_part(
         &self,
         (covered, depth): (&LaneRow, &LaneRow),
@@ -40,7 +40,7 @@ impl OutputStage {
         counts.depth_failed += self.recount(simd, out);
     }
 
-    /// The depth test of packed fragments that no program has run for, in the order of submission.
+    /// Tests the depth of packed fragments before the program runs, in order of submission.
     pub(crate) fn test_packed(
         &self,
         packed: &mut PackedLanes,

@@ -1,9 +1,9 @@
-//! Rasterise, run, output: what happens to a tile around the steps of its program.
+//! Rasterisation, shading and output of a tile.
 //!
-//! - `raster`: coverage and interpolation; `shader`: triangles taken together; `packed`, `packed_rows`: small
-//!   triangles in one batch; `round`: what is constant over each triangle; `shading`: a thread's work on a tile;
-//!   `tiles`: a draw's tiles; `pieces`: a tile shared among threads; `decoded`: programs that are kept.
-//! - `output`, `early`, `store`, `blend`, `targets`: tests, texels, targets. `trace`: following one pixel.
+//! - `raster`: coverage and interpolation; `shader`: grouping of triangles; `packed`, `packed_rows`: packing of small
+//!   triangles; `round`: per-triangle constants; `shading`: a thread's work on a tile; `tiles`: the tiles of a draw;
+//!   `pieces`: division of a tile among threads; `decoded`: cache of programs.
+//! - `output`, `early`, `store`, `blend`, `targets`: tests, texels, targets. `trace`: pixel traces.
 
 mod blend;
 mod decoded;

@@ -1,5 +1,5 @@
-//! From shaded lanes to targets, in rows: kill, alpha test, depth test, texels. What rows don't do (blending, targets
-//! of signed or small float channels) goes through the output room, fragment by fragment.
+//! Output stage in rows: kill, alpha test, depth test, texels. Unsupported cases (some blending, signed or small float
+//! channels) are processed by [`crate::output`], fragment by fragment.
 
 use super::packed::PackedLanes;
 use super::store::{Survivors, quantise, write_lane, write_rows};
@@ -14,7 +14,7 @@ use crate::output::{
     AlphaTest, CompareFunction, DepthFormat, DepthState, FragmentOutput, MAX_TARGETS, OutputRules, OutputState, merge,
 };
 
-/// What a program left behind in the lanes of a tile.
+/// Results of a program in the lanes of a tile.
 #[derive(Clone, Copy)]
 pub(crate) struct Shaded<'a> {
     pub(crate) results: &'a ResultSlots,
@@ -23,19 +23,19 @@ pub(crate) struct Shaded<'a> {
     pub(crate) covered: &'a LaneRow,
     /// Interpolated depth.
     pub(crate) depth: &'a LaneRow,
-    /// The lanes' pixels, where they are not those of the tile.
+    /// Pixels of the lanes, if they are packed.
     pub(crate) packed: Option<&'a PackedLanes>,
-    /// Whether the depth test has been made.
+    /// `true` if the depth test was made early.
     pub(crate) tested: bool,
 }
 
-/// A fragment that the tests before the depth test left.
+/// A fragment that passed the tests before the depth test.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fragment {
     lane: u8,
-    /// As the depth buffer stores it.
+    /// Depth, as stored in the depth buffer.
     depth: u32,
-    /// As slots hold them.
+    /// Raw colours.
     colors: [[u32; 4]; MAX_TARGETS],
 }
 
@@ -45,13 +45,13 @@ impl Shaded<'_> {
         Fragment { lane: lane as u8, depth, colors: self.results.colors.map(|c| c.map_or([0; 4], |c| c.map(value))) }
     }
 
-    /// The packed fragments that are left, in the order of submission.
+    /// The surviving packed fragments, in order of submission.
     fn packed(self, packed: &PackedLanes, survivors: &Survivors) -> impl Iterator<Item = Fragment> {
         let alive = packed.fragments().filter(|(lane, _)| survivors.alive[*lane] != 0);
         alive.map(move |(lane, at)| Fragment { lane: at.tile_lane, ..self.fragment(lane, survivors.depth[lane]) })
     }
 
-    /// Appends the fragments that are left.
+    /// Appends the surviving fragments.
     pub(crate) fn gather(&self, survivors: &Survivors, out: &mut Vec<Fragment>) {
         match self.packed {
             _ if survivors.count == 0 => {}
@@ -64,7 +64,7 @@ impl Shaded<'_> {
     }
 }
 
-/// The output stage of a draw.
+/// Output stage of a draw.
 #[derive(Clone, Debug)]
 pub(crate) struct OutputStage {
     pub(crate) state: OutputState,
@@ -74,7 +74,7 @@ pub(crate) struct OutputStage {
 }
 
 impl OutputStage {
-    /// Kill and alpha test, and depths made ready for the depth test.
+    /// Applies kill and alpha test, and converts depths for the depth test.
     pub(crate) fn test(
         &self,
         shaded: Shaded<'_>,
@@ -113,7 +113,7 @@ impl OutputStage {
         }
     }
 
-    /// Counts the lanes again; gives how many are gone.
+    /// Recounts the surviving lanes; returns how many were removed.
     pub(super) fn recount(&self, simd: SimdLevel, out: &mut Survivors) -> u64 {
         let left = simd.run(
             #[inline(always)]
@@ -124,7 +124,7 @@ impl OutputStage {
         gone.into()
     }
 
-    /// Depth test, blending and writing of the lanes that are left.
+    /// Depth test, blending and writing of the surviving lanes.
     pub(crate) fn merge(
         &self,
         shaded: Shaded<'_>,
@@ -163,7 +163,7 @@ impl OutputStage {
         self.merge_rest(shaded, survivors, targets);
     }
 
-    /// What rows don't do goes through the output room.
+    /// Writes targets that are not in rows through [`crate::output`].
     fn merge_rest(&self, shaded: Shaded<'_>, survivors: &Survivors, targets: &mut Targets<'_>) {
         let written = self.written_elsewhere(targets);
         if written == 0 {
@@ -174,13 +174,13 @@ impl OutputStage {
         }
     }
 
-    /// The colours that are written and whose targets are not in rows.
+    /// Colours that are written and whose targets are not in rows.
     fn written_elsewhere(&self, targets: &Targets<'_>) -> u8 {
         let here = (0..MAX_TARGETS).filter(|&i| targets.colors[i].is_none() && targets.tile.colors[i].is_some());
         here.fold(0, |bits, i| bits | (self.written & 1 << i))
     }
 
-    /// Takes a fragment through the output room, its tests switched off.
+    /// Writes a fragment through [`crate::output`], with tests disabled.
     fn merge_elsewhere(&self, written: u8, fragment: &Fragment, formats: &LaneFormats, targets: &mut Targets<'_>) {
         let state = OutputState { alpha: None, depth: DepthState { test: None, write: false }, ..self.state };
         let main = formats.lane(Arith::Main);
@@ -189,7 +189,7 @@ impl OutputStage {
         merge(targets.tile, targets.frame.pixel(fragment.lane.into()), &output, 0, &state, &self.rules);
     }
 
-    /// [`Self::merge`] for one fragment, without the depth test if that has been made.
+    /// [`Self::merge`] for one fragment, without the depth test if `tested`.
     pub(crate) fn merge_one(
         &self,
         fragment: &Fragment,
@@ -220,7 +220,7 @@ impl OutputStage {
         }
     }
 
-    /// Depths as the depth buffer stores them, for the lanes still alive.
+    /// Converts depths of surviving lanes to the depth buffer's format.
     fn quantised(&self, shaded: &Shaded<'_>, buffer: DepthFormat, out: &mut Survivors) {
         let (formats, slots, rounding) = (shaded.formats, shaded.slots, self.rules.depth_rounding);
         let single = formats.lane(Arith::Single);
@@ -242,13 +242,13 @@ impl OutputStage {
     }
 }
 
-/// Lanes in a mask.
+/// Number of lanes in a mask.
 #[inline(always)]
 pub(super) fn population(row: &LaneRow) -> u32 {
     row.iter().map(|&m| m & 1).sum()
 }
 
-/// `alive` where the other row, turned by `flip`, holds too.
+/// Intersects `alive` with a mask, which `flip` (all ones) inverts.
 #[inline(always)]
 fn and(alive: &mut LaneRow, mask: &LaneRow, flip: u32) {
     for i in 0..LANES {
@@ -256,7 +256,7 @@ fn and(alive: &mut LaneRow, mask: &LaneRow, flip: u32) {
     }
 }
 
-/// Mask of the lanes whose alpha passes.
+/// Mask of the lanes that pass the alpha test.
 fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut LaneRow) {
     let formats = shaded.formats;
     let main = formats.lane(Arith::Main);
@@ -271,7 +271,7 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut LaneRow) {
     });
 }
 
-/// Mask of the lanes whose value compares so with the reference; a NaN is equal to nothing.
+/// Mask of the lanes whose value passes a comparison with the reference; NaN is unordered.
 #[inline(always)]
 fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, out: &mut LaneRow) {
     #[inline(always)]
@@ -293,7 +293,7 @@ fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFu
     }
 }
 
-/// Takes lanes that fail out of `alive`; the others' depths are stored if `write` says so.
+/// Removes failing lanes from `alive`; if `write`, stores the depths of the others.
 #[inline(always)]
 pub(super) fn depth_test(
     function: CompareFunction,

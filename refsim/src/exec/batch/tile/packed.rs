@@ -1,9 +1,9 @@
-//! Small triangles of a tile, shaded together: their fragments packed into the lanes of a batch, as hardware packs
-//! quads, so that a triangle of a few pixels costs a few lanes and not a tile of them.
+//! Packing of small triangles: their fragments share the lanes of a batch, as hardware packs quads, so that a triangle
+//! of a few pixels costs a few lanes and not a whole tile.
 //!
-//! Lanes have no place of their own here: each holds a pixel of some triangle, with the values of that triangle. The
-//! same pixel may be in several lanes, so that what comes after the program goes by fragments, in the order of
-//! submission. Where programs look at neighbours, whole quads are packed, with their helper lanes.
+//! A lane holds a pixel of some triangle, with the values of that triangle. The same pixel may be in several lanes, so
+//! the output stage processes fragments in order of submission. For programs that read neighbouring lanes, whole quads
+//! are packed, including helper lanes.
 
 use super::raster::TileFrame;
 use crate::exec::Overrun;
@@ -12,14 +12,14 @@ use crate::exec::batch::vertex::Surfaces;
 use crate::raster::TriangleSetup;
 use crate::texture::Region;
 
-/// Pixels of the part of a triangle's bounding box within the tile up to which it is packed.
+/// Maximum size in pixels of a packed triangle's bounding box within the tile.
 const SMALL: u32 = 64;
-/// Small triangles one after the other from which on they are packed.
+/// Minimum number of consecutive small triangles for packing.
 const MIN_TRIANGLES: usize = 4;
-/// Lanes in use from which on a batch is shaded once no more triangles fit.
+/// Number of used lanes above which a batch is shaded once no more triangles fit.
 const WORTH: usize = 3 * LANES / 4;
 
-/// A lane's pixel.
+/// Pixel of a lane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PackedFragment {
     pub(crate) x: u32,
@@ -27,34 +27,34 @@ pub(crate) struct PackedFragment {
     pub(crate) triangle: u32,
     /// The pixel's lane in the tile.
     pub(crate) tile_lane: u8,
-    /// False for the helper lanes of a quad.
+    /// `false` for helper lanes of a quad.
     pub(crate) covered: bool,
     pub(super) shape: u32,
     pub(super) planes: u32,
-    /// Weights of vertices 1 and 2 along the screen.
+    /// Screen-space weights of vertices 1 and 2.
     pub(super) linear: [f32; 2],
-    /// Interpolated depth, a single.
+    /// Interpolated depth, single precision.
     pub(crate) depth: u32,
 }
 
-/// The lanes of a batch of small triangles.
+/// Lanes of a batch of small triangles.
 #[derive(Debug)]
 pub(crate) struct PackedLanes {
     pub(super) simd: SimdLevel,
-    /// Whether lanes come in quads: bits 0 (across) and 4 (down) of their numbers, as in a tile.
+    /// `true` if lanes are in quads: bits 0 (across) and 4 (down) of their indices, as in a tile.
     quads: bool,
     fragments: Vec<PackedFragment>,
-    /// The first so many are known to pass the depth test.
+    /// Number of leading fragments that have passed the depth test.
     pub(crate) tested: usize,
     pub(crate) covered: LaneRow,
-    /// The lanes in use.
+    /// Lanes in use.
     pub(crate) run: LaneRow,
     pub(crate) depth: LaneRow,
     pub(super) linear: [[f32; LANES]; 2],
     pub(super) perspective: [[f32; LANES]; 2],
 }
 
-/// How many of the first triangles of `order` are small and may share a batch; 0 where packing them is not worth it.
+/// Number of leading triangles of `order` that are small and may share a batch; 0 if packing them is not worthwhile.
 pub(crate) fn packable(surfaces: &Surfaces, order: &[u32], region: Region, given: &[Vec<u32>]) -> usize {
     let Some(&first) = order.first() else { return 0 };
     let shares = |&triangle: &u32| {
@@ -100,12 +100,12 @@ impl PackedLanes {
         self.fragments.is_empty()
     }
 
-    /// Whether enough lanes are in use to shade them.
+    /// Returns `true` if enough lanes are in use for shading.
     pub(crate) fn is_worth_shading(&self) -> bool {
         self.fragments.len() > WORTH
     }
 
-    /// Whether a triangle's fragments are sure to find free lanes.
+    /// Returns `true` if a triangle's fragments are guaranteed to fit.
     pub(crate) fn has_room(&self, surfaces: &Surfaces, triangle: u32, region: Region) -> bool {
         let Some((_, setup)) = setup(surfaces, triangle) else { return true };
         let part = region.intersect(setup.bounds);
@@ -119,7 +119,7 @@ impl PackedLanes {
         self.fragments.len() + lanes as usize <= LANES
     }
 
-    /// Adds a triangle that there is room for; gives the number of its fragments.
+    /// Adds a triangle, which must fit; returns the number of its fragments.
     pub(crate) fn add(&mut self, surfaces: &Surfaces, triangle: u32, frame: TileFrame, region: Region) -> u64 {
         let Some(((shape, planes), setup)) = setup(surfaces, triangle) else { return 0 };
         let part = region.intersect(setup.bounds);
@@ -132,7 +132,7 @@ impl PackedLanes {
             let tile_lane = frame.lane(x, y) as u8;
             PackedFragment { x, y, triangle, tile_lane, covered, shape, planes, linear, depth }
         };
-        // At least 0 where the pixel is on the inner side.
+        // Non-negative if the pixel is inside.
         let edges = |x: u32, y: u32| [0, 1, 2].map(|i: usize| setup.edges[i].at(x, y) - setup.edges[i].bias);
         let right = |e: [i64; 3]| [0, 1, 2].map(|i: usize| e[i] + setup.edges[i].a);
         let inside = |e: [i64; 3]| (e[0] | e[1] | e[2]) >= 0;
@@ -167,7 +167,7 @@ impl PackedLanes {
         count
     }
 
-    /// Keeps those of the fragments that have not been tested that `passes`, given their numbers among these.
+    /// Keeps those untested fragments for which `passes` returns `true`, given the index among them.
     pub(crate) fn retain(&mut self, mut passes: impl FnMut(usize, &PackedFragment) -> bool) {
         let mut kept = self.tested;
         for at in self.tested..self.fragments.len() {
@@ -181,7 +181,7 @@ impl PackedLanes {
         self.tested = kept;
     }
 
-    /// The interpolated depths of the fragments that have not been tested.
+    /// Interpolated depths of the untested fragments.
     pub(crate) fn untested_depths(&self) -> LaneRow {
         let mut row = [0; LANES];
         for (depth, fragment) in row.iter_mut().zip(&self.fragments[self.tested..]) {
@@ -190,18 +190,18 @@ impl PackedLanes {
         row
     }
 
-    /// The fragments in the order of submission, each with its lane.
+    /// Fragments in order of submission, each with its lane.
     pub(crate) fn fragments(&self) -> impl Iterator<Item = (usize, &PackedFragment)> {
         let quads = self.quads;
         let lane = move |at: usize| match quads {
             false => at,
-            // Eight quads to 32 lanes.
+            // Eight quads per 32 lanes.
             true => at >> 5 << 5 | (at >> 2 & 7) << 1 | at & 1 | (at >> 1 & 1) << 4,
         };
         self.fragments.iter().enumerate().map(move |(at, fragment)| (lane(at), fragment))
     }
 
-    /// The first of the fragments that were cut off, given by lane.
+    /// The first fragment that was stopped by the step budget; `cut` is by lane.
     pub(crate) fn overrun(&self, cut: &[(usize, usize)]) -> Option<Overrun> {
         let of = |(lane, &PackedFragment { x, y, triangle, .. }): (usize, &PackedFragment)| {
             let (_, instruction) = *cut.iter().find(|(of, _)| *of == lane)?;

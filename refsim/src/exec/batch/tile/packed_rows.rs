@@ -1,4 +1,4 @@
-//! Interpolation in packed lanes, each of which has a triangle of its own.
+//! Interpolation in packed lanes, each of which belongs to a triangle of its own.
 
 use super::packed::{PackedFragment, PackedLanes};
 use super::shader::InputSlots;
@@ -10,7 +10,7 @@ use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 
 impl PackedLanes {
-    /// Makes the rows of the lanes and fills the slots of components that vary.
+    /// Computes the rows of the lanes and fills the slots of varying components.
     pub(crate) fn fill(&mut self, surfaces: &Surfaces, inputs: &InputSlots, formats: &LaneFormats, slots: &mut Slots) {
         let single = formats.lane(Arith::Single);
         let mut planes = [0; LANES];
@@ -58,7 +58,7 @@ impl PackedLanes {
         }
     }
 
-    /// A component that varies.
+    /// Interpolates a varying component.
     fn component(&self, row: &PlaneRows, format: Format, planes: &LaneRow, single: &AnyLane, out: &mut LaneRow) {
         let (mut base, mut d1, mut d2) = ([0; LANES], [0; LANES], [0; LANES]);
         for (lane, &number) in planes.iter().enumerate() {
@@ -79,7 +79,7 @@ impl PackedLanes {
     }
 }
 
-/// A component of the window position, a single.
+/// A component of the window position, single precision.
 fn position(setup: &TriangleSetup, fragment: &PackedFragment, axis: usize) -> u32 {
     let half = setup.half_pixels() as f32 * 0.5;
     match axis {
@@ -95,8 +95,7 @@ fn position(setup: &TriangleSetup, fragment: &PackedFragment, axis: usize) -> u3
     }
 }
 
-/// The weights along the surface, given the reciprocals of w at the vertices; those along the screen where all w are
-/// equal.
+/// Perspective-correct weights, given 1 / w at the vertices; screen-space weights if all w are equal.
 #[inline(always)]
 fn along_surface(linear: &[[f32; LANES]; 2], w: &[[f32; LANES]; 3], affine: &LaneRow, out: &mut [[f32; LANES]; 2]) {
     let [first, second] = out;

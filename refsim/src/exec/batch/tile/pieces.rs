@@ -1,13 +1,13 @@
-//! A tile's triangles, shared among threads.
+//! Division of a tile's triangles among threads.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Triangles of a piece, of which a worker takes one at a time where several share a tile.
+/// Triangles per piece, the unit of work if several workers share a tile.
 const PIECE: usize = 16;
 
-/// The triangles of a tile in pieces, which threads take from both ends: who wakes late takes fewer. All taken from the
-/// front come before all taken from the back.
+/// The triangles of a tile in pieces, which threads take from both ends, so that a late thread takes fewer. All pieces
+/// taken from the front precede all those taken from the back.
 pub(super) struct Pieces<'o> {
     order: &'o [u32],
     size: usize,
@@ -15,13 +15,13 @@ pub(super) struct Pieces<'o> {
 }
 
 impl<'o> Pieces<'o> {
-    /// Pieces for several workers; for one, a single piece.
+    /// Creates pieces for several workers, or a single piece for one.
     pub(super) fn new(order: &'o [u32], workers: usize) -> Self {
         let size = if workers > 1 { PIECE } else { order.len().max(1) };
         Self { order, size, left: Mutex::new(0..order.len().div_ceil(size)) }
     }
 
-    /// How many of `workers` get at least a piece each.
+    /// Number of `workers` that get at least one piece each.
     pub(super) fn workers(order: &[u32], workers: usize) -> usize {
         workers.min(order.len() / PIECE).max(1)
     }
@@ -34,7 +34,7 @@ impl<'o> Pieces<'o> {
         self.taken(Range::next_back)
     }
 
-    /// A piece's number and triangles.
+    /// Takes a piece; returns its index and triangles.
     fn taken(&self, take: impl Fn(&mut Range<usize>) -> Option<usize>) -> Option<(usize, &'o [u32])> {
         let piece = take(&mut self.left.lock().unwrap_or_else(PoisonError::into_inner))?;
         let end = self.order.len().min((piece + 1) * self.size);

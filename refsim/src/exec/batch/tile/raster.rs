@@ -1,5 +1,5 @@
-//! Rasterisation of a triangle within a tile: coverage by the exact edge functions, interpolation in host single
-//! precision, step by step as the raster room defines it.
+//! Rasterisation of a triangle within a tile: coverage by exact edge functions, interpolation in the host's single
+//! precision with the steps defined by [`crate::raster`].
 
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel};
 use crate::exec::lower::TRUE;
@@ -7,36 +7,36 @@ use crate::num::Format;
 use crate::raster::{Plane, TriangleSetup, interpolated};
 use crate::texture::Region;
 
-/// The shape of a tile of 256 pixels. In the first two the lanes of a quad differ in bits 0 (across) and 4 (down); in
-/// the last quads have no second row, so only programs that do not look at neighbours can be run in it.
+/// Shape of a tile of 256 pixels. In `Square` and `Flat`, lanes of a quad differ in bits 0 (across) and 4 (down). In
+/// `Line`, quads have no second row, so only programs that do not read neighbouring lanes can run in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum TileShape {
     /// 16 x 16.
     #[default]
     Square,
-    /// 128 x 2: 16 x 2 after 16 x 2.
+    /// 128 x 2, as a sequence of 16 x 2 blocks.
     Flat,
     /// 256 x 1.
     Line,
 }
 
-/// [`TileShape`] where code is made for each.
+/// [`TileShape`] as const generic arguments.
 const SQUARE: u8 = 0;
 const FLAT: u8 = 1;
 const LINE: u8 = 2;
 
-/// Where the lanes of a tile are.
+/// Position of the lanes of a tile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct TileFrame {
     /// Column and row of lane 0.
     pub(crate) origin: (u32, u32),
-    /// How they lie.
+    /// Arrangement of the lanes.
     pub(crate) shape: TileShape,
 }
 
 impl TileFrame {
-    /// The tile around a region that fits one: a flat one if it does not fit a square one, a line if it does not fit a
-    /// flat one. Where it fits square and flat ones, the lanes are the same.
+    /// The tile around a region: square if it fits, else flat, else a line. If both square and flat fit, their lanes
+    /// are identical.
     pub(crate) fn around(region: Region) -> Self {
         let (shape, height) = match () {
             () if (region.x & 15) + region.width <= 16 => (TileShape::Square, 16),
@@ -47,7 +47,7 @@ impl TileFrame {
         Self { origin: (left, region.y / height * height), shape }
     }
 
-    /// Column and row of a lane, in the target.
+    /// Column and row of a lane in the target.
     pub(crate) fn pixel(self, lane: usize) -> (u32, u32) {
         let (x, y) = match self.shape {
             TileShape::Square => place::<SQUARE>(lane),
@@ -57,7 +57,7 @@ impl TileFrame {
         (self.origin.0 + x, self.origin.1 + y)
     }
 
-    /// The lane of a pixel of the tile.
+    /// Lane of a pixel of the tile.
     pub(crate) fn lane(self, x: u32, y: u32) -> usize {
         let (x, y) = ((x - self.origin.0) as usize, (y - self.origin.1) as usize);
         let lane = match self.shape {
@@ -79,7 +79,7 @@ const fn place<const SHAPE: u8>(lane: usize) -> (u32, u32) {
     }
 }
 
-/// Which lanes of a tile a triangle covers within `region`. Returns how many.
+/// Computes the lanes that a triangle covers within `region`; returns their number.
 pub(crate) fn cover(
     setup: &TriangleSetup,
     frame: TileFrame,
@@ -117,13 +117,13 @@ fn cover_lanes<const SHAPE: u8>(edges: &[[i64; 3]; 3], columns: (u32, u32), rows
         let (x, y) = place::<SHAPE>(i);
         let at = |e: &[i64; 3]| e[0] * i64::from(x) + e[1] * i64::from(y) + e[2];
         let within = (x >= columns.0) & (x < columns.1) & (y >= rows.0) & (y < rows.1);
-        // All three at least zero: no sign bit in any.
+        // All three non-negative: no sign bit set.
         let signs = at(&edges[0]) | at(&edges[1]) | at(&edges[2]);
         *lane = if within & (signs >= 0) { TRUE } else { 0 };
     }
 }
 
-/// The lanes whose quad has a covered lane.
+/// Lanes of quads with a covered lane.
 pub(crate) fn quads(covered: &LaneRow, out: &mut LaneRow) {
     for (i, lane) in out.iter_mut().enumerate() {
         let (row, column) = (i & !16, i & !1);
@@ -134,17 +134,17 @@ pub(crate) fn quads(covered: &LaneRow, out: &mut LaneRow) {
     }
 }
 
-/// The weights of vertices 1 and 2 in every lane of a tile.
+/// Weights of vertices 1 and 2 in every lane of a tile.
 #[derive(Clone, Debug)]
 pub(crate) struct TileWeights {
     simd: SimdLevel,
     linear: [[f32; LANES]; 2],
     perspective: [[f32; LANES]; 2],
-    /// What they were computed from: edges 1 and 2, area, reciprocals of w.
+    /// Inputs of the weights: edges 1 and 2, area, reciprocals of w.
     made_from: Option<Origin>,
 }
 
-/// What weights depend on within a tile.
+/// Inputs of the weights within a tile.
 type Origin = ([[i64; 3]; 2], u32, Option<[u32; 3]>, TileFrame);
 
 impl TileWeights {
@@ -152,7 +152,7 @@ impl TileWeights {
         Self { simd, linear: [[0.0; LANES]; 2], perspective: [[0.0; LANES]; 2], made_from: None }
     }
 
-    /// Computes the weights of a triangle, unless they are those of the triangle before.
+    /// Computes the weights of a triangle, unless they equal those of the previous one.
     pub(crate) fn make(&mut self, setup: &TriangleSetup, frame: TileFrame) {
         let edges = [1, 2].map(|i: usize| [setup.edges[i].a, setup.edges[i].b, setup.edges[i].c]);
         let w = (!setup.affine).then_some(setup.reciprocal_w);
@@ -227,7 +227,7 @@ impl TileWeights {
         }
     }
 
-    /// A component that varies, in every lane, single precision; `format` is that of the plane.
+    /// A varying component in every lane, single precision; `format` is the format of the plane.
     pub(crate) fn plane(&self, plane: &Plane, format: Format, single: &AnyLane, out: &mut LaneRow) {
         if format == Format::FP32 {
             return self.simd.run(
@@ -242,7 +242,7 @@ impl TileWeights {
     }
 }
 
-/// Where `mask` holds, `from` takes the place of what `to` holds.
+/// Copies the lanes in `mask`.
 #[inline(always)]
 pub(crate) fn lay_over(to: &mut LaneRow, from: &LaneRow, mask: &LaneRow) {
     for i in 0..LANES {

@@ -1,4 +1,4 @@
-//! Triangles made ready for tiles: their plan, and what is constant over each.
+//! Preparation of a round of triangles: their plan, and values that are constant over each.
 
 use std::sync::Arc;
 
@@ -14,19 +14,19 @@ use crate::exec::batch::schedule::{FlowPlan, ResultSlots, StepBlock, StraightPla
 use crate::exec::batch::vertex::{Surfaces, Triangle};
 use crate::raster::{ComponentMask, POSITION_COMPONENT};
 
-/// Triangles whose constants are computed sooner than a worker is woken up.
+/// Number of triangles whose constants are computed faster than a worker can be woken.
 const FEW: usize = 4 * LANES;
 
-/// Some triangles of a draw, with what is computed for them before tiles are walked.
+/// A round of triangles of a draw, with values computed for them before tiles are drawn.
 #[derive(Debug)]
 pub struct TileRound<'s> {
     pub(super) surfaces: &'s Surfaces,
-    /// The components that are constant over every triangle.
+    /// Components that are constant over every triangle.
     pub(super) constant: u64,
     pub(super) code: RoundCode<'s>,
-    /// For each value that the plan's varying block is given, a row of values by triangle.
+    /// A row of values by triangle, for each value given to the plan's varying block.
     pub(super) given: Vec<Vec<u32>>,
-    /// The values that the plan's invariant block is given.
+    /// Values given to the plan's invariant block.
     fixed: Vec<u32>,
     pub(super) inputs: InputSlots,
 }
@@ -38,7 +38,7 @@ pub(super) enum RoundCode<'s> {
 }
 
 impl<'s> TileRound<'s> {
-    /// Prepares some triangles: chooses a plan, and computes what is constant over each of them, one lane per triangle.
+    /// Prepares triangles: selects a plan, and computes what is constant over each, one lane per triangle.
     pub(super) fn new(
         program: &'s DecodedPixel,
         surfaces: &'s Surfaces,
@@ -68,7 +68,7 @@ impl<'s> TileRound<'s> {
         Self { surfaces, constant, code, given, fixed, inputs }
     }
 
-    /// Counts fragments that are shaded, with their texture reads. Programs with flow control count reads as they run.
+    /// Counts shaded fragments and their texture reads. Programs with flow control count reads as they run.
     pub(super) fn count(&self, fragments: u64, counts: &mut FragmentCounts) {
         counts.generated += fragments;
         counts.shaded += fragments;
@@ -81,7 +81,7 @@ impl<'s> TileRound<'s> {
         }
     }
 
-    /// Gives the plan's invariant block what is the same for the whole draw.
+    /// Passes values that are constant over the draw to the plan's invariant block.
     pub(super) fn give_fixed(&self, slots: &mut Slots) {
         if let RoundCode::Straight(_, plan) = &self.code {
             for (&(_, slot), &value) in plan.invariant.given.iter().zip(&self.fixed) {
@@ -90,7 +90,7 @@ impl<'s> TileRound<'s> {
         }
     }
 
-    /// Gives the plan's varying block the values of a triangle.
+    /// Passes the values of a triangle to the plan's varying block.
     pub(super) fn give(&self, triangle: u32, slots: &mut Slots) {
         if let RoundCode::Straight(_, plan) = &self.code {
             for (&(_, slot), values) in plan.varying.given.iter().zip(&self.given) {
@@ -107,7 +107,7 @@ impl<'s> TileRound<'s> {
     }
 }
 
-/// Computes what is the same for the whole draw, in one lane.
+/// Computes values that are constant over the draw, in one lane.
 fn fixed_values(block: &StepBlock, around: &Surroundings<'_>) -> Vec<u32> {
     if block.roots.is_empty() {
         return Vec::new();
@@ -118,7 +118,7 @@ fn fixed_values(block: &StepBlock, around: &Surroundings<'_>) -> Vec<u32> {
     block.roots.iter().map(|&root| slots.row(root)[0]).collect()
 }
 
-/// Computes what is constant over each triangle: for each root of the block a value by triangle.
+/// Computes values that are constant over each triangle: a row by triangle for each root of the block.
 fn uniforms(
     idle: &Pool<(u64, Slots)>,
     constant: u64,
@@ -141,7 +141,7 @@ fn uniforms(
         for &(component, slot) in &block.inputs {
             let Some(row) = surfaces.row(component) else { continue };
             for (value, triangle) in slots.row_mut(slot).iter_mut().zip(group) {
-                // A pattern is the number's host bits: single precision is the host's own.
+                // Inputs are single precision, so their bits are raw values.
                 *value = row.base[triangle.planes as usize];
             }
         }

@@ -1,9 +1,9 @@
-//! Shading one tile: triangles that do not get in each other's way taken together, and everything that the triangles
-//! before left in rows used again where it still holds.
+//! Shading of one tile: disjoint triangles are processed together, and rows left by previous triangles are reused where
+//! still valid.
 //!
-//! A *part* is a run of triangles that share their constant components and cover no pixel of the tile twice: the two
-//! halves of a quad, or neighbours of a mesh. Lanes are independent, so one pass of the program serves all of them,
-//! each lane with the components of the triangle that covers it. Bits and counts are those of the triangles one by one.
+//! A *part* is a run of triangles that share their constant components and cover disjoint pixels of the tile: the two
+//! halves of a quad, or neighbours in a mesh. Lanes are independent, so one pass of the program processes all of them,
+//! each lane with the components of its triangle. Bits and counts equal those of processing the triangles one by one.
 
 use super::packed::PackedLanes;
 use super::raster::{TileFrame, TileShape, TileWeights, cover, lay_over, quads};
@@ -14,7 +14,7 @@ use crate::exec::lower::{Arith, Slot};
 use crate::raster::Plane;
 use crate::texture::Region;
 
-/// Triangles in a part at most.
+/// Maximum number of triangles per part.
 const MAX_MEMBERS: usize = 16;
 
 /// A triangle of a part, within the tile.
@@ -26,7 +26,7 @@ struct Member {
     weights: TileWeights,
 }
 
-/// Rows of one worker, for one tile after the other.
+/// Buffers of a worker, used for one tile after the other.
 #[derive(Debug)]
 pub(crate) struct TileShader {
     simd: SimdLevel,
@@ -34,39 +34,39 @@ pub(crate) struct TileShader {
     region: Region,
     pub(crate) slots: Slots,
     members: Vec<Member>,
-    /// Members in use: those of the part.
+    /// Number of members in the part.
     used: usize,
-    /// The shape that would have been the next member but covers pixels of the part.
+    /// Shape that would be the next member but overlaps pixels of the part.
     closed_by: Option<u32>,
-    /// The pixels of the part, how many they are, and the lanes of quads that have one.
+    /// Pixels of the part, their number, and the lanes of quads that contain one.
     pub(crate) covered: LaneRow,
     pub(crate) covered_count: u64,
     pub(crate) run: LaneRow,
-    /// Interpolated depth, if asked for.
+    /// Interpolated depth, if needed.
     pub(crate) depth: LaneRow,
-    /// Whether the rows of components that vary are those of the part.
+    /// `true` if the rows of varying components are valid for the part.
     inputs_hold: bool,
     /// Lanes of small triangles.
     pub(crate) packed: PackedLanes,
 }
 
-/// Where the rows of what varies go.
+/// Slots of the varying inputs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct InputSlots {
     /// Components: row of the surfaces, slot.
     pub(crate) rows: Vec<(usize, Slot)>,
-    /// The window position: component of it, slot.
+    /// Window position: its component, slot.
     pub(crate) position: Vec<(usize, Slot)>,
 }
 
-/// How triangles are grouped into parts, and what is computed for them.
+/// Rules for grouping triangles into parts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PartMode {
-    /// Whether triangles may share a pass.
+    /// `true` if triangles may share a pass.
     pub(crate) together: bool,
-    /// Whether the interpolated depth is read.
+    /// `true` if the interpolated depth is needed.
     pub(crate) depth: bool,
-    /// The components that are constant over every triangle, which the program is given by triangle.
+    /// Components that are constant over every triangle and are passed to the program per triangle.
     pub(crate) given: u64,
 }
 
@@ -89,17 +89,17 @@ impl TileShader {
         }
     }
 
-    /// The vector instructions in use.
+    /// The SIMD level in use.
     pub(crate) fn simd(&self) -> SimdLevel {
         self.simd
     }
 
-    /// Where the lanes are.
+    /// Position of the lanes.
     pub(crate) fn frame(&self) -> TileFrame {
         self.frame
     }
 
-    /// Goes to a tile. Nothing that belongs to another tile, or to other surfaces, is used again.
+    /// Moves to a tile. Nothing computed for another tile, or for other surfaces, is reused.
     pub(crate) fn start(&mut self, region: Region) {
         self.frame = TileFrame::around(region);
         self.region = region;
@@ -107,7 +107,7 @@ impl TileShader {
         self.inputs_hold = false;
     }
 
-    /// Takes the next triangles of `order`, at least one, and gives their number.
+    /// Takes the next triangles of `order`, at least one; returns their number.
     pub(crate) fn take(&mut self, surfaces: &Surfaces, order: &[u32], manner: PartMode) -> usize {
         let most = if manner.together { joined(surfaces, order) } else { order.len().min(1) };
         let shape = |i: usize| surfaces.triangles.get(order[i] as usize).map_or(0, |t| t.shape);
@@ -141,7 +141,7 @@ impl TileShader {
         self.used
     }
 
-    /// Adds a triangle to the part unless it covers a pixel of it.
+    /// Adds a triangle to the part unless it overlaps its pixels.
     fn add(&mut self, surfaces: &Surfaces, shape: u32, planes: u32) -> bool {
         if self.members.len() == self.used {
             let weights = TileWeights::new(self.simd);
@@ -182,7 +182,7 @@ impl TileShader {
         }
     }
 
-    /// Fills the slots of components that vary; false if they hold these values already.
+    /// Fills the slots of varying components; returns `false` if they are valid already.
     pub(crate) fn fill_inputs(&mut self, surfaces: &Surfaces, inputs: &InputSlots, formats: &LaneFormats) -> bool {
         if self.inputs_hold {
             return false;
@@ -219,28 +219,28 @@ impl TileShader {
         true
     }
 
-    /// The rows of components that vary hold something else, or may.
+    /// Invalidates the rows of varying components.
     pub(crate) fn forget_inputs(&mut self) {
         self.inputs_hold = false;
     }
 }
 
-/// How many of the first triangles are one after the other in the draw and share their constant components.
+/// Number of leading triangles that are consecutive in the draw and share their constant components.
 fn joined(surfaces: &Surfaces, order: &[u32]) -> usize {
     let joins = |pair: &[u32]| pair[1] == pair[0] + 1 && surfaces.joins.get(pair[1] as usize) == Some(&true);
     let more = order.windows(2).take(MAX_MEMBERS - 1).take_while(|pair| joins(pair)).count();
     (1 + more).min(order.len())
 }
 
-/// A component's plane, and whether it is constant.
+/// Plane of a component, and `true` if it is constant.
 fn plane(surfaces: &Surfaces, row: usize, planes: u32) -> (Plane, bool) {
     let Some(row) = surfaces.rows.get(row) else { return (Plane::default(), true) };
     let constant = surfaces.constant.get(planes as usize).is_some_and(|c| c >> row.component & 1 == 1);
     (row.plane(planes), constant)
 }
 
-/// Whether two triangles of one shape have the same components, but for those that are `given`. What is constant over
-/// both but not over all triangles lies in rows like what varies, and must be equal like it.
+/// Returns `true` if two triangles of one shape have the same components, except for those that are `given`. Components
+/// that are constant over both, but not over all triangles, are in rows like varying ones, and must be equal too.
 fn same_inputs(surfaces: &Surfaces, (a, b): (u32, u32), given: u64) -> bool {
     let constant = |planes: u32| surfaces.constant.get(planes as usize).copied().unwrap_or_default();
     constant(a) == constant(b)

@@ -1,5 +1,5 @@
-//! One thread's work on a tile: triangles in, shaded fragments out. Large triangles are shaded part after part, lanes
-//! where their pixels are; small ones are packed.
+//! A thread's work on a tile: shades triangles. Large triangles are shaded part by part, with lanes at their pixels;
+//! small ones are packed.
 
 use super::decoded::DecodedPixel;
 use super::output::{Fragment, OutputStage, Shaded};
@@ -16,16 +16,16 @@ use crate::exec::batch::run::{FlowRun, Surroundings, run_steps};
 use crate::output::DepthFormat;
 use crate::texture::Region;
 
-/// What becomes of shaded fragments.
+/// Receiver of shaded fragments.
 pub(super) trait FragmentSink {
-    /// The depths of the tile, where fragments meet them as soon as they are shaded.
+    /// The tile's depths, if fragments are written as soon as they are shaded.
     fn stored_depths(&mut self) -> Option<&mut LaneRow>;
 
-    /// Takes what the tests before the depth test left, or all tests where the depth test has been made.
+    /// Receives fragments that passed the tests before the depth test, or all tests if the depth test was made early.
     fn take(&mut self, shaded: Shaded<'_>, survivors: &mut Survivors, counts: &mut FragmentCounts);
 }
 
-/// Fragments go into the targets.
+/// Writes fragments to the targets.
 pub(super) struct IntoTargets<'s, 't> {
     pub(super) output: &'s OutputStage,
     pub(super) targets: &'s mut Targets<'t>,
@@ -41,7 +41,7 @@ impl FragmentSink for IntoTargets<'_, '_> {
     }
 }
 
-/// Fragments are kept until it is their turn.
+/// Collects fragments for later.
 #[derive(Default)]
 pub(super) struct KeptFragments(pub(super) Vec<Fragment>);
 
@@ -66,12 +66,12 @@ pub(super) struct TileShading<'r> {
     shader: TileShader,
     survivors: Survivors,
     mode: PartMode,
-    /// The depth buffer, if the depth test is made before the program, which has no say in it.
+    /// The depth buffer's format, if the depth test is made before the program.
     early: Option<DepthFormat>,
 }
 
 impl<'r> TileShading<'r> {
-    /// Starts with the rows of `shader`, which has gone to the tile.
+    /// Starts with the buffers of `shader`, which is at the tile already.
     pub(super) fn new(
         around: Surroundings<'r>,
         (output, program): (&'r OutputStage, &'r DecodedPixel),
@@ -90,7 +90,7 @@ impl<'r> TileShading<'r> {
         Self { around, output, program, round, region, depth, shader, survivors: Survivors::new(), mode, early }
     }
 
-    /// Runs the program for some triangles, in order.
+    /// Shades triangles, in order.
     pub(super) fn shade(
         &mut self,
         order: &[u32],
@@ -115,7 +115,7 @@ impl<'r> TileShading<'r> {
         Ok(())
     }
 
-    /// Shades the part that the shader has taken, whose first triangle is `first`.
+    /// Shades the part taken by the shader; `first` is its first triangle.
     fn shade_part(
         &mut self,
         first: u32,
@@ -169,7 +169,7 @@ impl<'r> TileShading<'r> {
         Ok(())
     }
 
-    /// Packs small triangles that are given the same values, and shades them.
+    /// Packs small triangles with the same given values, and shades them.
     fn shade_packed(
         &mut self,
         order: &[u32],
@@ -190,7 +190,7 @@ impl<'r> TileShading<'r> {
         self.shade_batch(order[0], true, counts, sink)
     }
 
-    /// Shades the packed fragments; where the depth test comes first and leaves few, only if they are the last.
+    /// Shades the packed fragments. If the early depth test leaves few, waits for more unless they are the last.
     fn shade_batch(
         &mut self,
         first: u32,
@@ -239,13 +239,13 @@ impl<'r> TileShading<'r> {
         Ok(())
     }
 
-    /// Keeps the rows for the next tile.
+    /// Returns the buffers to the pool.
     pub(super) fn end(self) {
         self.program.shaders.keep((self.round.constant, self.shader));
     }
 }
 
-/// The first of the fragments of a triangle that were cut off, given by lane.
+/// The first fragment of a triangle that was stopped by the step budget; `cut` is by lane.
 pub(crate) fn overrun(cut: &[(usize, usize)], frame: TileFrame, triangle: u32) -> Option<Overrun> {
     let of = |&(lane, instruction): &(usize, usize)| {
         let (x, y) = frame.pixel(lane);

@@ -1,4 +1,4 @@
-//! Values as what targets store: texels of the targets that are kept in rows, and depth patterns.
+//! Encoding of values for targets: texels of targets in rows, and depth patterns.
 
 use super::targets::{Coding, ColorRows, PackedChannel, Packing};
 use crate::exec::batch::lanes::{LANES, Lane, LaneFormats, LaneRow, with_any_lane};
@@ -7,7 +7,7 @@ use crate::num::FormatKind;
 use crate::output::DepthFormat;
 use crate::texture::TargetRounding;
 
-/// The lanes that the tests before the depth test left, with their depths as the depth buffer stores them.
+/// Lanes that passed the tests before the depth test, and their depths in the depth buffer's format.
 #[derive(Clone, Debug)]
 pub(crate) struct Survivors {
     pub(crate) alive: LaneRow,
@@ -21,7 +21,7 @@ impl Survivors {
     }
 }
 
-/// Fragments of a tile up to which it is quicker to write them one by one than to make whole rows of texels.
+/// Number of fragments up to which writing them one by one is faster than encoding whole rows.
 const FEW: u32 = 24;
 
 /// Writes one texel.
@@ -45,7 +45,7 @@ pub(crate) fn write_lane(rows: &mut ColorRows, color: &[u32; 4], lane: usize, fo
     }
 }
 
-/// Writes the texels of the lanes that are left.
+/// Writes the texels of the surviving lanes.
 pub(crate) fn write_rows(rows: &mut ColorRows, colors: [&LaneRow; 4], survivors: &Survivors, formats: &LaneFormats) {
     if survivors.count <= FEW || rows.packing.blender.is_some() {
         for lane in (0..LANES).filter(|&l| survivors.alive[l] != 0) {
@@ -97,7 +97,7 @@ fn pack<L: Lane>(lane: &L, row: &LaneRow, channel: &PackedChannel, texels: &mut 
     }
 }
 
-/// The bits of a channel for a value.
+/// Encodes a value for a channel.
 fn code<L: Lane>(lane: &L, raw: u32, coding: Coding) -> u32 {
     match coding {
         Coding::Steps(scale, half) => steps(lane, raw, scale, half),
@@ -117,17 +117,17 @@ fn single<L: Lane>(lane: &L, raw: u32) -> u32 {
     if x.is_nan() { 0x7fc0_0000 } else { x.to_bits() }
 }
 
-/// A value clamped to [0, 1]; NaN gives 0.
+/// Clamps a value to [0, 1]; NaN gives 0.
 #[inline(always)]
 fn clamped(x: f64) -> f64 {
     let low = if x > 0.0 { x } else { 0.0 };
     if low < 1.0 { low } else { 1.0 }
 }
 
-/// Values clamped to [0, 1] as depth patterns.
+/// Encodes values, clamped to [0, 1], as depth patterns.
 ///
-/// In doubles: a value of at most 24 significant bits times 2^24 - 1 is exact, and so is adding the half where that
-/// decides anything. Wider values and the other depth formats go through the output room.
+/// In double precision a value with at most 24 significant bits times 2^24 - 1 is exact, and so is adding one half near
+/// a rounding boundary. Values with more bits and other depth formats are encoded by [`crate::output`].
 pub(crate) fn quantise(
     (formats, arith): (&LaneFormats, Arith),
     depth: DepthFormat,
@@ -177,8 +177,8 @@ pub(crate) fn quantise(
     }
 }
 
-/// A fixed-point value `k / 2^F` of [0, 1] is `k 2^(n-F)` steps of `1 / (2^n - 1)`, less the fraction `k / 2^F`: one
-/// less where that is more than what rounding makes up for.
+/// A fixed-point value `k / 2^F` in [0, 1] equals `k 2^(n-F)` minus `k / 2^F` steps of `1 / (2^n - 1)`; the fraction
+/// subtracts one step if it exceeds what rounding restores.
 #[inline(always)]
 fn fixed_to_steps(row: &LaneRow, frac: u32, bits: u32, nearest: bool, out: &mut LaneRow) {
     let one = 1i32 << frac;
@@ -197,7 +197,7 @@ fn fixed_to_single(row: &LaneRow, frac: u32, out: &mut LaneRow) {
     }
 }
 
-/// Every float format's numbers are held as host singles.
+/// Numbers of every float format are stored as host singles.
 #[inline(always)]
 fn float_to_steps(row: &LaneRow, scale: f64, half: f64, out: &mut LaneRow) {
     for i in 0..LANES {

@@ -1,5 +1,5 @@
-//! The targets of one tile as rows in lane order: depth patterns, and the texels of colour targets in 32-bit words.
-//! They stay in the first-level cache while all triangles of the tile go by, and are copied back once.
+//! Targets of one tile as rows in lane order: depth patterns, and texels of colour targets in 32-bit words. They stay
+//! in the first-level cache while all triangles of the tile are drawn, and are copied back once.
 
 use super::blend::{Blender, ChannelPlace};
 use super::raster::TileFrame;
@@ -7,36 +7,36 @@ use crate::exec::batch::lanes::{LANES, LaneRow};
 use crate::output::{ColorTile, MAX_TARGETS, OutputRules, OutputState, TargetTile, WriteMask};
 use crate::texture::{ChannelClass, Region, TargetRounding, TexelFormat};
 
-/// What a channel's code is made by.
+/// Encoding of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Coding {
-    /// A value clamped to [0, 1], times this, plus this, cut to an integer: exact in doubles for 24 bits times 24.
+    /// Clamped to [0, 1], times the first number, plus the second, truncated: exact in doubles for 24 bits times 24.
     Steps(f64, f64),
     /// Single precision.
     Single,
-    /// What the blender makes.
+    /// Encoded by the blender.
     Blended,
 }
 
-/// A stored channel that is written, and how.
+/// A stored channel that is written, and its encoding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PackedChannel {
     pub(crate) place: ChannelPlace,
     pub(crate) coding: Coding,
 }
 
-/// How colours become texels of one target.
+/// Encoding of colours as texels of one target.
 #[derive(Clone, Debug)]
 pub(crate) struct Packing {
     pub(crate) channels: Vec<PackedChannel>,
-    /// By word: the bits that are written.
+    /// Bits that are written, by word.
     pub(crate) written: Vec<u32>,
     pub(crate) blender: Option<Blender>,
 }
 
 impl Packing {
-    /// `None` where the output room has to do it: signed channels, small floats that are not blended, and what the
-    /// blender does not do.
+    /// Creates the encoding; `None` if [`crate::output`] has to do it: signed channels, small floats without blending,
+    /// and unsupported blending.
     pub(crate) fn new(
         format: TexelFormat,
         mask: WriteMask,
@@ -73,7 +73,7 @@ impl Packing {
     }
 }
 
-/// A colour target that is kept in rows.
+/// A colour target in rows.
 #[derive(Debug)]
 pub(crate) struct ColorRows {
     pub(crate) packing: Packing,
@@ -92,7 +92,7 @@ pub(crate) struct Targets<'t> {
 }
 
 impl<'t> Targets<'t> {
-    /// Brings a tile into rows. Bit `i` of `written`: the program writes colour `i`.
+    /// Loads a tile into rows. Bit `i` of `written`: the program writes colour `i`.
     pub(crate) fn load(tile: &'t mut TargetTile, written: u8, state: &OutputState, rules: &OutputRules) -> Self {
         let (region, frame) = (tile.region, TileFrame::around(tile.region));
         let depth = tile.depth.as_ref().map(|buffer| {
@@ -111,7 +111,7 @@ impl<'t> Targets<'t> {
         Self { tile, frame, depth, colors }
     }
 
-    /// Brings the rows back into the tile.
+    /// Stores the rows into the tile.
     pub(crate) fn store(self) {
         let region = self.tile.region;
         if let (Some(row), Some(buffer)) = (&self.depth, &mut self.tile.depth) {
@@ -129,7 +129,7 @@ impl<'t> Targets<'t> {
     }
 }
 
-/// The lanes of a tile's region with the indices of their pixels, in order.
+/// Lanes of a tile's region with the indices of their pixels, in order.
 fn lanes(region: Region) -> impl Iterator<Item = (usize, usize)> {
     let frame = TileFrame::around(region);
     let pixels = (region.y..region.y + region.height)
@@ -137,7 +137,7 @@ fn lanes(region: Region) -> impl Iterator<Item = (usize, usize)> {
     pixels.map(move |(x, y)| frame.lane(x, y)).enumerate().map(|(index, lane)| (lane, index))
 }
 
-/// Runs of pixels whose lanes follow each other, 16 at most: the first lane, the first pixel's index, how many.
+/// Runs of pixels with consecutive lanes, at most 16: first lane, index of the first pixel, length.
 fn runs(region: Region) -> impl Iterator<Item = (usize, usize, usize)> {
     let frame = TileFrame::around(region);
     let (width, end) = (region.width as usize, region.x + region.width);
@@ -172,7 +172,7 @@ fn load_words(target: &ColorTile, region: Region, words: usize) -> Vec<LaneRow> 
     rows
 }
 
-/// Texels of `WORDS` whole words.
+/// Loads texels of `WORDS` whole words.
 fn load_run<const WORDS: usize>(bytes: &[u8], lane: usize, rows: &mut [LaneRow]) {
     for (word, row) in rows.iter_mut().enumerate().take(WORDS) {
         for (slot, texel) in row[lane..].iter_mut().zip(bytes.chunks_exact(4 * WORDS)) {
@@ -201,7 +201,7 @@ fn store_words(target: &mut ColorTile, region: Region, rows: &[LaneRow]) {
     }
 }
 
-/// Texels of `WORDS` whole words.
+/// Stores texels of `WORDS` whole words.
 fn store_run<const WORDS: usize>(bytes: &mut [u8], lane: usize, rows: &[LaneRow]) {
     for (word, row) in rows.iter().enumerate().take(WORDS) {
         for (&value, texel) in row[lane..].iter().zip(bytes.chunks_exact_mut(4 * WORDS)) {

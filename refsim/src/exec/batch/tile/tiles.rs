@@ -1,4 +1,4 @@
-//! The batch executor on a tile: part after part, all 256 fragments at once.
+//! The batch executor for tiles: part by part, all 256 fragments at once.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -20,7 +20,7 @@ use crate::output::{DepthFormat, TargetTile};
 use crate::raster::{ComponentMask, TriangleSetup};
 use crate::texture::Region;
 
-/// The batch tile executor of one draw.
+/// Batch tile executor of one draw.
 #[derive(Debug)]
 pub struct BatchTiles<'a> {
     formats: LaneFormats,
@@ -32,9 +32,9 @@ pub struct BatchTiles<'a> {
 }
 
 impl<'a> BatchTiles<'a> {
-    /// Prepares a draw: decodes the program and the textures, or finds them decoded. `None` if the program has more
-    /// values than there are slots, or if no fragment can end within the step budget: only the scalar executor counts
-    /// the steps of programs without flow control.
+    /// Prepares a draw: decodes the program and the textures, or takes them from the caches. `None` if the program has
+    /// more values than there are slots, or if every fragment exceeds the step budget, because only the scalar executor
+    /// counts the steps of programs without flow control.
     pub(crate) fn new(
         draw: &TileDraw<'a>,
         (programs, tables): (&PixelPrograms, &TextureTables),
@@ -72,17 +72,17 @@ impl<'a> BatchTiles<'a> {
         })
     }
 
-    /// The vector instructions in use.
+    /// The SIMD level in use.
     pub fn simd(&self) -> SimdLevel {
         self.formats.simd()
     }
 
-    /// The components that the program can read.
+    /// Components that the program can read.
     pub fn inputs(&self) -> ComponentMask {
         self.inputs
     }
 
-    /// Whether the program never looks at neighbouring fragments, so that a tile may have a single row.
+    /// Returns `true` if the program never reads neighbouring fragments, so that a tile may have a single row.
     pub fn fragments_apart(&self) -> bool {
         match &self.program.code {
             PixelCode::Straight(program, _) => program.lanes_apart,
@@ -94,18 +94,19 @@ impl<'a> BatchTiles<'a> {
         Surroundings { formats: &self.formats, textures: &self.textures, constants: &self.constants }
     }
 
-    /// Prepares some triangles.
+    /// Prepares a round of triangles.
     pub fn round<'s>(&'s self, surfaces: &'s Surfaces) -> TileRound<'s> {
         TileRound::new(&self.program, surfaces, self.inputs, &self.around())
     }
 
-    /// Draws the triangles `order` of a round, in the order of submission, into a tile. Per pixel their order is kept.
-    /// Up to `workers` threads shade at a time; that changes nothing but the time it takes.
+    /// Draws the triangles `order` of a round, in order of submission, into a tile. The order is preserved per pixel.
+    /// Up to `workers` threads shade in parallel, which affects the speed only.
     ///
-    /// Returns what became of the fragments; helper lanes are not counted.
+    /// Returns the fragment counts, without helper lanes.
     ///
     /// # Errors
-    /// The first fragment, as [`Overrun`]s order, that does not end within the step budget. The tile is of no use then.
+    /// The first fragment, in the order of [`Overrun`], that exceeds the step budget. The tile's contents are invalid
+    /// then.
     pub fn draw(
         &self,
         round: &TileRound<'_>,
@@ -118,7 +119,7 @@ impl<'a> BatchTiles<'a> {
         let mut targets = Targets::load(tile, self.output.written, &self.output.state, &self.output.rules);
         let mut counts = FragmentCounts::default();
         let others = Mutex::new(Vec::new());
-        // What another thread shades is kept as fragments until it is their turn: worth it where most are killed.
+        // Fragments shaded by other threads are collected until it is their turn; this pays off if most are rejected.
         let few_left = round.results().killed.is_some() || self.output.state.alpha.is_some();
         let workers = if few_left { Pieces::workers(order, workers) } else { 1 };
         let pieces = Pieces::new(order, workers);
@@ -180,7 +181,7 @@ impl<'a> BatchTiles<'a> {
         TileShading::new(self.around(), (&self.output, &self.program), round, (region, depth), shader)
     }
 
-    /// Rows for a plan, used before or new.
+    /// Buffers for a plan, from the pool or new.
     fn shader(&self, round: &TileRound<'_>) -> TileShader {
         let fit = |(constant, shader): &(u64, TileShader)| {
             *constant == round.constant && shader.simd() == self.formats.simd()
@@ -204,7 +205,7 @@ impl<'a> BatchTiles<'a> {
     }
 }
 
-/// What was left of a piece that was shaded before its turn.
+/// Fragments of a piece that was shaded before its turn.
 struct Behind {
     piece: usize,
     fragments: Vec<Fragment>,

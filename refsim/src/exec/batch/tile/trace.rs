@@ -1,8 +1,8 @@
-//! Following one pixel in the batch executor: the program's own graph, scheduled so that every instruction's result is
-//! kept, run on the rows of the pixel's tile; one lane is read out.
+//! Pixel traces of the batch executor: the program's graph, scheduled so that every instruction's result is kept, is
+//! executed on the rows of the pixel's tile, and one lane is read.
 //!
-//! The draw itself computes less: what nothing reads, and what is the same all over a triangle, is left out there. What
-//! becomes of the fragment is therefore found by the draw's own executor.
+//! A draw omits unused values and evaluates per-triangle constants separately, so the outcome of the fragment is
+//! determined by the draw's own executor.
 
 use std::collections::BTreeMap;
 
@@ -32,10 +32,10 @@ use crate::raster::{
     COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, FragmentInput, POSITION_COMPONENT, TriangleSetup,
 };
 
-/// Instructions whose results are kept in one run; a longer program is run again for the next ones.
+/// Maximum number of instructions whose results are kept in one run; a longer program is run several times.
 const MAX_KEPT: usize = 4096;
 
-/// The batch executor of one draw, for one pixel at a time.
+/// Pixel tracer of one draw.
 #[derive(Debug)]
 pub struct BatchTracer<'a> {
     tiles: BatchTiles<'a>,
@@ -50,12 +50,12 @@ pub struct BatchTracer<'a> {
 
 #[derive(Debug)]
 enum TracedProgram {
-    /// Runs over the whole program, each for some instructions; the last one leaves the results.
+    /// Runs over the whole program, each keeping the results of some instructions; the last one has the outputs.
     Straight(Vec<StraightPart>, Ends),
     Flow(FlowPlan),
 }
 
-/// What the roots of a block mean: an instruction's results, component by component.
+/// A run, with the instructions whose results its roots are.
 #[derive(Debug)]
 struct StraightPart {
     written: Vec<(usize, Mask, Arith)>,
@@ -63,7 +63,7 @@ struct StraightPart {
 }
 
 impl<'a> BatchTracer<'a> {
-    /// Prepares a draw that `tiles` has been prepared for.
+    /// Prepares traces of a draw, for which `tiles` was prepared.
     pub(crate) fn new(draw: &TileDraw<'a>, tiles: BatchTiles<'a>, tables: &TextureTables) -> Self {
         let program = crate::exec::program(draw.program);
         let formats = LaneFormats::new(Formats::pixel(draw.rules), tiles.simd());
@@ -95,7 +95,7 @@ impl<'a> BatchTracer<'a> {
         self.formats.lane(Arith::Main).encode(slots.row(slot)[lane])
     }
 
-    /// What a slot holds as a number: a packed word as the number that it is a pattern of.
+    /// Contents of a slot as a number; a packed word is shown as the number that it encodes.
     fn number(&self, arith: Arith, slots: &Slots, slot: Slot, lane: usize) -> u32 {
         let format = self.formats.format(arith);
         let bits = self.formats.lane(arith).encode(slots.row(slot)[lane]);
@@ -116,7 +116,7 @@ impl<'a> BatchTracer<'a> {
     }
 }
 
-/// The input registers that hold interpolated values, and a block that computes them.
+/// Input registers with interpolated values, and a block that computes them.
 fn delivered(t: &mut Translator<'_>, program: &Program) -> (Vec<Register>, StepBlock) {
     let registers = registers_delivered(program);
     let roots: Vec<NodeId> = registers.iter().flat_map(|r| [0, 1, 2, 3].map(|c| t.held(r, c))).collect();
@@ -124,7 +124,7 @@ fn delivered(t: &mut Translator<'_>, program: &Program) -> (Vec<Register>, StepB
     (registers, block)
 }
 
-/// The format of what an instruction writes.
+/// Format of an instruction's result.
 fn format_of(program: &Program, at: usize) -> Arith {
     let destination = program.instructions.get(at).and_then(|i| i.destination);
     destination.map_or(Arith::Main, |d| of_file(d.register.file))
@@ -158,7 +158,7 @@ fn straight(t: &mut Translator<'_>, program: &Program) -> TracedProgram {
     TracedProgram::Straight(parts.collect(), ends)
 }
 
-/// The rows of one tile that a triangle is followed on.
+/// Rows of the tile in which a triangle is traced.
 struct Rows<'t> {
     triangle: &'t TriangleSetup,
     frame: TileFrame,
@@ -252,17 +252,17 @@ impl BatchTracer<'_> {
 }
 
 fn step(instruction: usize, lane: usize, mask: Mask, value: [u32; 4]) -> Step {
-    // Lanes of a tile are 16 a row; a step counts those of a quad.
+    // Lanes of a tile are 16 per row; a step has those of a quad.
     let lane = lane & 1 | (lane >> 4 & 1) << 1;
     Step { instruction, lane, mask, value, flags: Flags::empty() }
 }
 
-/// Notes what one lane of a program with flow control writes.
+/// Records the writes of one lane in a program with flow control.
 struct LaneWatch<'w> {
     tracer: &'w BatchTracer<'w>,
     plan: &'w FlowPlan,
     lane: usize,
-    /// What the instruction under way may write; `None` where the lane does not run.
+    /// Components that the current instruction may write; `None` if the lane is inactive.
     mask: Option<Mask>,
     steps: Vec<Step>,
 }
@@ -342,7 +342,7 @@ impl PixelTracer for BatchTracer<'_> {
     }
 }
 
-/// What became of the one fragment that was counted.
+/// Outcome of the single fragment that was counted.
 fn fate(counts: &FragmentCounts) -> FragmentFate {
     match counts {
         FragmentCounts { killed: 1.., .. } => FragmentFate::KilledByShader,

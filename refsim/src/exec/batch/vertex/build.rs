@@ -1,5 +1,5 @@
-//! From rows of vertices to [`Surfaces`]: the raster room sets shapes up, once for triangles of equal positions; planes
-//! are made in rows.
+//! Construction of [`Surfaces`] from vertex rows: shapes are set up by [`crate::raster`], once for triangles of equal
+//! positions; planes are computed in rows.
 
 use rayon::prelude::*;
 
@@ -11,29 +11,29 @@ use crate::exec::batch::lanes::SimdLevel;
 use crate::num::Format;
 use crate::raster::{ComponentMask, RasterRules, RasterState, TriangleSetup, Vertex, component_plane, setup, shape};
 
-/// Triangles whose shapes one worker sets up at a time.
+/// Triangles whose shapes a worker sets up at a time.
 const CHUNK: usize = 1024;
-/// Triangles whose positions a new one's are compared with.
+/// Number of recent triangles whose positions are compared with a new one's.
 const RECENT: usize = 4;
 
-/// Instances of a list of triangles over rows of vertices: vertex `v` of instance `i` stands at `v * instances + i`.
+/// Instances of a triangle list over vertex rows: vertex `v` of instance `i` has index `v * instances + i`.
 #[derive(Clone, Copy, Debug)]
 pub struct Instances<'a> {
     /// The vertices.
     pub rows: &'a VertexRows,
-    /// How many instances.
+    /// Number of instances.
     pub count: usize,
-    /// The triangles of one, as vertex numbers.
+    /// Triangles of one instance, as vertex indices.
     pub triangles: &'a [[usize; 3]],
 }
 
-/// What became of a triangle, as far as its positions say.
+/// Outcome of setting up a triangle's shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum ShapeOutcome {
-    /// One of the chunk's shapes.
+    /// Index into the chunk's shapes.
     Shape(usize),
     Dropped,
-    /// A plane cuts it: what is left depends on its components.
+    /// Clipped: the remaining triangles depend on its components.
     Cut,
 }
 
@@ -42,7 +42,7 @@ impl Instances<'_> {
         self.triangles[triangle].map(|vertex| vertex * self.count + instance)
     }
 
-    /// For each instance whether all its positions are those of the instance before.
+    /// For each instance, `true` if all its positions equal those of the previous instance.
     fn repeats(&self) -> Vec<bool> {
         let mut repeats = vec![true; self.count];
         if let Some(first) = repeats.first_mut() {
@@ -88,7 +88,7 @@ impl Surfaces {
         };
         let mut counts = PrimitiveCounts { assembled: total as u64, ..PrimitiveCounts::default() };
         let mut last = None;
-        // Numbers of the shapes of a chunk.
+        // Indices of a chunk's shapes.
         let mut numbers: Vec<u32> = Vec::new();
         let all = chunks.iter().flat_map(|(outcomes, shapes)| outcomes.iter().map(move |&outcome| (outcome, shapes)));
         for (index, (outcome, shapes)) in all.enumerate() {
@@ -124,7 +124,7 @@ impl Surfaces {
         (out, counts)
     }
 
-    /// Appends what the clipper leaves of a triangle; gives how many triangles that is.
+    /// Appends the clipped parts of a triangle; returns their number.
     fn cut(&mut self, instances: &Instances<'_>, corners: [usize; 3], state: &RasterState, rules: &RasterRules) -> u32 {
         let [a, b, c] = corners.map(|at| instances.rows.vertex(at));
         let mut parts = Vec::new();
@@ -137,8 +137,8 @@ impl Surfaces {
         report.emitted
     }
 
-    /// Makes the planes of all triangles, those of a triangle of the list one instance after the other. Gives for each
-    /// whether its constant components are those of the triangle before in the same instance.
+    /// Computes the planes of all triangles, grouped by triangle of the list, then instance. For each, returns `true`
+    /// if its constant components equal those of the previous triangle of the same instance.
     fn planes(&mut self, instances: &Instances<'_>, simd: SimdLevel) -> Vec<bool> {
         let (count, total) = (instances.count, instances.count * instances.triangles.len());
         let format = self.iterator_format;
@@ -179,7 +179,7 @@ impl Surfaces {
             }
             Some(constant)
         };
-        // By row, 1 for each triangle that holds the component constant; nothing where all of them do.
+        // By row: 1 for each triangle over which the component is constant; empty if all are.
         let flags: Vec<Option<Vec<u8>>> = if total <= CHUNK {
             self.rows.iter_mut().map(work).collect()
         } else {
@@ -200,7 +200,7 @@ impl Surfaces {
             for (mask, &flag) in self.constant.iter_mut().zip(flags) {
                 *mask |= u64::from(flag) << row.component;
             }
-            // Number `i` is compared with the triangle before it in its instance, `i - count`.
+            // Element `i` is compared with the previous triangle of its instance, `i - count`.
             let (before, now) = (row.base.iter().zip(flags), row.base.iter().zip(flags).skip(count));
             for ((joined, (a, fa)), (b, fb)) in joined.iter_mut().skip(count).zip(before).zip(now) {
                 *joined &= (fa == fb) & ((*fa == 0) | (a == b));
@@ -210,7 +210,7 @@ impl Surfaces {
     }
 }
 
-/// Sets up the shapes of some triangles.
+/// Sets up the shapes of triangles.
 fn shapes(
     (instances, window, repeats): (&Instances<'_>, &Window, &[bool]),
     range: std::ops::Range<usize>,
@@ -260,7 +260,7 @@ fn shapes(
     (outcomes, shapes)
 }
 
-/// Whether anything is left of a triangle that a plane cuts; its components do not matter for that.
+/// Outcome of a triangle that a clip plane cuts; does not depend on its components.
 fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRules) -> ShapeOutcome {
     let [a, b, c] = positions.map(|position| Vertex { position, ..Vertex::default() });
     if setup([&a, &b, &c], state, rules, &mut Vec::new()).emitted == 0 {
@@ -270,7 +270,7 @@ fn cut_outcome(positions: &[[u32; 4]; 3], state: &RasterState, rules: &RasterRul
     }
 }
 
-/// The planes of one component, single precision, and 1 where it is constant.
+/// Planes of one component in single precision, and 1 where it is constant.
 #[inline(always)]
 fn single_planes([v0, v1, v2]: [&[u32]; 3], (base, d1, d2): (&mut [u32], &mut [u32], &mut [u32]), constant: &mut [u8]) {
     let count = v0.len();

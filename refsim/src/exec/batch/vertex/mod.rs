@@ -1,4 +1,4 @@
-//! From attributes to triangles, in rows.
+//! Vertex processing and triangle set-up in rows.
 //!
 //! - `program`: vertex programs; `rows`: vertices; `window`: viewport transform and clip tests.
 //! - `build`, `surfaces`: triangles.

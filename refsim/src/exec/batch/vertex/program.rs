@@ -1,4 +1,4 @@
-//! Vertex programs on batches of 256 vertices: attributes in rows, results in rows.
+//! Vertex programs on batches of 256 vertices, with attributes and results in rows.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,54 +23,54 @@ use crate::isa::{Instruction, Program, RegisterFile};
 use crate::num::{Format, NumberOperation};
 use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT};
 
-/// Vertices per task; up to that many run on the calling thread.
+/// Vertices per task; up to this number run on the calling thread.
 const SPAN: usize = 16 * LANES;
 
-/// Attributes of some vertices: `fill(register, component, first, row)` writes the single precision patterns of
-/// `v#register` of the vertices from `first` on.
+/// Source of attributes: `fill(register, component, first, row)` writes the single-precision patterns of `v#register`
+/// for the vertices from `first` on.
 pub type AttributeRows<'f> = dyn Fn(usize, usize, usize, &mut [u32]) + Sync + 'f;
 
-/// A vertex program ready to run on batches; equal to [`crate::exec::scalar::VertexProgram`].
+/// A vertex program prepared for batches; equivalent to [`crate::exec::scalar::VertexProgram`].
 #[derive(Debug)]
 pub struct BatchVertices {
     formats: LaneFormats,
     constants: Vec<[u32; 4]>,
-    /// The components that are made, after the position's four.
+    /// Components that are computed, after the position's four.
     components: Vec<usize>,
     code: Arc<DecodedVertex>,
 }
 
-/// A decoded program, and rows that are not in use.
+/// A decoded program, and idle buffers.
 #[derive(Debug)]
 pub(crate) struct DecodedVertex {
     code: VertexCode,
     slots: Pool<Slots>,
 }
 
-/// A program with flow control or without.
+/// A program without or with flow control.
 #[derive(Debug)]
 enum VertexCode {
-    /// Roots are the results, single precision; and the slots of an execution.
+    /// Block whose roots are the single-precision results, and instruction slots per execution.
     Straight(StepBlock, u64),
     Flow(Box<FlowPlan>),
 }
 
-/// What decoding depends on.
+/// Key of the cache: all inputs of decoding.
 #[derive(Debug)]
 pub(crate) struct VertexKey {
     program: Program,
     rules: Rules,
-    /// `None` where they are inputs.
+    /// `None` if constants are inputs.
     constants: Option<ResolvedConstants>,
     needed: ComponentMask,
     budget: u32,
 }
 
-/// The vertex programs last used.
+/// Cache of vertex programs.
 pub(crate) type VertexPrograms = Cache<VertexKey, DecodedVertex>;
 
-/// A program decoded, or as it was decoded before. The first constants that it comes with become part of it; when
-/// others follow, it is decoded once more with constants as inputs, which serves all that come after.
+/// Returns a decoded program, from the cache if possible. The first constants of a program are folded into it. When
+/// other constants follow, it is decoded once more with constants as inputs, which serves all later ones.
 fn decoded(
     programs: &VertexPrograms,
     program: &Program,
@@ -107,9 +107,8 @@ fn decoded(
 }
 
 impl BatchVertices {
-    /// Prepares a program, which must be a vertex program, for the position and the components that are `needed`.
-    /// `None` if no vertex can end within the step budget: only the scalar executor counts the steps of programs
-    /// without flow control.
+    /// Prepares a vertex program that computes the position and the `needed` components. `None` if every vertex exceeds
+    /// the step budget, because only the scalar executor counts the steps of programs without flow control.
     pub(crate) fn new(
         (program, constants): (&Program, &Constants),
         rules: &Rules,
@@ -128,7 +127,7 @@ impl BatchVertices {
         Some(Self { constants: raw_constants(&constants.float, &formats), code, components, formats })
     }
 
-    /// Runs the program on `total` vertices.
+    /// Executes the program on `total` vertices.
     pub fn run(&self, total: usize, attributes: &AttributeRows<'_>) -> VertexRows {
         let span = |i: usize| self.span(i * SPAN, total.saturating_sub(i * SPAN).min(SPAN), attributes);
         if total <= SPAN {
@@ -147,7 +146,7 @@ impl BatchVertices {
         out
     }
 
-    /// Calls `fill` with the number of each row that is made, and the row.
+    /// Calls `fill` with the index of each computed row, and the row.
     fn each_row(&self, out: &mut VertexRows, mut fill: impl FnMut(usize, &mut Vec<u32>)) {
         for (i, row) in out.position.iter_mut().enumerate() {
             fill(i, row);
@@ -157,7 +156,7 @@ impl BatchVertices {
         }
     }
 
-    /// The row of a number, as [`Self::each_row`] numbers them.
+    /// The row with an index as in [`Self::each_row`].
     fn row<'r>(&self, rows: &'r VertexRows, number: usize) -> &'r [u32] {
         match number {
             0..4 => &rows.position[number],
@@ -165,7 +164,7 @@ impl BatchVertices {
         }
     }
 
-    /// Up to [`SPAN`] vertices, 256 after 256.
+    /// Processes up to [`SPAN`] vertices in groups of 256.
     fn span(&self, first: usize, count: usize, attributes: &AttributeRows<'_>) -> VertexRows {
         let mut slots = self.code.slots.take(|_| true).unwrap_or_else(|| self.slots());
         let mut out = VertexRows::new();
@@ -192,7 +191,7 @@ impl BatchVertices {
         }
     }
 
-    /// Appends up to 256 vertices: position, components; and the instruction slots.
+    /// Processes up to 256 vertices: appends position, components and instruction slots.
     fn group(
         &self,
         first: usize,
@@ -211,7 +210,7 @@ impl BatchVertices {
                 slots.row_mut(slot)[..count].fill(register.map_or(0, |c| c[usize::from(constant % 4)]));
                 continue;
             }
-            // A pattern is the number's host bits: single precision is the host's own.
+            // Inputs are single precision, so their bits are raw values.
             let row = &mut slots.row_mut(slot)[..count];
             attributes(usize::from(component / 4), usize::from(component % 4), first, row);
         }
@@ -237,7 +236,7 @@ impl BatchVertices {
         }
     }
 
-    /// What a register component of a program with flow control holds at the end.
+    /// Final contents of a register component of a program with flow control.
     fn held(&self, slot: Option<Slot>, place: RegisterComponent, slots: &Slots, count: usize) -> Vec<u32> {
         let Some(slot) = slot else { return vec![0; count] };
         let main = self.formats.lane(Arith::Main);
@@ -246,7 +245,7 @@ impl BatchVertices {
         slots.row(slot)[..count].iter().map(value).collect()
     }
 
-    /// What a slot holds as a single precision pattern.
+    /// Contents of a slot as a single-precision pattern.
     fn single(&self, raw: u32) -> u32 {
         fn wide<L: Lane>(lane: &L, raw: u32) -> f64 {
             lane.to_f64(L::load(raw))
@@ -263,7 +262,7 @@ impl BatchVertices {
     }
 }
 
-/// The output register components of a position and of components, in their order.
+/// Output register components of the position and of `components`, in order.
 fn outputs(components: &[usize]) -> impl Iterator<Item = RegisterComponent> {
     let position = (0..4).map(|c| (RegisterFile::PositionOut, 0, c));
     position.chain(components.iter().map(|&component| match component {
@@ -276,7 +275,7 @@ fn outputs(components: &[usize]) -> impl Iterator<Item = RegisterComponent> {
     }))
 }
 
-/// A program without flow control as one block that makes the outputs alone; `open`: its constants are inputs.
+/// Schedules a program without flow control as one block of its outputs; if `open`, constants are inputs.
 fn straight(
     program: &Program,
     rules: &Rules,
@@ -302,7 +301,7 @@ fn straight(
     VertexCode::Straight(schedule(&t.make.graph, &roots, |_| false, &BTreeMap::new(), 0), cost)
 }
 
-/// A single precision number as a pattern: every NaN is the one.
+/// Makes NaN canonical in a single-precision pattern.
 fn canonical(bits: &u32) -> u32 {
     if bits & 0x7fff_ffff > 0x7f80_0000 { 0x7fc0_0000 } else { *bits }
 }

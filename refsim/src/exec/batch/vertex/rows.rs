@@ -1,16 +1,16 @@
-//! Vertices in structure of arrays.
+//! Vertices in structure-of-arrays layout.
 
 use crate::raster::{COLOR_COMPONENT, COMPONENTS, ComponentMask, FOG_COMPONENT, Vertex};
 
-/// Vertices as rows, single precision patterns: the position, and the components that were asked for.
+/// Vertices as rows of single-precision patterns: the position and the components requested.
 #[derive(Clone, Debug, Default)]
 pub struct VertexRows {
     pub(crate) position: [Vec<u32>; 4],
-    /// By component, as in [`ComponentMask`]; empty where not asked for.
+    /// By component, as in [`ComponentMask`]; empty if not requested.
     pub(crate) components: Vec<Vec<u32>>,
-    /// Instruction slots executed, summed over the vertices.
+    /// Instruction slots executed, in total over the vertices.
     pub executed: u64,
-    /// Vertices that did not end within the step budget, and the instruction that was one too many.
+    /// Vertices that exceeded the step budget, and the first instruction beyond it.
     pub(crate) cut: Vec<(usize, usize)>,
 }
 
@@ -19,7 +19,7 @@ impl VertexRows {
         Self { position: Default::default(), components: vec![Vec::new(); COMPONENTS], executed: 0, cut: Vec::new() }
     }
 
-    /// Vertices given one by one.
+    /// Converts vertices to rows.
     pub fn from_vertices(vertices: &[Vertex], needed: ComponentMask) -> Self {
         let mut rows = Self::new();
         for (c, row) in rows.position.iter_mut().enumerate() {
@@ -31,7 +31,7 @@ impl VertexRows {
         rows
     }
 
-    /// A vertex with what the rows have of it, and zeros.
+    /// A vertex with the components in the rows; the others are zero.
     pub(crate) fn vertex(&self, index: usize) -> Vertex {
         let at = |row: &Vec<u32>| row.get(index).copied().unwrap_or_default();
         let component = |i: usize| self.components.get(i).map_or(0, at);

@@ -1,28 +1,29 @@
-//! Triangles in structure of arrays: each distinct shape once, and one row per component that the pixel program reads.
+//! Triangles in structure-of-arrays layout: each distinct shape once, and one row per component that the pixel program
+//! reads.
 //!
-//! The crossbar draws thousands of quads with the same corners: they have two shapes in all, and differ in components
+//! The crossbar draws thousands of quads with the same corners: they have only two shapes, and differ in components
 //! that are constant over each triangle.
 
 use crate::num::Format;
 use crate::raster::{ComponentMask, Plane, TriangleSetup};
 
-/// Shapes that a new one is compared with before it is taken for new.
+/// Number of recent shapes that a new one is compared with.
 const RECENT: usize = 4;
 
-/// A triangle: its shape, and where its planes lie in the rows of the components.
+/// A triangle: indices of its shape and of its planes in the rows of components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Triangle {
     pub(crate) shape: u32,
     pub(crate) planes: u32,
 }
 
-/// One component over all triangles.
+/// A component's planes of all triangles.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PlaneRows {
-    /// Its number, as in [`ComponentMask`].
+    /// Component, as in [`ComponentMask`].
     pub(crate) component: usize,
     pub(crate) base: Vec<u32>,
-    /// Empty where all triangles hold the component constant, like `d2`.
+    /// Empty if the component is constant over all triangles, like `d2`.
     pub(crate) d1: Vec<u32>,
     pub(crate) d2: Vec<u32>,
 }
@@ -42,23 +43,23 @@ impl PlaneRows {
     }
 }
 
-/// Some triangles of a draw, in the order of submission, with the components that the pixel program reads.
+/// Triangles of a draw in order of submission, with the components that the pixel program reads.
 #[derive(Clone, Debug)]
 pub struct Surfaces {
     /// Set-ups without planes.
     pub(crate) shapes: Vec<TriangleSetup>,
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) rows: Vec<PlaneRows>,
-    /// By planes: the components of `rows` that are constant over the triangle.
+    /// By planes: components of `rows` that are constant over the triangle.
     pub(crate) constant: Vec<u64>,
-    /// By triangle: whether the components that are constant over it are the same, with the same values, as those of
-    /// the triangle before.
+    /// By triangle: `true` if its constant components are the same, with the same values, as those of the previous
+    /// triangle.
     pub(crate) joins: Vec<bool>,
     pub(crate) iterator_format: Format,
 }
 
 impl Surfaces {
-    /// No triangles yet, with rows for the components that are `needed`.
+    /// Creates an empty list with rows for the `needed` components.
     pub(crate) fn new(needed: ComponentMask, iterator_format: Format) -> Self {
         let rows = (0..crate::raster::COMPONENTS)
             .filter(|&component| needed.has(component))
@@ -74,7 +75,7 @@ impl Surfaces {
         }
     }
 
-    /// Triangles that the raster room has set up.
+    /// Converts triangle set-ups.
     pub fn from_setups(setups: &[TriangleSetup], needed: ComponentMask) -> Self {
         let format = setups.first().map_or(Format::FP32, |setup| setup.iterator_format);
         let mut out = Self::new(needed, format);
@@ -86,7 +87,7 @@ impl Surfaces {
         out
     }
 
-    /// The number of a shape: that of an equal one among the last few, or a new one.
+    /// Index of a shape: that of an equal one among the most recent, or of a new one.
     pub(crate) fn shape(&mut self, setup: &TriangleSetup) -> u32 {
         let first = self.shapes.len().saturating_sub(RECENT);
         if let Some(i) = self.shapes[first..].iter().position(|known| same_shape(known, setup)) {
@@ -96,7 +97,7 @@ impl Surfaces {
         (self.shapes.len() - 1) as u32
     }
 
-    /// Appends the planes of a triangle and gives their number.
+    /// Appends the planes of a triangle; returns their index.
     pub(crate) fn push_planes(&mut self, setup: &TriangleSetup) -> u32 {
         let mut constant = 0;
         for row in &mut self.rows {
@@ -107,19 +108,19 @@ impl Surfaces {
         (self.constant.len() - 1) as u32
     }
 
-    /// Appends a triangle whose planes are there.
+    /// Appends a triangle whose planes were appended.
     pub(crate) fn push(&mut self, triangle: Triangle) {
         let joins = self.triangles.last().is_some_and(|last| self.same_constants(last.planes, triangle.planes));
         self.push_joined(triangle, joins);
     }
 
-    /// [`Self::push`] where it is known whether it joins the one before.
+    /// [`Self::push`] with known `joins`.
     pub(crate) fn push_joined(&mut self, triangle: Triangle, joins: bool) {
         self.triangles.push(triangle);
         self.joins.push(joins);
     }
 
-    /// Whether two sets of planes have the same constant components with the same values.
+    /// Returns `true` if two sets of planes have the same constant components with the same values.
     fn same_constants(&self, a: u32, b: u32) -> bool {
         let (a, b) = (a as usize, b as usize);
         let constant = self.constant[a];
@@ -127,33 +128,33 @@ impl Surfaces {
             && self.rows.iter().all(|row| constant >> row.component & 1 == 0 || row.base[a] == row.base[b])
     }
 
-    /// The components that are constant over every triangle.
+    /// Components that are constant over every triangle.
     pub(crate) fn all_constant(&self) -> u64 {
         self.triangles.iter().fold(u64::MAX, |mask, t| mask & self.constant[t.planes as usize])
     }
 
-    /// The planes of a component.
+    /// Planes of a component.
     pub(crate) fn row(&self, component: u16) -> Option<&PlaneRows> {
         self.rows.iter().find(|row| row.component == usize::from(component))
     }
 
-    /// How many triangles there are.
+    /// Number of triangles.
     pub fn len(&self) -> usize {
         self.triangles.len()
     }
 
-    /// Whether there are none.
+    /// Returns `true` if there are no triangles.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// The geometry of a triangle; its planes mean nothing.
+    /// Set-up of a triangle; its planes are undefined.
     pub fn geometry(&self, triangle: usize) -> Option<&TriangleSetup> {
         self.triangles.get(triangle).and_then(|t| self.shapes.get(t.shape as usize))
     }
 }
 
-/// Whether two set-ups cover the same pixels with the same weights and depths.
+/// Returns `true` if two set-ups have the same pixels, weights and depths.
 fn same_shape(a: &TriangleSetup, b: &TriangleSetup) -> bool {
     a.edges == b.edges
         && a.bounds == b.bounds

@@ -1,5 +1,5 @@
-//! Viewport transform and clip tests of vertices in rows, in host single precision, step by step as the raster room
-//! defines them.
+//! Viewport transform and clip tests of vertices in rows, in the host's single precision with the steps defined by
+//! [`crate::raster`].
 
 use rayon::prelude::*;
 
@@ -7,19 +7,19 @@ use super::rows::VertexRows;
 use crate::exec::batch::lanes::SimdLevel;
 use crate::raster::{ClipSpace, Corner, FARTHEST, GUARD_BAND, LEAST_W, RasterRules, RasterState};
 
-/// Vertices that one worker takes at a time.
+/// Vertices per task.
 const SPAN: usize = 4096;
 
-/// Where a vertex lies by the clip planes.
+/// Clip test result of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ClipResult {
-    /// Within all planes.
+    /// Inside all planes.
     Inside,
-    /// Outside one at least.
+    /// Outside at least one plane.
     Outside,
     /// The position is not finite.
     NotFinite,
-    /// Within all planes, but not finite in the window.
+    /// Inside all planes, but the window position is not finite.
     Lost,
 }
 
@@ -27,7 +27,7 @@ impl ClipResult {
     const ALL: [ClipResult; 4] = [Self::Inside, Self::Lost, Self::Outside, Self::NotFinite];
 }
 
-/// Some vertices in the window.
+/// Window positions of a range of vertices.
 #[derive(Debug, Default)]
 struct WindowSpan {
     /// Index into [`ClipResult::ALL`].
@@ -38,13 +38,13 @@ struct WindowSpan {
     reciprocal_w: Vec<u32>,
 }
 
-/// All vertices of some rows in the window.
+/// Window positions of all vertices.
 #[derive(Debug)]
 pub(crate) struct Window {
     spans: Vec<WindowSpan>,
 }
 
-/// What is the same for all vertices.
+/// Parameters shared by all vertices.
 #[derive(Clone, Copy)]
 struct ViewportTransform {
     half: [f32; 2],
@@ -52,7 +52,7 @@ struct ViewportTransform {
     depths: [f32; 2],
     least_w: f32,
     band: f32,
-    /// Grid units in a pixel, and the farthest grid line.
+    /// Grid units per pixel, and the farthest grid line.
     grid: f64,
     far: f64,
 }
@@ -94,12 +94,12 @@ impl Window {
         Self { spans }
     }
 
-    /// Where a vertex lies by the clip planes.
+    /// Clip test result of a vertex.
     pub(crate) fn clipped(&self, vertex: usize) -> ClipResult {
         ClipResult::ALL[self.spans[vertex / SPAN].flags[vertex % SPAN] as usize & 3]
     }
 
-    /// A vertex in the window, if it is inside.
+    /// Window position of a vertex that is inside.
     pub(crate) fn corner(&self, vertex: usize) -> Corner {
         let (span, i) = (&self.spans[vertex / SPAN], vertex % SPAN);
         Corner { x: span.x[i].into(), y: span.y[i].into(), depth: span.depth[i], reciprocal_w: span.reciprocal_w[i] }
@@ -157,7 +157,7 @@ fn is_finite(x: f32) -> bool {
     x.abs() < f32::INFINITY
 }
 
-/// The nearest grid line, halves up. In doubles the sum is exact wherever it decides.
+/// Nearest grid line, halves up. In double precision the sum is exact near a rounding boundary.
 #[inline(always)]
 fn snapped(x: f32, grid: f64, far: f64) -> i32 {
     let line = (f64::from(x) * grid + 0.5).floor();

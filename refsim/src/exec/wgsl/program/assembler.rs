@@ -1,4 +1,5 @@
-//! Words of the machine of `vm.wgsl`, made block by block: values get slots, operations get words.
+//! Assembler for the virtual machine of `vm.wgsl`: works block by block, assigns slots to values and encodes
+//! operations.
 
 use super::lower::{Sink, SinkKind};
 use super::operations as op;
@@ -8,43 +9,42 @@ use crate::exec::wgsl::parts::Parts;
 use crate::num::{Format, NumberOperation};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Operands from here on are constants, then words of a triangle's set-up, then rows of what goes in and out.
+/// Operand ranges: slots, then constants, then words of a triangle's set-up, then input and output rows.
 pub(super) const FIRST_CONSTANT: usize = 0x8000;
 pub(super) const SETUP: u16 = 0xfe00;
 pub(super) const INPUT: u16 = 0xff00;
-/// Rows of results, as `interface.wgsl` has them: colours, killed lanes, depth, lanes whose depth is in the main
-/// format.
+/// Output rows, as in `interface.wgsl`: colours, killed lanes, depth, lanes whose depth is in the main format.
 pub(super) const COLORS: u16 = INPUT + 47;
 pub(super) const KILLED: u16 = COLORS + 16;
 pub(super) const DEPTH: u16 = KILLED + 1;
 pub(super) const DEPTH_IS_MAIN: u16 = DEPTH + 1;
-/// How many rows go in and out.
+/// Number of input and output rows.
 pub(crate) const IN_OUT_ROWS: usize = (DEPTH_IS_MAIN - INPUT) as usize + 1;
-/// No operand.
+/// Code for no operand.
 pub(super) const NONE: u16 = 0xffff;
-/// Loop passes of an instruction, by the class that its word names in bits 14 and 15.
+/// Loop iterations per instruction, by the class in bits 14 and 15 of its word.
 pub(super) const PASSES: [u32; 4] = [20, 600, 1000, 8000];
 
-/// Makes the words of a program.
+/// Encodes a program.
 pub(super) struct Assembler<'g> {
     pub(super) graph: &'g Graph,
     pub(super) formats: &'g Formats,
     pub(super) words: Vec<u32>,
-    /// Constants and their numbers.
+    /// Constants and their indices.
     pub(super) pool: BTreeMap<u32, usize>,
-    /// The first slot that holds no register.
+    /// First slot after the registers.
     pub(super) first: Slot,
-    /// Slots used.
+    /// Number of slots used.
     pub(super) next: usize,
     pub(super) parts: Parts,
     pub(super) samplers: BTreeSet<usize>,
     pub(super) passes: u32,
 }
 
-/// The values of one block on their way through slots.
+/// Slots of the values of one block.
 pub(super) struct Places {
     at: BTreeMap<NodeId, u16>,
-    /// Reads still to come.
+    /// Number of remaining reads per value.
     left: BTreeMap<NodeId, u32>,
     free: Vec<u16>,
     next: usize,
@@ -68,11 +68,11 @@ impl Assembler<'_> {
     pub(super) fn constant(&mut self, raw: u32) -> u16 {
         let number = self.pool.len();
         let number = *self.pool.entry(raw).or_insert(number);
-        // Too many are found out at the end.
+        // Overflow is detected at the end.
         (FIRST_CONSTANT + number).min(usize::from(SETUP) - 1) as u16
     }
 
-    /// The first word of an instruction.
+    /// Appends the first word of an instruction.
     pub(super) fn push(&mut self, operation: u32, rest: u32) {
         for name in op::with(operation) {
             self.parts.add(&op::constant(name));
@@ -80,14 +80,14 @@ impl Assembler<'_> {
         self.words.push(operation | rest);
     }
 
-    /// The first word of an instruction that makes about so many loop passes.
+    /// Appends the first word of an instruction with about `passes` loop iterations.
     pub(super) fn push_costly(&mut self, operation: u32, rest: u32, passes: u32) {
         let class = PASSES.iter().position(|&most| passes <= most).unwrap_or(PASSES.len() - 1);
         self.passes += PASSES[class];
         self.push(operation, rest | (class as u32) << 14);
     }
 
-    /// The number of a format, which is used.
+    /// Index of a format; marks it as used.
     pub(super) fn format(&mut self, k: Arith) -> u32 {
         let format = self.formats.format(k);
         self.parts.add_if(format != Format::FP32, "HAS_FORMATS");
@@ -95,7 +95,7 @@ impl Assembler<'_> {
         k.number()
     }
 
-    /// Computes what the sinks need and gives it to them, each as soon as it has everything.
+    /// Computes the values that the sinks need, and emits each sink as soon as its values are available.
     pub(super) fn block(&mut self, sinks: &[Sink]) -> Places {
         let live = self.graph.live(sinks.iter().flat_map(|s| s.nodes.iter().copied()));
         let needed: Vec<NodeId> = (0u32..).zip(&live).filter(|&(_, &live)| live).map(|(i, _)| NodeId(i)).collect();
@@ -113,7 +113,7 @@ impl Assembler<'_> {
             }
             self.leaf(node, &mut places);
         }
-        // A sink is served after the last of its values. Merges come last, in order.
+        // A sink is emitted after the last of its values; merges come last, in order.
         let mut order: Vec<(Option<NodeId>, &Sink)> = Vec::with_capacity(sinks.len());
         let mut traced = None;
         for sink in sinks {
@@ -159,7 +159,7 @@ impl Assembler<'_> {
         places.at.insert(node, at);
     }
 
-    /// One read of each of these values is done; slots nobody reads any more are free.
+    /// Counts one read of each value; frees the slots of values without remaining reads.
     fn release(&self, nodes: &[NodeId], places: &mut Places) {
         for node in nodes {
             let Some(left) = places.left.get_mut(node) else { continue };
@@ -180,8 +180,8 @@ impl Assembler<'_> {
         self.release(&operands, places);
     }
 
-    /// A slot for the value, after its operands were read for the last time. Lanes are computed one after the other, so
-    /// only what reads no other lane may write where it reads.
+    /// Allocates the slot of a result, after its operands' last reads. Lanes are computed one after the other, so only
+    /// operations that read no other lane may overwrite an operand.
     fn result(&mut self, node: NodeId, places: &mut Places) -> u16 {
         self.release_operands(node, places);
         let to = places.fresh();
@@ -272,7 +272,7 @@ impl Assembler<'_> {
             return;
         }
         match code {
-            // The shader has no operation that rounds twice.
+            // The shader has no multiply-add with two roundings.
             NumberOperation::Mad => {
                 let product = places.fresh();
                 self.operation(k, NumberOperation::Mul, product, [a, b, a]);
@@ -303,7 +303,7 @@ impl Assembler<'_> {
             to[usize::from(component & 3)] = slot;
         }
         places.at.insert(node, 0);
-        // One lane's texel is written before the next one's coordinates are read.
+        // A lane's texel is written before the next lane's coordinates are read.
         self.release_operands(node, places);
         self.samplers.insert(sampler.into());
         self.push_costly(op::FETCH, u32::from(sampler) << 16 | number << 24, 8000);
@@ -340,7 +340,7 @@ impl Assembler<'_> {
         self.release(&sink.nodes, places);
     }
 
-    /// Writes registers. A register that a later write reads is kept for it first.
+    /// Writes registers. A register that a later write reads is copied first.
     fn merge(&mut self, sinks: &[&Sink], places: &mut Places) {
         let target = |sink: &Sink| match sink.what {
             SinkKind::Merge(to) | SinkKind::Move(to) => Some(to),
@@ -375,7 +375,7 @@ fn pair(low: u16, high: u16) -> u32 {
     u32::from(low) | u32::from(high) << 16
 }
 
-/// Loop passes of an operation on numbers in four lanes.
+/// Loop iterations of a number operation in four lanes.
 fn passes(operation: u32) -> u32 {
     use NumberOperation as Op;
     match Op::ALL.get(operation as usize) {

@@ -1,4 +1,4 @@
-//! Interpolation as words for the machine: its arithmetic is compiled once, for interpolation and program together.
+//! Interpolation as microcode, so that its arithmetic is compiled once for interpolation and program.
 
 use super::assembler::{Assembler, INPUT, NONE, SETUP};
 use super::operations as op;
@@ -6,40 +6,40 @@ use crate::exec::wgsl::number::source_word;
 use crate::num::{Format, NumberOperation};
 use crate::raster::POSITION_COMPONENT;
 
-/// Formats by their numbers in the draw.
+/// Indices of formats in the draw.
 const SINGLE: u32 = 2;
 const ITERATOR: u32 = 4;
-/// Words of a set-up.
+/// Offsets in a set-up, in words.
 const AREA: u16 = 21;
 const FLAGS: u16 = 26;
 const RECIPROCAL_W: u16 = 27;
 const DEPTH: u16 = 30;
 const CONSTANT: u16 = 33;
-/// The first word of the planes of components, three each.
+/// Offset of the planes of components, three words each.
 pub(crate) const PLANES: u16 = 35;
-/// Bits of the flags: no perspective; constant depth; nothing at all varies.
+/// Bits of the flags: no perspective; constant depth; all components constant.
 const IS_AFFINE: u32 = 0;
 const DEPTH_IS_CONSTANT: u32 = 1;
 const ALL_IS_CONSTANT: u32 = 2;
-/// The edge functions of corners 1 and 2, after the components.
+/// Rows of the edge functions of corners 1 and 2, after the components.
 const EDGES: [u16; 2] = [INPUT + 45, INPUT + 46];
 
-/// What is interpolated for a program.
+/// Components to be interpolated for a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interpolation {
     /// The components, in the order of their planes in a set-up.
     pub components: Vec<usize>,
-    /// The format of iterators.
+    /// The iterator format.
     pub iterator: Format,
 }
 
 impl Interpolation {
-    /// The component that is 1 / w, which varies along the screen; the others of the window position come before it.
+    /// The component 1 / w, which is linear in screen space; it follows the other components of the window position.
     pub(crate) const RECIPROCAL: usize = POSITION_COMPONENT + 3;
 }
 
 impl Assembler<'_> {
-    /// Interpolation as the raster room defines it, step by step.
+    /// Emits interpolation with the operations of [`crate::raster`].
     pub(super) fn interpolate(&mut self, interpolation: &Interpolation) {
         let single = interpolation.iterator == Format::FP32;
         let iterator = if single { SINGLE } else { ITERATOR };
@@ -90,7 +90,7 @@ impl Assembler<'_> {
         }
     }
 
-    /// Weights in perspective out of those along the screen.
+    /// Emits perspective-correct weights from screen-space weights.
     fn perspective(&mut self, [l1, l2]: [u16; 2], [p1, p2]: [u16; 2], sum: u16) {
         let one = self.constant(Format::FP32.one());
         let [w0, w1, w2] = [0, 1, 2].map(|corner| SETUP + RECIPROCAL_W + corner);
@@ -127,7 +127,7 @@ impl Assembler<'_> {
         self.emit(op::COPY, 0, to, [from; 3]);
     }
 
-    /// Goes on elsewhere if a bit of a word of the set-up is 1: at the place where the answer is given to `land`.
+    /// Emits a jump that is taken if a bit of a set-up word is 1; its target is set by `land`.
     fn unless(&mut self, word: u16, bit: u32) -> usize {
         self.push(op::UNLESS, bit << 8 | u32::from(word) << 16);
         self.words.push(NONE.into());

@@ -1,4 +1,4 @@
-//! Programs on their way to a GPU: the batch executor's graph, and what becomes of its values.
+//! Lowering of programs for GPUs: the graph shared with the batch executor, and the uses of its values.
 
 use crate::device::Rules;
 use crate::exec::budget::loop_counter;
@@ -13,26 +13,26 @@ use crate::isa::{Instruction, Mask, Opcode, OpcodeClass, Program, RegisterFile};
 use crate::num::NumberOperation;
 use std::collections::BTreeMap;
 
-/// What becomes of values.
+/// Use of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SinkKind {
-    /// A component of a colour: target, component.
+    /// Output of a colour component: target, component.
     Color(u16, u16),
-    /// The mask of killed lanes.
+    /// Output of the mask of killed lanes.
     Killed,
-    /// Depth and the mask of lanes that have it.
+    /// Output of depth and of the mask of lanes that have it.
     Depth(Arith),
-    /// What an instruction wrote: up to four values and as many masks; which components they are.
+    /// Trace record of an instruction: up to four values and as many masks; the mask tells the components.
     Trace(usize, Mask),
-    /// Merged into the slot of a register where the mask holds: value, mask.
+    /// Merge into the slot of a register under a mask: value, mask.
     Merge(Slot),
-    /// Moved into a slot.
+    /// Move into a slot.
     Move(Slot),
-    /// The mask of a condition.
+    /// Mask of a condition.
     Condition,
 }
 
-/// A use and the values that it takes.
+/// A use and its values.
 #[derive(Clone, Debug)]
 pub(super) struct Sink {
     pub(super) what: SinkKind,
@@ -49,21 +49,21 @@ impl Sink {
 #[derive(Clone, Debug)]
 pub(super) struct MaskedStep {
     pub(super) opcode: Opcode,
-    /// Where it leads, as in [`FlowMap::target`].
+    /// Jump target, as in [`FlowMap::target`].
     pub(super) target: usize,
-    /// What it computes; a condition stands alone.
+    /// Uses of its results; a condition is the only one.
     pub(super) sinks: Vec<Sink>,
-    /// The sampler that it reads.
+    /// The sampler read.
     pub(super) sampler: Option<usize>,
-    /// The integer constant of a loop.
+    /// Integer constant of a loop.
     pub(super) counter: [i32; 4],
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum Body {
-    /// All values at once: what becomes of them; texture reads of each fragment by sampler.
+    /// Without flow control: the uses of all values, and the sampler of each texture read.
     Straight { sinks: Vec<Sink>, fetches: Vec<usize> },
-    /// Instruction by instruction, registers in the slots below `first_free`; and what is done before and at the end.
+    /// With flow control: steps with registers in slots below `first_free`, and what is done before and after them.
     Flow { start: Vec<Sink>, steps: Vec<MaskedStep>, first_free: Slot, end: Vec<Sink> },
 }
 
@@ -73,12 +73,12 @@ pub(super) struct Lowered {
     pub(super) graph: Graph,
     pub(super) formats: Formats,
     pub(super) body: Body,
-    /// Float constants, raw, for relative numbers; empty if the program has none.
+    /// Raw float constants for relative addressing; empty if the program has none.
     pub(super) table: Vec<[u32; 4]>,
 }
 
 impl Lowered {
-    /// A pixel program; with `traced` every instruction's results are told.
+    /// Lowers a pixel program; if `traced`, the results of every instruction are recorded.
     pub(super) fn pixel(
         program: &Program,
         rules: &Rules,
@@ -152,7 +152,7 @@ fn end_sinks(t: &mut Translator<'_>, ends: &Ends) -> Vec<Sink> {
     sinks
 }
 
-/// Where a pixel program with flow control leaves its results.
+/// Outputs of a pixel program with flow control.
 fn color_sinks(t: &mut Translator<'_>, program: &Program, registers: &BTreeMap<RegisterComponent, Slot>) -> Vec<Sink> {
     let mut sinks = Vec::new();
     let named = colors_written(program);
@@ -195,7 +195,7 @@ fn flow(t: &mut Translator<'_>, program: &Program, parts: MaskedProgram, end: Ve
     Body::Flow { start, steps, first_free, end }
 }
 
-/// Tells of the input registers before anything runs, by numbers past those of the instructions.
+/// Trace records of the input registers, before the program; numbered after the instructions.
 fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
     let all = t.make.graph.constant(TRUE);
     let numbers = program.instructions.len()..;
@@ -207,7 +207,7 @@ fn delivered_sinks(t: &mut Translator<'_>, program: &Program) -> Vec<Sink> {
     numbers.zip(registers_delivered(program)).map(sink).collect()
 }
 
-/// What an instruction under lane masks does with its results.
+/// Merges of an instruction's results under lane masks.
 fn merges(
     t: &mut Translator<'_>,
     at: usize,
@@ -228,7 +228,7 @@ fn merges(
         }
     }
     if traced && makes_step(instruction) {
-        // Every write is a merge: the destination's components in order.
+        // Every write is a merge, with the destination's components in order.
         let components = instruction.destination.map_or(Mask(0), |d| d.mask);
         let mask = written_mask(instruction, components.components().take(values.len()).map(|c| c as u8));
         values.append(&mut masks);
@@ -237,5 +237,5 @@ fn merges(
     sinks
 }
 
-/// The mask of active lanes.
+/// Slot of the mask of active lanes.
 pub(super) const ACTIVE_SLOT: Slot = ACTIVE;

@@ -1,4 +1,4 @@
-//! Programs as words for the machine of `vm.wgsl`, which says what they mean.
+//! Encoding of programs as words for the virtual machine of `vm.wgsl`, which documents them.
 
 use super::Interpolation;
 use super::assembler::{Assembler, COLORS, DEPTH, DEPTH_IS_MAIN, FIRST_CONSTANT, INPUT, SETUP};
@@ -12,41 +12,42 @@ use thiserror::Error;
 
 /// Words before the first instruction.
 const HEADER: usize = 8;
-/// Loop passes of a program without flow control that may run in one go; lavapipe ends all loops after 65,535.
+/// Maximum loop iterations of a program without flow control that runs in one dispatch; lavapipe terminates all loops
+/// after 65,535.
 const MAX_PASSES: u32 = 40_000;
 
-/// Why a program has no form for GPUs.
+/// Error of encoding a program for GPUs.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum ProgramError {
-    /// More values at a time, or more constants, than operands can name.
+    /// More live values or constants than operands can address.
     #[error(
         "the program needs {slots} slots and {constants} constants, at most 32768 and 32256 can be named; use another executor"
     )]
     TooLarge {
-        /// Values at a time.
+        /// Number of slots for live values.
         slots: usize,
-        /// Constants.
+        /// Number of constants.
         constants: usize,
     },
 }
 
-/// A program for the machine of `vm.wgsl`.
+/// A program for the virtual machine of `vm.wgsl`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Microcode {
-    /// What the binding `code` holds from `q_code` on.
+    /// Contents of the binding `code` from `q_code` on.
     pub words: Vec<u32>,
-    /// Rows of `scratch` that an invocation needs: `scratch` has this many times `q_stride` entries.
+    /// Rows of `scratch` per invocation: `scratch` has this many times `q_stride` entries.
     pub slots: usize,
-    /// The parts of the machine that run it.
+    /// Parts of the machine that it uses.
     pub parts: Parts,
-    /// The samplers that it reads.
+    /// Samplers that it reads.
     pub samplers: BTreeSet<usize>,
-    /// Loop passes that it makes at most, unless it may be broken off.
+    /// Maximum number of loop iterations, unless the program can be suspended.
     pub passes: u32,
 }
 
-/// Words of a program.
+/// Encodes a program.
 pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>) -> Result<Microcode, ProgramError> {
     let first = match &program.body {
         Body::Straight { .. } => Slot::from(ACTIVE_SLOT + 1),
@@ -82,7 +83,7 @@ pub(super) fn assemble(program: &Lowered, interpolation: Option<&Interpolation>)
             }
         }
         Body::Flow { start, steps, first_free, end } => {
-            // Slot 0 is the machine's own.
+            // Slot 0 is reserved for the machine.
             maker.push(op::ZERO, 0);
             maker.words.extend([1, u32::from(*first_free) - 1]);
             maker.block(start);

@@ -1,4 +1,4 @@
-//! Flow control in the words of the machine.
+//! Flow control as microcode.
 
 use super::assembler::{Assembler, NONE};
 use super::lower::{ACTIVE_SLOT, MaskedStep, Sink, SinkKind};
@@ -7,7 +7,7 @@ use crate::exec::budget::MAX_LOOP_PASSES;
 use crate::isa::{Opcode, OpcodeClass};
 
 impl Assembler<'_> {
-    /// The instructions one after the other, jumps resolved.
+    /// Encodes the instructions in order and resolves jumps.
     pub(super) fn steps(&mut self, steps: &[MaskedStep]) {
         let (mut starts, mut jumps) = (Vec::with_capacity(steps.len()), Vec::new());
         for (at, step) in steps.iter().enumerate() {
@@ -38,7 +38,8 @@ impl Assembler<'_> {
         }
     }
 
-    /// The flow control of an instruction; the word that holds its target, and the instruction that that is.
+    /// Encodes the flow control of an instruction; returns the index of the word for its target, and the target
+    /// instruction.
     fn flow(&mut self, step: &MaskedStep, at: usize, count: usize, condition: u16) -> Option<(usize, usize)> {
         let target_word = self.words.len() + 1;
         let mut emit = |op: u32| {
@@ -71,7 +72,7 @@ impl Assembler<'_> {
             }
             Opcode::Call | Opcode::CallNz => {
                 emit(op::CALL);
-                // A call that leads back, or nowhere, is passed over.
+                // A call that leads backward, or nowhere, is skipped.
                 let forward = step.target > at && step.target < count;
                 return forward.then_some((target_word, step.target + 1));
             }
@@ -93,9 +94,9 @@ fn is_flow(opcode: Opcode) -> bool {
     opcode.info().class == OpcodeClass::Flow
 }
 
-/// How many blocks and calls can be open at a time.
+/// Maximum number of simultaneously open blocks and calls.
 pub(super) fn deepest(steps: &[MaskedStep]) -> usize {
-    // Calls lead forward: a subroutine's own need is known before that of its callers.
+    // Calls lead forward, so a subroutine's depth is known before that of its callers.
     let mut needs = vec![0; steps.len() + 1];
     let mut most = 0;
     for start in (0..=steps.len()).rev() {

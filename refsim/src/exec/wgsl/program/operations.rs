@@ -1,4 +1,4 @@
-//! Operations of the machine: their numbers in words, and the constants by which `vm.wgsl` knows them.
+//! Operations of the virtual machine: their numbers, and the names of their constants in `vm.wgsl`.
 
 macro_rules! operations {
     ($($name:ident)*) => {
@@ -17,22 +17,22 @@ operations! {
     STEP IF ELSE END_IF LOOP END_LOOP BREAK CALL RET LABEL
 }
 
-/// Operations below are in every machine: they cost compilers little.
+/// Operations below this are always included: they are cheap to compile.
 const FIRST_COSTLY: u32 = DOT;
-/// Operations from here on come and go together.
+/// Operations from here on are included together.
 const FIRST_FLOW: u32 = STEP;
 
-/// The constants of the operations that every machine has.
+/// Names of the constants of operations that are always included.
 pub(in crate::exec::wgsl) fn plain() -> impl Iterator<Item = String> {
     NAMES[..FIRST_COSTLY as usize].iter().map(|name| constant(name))
 }
 
-/// The constants of all operations.
+/// Names of the constants of all operations.
 pub(in crate::exec::wgsl) fn all() -> impl Iterator<Item = String> {
     NAMES.iter().map(|name| constant(name))
 }
 
-/// The operations that a machine must have for one of them.
+/// Operations that must be included together with `operation`.
 pub(super) fn with(operation: u32) -> &'static [&'static str] {
     match operation {
         FIRST_FLOW.. => &NAMES[FIRST_FLOW as usize..],
@@ -41,7 +41,7 @@ pub(super) fn with(operation: u32) -> &'static [&'static str] {
     }
 }
 
-/// The constant that means an operation in the shader.
+/// Name of an operation's constant in the shader.
 pub(super) fn constant(name: &str) -> String {
     format!("VM_{name}")
 }

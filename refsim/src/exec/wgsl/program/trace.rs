@@ -1,4 +1,4 @@
-//! What a followed lane put down, as steps.
+//! Decodes the records of a traced lane.
 
 use crate::device::Rules;
 use crate::exec::lower::{Arith, Formats, of_file};
@@ -8,12 +8,12 @@ use crate::exec::{CheckedProgram, Step, program};
 use crate::isa::{Mask, Register, RegisterFile};
 use crate::num::{Flags, ops};
 
-/// Words that an executed instruction puts down: its number, the components written, four raw values. Input registers
-/// come first, with numbers past those of the instructions.
+/// Words per executed instruction: its index, the components written, four raw values. Input registers come first, with
+/// indices after those of the instructions.
 pub const TRACE_WORDS: usize = 6;
 
-/// The steps of a lane (0 to 3) out of the `q_traced` words that a traced shader ([`super::PixelShader::new`]) put
-/// down, as [`crate::exec::Shading`] holds them.
+/// Decodes the steps of a lane (0 to 3) from the `q_traced` words recorded by a traced shader
+/// ([`super::PixelShader::new`]), in the form of [`crate::exec::Shading`].
 pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane: usize) -> Vec<Step> {
     let source = program(checked);
     let formats = Formats::pixel(rules);
@@ -26,7 +26,7 @@ pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane:
         let is_predicate = destination.is_some_and(|d| d.register.file == RegisterFile::Predicate);
         let value = [2, 3, 4, 5].map(|i| match words[i] {
             raw if is_predicate => u32::from(raw != 0),
-            // A packed word is shown as the number that it is a pattern of.
+            // A packed word is shown as the number that it encodes.
             raw if fragment => ops::convert(&format, format, formats.encode(arith, raw)).bits,
             raw => formats.encode(arith, raw),
         });
@@ -36,7 +36,7 @@ pub fn trace_steps(words: &[u32], checked: &CheckedProgram, rules: &Rules, lane:
     told.filter(|words| (words[0] as usize) < source.instructions.len()).map(step).collect()
 }
 
-/// The input registers as instructions read them, out of the same words, as [`crate::exec::Shading`] holds them.
+/// Decodes the input registers, as read by instructions, from the same words.
 pub fn trace_delivered(words: &[u32], checked: &CheckedProgram, rules: &Rules) -> Vec<(Register, [u32; 4])> {
     let source = program(checked);
     let formats = Formats::pixel(rules);
