@@ -112,6 +112,7 @@ impl FormFactors {
                 self.scale(&scale);
                 return Ok(());
             }
+            // Rows and columns share d, so each takes the square root of the correction.
             scale.iter_mut().zip(&sums).for_each(|(d, sum)| *d /= sum.sqrt());
         }
         let (patch, sum) = farthest(&sums);
