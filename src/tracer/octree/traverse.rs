@@ -226,6 +226,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
 /// span before its upper planes. The fraction is a power of two, so that only the difference is rounded.
 #[inline(always)]
 pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
+    // 2^-(level + 1), made of its exponent bits.
     let half = f64::from_bits(u64::from(1022 - level) << 52);
     [high[0] - half * span[0], high[1] - half * span[1], high[2] - half * span[2]]
 }

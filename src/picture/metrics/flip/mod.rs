@@ -54,6 +54,7 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
     }
     let ppd = if ppd > MIN_PPD { ppd.min(MAX_PPD) } else { MIN_PPD };
     let [(colors, features), (other_colors, other_features)] = [left, right].map(|picture| seen(picture, ppd));
+    // Green and blue are farthest apart of all colors of the screen.
     let largest = pow(hyab(to_hunt_lab([0.0, 1.0, 0.0]), to_hunt_lab([0.0, 0.0, 1.0])), COLOR_EXPONENT);
     let knee = KNEE * largest;
     let error = |at: usize| {
