@@ -116,8 +116,9 @@ impl Crossbar {
         sides: Sides,
         cull: bool,
     ) -> Result<Answer, EngineError> {
-        let wish = PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
-        let mut card = self.pass_card(mesh, sides, wish)?;
+        let requirements =
+            PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
+        let mut card = self.pass_card(mesh, sides, requirements)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
         let hits = hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect();
@@ -128,12 +129,17 @@ impl Crossbar {
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Result<PassCard, EngineError> {
-        let weights = wish.outputs == Outputs::IdAndBarycentrics
-            && represents_integers_to(&self.profile.rules.format, wish.triangles);
-        let kernel = Kernel::for_passes(&self.profile, sides, wish.cull, weights)?;
+    pub(super) fn pass_card(
+        &self,
+        mesh: &Mesh,
+        sides: Sides,
+        requirements: PassRequirements,
+    ) -> Result<PassCard, EngineError> {
+        let weights = requirements.outputs == Outputs::IdAndBarycentrics
+            && represents_integers_to(&self.profile.rules.format, requirements.triangles);
+        let kernel = Kernel::for_passes(&self.profile, sides, requirements.cull, weights)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, requirements))
     }
 
     /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated

@@ -45,7 +45,7 @@ impl Shade for Distributed<'_> {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => {

@@ -89,7 +89,7 @@ impl<'a> Lights<'a> {
     }
 
     /// Radiance that a surfel emits towards the viewer: its material's emission, on front faces only.
-    pub(super) fn seen(surfel: &Surfel<'_>) -> DVec3 {
+    pub(super) fn emitted(surfel: &Surfel<'_>) -> DVec3 {
         if surfel.front { wide(surfel.material.emission) } else { DVec3::ZERO }
     }
 

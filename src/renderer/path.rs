@@ -66,7 +66,7 @@ impl Shade for Paths<'_> {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
         let share = self.share_of_walk(flight, &surfel, triangle);
-        let mut scatter = Scatter::of(share * (flight.weight * Lights::seen(&surfel)));
+        let mut scatter = Scatter::of(share * (flight.weight * Lights::emitted(&surfel)));
         if flight.depth < self.settings.depth {
             match Lobes::of(&surfel.material.surface) {
                 Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),

@@ -48,7 +48,7 @@ impl Shade for Whitted<'_> {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
             None if flight.depth < self.settings.depth => continue_specular(flight, &surfel, &mut scatter),

@@ -101,7 +101,7 @@ impl Shade for Gathering<'_> {
         };
         // Gather rays carry a density. They see no lights: shadow rays and the caustic map have counted those.
         let gathers = flight.density.is_some();
-        let seen = if gathers { DVec3::ZERO } else { Lights::seen(&surfel) };
+        let seen = if gathers { DVec3::ZERO } else { Lights::emitted(&surfel) };
         let mut scatter = Scatter::of(flight.weight * seen);
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
