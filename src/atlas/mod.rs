@@ -4,7 +4,7 @@
 //! tree whose nodes are squares and 2:1 rectangles, so that a texel of a coarser level is the mean of a cluster.
 //! docs/atlas.md explains the construction and measures its quality.
 //!
-//! - [`whole`]: the atlas itself, and maps from texels to faces and back;
+//! - [`meshed`]: the atlas itself, and maps from texels to faces and back;
 //! - [`place`]: a face's rectangle, and the map between the two;
 //! - [`texel`]: attributes of texels and clusters;
 //! - [`part`]: the part of the surface under a rectangle of texels, as polygons;
@@ -19,6 +19,7 @@ pub mod error;
 mod graph;
 mod levels;
 mod measures;
+pub mod meshed;
 pub mod part;
 pub mod place;
 pub mod quality;
@@ -28,14 +29,13 @@ mod surface;
 mod sweep;
 pub mod texel;
 pub mod tree;
-pub mod whole;
 
 pub use census::Census;
 pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 pub use error::AtlasError;
+pub use meshed::{Atlas, MAX_SIDE};
 pub use part::TexelPart;
 pub use place::FacePlace;
 pub use quality::{AtlasQuality, LevelQuality};
 pub use texel::{Cluster, Texel};
 pub use tree::{ClusterNode, ClusterTree};
-pub use whole::{Atlas, MAX_SIDE};

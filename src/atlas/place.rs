@@ -110,8 +110,8 @@ impl FacePlace {
         let least = if u1 <= v0 || v1 <= u0 {
             u.min(v)
         } else {
-            // The mean of the smaller is that of u less that of what u exceeds v by, whose integral over the rectangle
-            // is made of four sixths of cubes.
+            // min(u, v) = u - max(u - v, 0), and the integral of max(u - v, 0) over the rectangle is a sum of four
+            // sixths of cubes, one per corner.
             let cube = |t: f64| if t > 0.0 { t * t * t / 6.0 } else { 0.0 };
             let excess = cube(u1 - v0) - cube(u1 - v1) - cube(u0 - v0) + cube(u0 - v1);
             u - excess / ((u1 - u0) * (v1 - v0))

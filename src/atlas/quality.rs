@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::meshed::Atlas;
 use super::tree::{ClusterNode, ClusterTree};
-use super::whole::Atlas;
 use crate::geom::{Adjacency, Mesh};
 
 /// Quality of an atlas.

@@ -1,9 +1,9 @@
 //! Splits of large clusters: an order of the faces of which every prefix is a candidate half.
 //!
-//! From two faces far apart, A and B, faces are ordered by how much farther from A than from B they are. A face's
-//! predecessor on the shortest path from A comes before it, and that on the shortest path from B behind it, so both
-//! halves of any cut are connected. Only faces with equal differences, a part that hangs on the rest by one face, can
-//! spoil that; distances are whole numbers, so rounding cannot.
+//! Given two faces far apart, A and B, faces are ordered by the difference of their distances from A and from B. The
+//! predecessor of a face on the shortest path from A precedes it, and the one on the shortest path from B follows it,
+//! so that both halves of any split are connected. Only faces with equal differences, of a part connected to the rest
+//! by one face, can violate that; distances are integers, so that rounding cannot.
 
 use glam::DVec3;
 
@@ -63,6 +63,7 @@ fn cut_flat(graph: &FaceGraph, measures: &FaceMeasures, limits: &SplitLimits) ->
     let [right, up] = plane(unit(mean).unwrap_or(DVec3::Z));
     let mut best: Option<(u64, Vec<bool>)> = None;
     for direction in 0..DIRECTIONS {
+        // Half a turn: the opposite direction gives the same cuts with the halves exchanged.
         let [cos, sin] = on_circle(f64::from(direction) / f64::from(2 * DIRECTIONS));
         let along = right * cos + up * sin;
         let key = |face: u32| measures.center(graph.faces()[face as usize]).dot(along);

@@ -16,7 +16,7 @@ use super::{
 use crate::names::did_you_mean;
 
 /// Destination of a constant.
-enum Home {
+enum ConstantTarget {
     Float(usize),
     Int(usize),
     Bool(usize),
@@ -34,18 +34,18 @@ impl Binder<'_> {
         let mut constants = Constants::default();
         for (name, value) in written {
             let span = value.span();
-            match (self.home(name, program, span.clone())?, value.get_ref()) {
-                (Home::Float(number), Constant::Vector(numbers)) => {
+            match (self.constant_target(name, program, span.clone())?, value.get_ref()) {
+                (ConstantTarget::Float(number), Constant::Vector(numbers)) => {
                     *place_at(&mut constants.float, number) = self.four(numbers, span)?;
                 }
-                (Home::Named, Constant::Vector(numbers)) => {
+                (ConstantTarget::Named, Constant::Vector(numbers)) => {
                     constants.named.insert(name.clone(), self.four(numbers, span)?);
                 }
-                (Home::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
+                (ConstantTarget::Int(number @ 0..16), Constant::Vector(numbers)) => match integers(numbers) {
                     Some(four) => *place_at(&mut constants.int, number) = four,
                     None => return self.odd(span, format!("expected 4 whole numbers of 32 bits for `{name}`")),
                 },
-                (Home::Bool(number @ 0..16), Constant::Bool(value)) => {
+                (ConstantTarget::Bool(number @ 0..16), Constant::Bool(value)) => {
                     *place_at(&mut constants.boolean, number) = *value;
                 }
                 _ => {
@@ -62,17 +62,22 @@ impl Binder<'_> {
         Err(self.place.wrong(span, message, help))
     }
 
-    fn home(&self, name: &str, program: &CheckedProgram, span: Range<usize>) -> Result<Home, CaseError> {
+    fn constant_target(
+        &self,
+        name: &str,
+        program: &CheckedProgram,
+        span: Range<usize>,
+    ) -> Result<ConstantTarget, CaseError> {
         let declared = || program.parameters.iter().filter(|p| matches!(p.source, ParameterSource::Named(_)));
         if declared().any(|p| p.name == *name) {
-            return Ok(Home::Named);
+            return Ok(ConstantTarget::Named);
         }
         let opengl = program.version.is_fragment_program();
         let number = register(name, 256);
         match (name.bytes().next(), number) {
-            (Some(b'c'), Some(number)) => return Ok(Home::Float(number)),
-            (Some(b'i'), Some(number)) if !opengl => return Ok(Home::Int(number)),
-            (Some(b'b'), Some(number)) if !opengl => return Ok(Home::Bool(number)),
+            (Some(b'c'), Some(number)) => return Ok(ConstantTarget::Float(number)),
+            (Some(b'i'), Some(number)) if !opengl => return Ok(ConstantTarget::Int(number)),
+            (Some(b'b'), Some(number)) if !opengl => return Ok(ConstantTarget::Bool(number)),
             _ if !opengl => {
                 return self
                     .odd(span, format!("expected a constant c0 to c255, i0 to i15 or b0 to b15, found `{name}`"));
@@ -80,7 +85,7 @@ impl Binder<'_> {
             _ => {}
         }
         if let Some(number) = parameter(name, program.version) {
-            return Ok(Home::Float(number));
+            return Ok(ConstantTarget::Float(number));
         }
         let examples = match program.version {
             Version::Fp1_0 => "`p[0]` to `p[255]`",

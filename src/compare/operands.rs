@@ -111,7 +111,7 @@ impl RegisterValues {
         }
     }
 
-    /// Begins a phase: `phase` clears the alpha of the temporaries.
+    /// Executes the `phase` instruction, which clears the alpha of the temporaries.
     fn phase(&mut self) {
         for ((file, _), value) in &mut self.0 {
             if *file == RegisterFile::Temp {

@@ -49,19 +49,19 @@ pub struct Judgement {
 }
 
 /// Classifies a candidate against the exact first hit (`None`: the ray hits nothing).
-pub fn classify(mesh: &Mesh, truth: Option<&NearestHit>, candidate: Candidate) -> Judgement {
-    let (verdict, t_error) = match (truth, candidate.triangle) {
+pub fn classify(mesh: &Mesh, nearest: Option<&NearestHit>, candidate: Candidate) -> Judgement {
+    let (verdict, t_error) = match (nearest, candidate.triangle) {
         (None, None) => (HitVerdict::Right, None),
         (Some(_), None) => (HitVerdict::Leak, None),
         (None, Some(_)) => (HitVerdict::FalseHit, None),
-        (Some(truth), Some(found)) => {
-            let verdict = if truth.ties.contains(&found) {
+        (Some(nearest), Some(found)) => {
+            let verdict = if nearest.ties.contains(&found) {
                 HitVerdict::Right
             } else {
-                let adjacent = truth.ties.iter().any(|&right| mesh.contact(right, found) != Contact::None);
+                let adjacent = nearest.ties.iter().any(|&right| mesh.contact(right, found) != Contact::None);
                 HitVerdict::WrongTriangle { adjacent }
             };
-            (verdict, Some(t_error(&truth.t, candidate.t)))
+            (verdict, Some(t_error(&nearest.t, candidate.t)))
         }
     };
     Judgement { verdict, t_error }
@@ -130,8 +130,8 @@ mod tests {
     fn judge(origin: [f32; 3], candidate: Candidate) -> Judgement {
         let mesh = scene();
         let ray = Ray::new(origin, [0.0, 0.0, -1.0]).expect("a ray");
-        let truth = exact::nearest(&mesh, &ray, Sides::Both);
-        classify(&mesh, truth.as_ref(), candidate)
+        let nearest = exact::nearest(&mesh, &ray, Sides::Both);
+        classify(&mesh, nearest.as_ref(), candidate)
     }
 
     #[test]

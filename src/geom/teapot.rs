@@ -5,8 +5,8 @@
 //! therefore give bit-identical points on it, from whichever side they are evaluated, and welding by bit identity
 //! closes the seams: no epsilon, and no evaluation order to agree on.
 //!
-//! **What is watertight.** For N >= 2 every edge belongs to exactly two triangles that run through it in opposite
-//! directions, except 16 N boundary edges: the rims that the published surface itself leaves open.
+//! **Watertightness.** For N >= 2 every edge belongs to exactly two triangles that traverse it in opposite directions,
+//! except 16 N boundary edges: the rims that the published surface itself leaves open.
 //!
 //! | rim | patches | boundary edges |
 //! |---|---|---|
@@ -15,14 +15,14 @@
 //! | the handle's two ends (they pass through the body unjoined) | 2 each | 2 N + 2 N |
 //! | the spout's base (inside the body) and its tip (open) | 2 each | 2 N + 2 N |
 //!
-//! Body and bottom are joined; the poles of lid and bottom, where a patch's whole first row is one point, give one
-//! triangle a column in place of two, so that there are `64 N^2 - 8 N` triangles and none is degenerate. N = 1 is a
-//! caricature: the rings of handle and spout have two vertices, so that both collapse to double sheets, whose end edges
-//! have two triangles (only the 8 edges of mouth and lid are open) and of which the handle's middle edge has four; the
-//! spout's last stretch, whose four corners lie on one line, falls away (52 triangles).
+//! Body and bottom are joined. At the poles of lid and bottom a patch's first row is a single point, so that each
+//! column has one triangle instead of two: there are `64 N^2 - 8 N` triangles, and none is degenerate. N = 1 is a
+//! special case: the rings of handle and spout have two vertices, so that both collapse to double sheets, whose end
+//! edges have two triangles (only the 8 edges of mouth and lid are open); the middle edge of the handle has four; and
+//! the last stretch of the spout, whose four corners are collinear, is omitted (52 triangles).
 //!
-//! The lower end of the handle has one corner of the body as its own (control point 69), so that those two parts share
-//! that vertex, though no edge. Front faces (counter-clockwise) look outwards; z is up and the spout points along +x.
+//! The lower end of the handle shares a corner with the body (control point 69): the two parts share that vertex, but
+//! no edge. Front faces (counter-clockwise) face outwards; z is up and the spout points along +x.
 
 use num_bigint::BigUint;
 use thiserror::Error;

@@ -31,12 +31,12 @@ impl Bidiagonal {
         let mut rest = Trailing::new(matrix);
         let columns = rest.columns;
         let mut found = Self { diagonal: Vec::new(), above: Vec::new(), left: Vec::new(), right: Vec::new() };
-        let (mut change, mut column) = (None, rest.column(0));
+        let (mut update, mut column) = (None, rest.column(0));
         for k in 0..columns {
             let (left, diagonal) = Reflection::onto_first(column);
             found.diagonal.push(diagonal);
             // Applies the update of the last step, fused with the product of this step's reflection.
-            let product = rest.changed_product(k, change.take(), left.as_ref());
+            let product = rest.updated_product(k, update.take(), left.as_ref());
             if k + 1 == columns {
                 found.left.push(left);
                 break;
@@ -46,9 +46,9 @@ impl Bidiagonal {
             let row = rest.row(k)[k + 1..].iter().zip(&beside).map(|(value, w)| value - first * w).collect();
             let (right, above) = Reflection::onto_first(row);
             found.above.push(above);
-            let step = rest.change(k, left.as_ref(), beside, right.as_ref());
+            let step = rest.update(k, left.as_ref(), beside, right.as_ref());
             column = rest.next_column(k, &step);
-            change = Some(step);
+            update = Some(step);
             found.left.push(left);
             found.right.push(right);
         }
@@ -72,7 +72,7 @@ impl Bidiagonal {
 
 /// Rank-two update of a step, subtracted from the trailing rows and columns: from element (i, j) `left[i] beside[j] +
 /// product[i] right[j]`. Vectors start at the first row and column after the step.
-struct Change {
+struct RankTwoUpdate {
     left: Vec<f64>,
     beside: Vec<f64>,
     product: Vec<f64>,
@@ -107,7 +107,7 @@ impl Trailing {
 
     /// Applies the update of the last step, and returns the product of the reflection's axis with the columns from
     /// `step` on, divided by its half: block by block of rows, the blocks added in order.
-    fn changed_product(&mut self, step: usize, change: Option<Change>, left: Option<&Reflection>) -> Vec<f64> {
+    fn updated_product(&mut self, step: usize, update: Option<RankTwoUpdate>, left: Option<&Reflection>) -> Vec<f64> {
         let (columns, small, width) = (self.columns, self.is_small(step), self.columns - step);
         let first_block = step / BLOCK;
         let block_of = |(block, values): (usize, &mut [f64])| {
@@ -117,7 +117,7 @@ impl Trailing {
             {
                 let values = &mut values[step..];
                 let at = row - step;
-                if let Some(Change { left, beside, product, right }) = &change {
+                if let Some(RankTwoUpdate { left, beside, product, right }) = &update {
                     let (a, b) = (left[at], product[at]);
                     for ((value, beside), right) in values.iter_mut().zip(beside).zip(right) {
                         *value -= a * beside + b * right;
@@ -131,6 +131,7 @@ impl Trailing {
             sum
         };
         let values = &mut self.values[first_block * BLOCK * columns..];
+        // The same blocks on one thread as on several, so that the sums have the same bits.
         let sums: Vec<Vec<f64>> = if small {
             values.chunks_mut(BLOCK * columns).enumerate().map(block_of).collect()
         } else {
@@ -147,12 +148,18 @@ impl Trailing {
     }
 
     /// Computes the update of a step, from its reflections and the product of the first with the trailing columns.
-    fn change(&self, step: usize, left: Option<&Reflection>, beside: Vec<f64>, right: Option<&Reflection>) -> Change {
+    fn update(
+        &self,
+        step: usize,
+        left: Option<&Reflection>,
+        beside: Vec<f64>,
+        right: Option<&Reflection>,
+    ) -> RankTwoUpdate {
         let behind = self.rows - step - 1;
         let left = left.map_or_else(|| vec![0.0; behind], |left| left.axis[1..].to_vec());
         let Some(right) = right else {
             let (product, zeros) = (vec![0.0; behind], vec![0.0; beside.len()]);
-            return Change { left, beside, product, right: zeros };
+            return RankTwoUpdate { left, beside, product, right: zeros };
         };
         let along = dot(&beside, &right.axis);
         let product_of =
@@ -163,15 +170,15 @@ impl Trailing {
             let rows = (step + 1..self.rows).into_par_iter().with_min_len(BLOCK);
             rows.zip(&left).map(product_of).collect()
         };
-        Change { left, beside, product, right: right.axis.clone() }
+        RankTwoUpdate { left, beside, product, right: right.axis.clone() }
     }
 
     /// Column after a step, from its diagonal element down, with the step's update applied.
-    fn next_column(&self, step: usize, change: &Change) -> Vec<f64> {
-        let [beside, right] = [&change.beside, &change.right].map(|of| of.first().copied().unwrap_or(0.0));
+    fn next_column(&self, step: usize, update: &RankTwoUpdate) -> Vec<f64> {
+        let [beside, right] = [&update.beside, &update.right].map(|of| of.first().copied().unwrap_or(0.0));
         let value = |row: usize| {
             let at = row - step - 1;
-            self.row(row)[step + 1] - (change.left[at] * beside + change.product[at] * right)
+            self.row(row)[step + 1] - (update.left[at] * beside + update.product[at] * right)
         };
         (step + 1..self.rows).map(value).collect()
     }

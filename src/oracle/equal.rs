@@ -34,14 +34,14 @@ impl fmt::Display for Unequal {
 impl std::error::Error for Unequal {}
 
 /// Description of a comparison: the compared items and the allowed difference.
-pub(super) struct Asked {
+pub(super) struct EqualityCheck {
     pub(super) what: &'static str,
     pub(super) beyond: String,
 }
 
 /// Compares two lists. `apart` returns the distance of two entries if it is too large, `text` describes an entry.
 pub(super) fn compare<T: Copy>(
-    asked: Asked,
+    check: EqualityCheck,
     [left, right]: [&[T]; 2],
     apart: impl Fn(T, T) -> Option<u64>,
     text: impl Fn(usize, T, T) -> String,
@@ -71,7 +71,7 @@ pub(super) fn compare<T: Copy>(
         place.unwrap_or_default()
     };
     let (first, worst) = (words(0), words(1));
-    Err(Unequal { what: asked.what, beyond: asked.beyond, lengths, different, first, worst })
+    Err(Unequal { what: check.what, beyond: check.beyond, lengths, different, first, worst })
 }
 
 /// Formats a number with its bits.
@@ -100,9 +100,9 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
 /// # Errors
 /// [`Unequal`] names the first and the largest difference.
 pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
-    let asked = Asked { what: "numbers", beyond: "in their bits".to_owned() };
+    let check = EqualityCheck { what: "numbers", beyond: "in their bits".to_owned() };
     let apart = |l: f32, r: f32| (l.to_bits() != r.to_bits()).then(|| ulps(l, r).unwrap_or(u64::MAX));
-    compare(asked, [left, right], apart, numbers)
+    compare(check, [left, right], apart, numbers)
 }
 
 /// Checks that corresponding numbers of two lists are at most `most` steps of f32 apart. +0 and -0 are 0 steps apart,
@@ -112,12 +112,12 @@ pub fn bits_equal(left: &[f32], right: &[f32]) -> Result<(), Unequal> {
 /// [`Unequal`] names the first and the largest difference.
 pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal> {
     let unit = if most == 1 { "ULP" } else { "ULPs" };
-    let asked = Asked { what: "numbers", beyond: format!("by more than {most} {unit}") };
+    let check = EqualityCheck { what: "numbers", beyond: format!("by more than {most} {unit}") };
     let apart = |l, r| {
         let far = ulps(l, r).unwrap_or(u64::MAX);
         (far > u64::from(most)).then_some(far)
     };
-    compare(asked, [left, right], apart, numbers)
+    compare(check, [left, right], apart, numbers)
 }
 
 /// Checks that two lists of hits are equal: triangles, and t to the bit.
@@ -125,7 +125,7 @@ pub fn within_ulps(left: &[f32], right: &[f32], most: u32) -> Result<(), Unequal
 /// # Errors
 /// [`Unequal`] names the first and the largest difference: a different triangle counts as larger than a different t.
 pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Unequal> {
-    let asked = Asked { what: "hits", beyond: "in their bits".to_owned() };
+    let check = EqualityCheck { what: "hits", beyond: "in their bits".to_owned() };
     let apart = |l: Option<Hit>, r: Option<Hit>| match (l, r) {
         (None, None) => None,
         (Some(l), Some(r)) if l.triangle == r.triangle => {
@@ -137,7 +137,7 @@ pub fn hits_equal(left: &[Option<Hit>], right: &[Option<Hit>]) -> Result<(), Une
     let words = |hit: Option<Hit>| {
         hit.map_or_else(|| "nothing".to_owned(), |hit| format!("triangle {} at {}", hit.triangle, number(hit.t)))
     };
-    compare(asked, [left, right], apart, |at, l, r| format!("[{at}] {} and {}", words(l), words(r)))
+    compare(check, [left, right], apart, |at, l, r| format!("[{at}] {} and {}", words(l), words(r)))
 }
 
 /// Asserts [`bits_equal`].

@@ -115,23 +115,23 @@ impl<R: JudgedRay> JudgedRay for &R {
 /// ```
 pub fn hard_rays(mesh: &Mesh, each: usize, seed: u64) -> Vec<HardRay> {
     let Some(place) = MeshExtent::of(mesh) else { return Vec::new() };
-    let dice = CounterRng::new(seed);
+    let rng = CounterRng::new(seed);
     let mut rays = Vec::new();
     for (key, aim) in (0..).zip(Aim::ALL) {
         let found: Vec<Ray> = match aim {
-            Aim::Edge => spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(dice, eye, 2.0), 1, seed ^ eye), n)),
-            Aim::Vertex => spread(each, |eye, n| some(aimed_at_vertices(mesh, place.eye(dice, eye, 2.0)), n)),
+            Aim::Edge => spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(rng, eye, 2.0), 1, seed ^ eye), n)),
+            Aim::Vertex => spread(each, |eye, n| some(aimed_at_vertices(mesh, place.eye(rng, eye, 2.0)), n)),
             Aim::Far => {
                 let far = |eye: u64| [1e3, 1e4, 1e5, 1e6][eye as usize % 4];
-                spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(dice, eye, far(eye)), 1, seed ^ eye), n))
+                spread(each, |eye, n| some(aimed_at_edges(mesh, place.eye(rng, eye, far(eye)), 1, seed ^ eye), n))
             }
             Aim::Axis | Aim::Plane | Aim::Surface => {
                 let one = |i: u64| {
-                    let at = AimedTriangle::choose(mesh, dice, key, i)?;
+                    let at = AimedTriangle::choose(mesh, rng, key, i)?;
                     match aim {
                         Aim::Axis => at.axis_ray(&place, i),
-                        Aim::Plane => at.plane_ray(dice, i),
-                        _ => at.surface_ray(dice, i),
+                        Aim::Plane => at.plane_ray(rng, i),
+                        _ => at.surface_ray(rng, i),
                     }
                 };
                 (0..each as u64).filter_map(one).collect()
@@ -170,9 +170,9 @@ impl MeshExtent {
     }
 
     /// Point about `sizes` sizes of the mesh from its center, kept within f32.
-    fn eye(&self, dice: CounterRng, index: u64, sizes: f64) -> [f32; 3] {
+    fn eye(&self, rng: CounterRng, index: u64, sizes: f64) -> [f32; 3] {
         let side = |axis: usize| {
-            let step = 2.0 * dice.unit(index, 0, axis as u64) - 1.0;
+            let step = 2.0 * rng.unit(index, 0, axis as u64) - 1.0;
             // Away from the center along the axis chosen by the eye's index.
             if axis == index as usize % 3 { 1.0f64.copysign(step) } else { step }
         };
@@ -193,15 +193,15 @@ struct AimedTriangle {
 
 impl AimedTriangle {
     /// Chooses a random triangle, with one of its corners, or a point inside it.
-    fn choose(mesh: &Mesh, dice: CounterRng, key: u64, index: u64) -> Option<Self> {
-        let id = dice.bits(index, key, 100) % mesh.len().max(1) as u64;
+    fn choose(mesh: &Mesh, rng: CounterRng, key: u64, index: u64) -> Option<Self> {
+        let id = rng.bits(index, key, 100) % mesh.len().max(1) as u64;
         let exact = mesh.corners(id as u32)?;
         let corners = exact.map(wide);
-        let kind = dice.bits(index, key, 101) % 4;
+        let kind = rng.bits(index, key, 101) % 4;
         if let Some(&point) = exact.get(kind as usize) {
             return Some(Self { corners, point });
         }
-        let [mut u, mut v] = [102, 103].map(|dimension| dice.unit(index, key, dimension));
+        let [mut u, mut v] = [102, 103].map(|dimension| rng.unit(index, key, dimension));
         if u + v > 1.0 {
             (u, v) = (1.0 - u, 1.0 - v);
         }
@@ -223,16 +223,16 @@ impl AimedTriangle {
     }
 
     /// Ray in the plane of the triangle, from outside, beyond the corner a, towards the side bc.
-    fn plane_ray(&self, dice: CounterRng, index: u64) -> Option<Ray> {
+    fn plane_ray(&self, rng: CounterRng, index: u64) -> Option<Ray> {
         let [a, b, c] = self.corners;
         // Every other ray along an edge.
-        let share = if index.is_multiple_of(2) { 0.0 } else { dice.unit(index, 0, 104) };
+        let share = if index.is_multiple_of(2) { 0.0 } else { rng.unit(index, 0, 104) };
         let along = b + share * (c - b) - a;
         Ray::new(in_f32(a - along), in_f32(along)).ok()
     }
 
-    fn surface_ray(&self, dice: CounterRng, index: u64) -> Option<Ray> {
-        let direction = [0, 1, 2].map(|axis| (2.0 * dice.unit(index, 1, axis) - 1.0) as f32);
+    fn surface_ray(&self, rng: CounterRng, index: u64) -> Option<Ray> {
+        let direction = [0, 1, 2].map(|axis| (2.0 * rng.unit(index, 1, axis) - 1.0) as f32);
         Ray::new(self.point, direction).ok()
     }
 }

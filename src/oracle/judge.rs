@@ -155,8 +155,8 @@ impl<'a> Oracle<'a> {
             .into_par_iter()
             .enumerate()
             .map(|(place, ((ray, aim), hit))| {
-                let truth = self.tracer.nearest(ray, self.sides);
-                (truth.is_some(), self.disagreement((place, *aim), ray, truth, *hit))
+                let nearest = self.tracer.nearest(ray, self.sides);
+                (nearest.is_some(), self.disagreement((place, *aim), ray, nearest, *hit))
             })
             .collect();
         let surface = judged.iter().filter(|(surface, _)| *surface).count();
@@ -169,23 +169,23 @@ impl<'a> Oracle<'a> {
         &self,
         (place, aim): (usize, Option<Aim>),
         ray: &Ray,
-        truth: Option<NearestHit>,
+        nearest: Option<NearestHit>,
         found: Option<Hit>,
     ) -> Option<Disagreement> {
         let corners = found.and_then(|hit| self.mesh.corners(hit.triangle));
         let meets = |sides| exact::intersect(ray, &corners?, sides);
         let candidate = Candidate { triangle: found.map(|hit| hit.triangle), t: found.map_or(0.0, |hit| hit.t) };
-        let verdict = classify(self.mesh, truth.as_ref(), candidate).verdict;
-        let t_ulps = found.zip(truth.as_ref()).and_then(|(hit, truth)| ulps(truth.t.to_f32(), hit.t));
-        let right_t = |truth: &NearestHit, hit: Hit| self.tolerance.allows(hit.t, &truth.t, t_ulps);
+        let verdict = classify(self.mesh, nearest.as_ref(), candidate).verdict;
+        let t_ulps = found.zip(nearest.as_ref()).and_then(|(hit, nearest)| ulps(nearest.t.to_f32(), hit.t));
+        let right_t = |nearest: &NearestHit, hit: Hit| self.tolerance.allows(hit.t, &nearest.t, t_ulps);
         // Behind the first by less than the tolerance of t.
-        let near = |met: &ExactT, truth: &NearestHit| {
+        let near = |met: &ExactT, nearest: &NearestHit| {
             let met = met.to_f32();
-            self.tolerance.allows(met, &truth.t, ulps(truth.t.to_f32(), met))
+            self.tolerance.allows(met, &nearest.t, ulps(nearest.t.to_f32(), met))
         };
         let met_at = meets(Sides::Both);
         let kind = match (verdict, found) {
-            (HitVerdict::Right, Some(hit)) if !truth.as_ref().is_some_and(|truth| right_t(truth, hit)) => {
+            (HitVerdict::Right, Some(hit)) if !nearest.as_ref().is_some_and(|nearest| right_t(nearest, hit)) => {
                 DisagreementKind::TOff
             }
             (HitVerdict::Right, _) => return None,
@@ -195,12 +195,12 @@ impl<'a> Oracle<'a> {
                 DisagreementKind::BackFace
             }
             (HitVerdict::FalseHit, _) => DisagreementKind::FalseHit,
-            (HitVerdict::WrongTriangle { adjacent }, Some(hit)) => match (&met_at, &truth) {
-                (Some(met), Some(truth)) if self.tolerance != Tolerance::ANY_T && near(met, truth) => {
+            (HitVerdict::WrongTriangle { adjacent }, Some(hit)) => match (&met_at, &nearest) {
+                (Some(met), Some(nearest)) if self.tolerance != Tolerance::ANY_T && near(met, nearest) => {
                     DisagreementKind::NearTie
                 }
                 // A triangle hit far from the common edge or vertex is seen through a hole.
-                (Some(_), Some(truth)) if adjacent && self.passes_contact(ray, truth, hit) => {
+                (Some(_), Some(nearest)) if adjacent && self.passes_contact(ray, nearest, hit) => {
                     DisagreementKind::WrongNeighbour
                 }
                 (Some(_), _) => DisagreementKind::LeakThrough,
@@ -212,17 +212,17 @@ impl<'a> Oracle<'a> {
         let (kind, right_for, touched_by) = match kind {
             DisagreementKind::TOff | DisagreementKind::NoSuchTriangle => (kind, None, None),
             _ => {
-                let (kind, right_for) = self.right_nearby(ray, truth.as_ref(), found, (kind, met_at.as_ref()));
+                let (kind, right_for) = self.right_nearby(ray, nearest.as_ref(), found, (kind, met_at.as_ref()));
                 match found.filter(|_| right_for.is_none()) {
-                    Some(hit) => self.touched_nearby(ray, truth.as_ref(), hit, kind),
+                    Some(hit) => self.touched_nearby(ray, nearest.as_ref(), hit, kind),
                     None => (kind, right_for, None),
                 }
             }
         };
         let shown = found.filter(|_| corners.is_some()).map(|hit| hit.triangle);
-        let shown = shown.or_else(|| truth.as_ref().map(|truth| truth.triangle));
+        let shown = shown.or_else(|| nearest.as_ref().map(|nearest| nearest.triangle));
         let corners = shown.and_then(|triangle| self.mesh.corners(triangle));
-        let expected = truth.map(|truth| Expected { triangles: truth.ties, t: truth.t });
+        let expected = nearest.map(|nearest| Expected { triangles: nearest.ties, t: nearest.t });
         let (origin, direction) = (ray.origin(), ray.direction());
         Some(Disagreement {
             ray: place,
@@ -247,27 +247,28 @@ impl<'a> Oracle<'a> {
     fn touched_nearby(
         &self,
         ray: &Ray,
-        truth: Option<&NearestHit>,
+        nearest: Option<&NearestHit>,
         hit: Hit,
         kind: DisagreementKind,
     ) -> (DisagreementKind, Option<Ray>, Option<Ray>) {
         use DisagreementKind::{FalseHit, Silhouette, WrongNeighbour, WrongTriangle};
-        let touches = |ray: &Ray, truth: Option<&NearestHit>| {
-            let ties =
-                |truth: &NearestHit| passes_corner_at(self.mesh, ray, hit.triangle, truth.t.to_f64(), self.nearby_ulps);
-            truth.is_some_and(|truth| self.passes_contact(ray, truth, hit) || ties(truth)).then_some(*ray)
+        let touches = |ray: &Ray, nearest: Option<&NearestHit>| {
+            let ties = |nearest: &NearestHit| {
+                passes_corner_at(self.mesh, ray, hit.triangle, nearest.t.to_f64(), self.nearby_ulps)
+            };
+            nearest.is_some_and(|nearest| self.passes_contact(ray, nearest, hit) || ties(nearest)).then_some(*ray)
         };
         if !matches!(kind, WrongNeighbour | FalseHit | WrongTriangle) {
             return (kind, None, None);
         }
         let nearby = || turned(ray, self.nearby_ulps);
-        let found = touches(ray, truth)
+        let found = touches(ray, nearest)
             .or_else(|| nearby().find_map(|ray| touches(&ray, self.tracer.nearest(&ray, self.sides).as_ref())));
         (if found.is_some() && kind != WrongNeighbour { Silhouette } else { kind }, None, found)
     }
 
-    fn passes_contact(&self, ray: &Ray, truth: &NearestHit, hit: Hit) -> bool {
-        let pairs = truth.ties.iter().map(|&right| [right, hit.triangle]);
+    fn passes_contact(&self, ray: &Ray, nearest: &NearestHit, hit: Hit) -> bool {
+        let pairs = nearest.ties.iter().map(|&right| [right, hit.triangle]);
         pairs.into_iter().any(|pair| passes_contact(self.mesh, ray, pair, self.nearby_ulps))
     }
 
@@ -275,31 +276,31 @@ impl<'a> Oracle<'a> {
     fn right_nearby(
         &self,
         ray: &Ray,
-        truth: Option<&NearestHit>,
+        nearest: Option<&NearestHit>,
         found: Option<Hit>,
         (kind, met_at): (DisagreementKind, Option<&ExactT>),
     ) -> (DisagreementKind, Option<Ray>) {
         use DisagreementKind::{FalseHit, Leak, LeakThrough, Silhouette, Start, WrongTriangle};
         let excused = matches!(kind, Leak | LeakThrough | FalseHit | WrongTriangle);
         // Half-way between the missed surface and the one seen behind it.
-        let behind = truth.zip(met_at).filter(|_| kind == LeakThrough);
-        let middle = behind.map(|(truth, met)| (truth.t.to_f64() + met.to_f64()) / 2.0);
+        let behind = nearest.zip(met_at).filter(|_| kind == LeakThrough);
+        let middle = behind.map(|(nearest, met)| (nearest.t.to_f64() + met.to_f64()) / 2.0);
         let mut passed = false;
         let mut is_right = |ray: &Ray| {
-            let truth = self.tracer.nearest(ray, self.sides);
-            passed |= middle.is_some_and(|middle| truth.as_ref().is_none_or(|truth| truth.t.to_f64() > middle));
+            let nearest = self.tracer.nearest(ray, self.sides);
+            passed |= middle.is_some_and(|middle| nearest.as_ref().is_none_or(|nearest| nearest.t.to_f64() > middle));
             match found {
-                None => truth.is_none(),
-                Some(hit) => truth.is_some_and(|truth| truth.ties.contains(&hit.triangle)),
+                None => nearest.is_none(),
+                Some(hit) => nearest.is_some_and(|nearest| nearest.ties.contains(&hit.triangle)),
             }
         };
         if let Some(right) = turned(ray, self.nearby_ulps).find(&mut is_right) {
             return (if excused { Silhouette } else { kind }, Some(right));
         }
-        let triangles = truth.and_then(|truth| truth.ties.first().copied()).into_iter();
+        let triangles = nearest.and_then(|nearest| nearest.ties.first().copied()).into_iter();
         let triangles = triangles.chain(found.map(|hit| hit.triangle));
         let corners: Vec<_> = triangles.filter_map(|id| self.mesh.corners(id)).flatten().collect();
-        let ts = truth.map(|truth| truth.t.to_f64()).into_iter().chain(found.map(|hit| hit.t.into()));
+        let ts = nearest.map(|nearest| nearest.t.to_f64()).into_iter().chain(found.map(|hit| hit.t.into()));
         let first = ts.fold(f64::INFINITY, |first, t| if t.abs() < first { t.abs() } else { first });
         let right = moved(ray, corners, first, self.nearby_ulps).find(&mut is_right);
         match right {

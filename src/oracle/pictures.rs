@@ -1,7 +1,7 @@
 //! Comparison of pictures that must be equal, or nearly.
 
 use super::disagreement::short;
-use super::equal::{Asked, Unequal, compare};
+use super::equal::{EqualityCheck, Unequal, compare};
 use crate::compare::f32_ulps as ulps;
 
 mod sealed {
@@ -72,7 +72,7 @@ pub fn images_equal<S: Sample, const N: usize>(
     most: u32,
 ) -> Result<(), Unequal> {
     let steps = if most == 1 { "step" } else { "steps" };
-    let asked = Asked { what: "pixels", beyond: format!("by more than {most} {steps}") };
+    let check = EqualityCheck { what: "pixels", beyond: format!("by more than {most} {steps}") };
     let apart = |l: [S; N], r: [S; N]| {
         let far = l.into_iter().zip(r).map(|(l, r)| l.steps(r).unwrap_or(u64::MAX)).max().unwrap_or(0);
         (far > u64::from(most)).then_some(far)
@@ -82,7 +82,7 @@ pub fn images_equal<S: Sample, const N: usize>(
         let width = width.max(1);
         format!("pixel ({}, {}) {} and {}", at % width, at / width, words(l), words(r))
     };
-    compare(asked, [left, right], apart, text)
+    compare(check, [left, right], apart, text)
 }
 
 /// Asserts [`images_equal`].

@@ -1,8 +1,8 @@
 //! The parts of patches that no solid covers.
 //!
-//! No light reaches the floor under a block, and it is never visible. Averaged in, it would make the radiosity of a
-//! patch that lies partly under a block too low, or, once its row of form factors is scaled to 1, its area and so its
-//! light too large. A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
+//! No light reaches the floor under a block, and it is never visible. Averaging it in would make the radiosity of a
+//! partly covered patch too low, or, once its row of form factors is scaled to 1, its area and so its power too large.
+//! A patch is therefore represented by its open parts; docs/decisions/0014 has the reasons.
 //!
 //! The rule, for each face's plane raised by [`scene_clearance`] towards its front, where visibility rays start:
 //!

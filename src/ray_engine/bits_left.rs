@@ -3,7 +3,7 @@
 use super::units::Units;
 use crate::geom::Mesh;
 
-/// Number of triangles whose normal the format cannot represent. The card receives each triangle in scaled units, n =
+/// Counts of triangles whose normal the format cannot represent. The card receives each triangle in scaled units, n =
 /// (b - a) x (c - a) times the scale, and rounds. If every component of n is below one step of fixed point, n.d is only
 /// noise: the triangle is missed, or hit at a meaningless t.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]

@@ -1,7 +1,7 @@
 //! Buckets: finds the triangles that rays of one origin and nearly one direction can hit.
 //!
-//! Section 5.3 keeps triangles outside the bucket of rays away from the card. The test here is conservative by a margin
-//! that is much wider than the card's errors, in f64: a triangle is left out only if it lies wholly to one side of all
+//! Section 5.3 does not draw triangles outside the bucket of rays. The test is conservative by a margin that is much
+//! larger than the card's errors, and runs in f64: a triangle is omitted only if it lies entirely to one side of all
 //! rays.
 
 use glam::DVec3;

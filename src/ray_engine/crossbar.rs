@@ -30,13 +30,13 @@ const LIST_BUCKET: u32 = 16;
 const LIST_BATCH: usize = 65_536;
 
 /// Creates a `TexelObserver` per bucket.
-pub type MakeWatcher<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
+pub type MakeObserver<'a> = dyn Fn() -> Box<dyn TexelObserver> + Sync + 'a;
 
 /// Recording options: event log and observer of texel reads.
 #[derive(Clone, Copy, Default)]
 struct Recording<'a> {
     on: bool,
-    watcher: Option<&'a MakeWatcher<'a>>,
+    new_observer: Option<&'a MakeObserver<'a>>,
 }
 
 /// A card that intersects rays with triangles.
@@ -85,7 +85,7 @@ impl Crossbar {
     /// # Errors
     /// As [`Crossbar::intersect`].
     pub fn intersect_recorded(&self, mesh: &Mesh, rays: &RayBatch, sides: Sides) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: None })
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: None })
     }
 
     /// Runs [`Crossbar::intersect_recorded`] with an observer of texel reads per bucket. Draws on the scalar executor,
@@ -98,9 +98,9 @@ impl Crossbar {
         mesh: &Mesh,
         rays: &RayBatch,
         sides: Sides,
-        watcher: &MakeWatcher<'_>,
+        new_observer: &MakeObserver<'_>,
     ) -> Result<Answer, EngineError> {
-        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, watcher: Some(watcher) })
+        self.intersect_in_buckets(mesh, rays, sides, BUCKET, Recording { on: true, new_observer: Some(new_observer) })
     }
 
     /// Runs one pass of rays of any origin against some triangles, given in ascending order, with or without culling in
@@ -116,8 +116,9 @@ impl Crossbar {
         sides: Sides,
         cull: bool,
     ) -> Result<Answer, EngineError> {
-        let wish = PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
-        let mut card = self.pass_card(mesh, sides, wish)?;
+        let requirements =
+            PassRequirements { outputs: Outputs::IdAndT, small_ids: false, cull, triangles: triangles.len() };
+        let mut card = self.pass_card(mesh, sides, requirements)?;
         let drawn = card.draw(0, mesh, triangles, rays)?;
         let (hits, _) = card.read_back(&drawn, triangles, rays, true)?;
         let hits = hits.into_iter().map(|found| found.and_then(CardHit::hit)).collect();
@@ -128,12 +129,17 @@ impl Crossbar {
     ///
     /// # Errors
     /// As [`Crossbar::intersect`].
-    pub(super) fn pass_card(&self, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Result<PassCard, EngineError> {
-        let weights =
-            wish.outputs == Outputs::IdAndBarycentrics && tells_apart(&self.profile.rules.format, wish.triangles);
-        let kernel = Kernel::for_passes(&self.profile, sides, wish.cull, weights)?;
+    pub(super) fn pass_card(
+        &self,
+        mesh: &Mesh,
+        sides: Sides,
+        requirements: PassRequirements,
+    ) -> Result<PassCard, EngineError> {
+        let weights = requirements.outputs == Outputs::IdAndBarycentrics
+            && represents_integers_to(&self.profile.rules.format, requirements.triangles);
+        let kernel = Kernel::for_passes(&self.profile, sides, requirements.cull, weights)?;
         check_count(mesh)?;
-        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, wish))
+        Ok(PassCard::new(self.executor.machine(Arc::clone(&self.profile))?, kernel, mesh, sides, requirements))
     }
 
     /// Creates a card that keeps these rays in its textures and these triangles in its vertex memory, for repeated
@@ -184,7 +190,7 @@ impl Crossbar {
             let bucket = rays.part(region);
             let mut machine = self.executor.machine(Arc::clone(&self.profile))?;
             machine.record(recording.on);
-            machine.observe_textures(recording.watcher.map(|make| make()));
+            machine.observe_textures(recording.new_observer.map(|make| make()));
             let mut card = Card::set_up(machine, Arc::clone(&kernel), &bucket, units)?;
             // New targets have these contents already; targets kept from bucket to bucket must be cleared.
             card.clear()?;
@@ -261,7 +267,7 @@ fn check_count(mesh: &Mesh) -> Result<(), EngineError> {
 }
 
 /// Returns `true` if a float format represents every integer from 0 to `most`.
-fn tells_apart(format: &Format, most: usize) -> bool {
+fn represents_integers_to(format: &Format, most: usize) -> bool {
     match format.kind {
         FormatKind::Float { man_bits, .. } => most as u64 <= 1 << (man_bits + 1),
         FormatKind::Fixed { .. } => false,

@@ -1,19 +1,19 @@
 //! Culling in the vertex program for rays of any origin (section 5.3): constants of a bucket of rays.
 //!
-//! The pixel program draws a hit where u, v, w >= 0, n.ao >= 0 and n.d < 0 (for back faces: all signs turned). Each of
-//! these is linear in the origin and in the direction. So with origins oc + x and directions dc + y, for an edge e (ac
-//! for u, -ab for v, -bc and b for w):
+//! The pixel program draws a hit where u, v, w >= 0, n.ao >= 0 and n.d < 0 (for back faces: all signs reversed). Each
+//! of these is linear in the origin and in the direction. So with origins oc + x and directions dc + y, for an edge e
+//! (ac for u, -ab for v, -bc and b for w):
 //!
 //! `e . (ao x d) = dc . (e x ao)  +  y . (e x ao)  +  x . (dc x e)  +  e . (x x y)`
 //!
-//! The first term is the middle ray's. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x| <=
-//! oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; n.ao and n.d likewise. A triangle goes if one of the
-//! numbers has the wrong sign for every ray of the bucket.
+//! The first term belongs to the middle ray. The others are at most |e x ao| . dh, |dc x e| . oh and |e| . q, where |x|
+//! <= oh, |y| <= dh and q is the vector of oh_j dh_k + oh_k dh_j; n.ao and n.d likewise. A triangle is culled if one of
+//! the numbers has the wrong sign for every ray of the bucket.
 //!
-//! **No hit is lost to rounding.** A card makes errors, and so does the vertex program. Each is at most a share of the
-//! product of magnitudes, plus something for underflow or for the steps of fixed point; both are bounded here from the
-//! largest |a| + |o| and |d| of the pass, and added to q and to what stands alone. Where an intermediate could leave
-//! the range of the format, triangles stay.
+//! **No hit is lost to rounding.** The card and its vertex program make rounding errors. Each is bounded by a fraction
+//! of the product of magnitudes, plus a constant for underflow or for the steps of fixed point; both bounds are
+//! computed from the largest |a| + |o| and |d| of the pass, and added to q and to the absolute tolerances. Where an
+//! intermediate could leave the range of the format, triangles are not culled.
 
 use glam::DVec3;
 use refsim::device::Rules;

@@ -1,8 +1,8 @@
 //! System 1: the Ray Engine. Ray-triangle intersection as a pixel program; the crossbar of rays and triangles.
 //!
-//! Rays lie in textures, a pixel each; every triangle is a screen-filling quad whose attributes carry it to all pixels;
-//! the depth buffer keeps the nearest t and the colour buffer its triangle. docs/papers/ray_engine.md maps each
-//! equation.
+//! Rays are stored in textures, one per texel; every triangle is drawn as a screen-filling quad whose attributes pass
+//! it to all pixels; the depth buffer keeps the nearest t and the color buffer the triangle's id.
+//! docs/papers/ray_engine.md maps each equation.
 
 mod answer;
 mod barycentrics;
@@ -28,7 +28,7 @@ mod vertex_crossbar;
 
 pub use answer::{Answer, EngineError};
 pub use bits_left::BitsLeft;
-pub use crossbar::{Crossbar, MakeWatcher};
+pub use crossbar::{Crossbar, MakeObserver};
 pub use kernel::{Form, Kernel};
 pub use outputs::Outputs;
 pub use rays::{RayBatch, RayBatchError};

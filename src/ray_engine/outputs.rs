@@ -82,7 +82,7 @@ impl TargetEncoding {
         let texel = image.raw(0, 0, y, x);
         if self == Self::Weights {
             let [u, v, w, place] = [0, 32, 64, 96].map(|shift| f32::from_bits((texel >> shift) as u32));
-            return at(place as u32).map(|told| PixelResult { uvw: Some([u, v, w]), ..told });
+            return at(place as u32).map(|result| PixelResult { uvw: Some([u, v, w]), ..result });
         }
         let raw = texel as u32;
         match self {

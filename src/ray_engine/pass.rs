@@ -31,7 +31,7 @@ pub(super) struct PassCard {
     machine: Machine,
     kernel: Kernel,
     sides: Sides,
-    wish: PassRequirements,
+    requirements: PassRequirements,
     /// Lowest and highest coordinates of the mesh that all passes test against.
     bounds: [[f32; 3]; 2],
     sheets: BTreeMap<(usize, u32, u32, Format), RayTextures>,
@@ -52,9 +52,15 @@ pub(super) struct DrawnPass {
 
 impl PassCard {
     /// Creates a card for passes over triangles of one mesh.
-    pub(super) fn new(machine: Machine, kernel: Kernel, mesh: &Mesh, sides: Sides, wish: PassRequirements) -> Self {
+    pub(super) fn new(
+        machine: Machine,
+        kernel: Kernel,
+        mesh: &Mesh,
+        sides: Sides,
+        requirements: PassRequirements,
+    ) -> Self {
         let bounds = mesh.bounds().unwrap_or_default();
-        Self { machine, kernel, sides, wish, bounds, sheets: BTreeMap::new() }
+        Self { machine, kernel, sides, requirements, bounds, sheets: BTreeMap::new() }
     }
 
     /// Returns the file name of the pixel program.
@@ -87,7 +93,8 @@ impl PassCard {
             (true, false) => cull::nothing(),
             (false, _) => Vec::new(),
         };
-        let code = TargetEncoding::choose(machine.profile(), kernel.weights, self.wish.small_ids, triangles.len());
+        let code =
+            TargetEncoding::choose(machine.profile(), kernel.weights, self.requirements.small_ids, triangles.len());
         let loaded = match self.sheets.entry((sheet, rays.width(), rays.height(), code.format().name())) {
             Entry::Occupied(held) => {
                 let loaded = held.into_mut();
@@ -115,7 +122,7 @@ impl PassCard {
         let Some(sheet) = self.sheets.get(&place) else {
             return Ok((vec![None; rays.rays().len()], None));
         };
-        let t = self.wish.outputs == Outputs::IdAndT;
+        let t = self.requirements.outputs == Outputs::IdAndT;
         sheet.read_back(&self.machine, &ReadBack { rays, units: &drawn.units, triangles, t, wait })
     }
 

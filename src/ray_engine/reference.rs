@@ -1,7 +1,7 @@
 //! Equations (1) to (8) in f64, without the card: the exact values that a kernel approximates.
 //!
-//! For reading beside the paper, and as the independent answer in `tests/papers`. Whether a ray *truly* hits is
-//! decided by [`crate::geom::exact`], not here.
+//! A readable form of the paper's equations, and the independent result in `tests/papers`. [`crate::geom::exact`], not
+//! this module, decides whether a ray hits exactly.
 
 use glam::DVec3;
 

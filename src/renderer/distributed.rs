@@ -3,7 +3,7 @@
 use super::counting::{CountingCaster, RayKind, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
-use super::lobes::{Lobes, one_way, ways};
+use super::lobes::{Lobes, choose_specular, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
@@ -45,7 +45,7 @@ impl Shade for Distributed<'_> {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => {
@@ -54,7 +54,7 @@ impl Shade for Distributed<'_> {
                     gloss(flight, &surfel, lobes, &mut scatter);
                 }
             }
-            None if more => go_on(flight, &surfel, &mut scatter),
+            None if more => continue_specular(flight, &surfel, &mut scatter),
             None => {}
         }
         scatter
@@ -64,7 +64,7 @@ impl Shade for Distributed<'_> {
 /// Direct light: the diffuse part by one point of the emitters; both parts by the point lights, which no ray from a
 /// lobe could hit.
 pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-    let area = lights.area(surfel, flight.dice, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
+    let area = lights.area(surfel, flight.rng, flight.depth).map(|arriving| (arriving, lobes.diffuse()));
     let points = (0..lights.points()).filter_map(|light| Some((lights.point(surfel, light)?, *lobes)));
     for (arriving, lobes) in area.into_iter().chain(points) {
         let (value, _) = lobes.evaluate(surfel, arriving.towards);
@@ -78,20 +78,23 @@ pub(super) fn direct(lights: &Lights<'_>, flight: &PathRay, surfel: &Surfel<'_>,
 /// Samples the glossy lobe with one ray.
 pub(super) fn gloss(flight: &PathRay, surfel: &Surfel<'_>, lobes: Lobes, scatter: &mut Scatter) {
     let shiny = Lobes { albedo: DVec3::ZERO, ..lobes };
-    let Some(chosen) = shiny.choose(surfel, 0.0, flight.dice.pair(flight.depth, 4)) else { return };
+    let Some(chosen) = shiny.choose(surfel, 0.0, flight.rng.pair(flight.depth, 4)) else { return };
     let weight = flight.weight * chosen.weight;
     scatter.next.extend(surfel.ray(chosen.towards).map(|ray| flight.on(ray, RayKind::Reflection, weight)));
 }
 
 /// Continues at a mirror with one ray; at glass with both rays at the first hit of an eye ray, since a random choice
 /// there is visible as noise, afterwards with one.
-pub(super) fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
-    let chosen =
-        if flight.depth == 0 { ways(surfel) } else { [one_way(surfel, flight.dice.at(flight.depth, 3)), None] };
-    for way in chosen.into_iter().flatten() {
-        let weight = flight.weight * way.weight;
+pub(super) fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    let chosen = if flight.depth == 0 {
+        specular_rays(surfel)
+    } else {
+        [choose_specular(surfel, flight.rng.at(flight.depth, 3)), None]
+    };
+    for specular in chosen.into_iter().flatten() {
+        let weight = flight.weight * specular.weight;
         if weight.max_element() > 0.0 {
-            let next = surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight));
+            let next = surfel.ray(specular.towards).map(|ray| flight.on(ray, specular.kind, weight));
             // A gather ray keeps its density, which marks it as one.
             scatter.next.extend(next.map(|next| PathRay { density: flight.density, ..next }));
         }

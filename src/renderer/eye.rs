@@ -44,6 +44,6 @@ impl Shade for Eye<'_> {
             Surface::Glass { transmittance, .. } => wide(transmittance),
         };
         let facing = surfel.shading.dot(surfel.view).max(0.0) * if surfel.front { 1.0 } else { 0.5 };
-        Scatter::of(facing * color + super::lights::Lights::seen(&surfel))
+        Scatter::of(facing * color + super::lights::Lights::emitted(&surfel))
     }
 }

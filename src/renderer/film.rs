@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::counting::{CountingCaster, RayCounts, RayKind};
 use super::settings::{Lens, RenderError, Settings};
-use super::wave::{Dice, PathRay, Shade, follow};
+use super::wave::{PathRay, SampleRng, Shade, follow};
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Hit, Ray};
 use crate::picture::{self, RgbImage};
@@ -81,8 +81,8 @@ pub(super) fn expose(
         let end = total.min(start + chunk);
         let flights = (start..end).into_par_iter().map(|index| {
             let (pixel, sample) = (index / samples, index % samples);
-            let dice = Dice::new(settings.seed, pixel, sample);
-            PathRay::eye(eye_ray(camera, settings, pixel, dice), (index - start) as u32, dice)
+            let rng = SampleRng::new(settings.seed, pixel, sample);
+            PathRay::eye(eye_ray(camera, settings, pixel, rng), (index - start) as u32, rng)
         });
         let wave = follow(tracer, flights.collect(), shader)?;
         for (index, light) in (start..end).zip(wave.light) {
@@ -104,6 +104,7 @@ fn means(film: &Film, samples: u32) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let n = f64::from(samples);
     let of = |(sum, squares): (&DVec3, &DVec3)| {
         let mean = 1.0 / n * *sum;
+        // Cancellation can make the difference negative.
         let spread = (*squares - n * (mean * mean)).map(|x| x.max(0.0));
         let variance = if samples > 1 { 1.0 / (n * (n - 1.0)) * spread } else { DVec3::ZERO };
         (mean.to_array(), variance.to_array())
@@ -140,17 +141,17 @@ fn middle(camera: &Camera, pixel: u64) -> Ray {
 }
 
 /// Generates the eye ray of a sample.
-fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, dice: Dice) -> Ray {
+fn eye_ray(camera: &Camera, settings: &Settings, pixel: u64, rng: SampleRng) -> Ray {
     let centre = middle(camera, pixel);
     if settings.samples == 1 && settings.lens.is_none() {
         return centre;
     }
     let width = u64::from(camera.width());
-    let jitter = if settings.samples == 1 { [0.5; 2] } else { [dice.before(0), dice.before(1)] };
+    let jitter = if settings.samples == 1 { [0.5; 2] } else { [rng.before(0), rng.before(1)] };
     let direction = camera.direction_at((pixel % width) as f64 + jitter[0], (pixel / width) as f64 + jitter[1]);
     let ray = match settings.lens {
         None => Ray::new(camera.eye(), narrow(direction)),
-        Some(lens) => through_lens(camera, lens, direction, [dice.before(2), dice.before(3)]),
+        Some(lens) => through_lens(camera, lens, direction, [rng.before(2), rng.before(3)]),
     };
     // Fails only for a direction beyond f32.
     ray.unwrap_or(centre)

@@ -63,9 +63,9 @@ fn pair(from: &Patch<'_>, to: &Patch<'_>, random: CounterRng, sample: u64) -> Op
     let number = |dimension| random.unit(0, sample, dimension);
     let p = from.place(number(0), [number(1), number(2)])?;
     let q = to.place(number(3), [number(4), number(5)])?;
-    let way = q.at - p.at;
-    let square = way.dot(way);
-    let cosines = [way.dot(p.normal), -way.dot(q.normal)];
+    let offset = q.at - p.at;
+    let square = offset.dot(offset);
+    let cosines = [offset.dot(p.normal), -offset.dot(q.normal)];
     if !(square > 0.0 && cosines.iter().all(|&cosine| cosine > 0.0)) {
         return None;
     }

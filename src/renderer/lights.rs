@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::sampling::{DiscreteDistribution, cosine, sphere, triangle};
 use super::surfel::Surfel;
 use super::vector::mean;
-use super::wave::Dice;
+use super::wave::SampleRng;
 use crate::geom::Ray;
 use crate::geom::vector::{narrow, wide};
 use crate::scene::Scene;
@@ -13,7 +13,7 @@ use crate::tracer::offset::SurfacePoint;
 use glam::DVec3;
 
 /// Light sample at a point, before the visibility test.
-pub(super) struct Arriving {
+pub(super) struct LightSample {
     /// Ray to the light, which it reaches at t = 1.
     pub(super) ray: Ray,
     /// Unit vector to the light.
@@ -25,7 +25,7 @@ pub(super) struct Arriving {
 }
 
 /// Emitted light sample.
-pub(super) struct Leaving {
+pub(super) struct EmissionSample {
     /// Ray from the light.
     pub(super) ray: Ray,
     /// Flux over the probability density: its mean over all samples is the flux of all lights.
@@ -75,21 +75,21 @@ impl<'a> Lights<'a> {
 
     /// Samples emitted light: from an emitter with a cosine distribution about its front, from a point in all
     /// directions. Takes six numbers in [0, 1).
-    pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<Leaving> {
+    pub(super) fn leaving(&self, number: impl Fn(u64) -> f64) -> Option<EmissionSample> {
         if let Some((place, radiance, density)) = self.place(number(0), [number(1), number(2)]) {
             let towards = cosine(place.normal, [number(3), number(4)]);
             let ray = Ray::new(place.lifted(towards, 0.0), narrow(towards)).ok()?;
-            return Some(Leaving { ray, power: PI / density * radiance });
+            return Some(EmissionSample { ray, power: PI / density * radiance });
         }
         let table = DiscreteDistribution::new(self.points.iter().map(|point| mean(point.1)));
         let (light, chance) = table.draw(number(0))?;
         let (position, intensity) = self.points[light];
         let ray = Ray::new(narrow(position), narrow(sphere([number(3), number(4)]))).ok()?;
-        Some(Leaving { ray, power: 4.0 * PI / chance * intensity })
+        Some(EmissionSample { ray, power: 4.0 * PI / chance * intensity })
     }
 
     /// Radiance that a surfel emits towards the viewer: its material's emission, on front faces only.
-    pub(super) fn seen(surfel: &Surfel<'_>) -> DVec3 {
+    pub(super) fn emitted(surfel: &Surfel<'_>) -> DVec3 {
         if surfel.front { wide(surfel.material.emission) } else { DVec3::ZERO }
     }
 
@@ -103,38 +103,38 @@ impl<'a> Lights<'a> {
     }
 
     /// Samples a point of an emitter to light a surfel. `None` if the point is on a back face or cannot be reached.
-    pub(super) fn area(&self, surfel: &Surfel<'_>, dice: Dice, depth: u32) -> Option<Arriving> {
-        let (place, radiance, density) = self.place(dice.at(depth, 0), dice.pair(depth, 1))?;
-        let way = place.at - surfel.place.at;
-        let square = way.dot(way);
-        let towards = 1.0 / square.sqrt() * way;
+    pub(super) fn area(&self, surfel: &Surfel<'_>, rng: SampleRng, depth: u32) -> Option<LightSample> {
+        let (place, radiance, density) = self.place(rng.at(depth, 0), rng.pair(depth, 1))?;
+        let offset = place.at - surfel.place.at;
+        let square = offset.dot(offset);
+        let towards = 1.0 / square.sqrt() * offset;
         let cosine = -towards.dot(place.normal);
         if cosine <= 0.0 || !cosine.is_finite() {
             return None;
         }
         let density = density * square / cosine;
         let ray = surfel.ray_to(&place)?;
-        Some(Arriving { ray, towards, light: 1.0 / density * radiance, density })
+        Some(LightSample { ray, towards, light: 1.0 / density * radiance, density })
     }
 
     /// Density over solid angle with which [`Lights::area`] would have sampled an emitter's point that a ray hit.
     pub(super) fn density(&self, found: &Surfel<'_>, triangle: u32, from: DVec3) -> f64 {
         let Ok(entry) = self.emitters.binary_search(&triangle) else { return 0.0 };
-        let way = found.place.at - from;
+        let offset = found.place.at - from;
         let cosine = found.view.dot(found.place.normal);
-        if cosine > 0.0 { self.densities[entry] * way.dot(way) / cosine } else { 0.0 }
+        if cosine > 0.0 { self.densities[entry] * offset.dot(offset) / cosine } else { 0.0 }
     }
 
     /// Light from a point light at a surfel.
-    pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<Arriving> {
+    pub(super) fn point(&self, surfel: &Surfel<'_>, light: usize) -> Option<LightSample> {
         let (position, intensity) = self.points[light];
-        let way = position - surfel.place.at;
-        let square = way.dot(way);
-        let towards = 1.0 / square.sqrt() * way;
+        let offset = position - surfel.place.at;
+        let square = offset.dot(offset);
+        let towards = 1.0 / square.sqrt() * offset;
         if !towards[0].is_finite() || towards.dot(surfel.normal) <= 0.0 {
             return None;
         }
         let ray = surfel.ray_to_point(position)?;
-        Some(Arriving { ray, towards, light: 1.0 / square * intensity, density: f64::INFINITY })
+        Some(LightSample { ray, towards, light: 1.0 / square * intensity, density: f64::INFINITY })
     }
 }

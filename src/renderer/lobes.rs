@@ -95,10 +95,10 @@ pub(super) struct SpecularRay {
     pub(super) weight: DVec3,
     pub(super) kind: RayKind,
     /// Probability with which it is chosen where one of several rays is.
-    pub(super) chance: f64,
+    pub(super) probability: f64,
     /// Additional factor of a photon's flux, beside `weight`, which makes its irradiance relative to the square of the
     /// index too: the square of the ratio of indices at a boundary that it passes, otherwise 1.
-    pub(super) squeeze: f64,
+    pub(super) flux_scale: f64,
 }
 
 /// Returns the specular rays from a mirror (one) or glass (one under total internal reflection, otherwise two); none
@@ -106,13 +106,13 @@ pub(super) struct SpecularRay {
 ///
 /// Rays carry radiance over the square of the index of refraction, which is invariant at a boundary (Nicodemus 1963):
 /// so there is no factor here, and emission and scattering inside glass are as in air.
-pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
-    let mirrored = |weight, chance| SpecularRay {
+pub(super) fn specular_rays(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
+    let mirrored = |weight, probability| SpecularRay {
         towards: mirror_direction(surfel),
         weight,
         kind: RayKind::Reflection,
-        chance,
-        squeeze: 1.0,
+        probability,
+        flux_scale: 1.0,
     };
     match surfel.material.surface {
         Surface::Diffuse { .. } | Surface::Glossy { .. } => [None, None],
@@ -123,8 +123,9 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
             let share = reflectance(surfel.view.dot(surfel.shading), ratio);
             let Some(towards) = through(surfel, ratio) else { return [Some(mirrored(DVec3::ONE, 1.0)), None] };
             let weight = (1.0 - share) * wide(transmittance);
-            let chance = 1.0 - share;
-            let refracted = SpecularRay { towards, weight, kind: RayKind::Refraction, chance, squeeze: ratio * ratio };
+            let probability = 1.0 - share;
+            let refracted =
+                SpecularRay { towards, weight, kind: RayKind::Refraction, probability, flux_scale: ratio * ratio };
             let reflected = (share > 0.0).then(|| mirrored(DVec3::splat(share), share));
             [Some(refracted), reflected]
         }
@@ -132,14 +133,14 @@ pub(super) fn ways(surfel: &Surfel<'_>) -> [Option<SpecularRay>; 2] {
 }
 
 /// Chooses one of the specular rays by a number in [0, 1), its weight divided by its probability.
-pub(super) fn one_way(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
-    let [first, second] = ways(surfel);
+pub(super) fn choose_specular(surfel: &Surfel<'_>, u: f64) -> Option<SpecularRay> {
+    let [first, second] = specular_rays(surfel);
     let first = first?;
-    let way = match second {
-        Some(second) if u >= first.chance => second,
+    let specular = match second {
+        Some(second) if u >= first.probability => second,
         _ => first,
     };
-    Some(SpecularRay { weight: 1.0 / way.chance * way.weight, ..way })
+    Some(SpecularRay { weight: 1.0 / specular.probability * specular.weight, ..specular })
 }
 
 /// Mirror direction about the shading normal, or about the triangle's normal if that direction leads through the

@@ -2,8 +2,8 @@
 
 use super::counting::{CountingCaster, RayKind, WatchProgress};
 use super::film::{RenderedPicture, expose};
-use super::lights::{Arriving, Lights};
-use super::lobes::{Lobes, one_way};
+use super::lights::{LightSample, Lights};
+use super::lobes::{Lobes, choose_specular};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
@@ -66,7 +66,7 @@ impl Shade for Paths<'_> {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
         let share = self.share_of_walk(flight, &surfel, triangle);
-        let mut scatter = Scatter::of(share * (flight.weight * Lights::seen(&surfel)));
+        let mut scatter = Scatter::of(share * (flight.weight * Lights::emitted(&surfel)));
         if flight.depth < self.settings.depth {
             match Lobes::of(&surfel.material.surface) {
                 Some(lobes) => self.scatter(flight, &surfel, &lobes, &mut scatter),
@@ -92,9 +92,9 @@ impl Paths<'_> {
     }
 
     fn scatter(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, scatter: &mut Scatter) {
-        let dice = flight.dice;
+        let rng = flight.rng;
         if self.direct != Direct::Walk
-            && let Some(arriving) = self.lights.area(surfel, dice, flight.depth)
+            && let Some(arriving) = self.lights.area(surfel, rng, flight.depth)
         {
             self.lit(flight, surfel, lobes, &arriving, scatter);
         }
@@ -103,13 +103,13 @@ impl Paths<'_> {
                 self.lit(flight, surfel, lobes, &arriving, scatter);
             }
         }
-        let Some(chosen) = lobes.choose(surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4)) else { return };
+        let Some(chosen) = lobes.choose(surfel, rng.at(flight.depth, 3), rng.pair(flight.depth, 4)) else { return };
         // The ray after the last surface can only contribute emission.
         if flight.depth + 1 == self.settings.depth && self.direct == Direct::Emitters && !self.sees_background() {
             return;
         }
         let weight = flight.weight * chosen.weight;
-        if let Some(mut next) = self.go_on(flight, surfel, chosen.towards, RayKind::Gather, weight) {
+        if let Some(mut next) = self.continue_path(flight, surfel, chosen.towards, RayKind::Gather, weight) {
             next.density = Some(chosen.density);
             scatter.next.push(next);
         }
@@ -119,7 +119,7 @@ impl Paths<'_> {
         self.settings.background.iter().any(|&channel| channel > 0.0)
     }
 
-    fn lit(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &Arriving, scatter: &mut Scatter) {
+    fn lit(&self, flight: &PathRay, surfel: &Surfel<'_>, lobes: &Lobes, arriving: &LightSample, scatter: &mut Scatter) {
         let (value, walk) = lobes.evaluate(surfel, arriving.towards);
         // Points have an infinite density: no other strategy finds them, and their MIS weight is 1.
         let share = match self.direct {
@@ -133,13 +133,13 @@ impl Paths<'_> {
     }
 
     fn pass(&self, flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
-        let Some(way) = one_way(surfel, flight.dice.at(flight.depth, 3)) else { return };
-        let weight = flight.weight * way.weight;
-        scatter.next.extend(self.go_on(flight, surfel, way.towards, way.kind, weight));
+        let Some(specular) = choose_specular(surfel, flight.rng.at(flight.depth, 3)) else { return };
+        let weight = flight.weight * specular.weight;
+        scatter.next.extend(self.continue_path(flight, surfel, specular.towards, specular.kind, weight));
     }
 
     /// Returns the next ray of the path, if it survives Russian roulette.
-    fn go_on(
+    fn continue_path(
         &self,
         flight: &PathRay,
         surfel: &Surfel<'_>,
@@ -148,7 +148,7 @@ impl Paths<'_> {
         weight: DVec3,
     ) -> Option<PathRay> {
         let chance = if flight.depth < SAFE { 1.0 } else { weight.max_element().clamp(LEAST_CHANCE, 1.0) };
-        if weight.max_element() <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
+        if weight.max_element() <= 0.0 || flight.rng.at(flight.depth, 6) >= chance {
             return None;
         }
         Some(flight.on(surfel.ray(towards)?, kind, 1.0 / chance * weight))

@@ -24,20 +24,20 @@ pub(super) struct Photon {
 
 /// Photon with its squared distance; ordered by distance, then by index in the map, so that the order of sums is fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Near {
+struct PhotonDistance {
     square: f64,
     photon: u32,
 }
 
-impl Eq for Near {}
+impl Eq for PhotonDistance {}
 
-impl Ord for Near {
+impl Ord for PhotonDistance {
     fn cmp(&self, other: &Self) -> Ordering {
         self.square.total_cmp(&other.square).then(self.photon.cmp(&other.photon))
     }
 }
 
-impl PartialOrd for Near {
+impl PartialOrd for PhotonDistance {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
@@ -124,7 +124,7 @@ struct NearestSearch<'a> {
     nearest: usize,
     /// Squared search radius; shrinks once enough photons are found.
     square: f64,
-    found: BinaryHeap<Near>,
+    found: BinaryHeap<PhotonDistance>,
 }
 
 impl NearestSearch<'_> {
@@ -147,8 +147,8 @@ impl NearestSearch<'_> {
 
     fn offer(&mut self, index: usize) {
         let photon = &self.map.photons[index];
-        let way = photon.at - self.at;
-        let near = Near { square: way.dot(way), photon: index as u32 };
+        let offset = photon.at - self.at;
+        let near = PhotonDistance { square: offset.dot(offset), photon: index as u32 };
         if near.square > self.square || photon.normal.dot(self.normal) < SAME_WAY {
             return;
         }
@@ -182,7 +182,7 @@ mod tests {
     }
 
     /// The same estimate by testing all photons.
-    fn slowly(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
+    fn brute_force(photons: &[Photon], at: DVec3, nearest: usize, radius: f64) -> f64 {
         let up = photons.iter().filter(|photon| photon.normal.z > 0.0);
         let mut squares: Vec<f64> = up.map(|photon| photon.at.distance_squared(at)).collect();
         squares.sort_by(f64::total_cmp);
@@ -203,7 +203,7 @@ mod tests {
             let at = DVec3::from([0, 1, 2].map(|k| 1.2 * random.unit(i, 0, k) - 0.1));
             for (nearest, radius) in [(2, 1.0), (10, 0.3), (50, 2.0), (1000, 0.5), (1000, 9.0)] {
                 let found = map.density(at, DVec3::Z, nearest, radius, |photon| photon.power)[0];
-                let expected = slowly(&photons, at, nearest, radius);
+                let expected = brute_force(&photons, at, nearest, radius);
                 assert_abs_diff_eq!(found, expected, epsilon = 1e-9 * expected);
             }
         }

@@ -42,7 +42,7 @@ impl<'a> Surfel<'a> {
         let smooth = scene.corner_normals(hit.triangle).and_then(|corners| interpolated(corners, weights));
         let shading = smooth.map_or(normal, |smooth| {
             let smooth = if front { smooth } else { -smooth };
-            seen(smooth, normal, view)
+            facing_viewer(smooth, normal, view)
         });
         Some(Self { place, normal, shading, view, front, material: scene.material(hit.triangle) })
     }
@@ -94,7 +94,7 @@ fn interpolated(corners: [[f32; 3]; 3], weights: DVec3) -> Option<DVec3> {
 
 /// Returns a shading normal that faces the viewer: one that does not is bent towards the viewer until it just does. One
 /// that faces away from the triangle's own normal is replaced by that.
-fn seen(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
+fn facing_viewer(smooth: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
     if smooth.dot(normal) <= 0.0 {
         return normal;
     }
@@ -143,8 +143,8 @@ mod tests {
     #[test]
     fn normals_that_look_away_are_bent() {
         let (normal, view) = (DVec3::Z, unit(DVec3::new(1.0, 0.0, 0.1)).expect("a view"));
-        let bent = seen(unit(DVec3::new(-0.9, 0.0, 0.2)).expect("a normal"), normal, view);
+        let bent = facing_viewer(unit(DVec3::new(-0.9, 0.0, 0.2)).expect("a normal"), normal, view);
         assert!(bent.dot(view) > 0.0 && bent.dot(normal) > 0.0, "{bent:?}");
-        assert_eq!(seen(DVec3::NEG_Z, normal, view), normal);
+        assert_eq!(facing_viewer(DVec3::NEG_Z, normal, view), normal);
     }
 }

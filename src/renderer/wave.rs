@@ -11,7 +11,7 @@ use crate::tracer::{CastError, is_occluder};
 
 /// Random numbers of one sample of one pixel, along one branch of its tree of rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dice {
+pub(super) struct SampleRng {
     stream: CounterRng,
     pixel: u64,
     sample: u64,
@@ -19,11 +19,11 @@ pub(super) struct Dice {
 }
 
 /// Random numbers per sample before its first hit: position in the pixel and on the lens.
-const BEFORE: u64 = 8;
+const NUMBERS_BEFORE_HITS: u64 = 8;
 /// Random numbers per hit.
-const A_HIT: u64 = 16;
+const NUMBERS_PER_HIT: u64 = 16;
 
-impl Dice {
+impl SampleRng {
     pub(super) const fn new(seed: u64, pixel: u64, sample: u64) -> Self {
         Self { stream: CounterRng::new(seed), pixel, sample, branch: 0 }
     }
@@ -40,7 +40,11 @@ impl Dice {
 
     /// Returns the n-th number (below 16) at a hit after `depth` others.
     pub(super) fn at(self, depth: u32, n: u64) -> f64 {
-        self.stream.unit(self.pixel, self.sample, (self.branch << 24) + BEFORE + A_HIT * u64::from(depth) + n)
+        self.stream.unit(
+            self.pixel,
+            self.sample,
+            (self.branch << 24) + NUMBERS_BEFORE_HITS + NUMBERS_PER_HIT * u64::from(depth) + n,
+        )
     }
 
     pub(super) fn pair(self, depth: u32, n: u64) -> [f64; 2] {
@@ -64,13 +68,13 @@ pub(super) struct PathRay {
     /// Probability density of its direction over solid angle; `None` if the direction was not sampled.
     pub(super) density: Option<f64>,
     /// Its random numbers.
-    pub(super) dice: Dice,
+    pub(super) rng: SampleRng,
 }
 
 impl PathRay {
     /// Creates the eye ray of a sample.
-    pub(super) fn eye(ray: Ray, slot: u32, dice: Dice) -> Self {
-        Self { ray, kind: RayKind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, dice }
+    pub(super) fn eye(ray: Ray, slot: u32, rng: SampleRng) -> Self {
+        Self { ray, kind: RayKind::Eye, slot, weight: DVec3::ONE, depth: 0, density: None, rng }
     }
 
     /// Creates a ray that continues from the hit; its direction counts as not sampled unless the caller sets a density.

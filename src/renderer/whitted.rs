@@ -4,7 +4,7 @@
 use super::counting::{CountingCaster, WatchProgress};
 use super::film::{RenderedPicture, expose};
 use super::lights::Lights;
-use super::lobes::{Lobes, ways};
+use super::lobes::{Lobes, specular_rays};
 use super::surfel::Surfel;
 use super::wave::{PathRay, Scatter, Shade};
 use super::{RenderError, Settings};
@@ -48,10 +48,10 @@ impl Shade for Whitted<'_> {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
             return Scatter::of(flight.weight * wide(self.settings.background));
         };
-        let mut scatter = Scatter::of(flight.weight * Lights::seen(&surfel));
+        let mut scatter = Scatter::of(flight.weight * Lights::emitted(&surfel));
         match Lobes::of(&surfel.material.surface) {
             Some(lobes) => self.light(flight.weight, &surfel, &lobes, &mut scatter),
-            None if flight.depth < self.settings.depth => go_on(flight, &surfel, &mut scatter),
+            None if flight.depth < self.settings.depth => continue_specular(flight, &surfel, &mut scatter),
             None => {}
         }
         scatter
@@ -73,12 +73,12 @@ impl Whitted<'_> {
     }
 }
 
-fn go_on(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
-    for way in ways(surfel).into_iter().flatten() {
-        let weight = flight.weight * way.weight;
+fn continue_specular(flight: &PathRay, surfel: &Surfel<'_>, scatter: &mut Scatter) {
+    for specular in specular_rays(surfel).into_iter().flatten() {
+        let weight = flight.weight * specular.weight;
         if weight.max_element() < LEAST_WEIGHT {
             continue;
         }
-        scatter.next.extend(surfel.ray(way.towards).map(|ray| flight.on(ray, way.kind, weight)));
+        scatter.next.extend(surfel.ray(specular.towards).map(|ray| flight.on(ray, specular.kind, weight)));
     }
 }

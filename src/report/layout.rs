@@ -12,7 +12,7 @@ use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
 /// Minimum width; narrower terminals are treated as this wide.
 pub const MIN_WIDTH: usize = 40;
 /// Minimum width of a text column, if its text is as long.
-const ROOM_FOR_WORDS: usize = 12;
+const MIN_TEXT_WIDTH: usize = 12;
 /// Length from which words, for example addresses, may be broken after a slash.
 const LONG_WORD: usize = 24;
 /// Width between two columns: a rule and a blank on each side.
@@ -36,7 +36,7 @@ impl Column {
         let longest = cells.iter().map(piece).fold(longest_piece(&heading), usize::max);
         let most = cells.iter().map(|(text, _)| display_width(text)).fold(display_width(&heading), usize::max);
         let words = cells.iter().filter(|(_, number)| !number).map(|(text, _)| display_width(text)).max().unwrap_or(0);
-        Self { heading, cells, widths: [longest, longest.max(words.min(ROOM_FOR_WORDS)), most] }
+        Self { heading, cells, widths: [longest, longest.max(words.min(MIN_TEXT_WIDTH)), most] }
     }
 
     /// Returns `true` if most cells are numbers, so that the heading is right-aligned too.

@@ -7,6 +7,7 @@
 mod cell;
 mod chart;
 pub mod digits;
+mod downscale;
 mod excerpt;
 pub mod false_color;
 mod findings;
@@ -15,7 +16,6 @@ pub mod layout;
 mod page;
 pub mod palette;
 mod provenance;
-mod shown;
 mod source_text;
 mod table;
 pub mod trace;

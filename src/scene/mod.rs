@@ -3,13 +3,13 @@
 //! - [`built`]: scenes built by the project, by name;
 //! - [`camera`]: pinhole cameras, whose rays are the same bits everywhere;
 //! - [`material`]: scattering and emission of surfaces;
-//! - [`whole`]: triangles with materials, lights and views.
+//! - [`model`]: triangles with materials, lights and views.
 
 pub mod built;
 pub mod camera;
 pub mod material;
-pub mod whole;
+pub mod model;
 
 pub use camera::{Camera, CameraError};
 pub use material::{Color, Material, Surface};
-pub use whole::{PointLight, Scene, SceneError, View};
+pub use model::{PointLight, Scene, SceneError, View};

@@ -79,6 +79,7 @@ fn climb(coefficients: &[f64], sign: f64, start: DVec3, mut longest: f64) -> (f6
         let xy = (f(1.0, 1.0) + f(-1.0, -1.0) - f(1.0, -1.0) - f(-1.0, 1.0)) / (4.0 * square);
         let [gx, gy] = gradient;
         let determinant = xx * yy - xy * xy;
+        // Away from a peak Newton's step may lead to a saddle or a minimum.
         let peak = xx < 0.0 && determinant > 0.0;
         let [x, y] =
             if peak { [(xy * gy - yy * gx) / determinant, (xy * gx - xx * gy) / determinant] } else { gradient };

@@ -4,7 +4,7 @@ use crate::geom::Hit;
 
 /// Relative margin in t by which traversal continues beyond the best hit: an fp32 t is no more precise, and the next
 /// cell may hold a triangle whose rounded t is smaller.
-pub(super) const BEYOND: f64 = 1e-5;
+pub(super) const T_MARGIN: f64 = 1e-5;
 
 /// Nearest hit so far; at equal t the lowest triangle, as on a card that draws triangles in order with a `less` depth
 /// test.
@@ -21,7 +21,7 @@ impl Best {
 
     /// Returns `true` if cells that the ray enters at `t` of its own direction cannot hold a nearer hit.
     pub(crate) fn settles(&self, t: f64, power: f64) -> bool {
-        self.0.is_some_and(|(best, _)| f64::from(best) * power * (1.0 + BEYOND) < t)
+        self.0.is_some_and(|(best, _)| f64::from(best) * power * (1.0 + T_MARGIN) < t)
     }
 
     pub(crate) fn hit(&self, power: f64) -> Option<Hit> {

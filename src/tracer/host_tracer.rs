@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::best::{BEYOND, Best};
+use super::best::{Best, T_MARGIN};
 use super::cast::{CastError, Caster};
 use super::octree::{Compact, Flow, GpuCells, Octree, OctreeParameters, TraversalCounts, Visit, Waiting};
 use super::packet::Packets;
@@ -129,6 +129,8 @@ impl HostTracer {
         let mut blocker = None;
         for (i, ray) in rays.iter().enumerate() {
             let host = self.host_ray(ray);
+            // The leaf that blocked an earlier ray often blocks this one too. Only a certain hit may replace the walk,
+            // which finds rounded hits only in the cells that the ray crosses.
             if let Some(leaf) = blocker.filter(|_| ANY) {
                 let mut best = Best::default();
                 counts.tests += self.packets.test::<BOTH>(leaf, &host, &mut best);
@@ -165,7 +167,7 @@ impl HostTracer {
         waiting: &mut Waiting,
     ) -> (Option<Hit>, HostCounts) {
         let (mut best, mut tests) = (Best::default(), 0);
-        let end = f64::from(t_max) * (1.0 + BEYOND);
+        let end = f64::from(t_max) * (1.0 + T_MARGIN);
         let traversal = self.compact.walk(
             ray,
             waiting,

@@ -2,13 +2,13 @@
 //! share.
 //!
 //! - [`Caster`]: first hits ([`Caster::cast`]) and any hits ([`Caster::occluded`]) for bundles of rays;
-//! - [`HostTracer`]: the octree walked front to back, triangles tested eight at a time, rays shared out to all threads;
+//! - [`HostTracer`]: front-to-back traversal, triangles tested eight at a time, rays distributed over all threads;
 //! - [`octree`]: cells, traversal, beams of rays;
-//! - [`offset`]: how far off a surface rays start and end.
+//! - [`offset`]: offsets of ray ends from surfaces.
 //!
 //! `OctreeParameters::default` is tuned for this tracer. [`Octree::traverse`](octree::Octree::traverse) with
 //! [`HostTracer::nearest_in`], and [`HostTracer::nearest_of_all`] without an octree, are the plain forms that the fast
-//! ones are tested against; whether a hit is *true* is decided by [`crate::geom::exact`].
+//! ones are tested against; [`crate::geom::exact`] decides whether a hit is correct.
 
 mod best;
 mod cast;

@@ -77,6 +77,7 @@ impl Packet {
     #[inline(always)]
     fn test<const BOTH: bool>(&self, ray: &HostRay, best: &mut Best) {
         let (mut t, mut hit, mut any) = ([0.0; LANES], [0u32; LANES], 0);
+        // Lanes without a triangle are tested too: without branches the loop becomes vector code.
         for i in 0..LANES {
             let at = |corner: &Corners| Vec3::new(corner[0][i], corner[1][i], corner[2][i]);
             let lane = HostTriangle::new([at(&self.a), at(&self.b), at(&self.c)]);

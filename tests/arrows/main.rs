@@ -1,9 +1,10 @@
 //! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files
-//! of a room need each other in one direction; names and lines of documentation keep their bounds.
+//! of a room need each other in one direction; names, words and lines of documentation keep their bounds.
 
 mod circles;
 mod names;
 mod source;
+mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,6 +1,6 @@
 //! The filter and the tree of the ground truth against plain integers.
 
-use crossbar::geom::exact::{self, ExactT, Guess, Sides, Tracer, filter, whole};
+use crossbar::geom::exact::{self, ExactT, Guess, Sides, Tracer, filter, integer};
 use crossbar::geom::{Mesh, Ray, aimed, teapot};
 use num_bigint::BigUint;
 use proptest::prelude::*;
@@ -72,7 +72,7 @@ proptest! {
 
     #[test]
     fn the_filter_agrees_with_integers((ray, triangle) in ray_and_triangle(), sides in sides()) {
-        let truth = whole::intersect(&ray, &triangle, sides);
+        let truth = integer::intersect(&ray, &triangle, sides);
         match filter::guess(&ray, &triangle, sides) {
             Guess::Miss => prop_assert_eq!(&truth, &None),
             Guess::Hit { low, high } => {
@@ -87,11 +87,14 @@ proptest! {
     #[test]
     fn a_reversed_triangle_shows_its_other_side((ray, triangle) in ray_and_triangle()) {
         let [a, b, c] = triangle;
-        let front = whole::intersect(&ray, &triangle, Sides::Front);
-        let back = whole::intersect(&ray, &[a, c, b], Sides::Front);
+        let front = integer::intersect(&ray, &triangle, Sides::Front);
+        let back = integer::intersect(&ray, &[a, c, b], Sides::Front);
         prop_assert!(front.is_none() || back.is_none());
-        prop_assert_eq!(whole::intersect(&ray, &triangle, Sides::Both), front.or(back));
-        prop_assert_eq!(whole::intersect(&ray, &[b, c, a], Sides::Front), whole::intersect(&ray, &triangle, Sides::Front));
+        prop_assert_eq!(integer::intersect(&ray, &triangle, Sides::Both), front.or(back));
+        prop_assert_eq!(
+            integer::intersect(&ray, &[b, c, a], Sides::Front),
+            integer::intersect(&ray, &triangle, Sides::Front)
+        );
     }
 
     #[test]
@@ -109,7 +112,7 @@ proptest! {
 
     #[test]
     fn every_path_finds_the_same_first_hit((mesh, ray) in mesh_and_ray(), sides in sides()) {
-        let truth = whole::nearest(&mesh, &ray, sides);
+        let truth = integer::nearest(&mesh, &ray, sides);
         prop_assert_eq!(&exact::nearest(&mesh, &ray, sides), &truth);
         prop_assert_eq!(&Tracer::new(&mesh).nearest(&ray, sides), &truth);
         let hits = exact::hits(&mesh, &ray, sides);
@@ -140,7 +143,7 @@ fn rays_aimed_at_the_teapot_agree_on_all_paths() {
     for sides in [Sides::Front, Sides::Both] {
         let all = exact::nearest_all(&mesh, &rays, sides);
         for (ray, found) in rays.iter().zip(&all) {
-            let truth = whole::nearest(&mesh, ray, sides);
+            let truth = integer::nearest(&mesh, ray, sides);
             assert_eq!(found, &truth, "{ray:?}");
             assert_eq!(tracer.nearest(ray, sides), truth);
             ties += usize::from(truth.is_some_and(|hit| hit.ties.len() > 1));

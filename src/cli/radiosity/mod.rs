@@ -53,7 +53,7 @@ impl StudyArgs for Args {
             camera: viewpoint.camera(&scene)?,
             subdivision: ask::subdivision(self),
             factors: ask::requirements(self),
-            ways: ask::methods(self)?,
+            methods: ask::methods(self)?,
             profile: self.card.profile("nv35")?,
             switches: self.card.switches(),
             executor: self.card.executor()?,

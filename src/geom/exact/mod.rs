@@ -6,16 +6,16 @@
 //! same t the smallest id comes first, and the whole set of ties is reported.
 //!
 //! **Method.** With A = a - o and so on, the signs of d.(BxC), d.(CxA), d.(AxB) (whose sum is n.d) tell on which side
-//! of each edge the ray passes, and t = (n.A) / (n.d). [`whole`] evaluates these as integers of any size, since an f32
-//! is an integer times a power of two. [`filter`] runs first: it evaluates them in f64 with a proved error bound and
-//! decides only certain cases; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests compare all
+//! of each edge the ray passes, and t = (n.A) / (n.d). [`integer`] evaluates these as integers of any size, since an
+//! f32 is an integer times a power of two. [`filter`] runs first: it evaluates them in f64 with a proved error bound
+//! and decides only certain cases; [`Tracer`] adds a tree of boxes that never skips a hit. Property tests compare all
 //! three.
 
 pub mod filter;
 mod hit;
+pub mod integer;
 pub mod ratio;
 mod tree;
-pub mod whole;
 
 use std::cmp::Ordering;
 
@@ -28,7 +28,7 @@ pub use tree::{Tracer, nearest_all};
 pub fn intersect(ray: &Ray, triangle: &[[f32; 3]; 3], sides: Sides) -> Option<ExactT> {
     match filter::guess(ray, triangle, sides) {
         Guess::Miss => None,
-        Guess::Hit { .. } | Guess::Unclear => whole::intersect(ray, triangle, sides),
+        Guess::Hit { .. } | Guess::Unclear => integer::intersect(ray, triangle, sides),
     }
 }
 
@@ -67,7 +67,7 @@ pub fn nearest(mesh: &Mesh, ray: &Ray, sides: Sides) -> Option<NearestHit> {
 
 /// Returns `true` if a triangle has no area, exactly: n = 0.
 pub fn is_degenerate(triangle: &[[f32; 3]; 3]) -> bool {
-    !filter::has_area(triangle) && whole::is_degenerate(triangle)
+    !filter::has_area(triangle) && integer::is_degenerate(triangle)
 }
 
 impl Mesh {
@@ -100,7 +100,7 @@ impl Shortlist {
             Guess::Miss => return,
             Guess::Hit { low, high } => (low, high, None),
             Guess::Unclear => {
-                let Some(t) = whole::intersect(ray, corners, sides) else { return };
+                let Some(t) = integer::intersect(ray, corners, sides) else { return };
                 let near = t.to_f64();
                 (filter::below(near), filter::above(near), Some(t))
             }
@@ -116,7 +116,7 @@ impl Shortlist {
         let limit = self.limit;
         let mut first: Option<(ExactT, Vec<u32>)> = None;
         for candidate in self.candidates.into_iter().filter(|candidate| candidate.low <= limit) {
-            let exact = candidate.exact.or_else(|| whole::intersect(ray, &mesh.corners(candidate.triangle)?, sides));
+            let exact = candidate.exact.or_else(|| integer::intersect(ray, &mesh.corners(candidate.triangle)?, sides));
             let Some(t) = exact else { continue };
             match &mut first {
                 Some((best, ties)) => match t.cmp(best) {

@@ -124,6 +124,7 @@ fn build(items: &mut [(u32, DVec3)], offset: usize, corners: &[[[f32; 3]; 3]], n
     }
     let axis = (high - low).max_position();
     let middle = items.len() / 2;
+    // Ids break ties, so that both halves hold the same triangles in every version of the selection.
     items.select_nth_unstable_by(middle, |a, b| a.1[axis].total_cmp(&b.1[axis]).then(a.0.cmp(&b.0)));
     let (left, right) = items.split_at_mut(middle);
     build(left, offset, corners, nodes);

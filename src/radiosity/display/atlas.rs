@@ -38,7 +38,7 @@ impl RadiosityAtlas {
     /// Creates an atlas of `side` texels along a side, a power of two.
     ///
     /// # Errors
-    /// [`AtlasError`] if there are fewer texels than triangles, or the side is none of an atlas.
+    /// [`AtlasError`] if there are fewer texels than triangles, or the side is not that of an atlas.
     pub fn new(patches: &Patches, side: u32) -> Result<Self, AtlasError> {
         let (mut positions, mut triangles, mut of_face) = (Vec::new(), Vec::new(), Vec::new());
         for (number, patch) in (0..).zip(patches.list()) {
@@ -75,7 +75,7 @@ impl RadiosityAtlas {
     /// constant.
     ///
     /// # Panics
-    /// If there is not one radiosity a patch.
+    /// If there is not one radiosity per patch.
     pub fn texels(&self, patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let corners = at_corners(patches, radiosity);
         let side = self.atlas.side() as usize;
@@ -134,7 +134,7 @@ impl RadiosityAtlas {
     /// Computes the power in a texture, and that of the patches. Partly covered patches count whole.
     ///
     /// # Panics
-    /// If there is not one radiosity a patch, or not a value per texel.
+    /// If there is not one radiosity per patch, or not a value per texel.
     pub fn power(&self, patches: &Patches, radiosity: &[[f64; 3]], texels: &[[f64; 3]]) -> AtlasPower {
         assert_eq!(texels.len(), self.atlas.texels().len(), "a value per texel");
         let corners = at_corners(patches, radiosity);

@@ -58,7 +58,7 @@ impl CornerSets {
 /// not count. Constant radiosity stays constant.
 ///
 /// # Panics
-/// If there is not one radiosity a patch.
+/// If there is not one radiosity per patch.
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
     let CornerSets { sets, of } = CornerSets::new(patches);

@@ -88,6 +88,7 @@ fn samples(patches: &Patches, [i, j]: [u32; 2], parameters: VisibilityParameters
     let mut dealt = Vec::with_capacity(far.len());
     for sample in 0..side * side {
         let number = sample as u64;
+        // Fisher-Yates: each stratum of the other patch is used exactly once.
         let left = (far.len() - sample) as u64;
         far.swap(sample, sample + (random.bits(index, number, 4) % left) as usize);
         let ((x, dx), (y, dy)) = (at(i, sample, number, 0), at(j, far[sample], number, 2));
@@ -122,6 +123,7 @@ fn share(
             open += sample.weight;
         }
     }
+    // All weights may be 0, whose quotient is NaN.
     if open == all { 1.0 } else { open / all }
 }
 

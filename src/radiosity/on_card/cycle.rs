@@ -34,9 +34,9 @@ impl Cycle {
 
 /// Digests of the states read back, each with the iteration of its first occurrence.
 #[derive(Debug, Default)]
-pub(super) struct SeenStates(BTreeMap<u64, u32>);
+pub(super) struct StateDigests(BTreeMap<u64, u32>);
 
-impl SeenStates {
+impl StateDigests {
     /// Adds a state. Returns the iteration of an earlier state with the same digest, if there is one.
     pub(super) fn note(&mut self, state: &Radiosities, number: u32) -> Option<u32> {
         let first = *self.0.entry(digest(state)).or_insert(number);

@@ -1,6 +1,6 @@
 //! Iteration until the residual is small enough. The host computes the residual in f64 from the radiosities read back.
 
-use super::cycle::SeenStates;
+use super::cycle::StateDigests;
 use super::{CardError, CardSolver, Cycle};
 use crate::radiosity::System;
 use crate::radiosity::solve::mean_square;
@@ -73,7 +73,7 @@ impl CardSolver {
         let target = channels.map(|c| options.tolerance * options.tolerance * mean_square(&system.right_hand_side(c)));
         let (mut history, mut number) = (Vec::new(), 0);
         let mut radiosity = self.read()?;
-        let mut seen = SeenStates::default();
+        let mut seen = StateDigests::default();
         loop {
             let residual = system.residual(&to_f64(&radiosity));
             if residual.iter().any(|r| !r.is_finite()) {
@@ -82,6 +82,7 @@ impl CardSolver {
             history.push((number, residual));
             each(&Iteration { number, residual, radiosity: &radiosity });
             let converged = channels.iter().all(|&c| residual[c] <= target[c]);
+            // A repeated digest may be a collision: only states that repeat bit for bit are a cycle.
             let cycle = match seen.note(&radiosity, number) {
                 Some(first) if !converged => self.around(&radiosity, [first, number - first])?,
                 _ => None,

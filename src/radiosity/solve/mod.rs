@@ -32,7 +32,7 @@ pub enum Solver {
 /// Solves a system.
 ///
 /// # Errors
-/// [`SolveError`]. Reaching the most iterations is none: [`Solution::converged`] tells.
+/// [`SolveError`]. Reaching the maximum of iterations is no error: see [`Solution::converged`].
 pub fn solve(solver: Solver, problem: &Problem<'_>, options: &Options) -> Result<Solution, SolveError> {
     check(problem)?;
     match solver {

@@ -88,8 +88,8 @@ impl<'a> RayEngine<'a> {
         let tracer = HostTracer::with_octree(mesh, parameters.octree, parameters.sides);
         let cells = GpuCells::mark(tracer.octree(), parameters.triangles.clone());
         let EngineParameters { outputs, small_ids, cull, .. } = parameters;
-        let wish = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
-        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, wish)?;
+        let requirements = PassRequirements { outputs, small_ids, cull, triangles: *parameters.triangles.end() };
+        let card = Crossbar::new(profile, executor).pass_card(mesh, parameters.sides, requirements)?;
         let passes = Passes::new(card, parameters.readback, parameters.record);
         Ok(Self {
             mesh,

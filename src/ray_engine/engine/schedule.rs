@@ -168,7 +168,7 @@ impl RayEngine<'_> {
         }
         self.counts.host_tests += tests;
         self.note(HostOperation::RayTriangleTest, tests);
-        self.go_on(&pass.waiting);
+        self.resume(&pass.waiting);
         true
     }
 
@@ -182,11 +182,11 @@ impl RayEngine<'_> {
         }
         self.counts.host_tests += tests;
         self.note(HostOperation::RayTriangleTest, tests);
-        self.go_on(waiting);
+        self.resume(waiting);
     }
 
     /// Continues rays behind a cell: each is answered if nothing nearer can follow.
-    fn go_on(&mut self, rays: &[Waiting]) {
+    fn resume(&mut self, rays: &[Waiting]) {
         for &Waiting { flight, leave } in rays {
             let here = self.flights.at(flight);
             if here.best.settles(leave, here.host.power) {

@@ -13,7 +13,7 @@ use crate::geom::Ray;
 use key::{Key, RayTreeEntry};
 use split::Split;
 
-pub use take::Taken;
+pub use take::CoherentBatch;
 
 /// Parameters of a ray tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

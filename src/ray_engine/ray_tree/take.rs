@@ -4,7 +4,7 @@ use super::{RayTree, RayTreeContent, RayTreeEntry, RayTreeNode, key};
 
 /// Batch of rays that go to the card together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Taken {
+pub struct CoherentBatch {
     /// Numbers of the rays, those of the bucket first; at most one bucket full.
     pub rays: Vec<u32>,
     /// Number of rays from the bucket itself.
@@ -16,10 +16,10 @@ pub struct Taken {
 impl RayTree {
     /// Takes a batch out: at most one bucket full, empty if the tree is empty. The search descends to the child with
     /// the most rays below it, so that it need not find the fullest bucket of all.
-    pub fn take(&mut self) -> Taken {
+    pub fn take(&mut self) -> CoherentBatch {
         let root = self.fullest(0..key::FACES as u32);
         if self.nodes[root as usize].count == 0 {
-            return Taken::default();
+            return CoherentBatch::default();
         }
         let bucket = self.descend(root);
         let size = self.parameters.bucket;
@@ -39,7 +39,7 @@ impl RayTree {
         self.counts.stolen += (rays.len() - own) as u64;
         self.counts.levels_merged += levels_merged as u64;
         self.counts.merges += u64::from(levels_merged > 0);
-        Taken { rays: rays.into_iter().map(|entry| entry.ray).collect(), own, levels_merged }
+        CoherentBatch { rays: rays.into_iter().map(|entry| entry.ray).collect(), own, levels_merged }
     }
 
     /// Returns the node with the most rays below it, the first of equals.

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use crate::geom::Hit;
 use crate::renderer::counting::{CountingCaster, RayKind};
 use crate::renderer::lights::Lights;
-use crate::renderer::lobes::{Lobes, one_way};
+use crate::renderer::lobes::{Lobes, choose_specular};
 use crate::renderer::photon_map::Photon;
 use crate::renderer::surfel::Surfel;
-use crate::renderer::wave::{Dice, PathRay};
+use crate::renderer::wave::{PathRay, SampleRng};
 use crate::renderer::{RenderError, Settings};
 use crate::scene::Scene;
 
@@ -19,7 +19,7 @@ const FIRST: u64 = 1 << 40;
 const CAUSTIC: u64 = 1 << 41;
 
 /// Photons of one map.
-pub(super) struct Shot<'a> {
+pub(super) struct PhotonEmission<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a Settings,
     pub(super) lights: &'a Lights<'a>,
@@ -31,12 +31,12 @@ pub(super) struct Shot<'a> {
 
 /// Interaction of a photon at a hit.
 #[derive(Default)]
-struct Landing {
+struct PhotonHit {
     stored: Option<Photon>,
     next: Option<PathRay>,
 }
 
-impl Shot<'_> {
+impl PhotonEmission<'_> {
     /// Emits the photons, and returns the stored ones, by their number and then by their hits.
     pub(super) fn landed(&self, tracer: &mut CountingCaster<'_>) -> Result<Vec<Photon>, RenderError> {
         tracer.begin(if self.caustic { "caustic photons" } else { "photons" }, u64::from(self.count));
@@ -58,10 +58,10 @@ impl Shot<'_> {
 
     fn leaving(&self, photon: u32, start: u32) -> Option<PathRay> {
         let first = FIRST + if self.caustic { CAUSTIC } else { 0 };
-        let dice = Dice::new(self.settings.seed, first + u64::from(photon), 0);
-        let leaving = self.lights.leaving(|n| dice.before(n))?;
+        let rng = SampleRng::new(self.settings.seed, first + u64::from(photon), 0);
+        let leaving = self.lights.leaving(|n| rng.before(n))?;
         let weight = 1.0 / f64::from(self.count) * leaving.power;
-        Some(PathRay { kind: RayKind::Photon, weight, ..PathRay::eye(leaving.ray, photon - start, dice) })
+        Some(PathRay { kind: RayKind::Photon, weight, ..PathRay::eye(leaving.ray, photon - start, rng) })
     }
 
     fn follow(
@@ -73,29 +73,29 @@ impl Shot<'_> {
         while !flights.is_empty() {
             let rays: Vec<_> = flights.iter().map(|flight| flight.ray).collect();
             let hits = tracer.cast(&rays, |_| RayKind::Photon)?;
-            let landings: Vec<Landing> =
-                flights.par_iter().zip(&hits).map(|(flight, hit)| self.land(flight, *hit)).collect();
+            let hits: Vec<PhotonHit> =
+                flights.par_iter().zip(&hits).map(|(flight, hit)| self.interact(flight, *hit)).collect();
             let numbers = flights.iter().map(|flight| flight.slot);
-            landed.extend(numbers.zip(&landings).filter_map(|(slot, landing)| Some((slot, landing.stored?))));
-            flights = landings.into_iter().filter_map(|landing| landing.next).collect();
+            landed.extend(numbers.zip(&hits).filter_map(|(slot, landing)| Some((slot, landing.stored?))));
+            flights = hits.into_iter().filter_map(|landing| landing.next).collect();
         }
         Ok(landed)
     }
 
-    fn land(&self, flight: &PathRay, hit: Option<Hit>) -> Landing {
+    fn interact(&self, flight: &PathRay, hit: Option<Hit>) -> PhotonHit {
         let Some(surfel) = hit.and_then(|hit| Surfel::new(self.scene, self.settings.rounding, &flight.ray, hit)) else {
-            return Landing::default();
+            return PhotonHit::default();
         };
         let more = flight.depth + 1 < self.settings.depth;
-        let dice = flight.dice;
+        let rng = flight.rng;
         let Some(lobes) = Lobes::of(&surfel.material.surface) else {
-            let way = one_way(&surfel, dice.at(flight.depth, 3)).filter(|_| more);
-            let next = way.and_then(|way| {
-                let next = go_on(flight, &surfel, way.towards, way.weight)?;
+            let specular = choose_specular(&surfel, rng.at(flight.depth, 3)).filter(|_| more);
+            let next = specular.and_then(|specular| {
+                let next = continue_photon(flight, &surfel, specular.towards, specular.weight)?;
                 // Not in the weight, so that Russian roulette ignores it: it is undone where the light leaves the glass.
-                Some(PathRay { weight: way.squeeze * next.weight, ..next })
+                Some(PathRay { weight: specular.flux_scale * next.weight, ..next })
             });
-            return Landing { stored: None, next };
+            return PhotonHit { stored: None, next };
         };
         let stored = (self.settings.depth > 0 && (!self.caustic || flight.depth > 0)).then_some(Photon {
             at: surfel.place.at,
@@ -104,14 +104,14 @@ impl Shot<'_> {
             power: flight.weight,
         });
         if self.caustic || !more {
-            return Landing { stored, next: None };
+            return PhotonHit { stored, next: None };
         }
-        let chosen = lobes.choose(&surfel, dice.at(flight.depth, 3), dice.pair(flight.depth, 4));
+        let chosen = lobes.choose(&surfel, rng.at(flight.depth, 3), rng.pair(flight.depth, 4));
         let next = chosen.and_then(|chosen| {
             let turned = adjoint(&surfel, chosen.towards);
-            go_on(flight, &surfel, chosen.towards, turned * chosen.weight)
+            continue_photon(flight, &surfel, chosen.towards, turned * chosen.weight)
         });
-        Landing { stored, next }
+        PhotonHit { stored, next }
     }
 }
 
@@ -123,9 +123,9 @@ fn adjoint(surfel: &Surfel<'_>, towards: DVec3) -> f64 {
 }
 
 /// Continues with a probability equal to the weight, so that the power of photons stays about constant.
-fn go_on(flight: &PathRay, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<PathRay> {
+fn continue_photon(flight: &PathRay, surfel: &Surfel<'_>, towards: DVec3, weight: DVec3) -> Option<PathRay> {
     let chance = weight.max_element().min(1.0);
-    if chance <= 0.0 || flight.dice.at(flight.depth, 6) >= chance {
+    if chance <= 0.0 || flight.rng.at(flight.depth, 6) >= chance {
         return None;
     }
     let power = flight.weight * (1.0 / chance * weight);

@@ -77,9 +77,9 @@ pub fn render<'a>(
     photons.checked()?;
     let mut tracer = CountingCaster::new(caster, watch);
     let lights = Lights::areas_of(scene, settings.rounding);
-    let shot = |count, caustic| emit::Shot { scene, settings, lights: &lights, count, caustic };
-    let global = PhotonMap::new(shot(photons.global, false).landed(&mut tracer)?);
-    let caustic = PhotonMap::new(shot(photons.caustic, true).landed(&mut tracer)?);
+    let emission = |count, caustic| emit::PhotonEmission { scene, settings, lights: &lights, count, caustic };
+    let global = PhotonMap::new(emission(photons.global, false).landed(&mut tracer)?);
+    let caustic = PhotonMap::new(emission(photons.caustic, true).landed(&mut tracer)?);
     let fan = 2 + photons.gather as usize + lights.points();
     let shader = Gathering { scene, settings, photons, global: &global, caustic: &caustic, lights: &lights };
     expose(&mut tracer, camera, settings, fan, &shader)
@@ -101,7 +101,7 @@ impl Shade for Gathering<'_> {
         };
         // Gather rays carry a density. They see no lights: shadow rays and the caustic map have counted those.
         let gathers = flight.density.is_some();
-        let seen = if gathers { DVec3::ZERO } else { Lights::seen(&surfel) };
+        let seen = if gathers { DVec3::ZERO } else { Lights::emitted(&surfel) };
         let mut scatter = Scatter::of(flight.weight * seen);
         let more = flight.depth < self.settings.depth;
         match Lobes::of(&surfel.material.surface) {
@@ -110,7 +110,7 @@ impl Shade for Gathering<'_> {
                 scatter.light += flight.weight * light;
             }
             Some(lobes) => self.scatter(flight, &surfel, lobes, more, &mut scatter),
-            None if more => distributed::go_on(flight, &surfel, &mut scatter),
+            None if more => distributed::continue_specular(flight, &surfel, &mut scatter),
             None => {}
         }
         scatter
@@ -140,14 +140,14 @@ impl Gathering<'_> {
         let rays = self.photons.gather;
         let weight = 1.0 / f64::from(rays) * (flight.weight * lobes.albedo);
         for ray in 0..u64::from(rays) {
-            let dice = flight.dice.branch(1 + ray);
-            let towards = cosine(surfel.shading, dice.pair(flight.depth, 4));
+            let rng = flight.rng.branch(1 + ray);
+            let towards = cosine(surfel.shading, rng.pair(flight.depth, 4));
             if towards.dot(surfel.normal) <= 0.0 {
                 continue;
             }
             let density = Some(towards.dot(surfel.shading).max(0.0));
             let next = surfel.ray(towards).map(|ray| flight.on(ray, RayKind::Gather, weight));
-            scatter.next.extend(next.map(|next| PathRay { density, dice, ..next }));
+            scatter.next.extend(next.map(|next| PathRay { density, rng, ..next }));
         }
     }
 

@@ -13,7 +13,7 @@ use super::style::{Marker, SeriesStyle, rgb};
 
 /// Position in pixels.
 type Pixel = (i32, i32);
-type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 /// Size of the plot area, including the numbers of the axes, in pixels.
 const PLOT: (i32, i32) = (580, 400);
@@ -57,7 +57,7 @@ impl<'a> Drawing<'a> {
         (width.unsigned_abs(), self.height.unsigned_abs())
     }
 
-    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, x: Axis, y: Axis) -> Drawn<B> {
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, x: Axis, y: Axis) -> DrawResult<B> {
         area.fill(&rgb(LIGHT.paper))?;
         let title = ("sans-serif", FONTS[0]).into_font().color(&rgb(LIGHT.ink));
         area.draw(&Text::new(self.chart.title.clone(), (14, 12), title))?;
@@ -111,7 +111,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws a category name below the axis, in two lines where one would overlap its neighbours.
-    fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> Drawn<B> {
+    fn name<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, name: &str, (middle, top): Pixel) -> DrawResult<B> {
         let room = (PLOT.0 - 82) / signed(self.chart.ticks.len().max(1));
         let long = signed(name.chars().count()) * LETTER > room;
         let lines = if long { halves(name) } else { vec![name] };
@@ -124,7 +124,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// Draws the column of labels: a sample of each series, its name, and a thin line from the end of the series.
-    fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> Drawn<B> {
+    fn labels<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, all: &[PixelSeries<'_>]) -> DrawResult<B> {
         let wanted: Vec<i32> = all.iter().map(|one| one.end().1).collect();
         let places = spread(&wanted, [MARGINS[0] + PITCH / 2, self.height - MARGINS[1] - PITCH / 2]);
         let style = ("sans-serif", FONTS[1]).into_font().color(&rgb(LIGHT.ink));
@@ -155,7 +155,7 @@ impl PixelSeries<'_> {
     }
 
     /// Draws the line, dashed or not; nothing for points.
-    fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+    fn path<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> DrawResult<B> {
         let style = self.series.style;
         let stroke = style.color.stroke_width(2);
         let points = self.points.iter().copied();
@@ -167,7 +167,7 @@ impl PixelSeries<'_> {
     }
 
     /// Draws the markers: all points, or some along a line, with a different start on each line.
-    fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> Drawn<B> {
+    fn marks<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, n: usize) -> DrawResult<B> {
         let few = !self.series.joined || self.points.len() <= 10;
         let mut last = self.points.first().map_or(0, |p| p.0) - (signed(n) * 19).rem_euclid(APART);
         for point in &self.points {
@@ -181,11 +181,11 @@ impl PixelSeries<'_> {
 }
 
 /// Draws a marker.
-fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> Drawn<B> {
+fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): Pixel, style: SeriesStyle) -> DrawResult<B> {
     let square = [(-MARK, -MARK), (MARK, -MARK), (MARK, MARK), (-MARK, MARK)];
     let triangle = [(0, -MARK - 1), (MARK + 1, MARK), (-MARK - 1, MARK)];
     let diamond = [(0, -MARK - 2), (MARK + 2, 0), (0, MARK + 2), (-MARK - 2, 0)];
-    let polygon = |corners: &[Pixel], open: bool| -> Drawn<B> {
+    let polygon = |corners: &[Pixel], open: bool| -> DrawResult<B> {
         let mut corners: Vec<Pixel> = corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
         let fill = if open { rgb(LIGHT.paper) } else { style.color };
         area.draw(&Polygon::new(corners.clone(), fill.filled()))?;

@@ -1,8 +1,8 @@
 //! Objects on a desk. Each stands at its placement's origin and faces -y.
 
-use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{MaterialId, Parts, Placement};
+use super::rng::SceneRng;
 
 /// Adds a cathode-ray monitor. 60 triangles.
 pub(super) fn monitor(parts: &mut Parts, place: Placement, palette: &Palette) {
@@ -84,12 +84,12 @@ fn vessel(
 }
 
 /// Adds a cup with four pencils. 206 triangles.
-pub(super) fn pencils(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
+pub(super) fn pencils(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng) {
     vessel(parts, place, [0.035, 0.1], 16, palette.metal, palette.black);
     for pencil in 0..4 {
         let lean = place.to(0.0, 0.0, 0.06).turned(2, f64::from(pencil) / 4.0).to(0.012, 0.0, 0.0);
-        let lean = lean.turned(1, chance.between(0.005, 0.03));
-        parts.cylinder(lean, 0.004, [0.0, chance.between(0.08, 0.12)], 6, chance.one_of(&palette.covers));
+        let lean = lean.turned(1, rng.between(0.005, 0.03));
+        parts.cylinder(lean, 0.004, [0.0, rng.between(0.08, 0.12)], 6, rng.one_of(&palette.covers));
     }
 }
 
@@ -107,10 +107,10 @@ pub(super) fn telephone(parts: &mut Parts, place: Placement, palette: &Palette) 
 }
 
 /// Adds a pile of `sheets` stacks of paper, each a little askew. 12 `sheets` triangles.
-pub(super) fn papers(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance, sheets: u32) {
+pub(super) fn papers(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng, sheets: u32) {
     for sheet in 0..sheets {
         let z = 0.006 * f64::from(sheet);
-        let askew = place.facing(chance.between(-14.0, 14.0));
+        let askew = place.facing(rng.between(-14.0, 14.0));
         parts.block(askew, [-0.105, -0.148, z], [0.105, 0.148, z + 0.005], palette.paper);
     }
 }

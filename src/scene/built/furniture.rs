@@ -1,8 +1,8 @@
 //! Furniture of many small triangles. Each piece stands at its placement's origin and faces -y.
 
-use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{Parts, Placement};
+use super::rng::SceneRng;
 
 /// Adds a desk of 1.6 x 0.8 m, 0.74 m high, with a box of drawers. 132 triangles.
 pub(super) fn desk(parts: &mut Parts, place: Placement, palette: &Palette) {
@@ -47,7 +47,7 @@ pub(super) fn bookshelf(
     parts: &mut Parts,
     place: Placement,
     palette: &Palette,
-    chance: &mut Chance,
+    rng: &mut SceneRng,
     [rows, books]: [u32; 2],
 ) {
     let height = 0.35 * f64::from(rows) + 0.03;
@@ -61,12 +61,12 @@ pub(super) fn bookshelf(
     for row in 0..rows {
         let place = place.to(-0.47, 0.12, 0.35 * f64::from(row) + 0.03);
         // A gap is left at the end of each row.
-        let pitch = chance.between(0.82, 0.93) / f64::from(books);
+        let pitch = rng.between(0.82, 0.93) / f64::from(books);
         for book in 0..books {
             let x = f64::from(book) * pitch;
-            let (thick, tall) = (pitch * chance.between(0.7, 0.97), chance.between(0.2, 0.29));
-            let deep = chance.between(0.16, 0.22);
-            let cover = chance.one_of(&palette.covers);
+            let (thick, tall) = (pitch * rng.between(0.7, 0.97), rng.between(0.2, 0.29));
+            let deep = rng.between(0.16, 0.22);
+            let cover = rng.one_of(&palette.covers);
             let faces = [cover, cover, cover, palette.paper, palette.paper, palette.paper];
             parts.painted_block(place, [x, -deep, 0.0], [x + thick, 0.0, tall], faces);
         }
@@ -89,18 +89,18 @@ pub(super) fn desk_lamp(parts: &mut Parts, place: Placement, palette: &Palette) 
 }
 
 /// Adds a plant of `leaves` leaves in a pot, about 1 m high. 160 + 24 `leaves` triangles.
-pub(super) fn plant(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance, leaves: u32) {
+pub(super) fn plant(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng, leaves: u32) {
     let pot = [[0.0, 0.0], [0.12, 0.0], [0.17, 0.3], [0.155, 0.3], [0.15, 0.26]];
     parts.lathe(place, &pot, 20, palette.clay);
     parts.lathe(place, &[[0.15, 0.26], [0.0, 0.27]], 20, palette.soil);
     for leaf in 0..leaves {
         // A golden section of a turn from one leaf to the next.
-        let around = place.to(0.0, 0.0, 0.24).turned(2, 0.381_966 * f64::from(leaf) + chance.between(-0.02, 0.02));
-        let lean = 0.02 + 0.13 * f64::from(leaf) / f64::from(leaves) + chance.between(0.0, 0.02);
+        let around = place.to(0.0, 0.0, 0.24).turned(2, 0.381_966 * f64::from(leaf) + rng.between(-0.02, 0.02));
+        let lean = 0.02 + 0.13 * f64::from(leaf) / f64::from(leaves) + rng.between(0.0, 0.02);
         let stem = around.to(0.03, 0.0, 0.0).turned(1, lean);
-        let length = chance.between(0.35, 0.7);
+        let length = rng.between(0.35, 0.7);
         parts.cylinder(stem, 0.006, [0.0, length], 5, palette.leaf);
-        blade(parts, stem.to(0.0, 0.0, length - 0.01).turned(1, lean + 0.05), palette, chance.between(0.2, 0.34));
+        blade(parts, stem.to(0.0, 0.0, length - 0.01).turned(1, lean + 0.05), palette, rng.between(0.2, 0.34));
     }
 }
 

@@ -12,7 +12,6 @@
 //! - [`meshes`]: all of these by name;
 //! - [`ground`]: a square below a model that receives its shadow.
 
-mod chance;
 mod cornell_box;
 mod desktop;
 pub mod flat_models;
@@ -24,6 +23,7 @@ mod office;
 mod office_floor;
 mod palette;
 mod parts;
+mod rng;
 pub mod rooms;
 mod solids;
 pub mod stand_ins;

@@ -14,11 +14,11 @@
 //! | floor, ceiling, walls | 20 |
 
 use super::super::{PointLight, Scene, View};
-use super::chance::Chance;
 use super::desktop::{keyboard, monitor, mouse, mug, papers, pencils, telephone};
 use super::furniture::{basket, bookshelf, chair, desk, desk_lamp, plant, radiator};
 use super::palette::{Palette, lamp};
 use super::parts::{MaterialId, Parts, Placement};
+use super::rng::SceneRng;
 
 /// Dimensions of the room, in metres.
 const WIDTH: f64 = 9.6;
@@ -33,7 +33,7 @@ const RECESS: f64 = 0.2;
 /// Builds the office. The seed rotates chairs, and moves the objects on the desks.
 pub fn office(seed: u64) -> Scene {
     let mut parts = Parts::default();
-    let mut chance = Chance::new(seed);
+    let mut rng = SceneRng::new(seed);
     let palette = Palette::new(&mut parts);
     shell(&mut parts, &palette);
     for left in WINDOWS {
@@ -41,8 +41,8 @@ pub fn office(seed: u64) -> Scene {
         radiator(&mut parts, Placement::at(left + 0.9, DEPTH - 0.08, 0.0), &palette, 24);
     }
     door(&mut parts, Placement::at(0.0, 1.6, 0.0).turned(2, 0.25), &palette);
-    workplaces(&mut parts, &palette, &mut chance);
-    along_the_walls(&mut parts, &palette, &mut chance);
+    workplaces(&mut parts, &palette, &mut rng);
+    along_the_walls(&mut parts, &palette, &mut rng);
     for (x, y) in [(2.4, 1.3), (4.8, 1.3), (7.2, 1.3), (2.4, 4.4), (4.8, 4.4), (7.2, 4.4)] {
         ceiling_light(&mut parts, Placement::at(x, y, HEIGHT), &palette);
     }
@@ -133,7 +133,7 @@ fn door(parts: &mut Parts, place: Placement, palette: &Palette) {
 }
 
 /// Adds eight workplaces in two blocks of four.
-fn workplaces(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
+fn workplaces(parts: &mut Parts, palette: &Palette, rng: &mut SceneRng) {
     for (x, y, degrees) in [
         (2.2, 3.1, 0.0),
         (3.82, 3.1, 0.0),
@@ -144,38 +144,34 @@ fn workplaces(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
         (6.3, 3.92, 180.0),
         (7.92, 3.92, 180.0),
     ] {
-        workplace(parts, Placement::at(x, y, 0.0).facing(degrees), palette, chance);
+        workplace(parts, Placement::at(x, y, 0.0).facing(degrees), palette, rng);
     }
 }
 
 /// Adds a desk with its objects, a chair and a basket.
-fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
+fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng) {
     desk(parts, place, palette);
-    let seat = place.to(chance.between(-0.35, -0.05), chance.between(-0.75, -0.55), 0.0);
-    chair(parts, seat.facing(chance.between(-35.0, 35.0)), palette);
+    let seat = place.to(rng.between(-0.35, -0.05), rng.between(-0.75, -0.55), 0.0);
+    chair(parts, seat.facing(rng.between(-35.0, 35.0)), palette);
     basket(parts, place.to(-0.55, 0.1, 0.0), palette, 20);
     let top = place.to(0.0, 0.0, 0.74);
-    monitor(parts, top.to(-0.12, 0.08, 0.0).facing(chance.between(-12.0, 12.0)), palette);
-    keyboard(parts, top.to(-0.15, -0.25, 0.0).facing(chance.between(-5.0, 5.0)), palette);
-    mouse(parts, top.to(0.16, chance.between(-0.29, -0.2), 0.0).facing(chance.between(-15.0, 15.0)), palette);
-    mug(
-        parts,
-        top.to(chance.between(0.27, 0.32), chance.between(-0.1, 0.0), 0.0).facing(chance.between(0.0, 360.0)),
-        palette,
-    );
-    pencils(parts, top.to(-0.48, 0.0, 0.0), palette, chance);
+    monitor(parts, top.to(-0.12, 0.08, 0.0).facing(rng.between(-12.0, 12.0)), palette);
+    keyboard(parts, top.to(-0.15, -0.25, 0.0).facing(rng.between(-5.0, 5.0)), palette);
+    mouse(parts, top.to(0.16, rng.between(-0.29, -0.2), 0.0).facing(rng.between(-15.0, 15.0)), palette);
+    mug(parts, top.to(rng.between(0.27, 0.32), rng.between(-0.1, 0.0), 0.0).facing(rng.between(0.0, 360.0)), palette);
+    pencils(parts, top.to(-0.48, 0.0, 0.0), palette, rng);
     telephone(parts, top.to(0.62, -0.1, 0.0).facing(-20.0), palette);
-    papers(parts, top.to(-0.6, -0.2, 0.0), palette, chance, 4);
-    desk_lamp(parts, top.to(0.5, 0.24, 0.0).facing(chance.between(140.0, 200.0)), palette);
+    papers(parts, top.to(-0.6, -0.2, 0.0), palette, rng, 4);
+    desk_lamp(parts, top.to(0.5, 0.24, 0.0).facing(rng.between(140.0, 200.0)), palette);
 }
 
 /// Adds shelves, plants, a clock and a board.
-fn along_the_walls(parts: &mut Parts, palette: &Palette, chance: &mut Chance) {
+fn along_the_walls(parts: &mut Parts, palette: &Palette, rng: &mut SceneRng) {
     for y in [0.9, 1.92, 2.94, 3.96] {
-        bookshelf(parts, Placement::at(WIDTH - 0.16, y, 0.0).facing(-90.0), palette, chance, [5, 20]);
+        bookshelf(parts, Placement::at(WIDTH - 0.16, y, 0.0).facing(-90.0), palette, rng, [5, 20]);
     }
     for (x, y, leaves) in [(0.5, 6.1, 27), (4.7, 6.2, 21), (9.1, 5.9, 27)] {
-        plant(parts, Placement::at(x, y, 0.0), palette, chance, leaves);
+        plant(parts, Placement::at(x, y, 0.0), palette, rng, leaves);
     }
     board(parts, Placement::at(0.0, 4.2, 1.5).facing(90.0), palette);
     clock(parts, Placement::at(4.7, DEPTH, 2.1).turned(0, 0.25), palette);

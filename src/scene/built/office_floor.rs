@@ -18,9 +18,9 @@
 //! | 14 lamps over the corridor | 168 |
 
 use super::super::{PointLight, Scene, View};
-use super::chance::Chance;
 use super::palette::Palette;
 use super::parts::{MaterialId, Parts, Placement};
+use super::rng::SceneRng;
 
 /// Height of the walls, in metres.
 const HEIGHT: f64 = 2.8;
@@ -62,7 +62,7 @@ enum Opening {
 /// Builds the floor. The seed opens doors and moves furniture.
 pub fn office_floor(seed: u64) -> Scene {
     let mut parts = Parts::default();
-    let mut chance = Chance::new(seed);
+    let mut rng = SceneRng::new(seed);
     let palette = Palette::new(&mut parts);
     let shell = Shell {
         wall: parts.paint("wall", [0.70, 0.68, 0.62]),
@@ -72,9 +72,9 @@ pub fn office_floor(seed: u64) -> Scene {
     };
     ground(&mut parts);
     outline(&mut parts, &shell);
-    rows(&mut parts, &shell, &palette, &mut chance);
-    sides(&mut parts, &shell, &palette, &mut chance);
-    core(&mut parts, &shell, &palette, &mut chance);
+    rows(&mut parts, &shell, &palette, &mut rng);
+    sides(&mut parts, &shell, &palette, &mut rng);
+    core(&mut parts, &shell, &palette, &mut rng);
     corridor(&mut parts, &palette);
     parts.scene(views(), vec![PointLight { position: [10.0, -14.0, 46.0], intensity: [5200.0, 5000.0, 4600.0] }])
 }
@@ -194,17 +194,17 @@ fn outline(parts: &mut Parts, shell: &Shell) {
 }
 
 /// Returns the random opening angle of a door, in degrees: a third are shut.
-fn ajar(chance: &mut Chance) -> f64 {
-    (chance.between(-60.0, 110.0)).max(0.0)
+fn ajar(rng: &mut SceneRng) -> f64 {
+    (rng.between(-60.0, 110.0)).max(0.0)
 }
 
 /// Adds the rows of nine rooms along the two long sides.
-fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
+fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, rng: &mut SceneRng) {
     for degrees in [0.0, 180.0] {
         // In the frame of the row's corner of the house; the other row is rotated by half a turn.
         let house = if degrees == 0.0 { Placement::ROOM } else { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) };
         let doors: Vec<Opening> =
-            (0..9).map(|i| Opening::Door { left: 0.6 + 4.0 * f64::from(i), open: ajar(chance) }).collect();
+            (0..9).map(|i| Opening::Door { left: 0.6 + 4.0 * f64::from(i), open: ajar(rng) }).collect();
         // The doors open into the rooms, hence the wall is laid from its far end.
         let base = house.to(WIDTH - OUTER, ROOM, 0.0).facing(180.0);
         wall(parts, base, [WIDTH - 2.0 * OUTER, INNER], &doors, shell, shell.wall);
@@ -215,18 +215,18 @@ fn rows(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance
         for room in 0..9 {
             let place = house.to(4.0 * f64::from(room) + 2.0, OUTER, 0.0);
             let desks = if room == 4 { 2 } else { 1 };
-            furnish(parts, place, [desks, u32::from([1, 3, 4, 6, 7].contains(&room))], palette, chance);
+            furnish(parts, place, [desks, u32::from([1, 3, 4, 6, 7].contains(&room))], palette, rng);
         }
     }
 }
 
 /// Adds three rooms at each of the two short sides.
-fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
+fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, rng: &mut SceneRng) {
     let long = DEPTH - 2.0 * ROOM;
     for turned in [false, true] {
         let house = if turned { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Placement::ROOM };
         let doors: Vec<Opening> =
-            (0..3).map(|i| Opening::Door { left: 1.4 + long / 3.0 * f64::from(i), open: ajar(chance) }).collect();
+            (0..3).map(|i| Opening::Door { left: 1.4 + long / 3.0 * f64::from(i), open: ajar(rng) }).collect();
         wall(parts, house.to(ROOM, ROOM, 0.0).facing(90.0), [long, INNER], &doors, shell, shell.wall);
         for room in 1..3 {
             let place = house.to(OUTER, ROOM + long / 3.0 * f64::from(room), 0.0);
@@ -234,25 +234,24 @@ fn sides(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chanc
         }
         for room in 0..3 {
             let middle = ROOM + long / 3.0 * (f64::from(room) + 0.5);
-            furnish(parts, house.to(OUTER, middle, 0.0).facing(-90.0), [1, 1], palette, chance);
+            furnish(parts, house.to(OUTER, middle, 0.0).facing(-90.0), [1, 1], palette, rng);
         }
     }
 }
 
 /// Adds the core: two meeting rooms, two store rooms with shelves, and stairs between.
-fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, chance: &mut Chance) {
+fn core(parts: &mut Parts, shell: &Shell, palette: &Palette, rng: &mut SceneRng) {
     let (x, y) = (ROOM + CORRIDOR, ROOM + CORRIDOR);
     let (long, deep) = (WIDTH - 2.0 * x, DEPTH - 2.0 * y);
     for turned in [false, true] {
         let house = if turned { Placement::at(WIDTH, DEPTH, 0.0).facing(180.0) } else { Placement::ROOM };
-        let doors: Vec<Opening> =
-            [1.2, 7.6, 11.4, 17.6].map(|left| Opening::Door { left, open: ajar(chance) }).to_vec();
+        let doors: Vec<Opening> = [1.2, 7.6, 11.4, 17.6].map(|left| Opening::Door { left, open: ajar(rng) }).to_vec();
         wall(parts, house.to(x, y, 0.0), [long, INNER], &doors, shell, shell.wall);
         for left in [x + INNER, x + HALL] {
             let place = house.to(left, y + INNER, 0.0).facing(90.0);
             wall(parts, place, [deep - 2.0 * INNER, INNER], &[], shell, shell.wall);
         }
-        meeting(parts, house.to(x + 3.4, y + deep / 2.0, 0.0), palette, chance);
+        meeting(parts, house.to(x + 3.4, y + deep / 2.0, 0.0), palette, rng);
         for shelf in 0..3 {
             cupboard(parts, house.to(x + 7.6 + 1.3 * f64::from(shelf), y + 3.2, 0.0), palette);
         }
@@ -274,30 +273,30 @@ fn corridor(parts: &mut Parts, palette: &Palette) {
 
 /// Furnishes a room of one or two workplaces, with or without a cupboard; the placement is the middle of its window's
 /// wall, the room lies towards +y.
-fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, chance: &mut Chance) {
-    let left = place.to(-1.35, 1.5 + chance.between(-0.15, 0.15), 0.0).facing(90.0);
-    workplace(parts, left, palette, chance);
+fn furnish(parts: &mut Parts, place: Placement, [desks, cupboards]: [u32; 2], palette: &Palette, rng: &mut SceneRng) {
+    let left = place.to(-1.35, 1.5 + rng.between(-0.15, 0.15), 0.0).facing(90.0);
+    workplace(parts, left, palette, rng);
     if desks == 2 {
-        let right = place.to(1.35, 1.5 + chance.between(-0.15, 0.15), 0.0).facing(-90.0);
-        workplace(parts, right, palette, chance);
+        let right = place.to(1.35, 1.5 + rng.between(-0.15, 0.15), 0.0).facing(-90.0);
+        workplace(parts, right, palette, rng);
     }
     for _ in 0..cupboards {
-        cupboard(parts, place.to(1.7, 4.2 + chance.between(-0.3, 0.1), 0.0).facing(-90.0), palette);
+        cupboard(parts, place.to(1.7, 4.2 + rng.between(-0.3, 0.1), 0.0).facing(-90.0), palette);
     }
 }
 
 /// Adds a desk, a chair at its -y side, and a monitor. 144 triangles.
-fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
+fn workplace(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng) {
     parts.block(place, [-0.8, -0.4, 0.7], [0.8, 0.4, 0.74], palette.wood);
     for x in [-0.78, 0.74] {
         parts.block(place, [x, -0.36, 0.0], [x + 0.04, 0.36, 0.7], palette.dark_wood);
     }
     parts.block(place, [-0.74, 0.3, 0.2], [0.74, 0.32, 0.7], palette.dark_wood);
-    let monitor = place.to(-0.1, 0.05, 0.74).facing(chance.between(-15.0, 15.0));
+    let monitor = place.to(-0.1, 0.05, 0.74).facing(rng.between(-15.0, 15.0));
     parts.block(monitor, [-0.2, -0.12, 0.0], [0.2, 0.25, 0.37], palette.beige);
     parts.block(monitor, [-0.17, -0.125, 0.05], [0.17, -0.12, 0.34], palette.screen);
-    let seat = place.to(chance.between(-0.3, 0.3), chance.between(-0.9, -0.6), 0.0);
-    chair(parts, seat.facing(chance.between(-50.0, 50.0)), palette);
+    let seat = place.to(rng.between(-0.3, 0.3), rng.between(-0.9, -0.6), 0.0);
+    chair(parts, seat.facing(rng.between(-50.0, 50.0)), palette);
 }
 
 /// Adds a chair of four legs. 72 triangles.
@@ -324,15 +323,15 @@ fn cupboard(parts: &mut Parts, place: Placement, palette: &Palette) {
 }
 
 /// Adds a long table with six chairs.
-fn meeting(parts: &mut Parts, place: Placement, palette: &Palette, chance: &mut Chance) {
+fn meeting(parts: &mut Parts, place: Placement, palette: &Palette, rng: &mut SceneRng) {
     parts.block(place, [-2.0, -0.6, 0.7], [2.0, 0.6, 0.74], palette.dark_wood);
     for x in [-1.6, 1.5] {
         parts.block(place, [x, -0.4, 0.0], [x + 0.1, 0.4, 0.7], palette.metal);
     }
     for seat in 0..3 {
         let x = -1.3 + 1.3 * f64::from(seat);
-        chair(parts, place.to(x, -0.8, 0.0).facing(chance.between(-20.0, 20.0)), palette);
-        chair(parts, place.to(x, 0.8, 0.0).facing(180.0 + chance.between(-20.0, 20.0)), palette);
+        chair(parts, place.to(x, -0.8, 0.0).facing(rng.between(-20.0, 20.0)), palette);
+        chair(parts, place.to(x, 0.8, 0.0).facing(180.0 + rng.between(-20.0, 20.0)), palette);
     }
 }
 

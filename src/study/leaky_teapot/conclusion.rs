@@ -18,10 +18,10 @@ impl Tally {
 }
 
 /// Unit of the counts, singular and plural.
-pub(super) type Plural = [&'static str; 2];
+pub(super) type CountUnit = [&'static str; 2];
 
 /// Adds verdict, worst row, seams and tally to the findings.
-pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &Plural) {
+pub(super) fn conclude(found: &mut Findings, rows: &[TeapotRow], unit: &CountUnit) {
     let sentences = [verdict(rows, unit), most_leaks(rows, unit), seams(rows)];
     sentences.into_iter().flatten().chain(limits(rows)).for_each(|sentence| found.conclusion(sentence));
     let rows_with = |of: fn(&Tally) -> bool| rows.iter().filter(|row| of(&row.tally)).count() as u64;
@@ -49,7 +49,7 @@ fn limits(rows: &[TeapotRow]) -> Vec<String> {
 }
 
 /// Sentence on the rows that are correct everywhere.
-fn verdict(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
+fn verdict(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     let right: Vec<&str> = rows.iter().filter(|row| row.tally.wrong() == 0).map(label).collect();
     let best = rows.iter().min_by_key(|row| row.tally.wrong())?;
     let names = if right.len() > MAX_NAMES { counted(right.len() as u64, "row", "rows") } else { listed(&right) };
@@ -67,7 +67,7 @@ fn verdict(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
 }
 
 /// Sentence on the row that leaks most; `None` if none does.
-fn most_leaks(rows: &[TeapotRow], [one, more]: &Plural) -> Option<String> {
+fn most_leaks(rows: &[TeapotRow], [one, more]: &CountUnit) -> Option<String> {
     // The first of equals.
     let worst = rows.iter().min_by_key(|row| Reverse(row.tally.leaks)).filter(|row| row.tally.leaks > 0)?;
     let Tally { leaks, surface, .. } = worst.tally;

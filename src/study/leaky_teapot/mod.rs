@@ -45,27 +45,27 @@ pub enum LeakyTeapotError {
 /// Rays with their exact hits.
 struct JudgedRays {
     rays: Vec<Ray>,
-    truth: Vec<Option<NearestHit>>,
+    nearest: Vec<Option<NearestHit>>,
 }
 
 impl JudgedRays {
     fn new(tracer: &Tracer<'_>, rays: Vec<Ray>, sides: Sides) -> Self {
-        let truth = tracer.nearest_all(&rays, sides);
-        Self { rays, truth }
+        let nearest = tracer.nearest_all(&rays, sides);
+        Self { rays, nearest }
     }
 
     /// Judges each ray's hit, and counts the verdicts.
     fn judge(&self, mesh: &Mesh, hits: &[Option<Hit>]) -> (Vec<HitVerdict>, Tally) {
-        let judge = |(hit, truth): (&Option<Hit>, &Option<NearestHit>)| {
+        let judge = |(hit, nearest): (&Option<Hit>, &Option<NearestHit>)| {
             let none = Candidate { triangle: None, t: 0.0 };
             let candidate = hit.map_or(none, |h| Candidate { triangle: Some(h.triangle), t: h.t });
-            classify(mesh, truth.as_ref(), candidate)
+            classify(mesh, nearest.as_ref(), candidate)
         };
-        let judgements: Vec<_> = hits.par_iter().zip(&self.truth).map(judge).collect();
+        let judgements: Vec<_> = hits.par_iter().zip(&self.nearest).map(judge).collect();
         let mut tally = Tally::default();
-        for ((judgement, truth), hit) in judgements.iter().zip(&self.truth).zip(hits) {
+        for ((judgement, nearest), hit) in judgements.iter().zip(&self.nearest).zip(hits) {
             let error = judgement.t_error.map(|e| e.absolute);
-            tally.add(judgement.verdict, truth.is_some(), hit.is_some(), error);
+            tally.add(judgement.verdict, nearest.is_some(), hit.is_some(), error);
         }
         (judgements.into_iter().map(|j| j.verdict).collect(), tally)
     }
@@ -89,7 +89,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
 
     let shader = TeapotShader::new(mesh);
     let pixels = parameters.view.rays().len();
-    let mut exact: Vec<Option<u32>> = view.truth.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
+    let mut exact: Vec<Option<u32>> = view.nearest.iter().map(|t| t.as_ref().map(|h| h.triangle)).collect();
     exact.resize(pixels, None);
     let exact_picture = shader.picture(&parameters.view, &exact);
     let mut rows = Vec::new();
@@ -131,7 +131,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
     }
     Ok(TeapotOutcome {
         exact_picture,
-        exact_t: filled(view.truth.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())), pixels),
+        exact_t: filled(view.nearest.iter().map(|t| t.as_ref().map_or(f32::INFINITY, |h| h.t.to_f32())), pixels),
         exact_triangle: exact.iter().map(|t| t.unwrap_or(u32::MAX)).collect(),
         rows,
     })

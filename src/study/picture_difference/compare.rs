@@ -81,12 +81,12 @@ pub enum DifferenceError {
 pub(super) struct DifferenceOutcome {
     pub(super) channels: Vec<ChannelDifference>,
     pub(super) signed: Vec<(String, Vec<f32>)>,
-    pub(super) seen: Option<SeenDifference>,
+    pub(super) perceptual: Option<PerceptualDifference>,
 }
 
 /// Perceptual difference.
 #[derive(Debug)]
-pub(super) struct SeenDifference {
+pub(super) struct PerceptualDifference {
     pub(super) ssim: Option<f64>,
     pub(super) flip: FlipMap,
     /// Second minus first, of the luminance times the exposure, not clipped.
@@ -101,24 +101,24 @@ impl PictureDifference {
         let found = channels(first, second, &self.channels)?;
         let signed = signed_differences(first, second, &self.channels)?;
         progress("SSIM and FLIP", 1, 3);
-        let seen = match self.seen(first, second) {
+        let perceptual = match self.perceptual(first, second) {
             // Depths and ids are compared by samples only.
             Err(PictureError::NoColor { .. }) if self.bounds.flip.is_none() && self.bounds.ssim.is_none() => None,
             other => other?,
         };
-        if self.bounds.ssim.is_some() && seen.as_ref().is_some_and(|seen| seen.ssim.is_none()) {
+        if self.bounds.ssim.is_some() && perceptual.as_ref().is_some_and(|perceptual| perceptual.ssim.is_none()) {
             return Err(DifferenceError::Window { width: first.width(), height: first.height() });
         }
-        Ok(DifferenceOutcome { channels: found, signed, seen })
+        Ok(DifferenceOutcome { channels: found, signed, perceptual })
     }
 
-    fn seen(&self, first: &Picture, second: &Picture) -> Result<Option<SeenDifference>, PictureError> {
+    fn perceptual(&self, first: &Picture, second: &Picture) -> Result<Option<PerceptualDifference>, PictureError> {
         let [one, other] = [ScreenPicture::new(first, self.exposure)?, ScreenPicture::new(second, self.exposure)?];
         let Some(flip) = flip(&one, &other, self.ppd) else { return Ok(None) };
         let ssim = ssim(&one, &other);
         drop([one, other]);
         let luminance = luminance_differences(first, second, self.exposure)?;
-        Ok(Some(SeenDifference { ssim, flip, luminance }))
+        Ok(Some(PerceptualDifference { ssim, flip, luminance }))
     }
 
     /// Returns `true` if all bounds hold.
@@ -133,9 +133,10 @@ impl PictureDifference {
             true => channel.differing == 0,
             false => channel.not_finite == 0 && within(channel.rmse, rmse) && within(channel.maximum, maximum),
         };
-        let seen = outcome.seen.as_ref().is_none_or(|seen| {
-            within(seen.flip.mean, flip) && ssim.is_none_or(|least| seen.ssim.is_some_and(|found| found >= least))
+        let perceptual = outcome.perceptual.as_ref().is_none_or(|perceptual| {
+            within(perceptual.flip.mean, flip)
+                && ssim.is_none_or(|least| perceptual.ssim.is_some_and(|found| found >= least))
         });
-        outcome.channels.iter().all(channel) && seen
+        outcome.channels.iter().all(channel) && perceptual
     }
 }

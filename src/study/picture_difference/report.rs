@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::compare::{DifferenceBounds, DifferenceError, DifferenceOutcome, PictureDifference, SeenDifference};
+use super::compare::{DifferenceBounds, DifferenceError, DifferenceOutcome, PerceptualDifference, PictureDifference};
 use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::digits::{Quantity, shown};
@@ -12,13 +12,13 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table
 const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
     largest. SSIM compares the structure of the luma in windows of 11 x 11 pixels: 1 where the pictures are equal.";
 
-pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, DifferenceError> {
-    let [first, second] = &asked.pictures;
+pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, DifferenceError> {
+    let [first, second] = &study.pictures;
     let mut found = Findings::new("Two pictures");
-    let held = asked.holds(&outcome);
+    let held = study.holds(&outcome);
     found.conclude(Verdict::held(held));
     found.conclusion(conclusion(&outcome.channels));
-    if asked.bounds != DifferenceBounds::default() {
+    if study.bounds != DifferenceBounds::default() {
         found.conclusion(if held { "Within all bounds." } else { "Out of bounds." });
     }
     found.paragraph(format!(
@@ -31,11 +31,11 @@ pub(super) fn findings(asked: &PictureDifference, outcome: DifferenceOutcome) ->
     found.field("equal", outcome.channels.iter().all(|channel| channel.differing == 0).into());
     found.field("held", held.into());
     found.table(FoundTable::from(table(&outcome.channels)).csv("channels").field("channels"));
-    if let Some(seen) = &outcome.seen {
-        tell(&mut found, asked, seen);
+    if let Some(perceptual) = &outcome.perceptual {
+        add_metrics(&mut found, study, perceptual);
     }
-    if asked.maps {
-        maps(&mut found, asked, &outcome)?;
+    if study.maps {
+        maps(&mut found, study, &outcome)?;
     }
     Ok(found)
 }
@@ -74,34 +74,35 @@ fn table(channels: &[ChannelDifference]) -> Table {
 }
 
 /// Adds SSIM and FLIP, in words and for programs.
-fn tell(found: &mut Findings, asked: &PictureDifference, seen: &SeenDifference) {
-    let (flip, ppd) = (&seen.flip, shown(asked.ppd, Quantity::Measured));
+fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &PerceptualDifference) {
+    let (flip, ppd) = (&perceptual.flip, shown(study.ppd, Quantity::Measured));
     let [mean, maximum] = [flip.mean, flip.maximum].map(|value| shown(value, Quantity::Error));
-    let similarity =
-        seen.ssim.map_or("none: smaller than a window of 11x11".to_owned(), |ssim| shown(ssim, Quantity::Measured));
+    let similarity = perceptual
+        .ssim
+        .map_or("none: smaller than a window of 11x11".to_owned(), |ssim| shown(ssim, Quantity::Measured));
     let line = format!("SSIM {similarity}; FLIP mean {mean}, largest {maximum}, at {ppd} pixels per degree");
     found.print(line.clone());
     found.paragraph(format!("{line}. {FLIP}"));
-    found.field("ssim", json!(seen.ssim));
-    found.field("flip", json!({ "mean": flip.mean, "maximum": flip.maximum, "ppd": asked.ppd }));
-    found.field("exposure", json!(asked.exposure));
+    found.field("ssim", json!(perceptual.ssim));
+    found.field("flip", json!({ "mean": flip.mean, "maximum": flip.maximum, "ppd": study.ppd }));
+    found.field("exposure", json!(study.exposure));
 }
 
 /// Adds false-color maps, and all differences as numbers.
-fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), DifferenceError> {
-    let [first, second] = &asked.pictures;
+fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), DifferenceError> {
+    let [first, second] = &study.pictures;
     let (width, height) = (first.picture.width(), first.picture.height());
     let mut pictures = Vec::new();
     for (name, input) in [("first", first), ("second", second)] {
-        if let Ok(image) = input.picture.display(asked.exposure) {
+        if let Ok(image) = input.picture.display(study.exposure) {
             pictures.push(NamedPicture::new(name, image, input.name.clone()));
         }
     }
-    let (what, values) = match &outcome.seen {
-        Some(seen) => ("luminance".to_owned(), seen.luminance.clone()),
+    let (what, values) = match &outcome.perceptual {
+        Some(perceptual) => ("luminance".to_owned(), perceptual.luminance.clone()),
         None => worst_channel(outcome),
     };
-    let scale = asked.scale.unwrap_or_else(|| usual_scale(&values));
+    let scale = study.scale.unwrap_or_else(|| usual_scale(&values));
     let ends = shown(scale, Quantity::Error);
     let caption = format!(
         "{what}, second minus first: blue -{ends} or less, white 0, red +{ends} or more; black where not finite"
@@ -114,10 +115,10 @@ fn maps(found: &mut Findings, asked: &PictureDifference, outcome: &DifferenceOut
         let samples = Samples::Float(samples.clone());
         layers = layers.with(name, ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
     }
-    if let Some(seen) = &outcome.seen {
+    if let Some(perceptual) = &outcome.perceptual {
         let caption = "FLIP: black 0, pale yellow 1";
-        pictures.push(NamedPicture::new("flip", false_color::magnitude(width, &seen.flip.errors), caption));
-        let samples = Samples::Float(seen.flip.errors.iter().map(|&error| error as f32).collect());
+        pictures.push(NamedPicture::new("flip", false_color::magnitude(width, &perceptual.flip.errors), caption));
+        let samples = Samples::Float(perceptual.flip.errors.iter().map(|&error| error as f32).collect());
         layers = layers.with("FLIP", ChannelUnit::Unknown, samples).map_err(ReportError::from)?;
     }
     found.heading("Pictures");

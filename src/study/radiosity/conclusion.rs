@@ -8,7 +8,7 @@ use crate::report::{Findings, Tone};
 pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
     let sentences = [accuracy(&outcome.rows), speed(&outcome.rows), sweep(outcome)];
     sentences.into_iter().flatten().for_each(|sentence| found.conclusion(sentence));
-    let iterative = || outcome.rows.iter().filter(|row| row.way != SolveMethod::DIRECT);
+    let iterative = || outcome.rows.iter().filter(|row| row.method != SolveMethod::DIRECT);
     let count = |of: fn(StopReason) -> bool| iterative().filter(|row| of(row.stopped)).count() as u64;
     found.tally(
         count(|stopped| stopped == StopReason::Tolerance),
@@ -29,20 +29,20 @@ pub(super) fn conclude(found: &mut Findings, outcome: &RadiosityOutcome) {
 
 /// Row with the largest mean error; `None` without a direct solution to compare with.
 pub(super) fn least_accurate(rows: &[MethodRow]) -> Option<&MethodRow> {
-    let bias = |row: &MethodRow| row.off.map_or(0.0, |off| off.bias.abs());
+    let bias = |row: &MethodRow| row.error.map_or(0.0, |error| error.bias.abs());
     rows.iter()
-        .filter(|row| row.off.is_some() && row.way != SolveMethod::DIRECT)
+        .filter(|row| row.error.is_some() && row.method != SolveMethod::DIRECT)
         .max_by(|a, b| bias(a).total_cmp(&bias(b)))
 }
 
 fn accuracy(rows: &[MethodRow]) -> Option<String> {
     let worst = least_accurate(rows)?;
-    let off = worst.off?;
+    let error = worst.error?;
     Some(format!(
         "{} is the least accurate: patches that do not shine are {} on average, and the worst one is off by {} of itself.",
         worst.label,
-        shade(off.bias),
-        percent(off.relative),
+        shade(error.bias),
+        percent(error.relative),
     ))
 }
 
@@ -67,13 +67,13 @@ fn speed(rows: &[MethodRow]) -> Option<String> {
 
 /// Sentence on the range of the sweep's mean errors; `None` without a sweep.
 fn sweep(outcome: &RadiosityOutcome) -> Option<String> {
-    let rows = || outcome.sweep.iter().filter(|row| row.off.bias.is_finite());
-    let darkest = rows().min_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
-    let brightest = rows().max_by(|a, b| a.off.bias.total_cmp(&b.off.bias))?;
+    let rows = || outcome.sweep.iter().filter(|row| row.error.bias.is_finite());
+    let darkest = rows().min_by(|a, b| a.error.bias.total_cmp(&b.error.bias))?;
+    let brightest = rows().max_by(|a, b| a.error.bias.total_cmp(&b.error.bias))?;
     let said = |row: &SweepRow| {
         let switch = row.switch.as_ref().map_or_else(String::new, |_| format!(", {}", row.setting()));
         let patches = counted(row.patches as u64, "patch", "patches");
-        format!("{} at {patches} ({}{switch})", shade(row.off.bias), row.way)
+        format!("{} at {patches} ({}{switch})", shade(row.error.bias), row.method)
     };
     Some(format!("Over the sweep the mean error goes from {} to {}.", said(darkest), said(brightest)))
 }

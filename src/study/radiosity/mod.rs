@@ -64,8 +64,8 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
         return Err(RadiosityError::Dark);
     }
     let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
-    let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(how.packing) } else { None };
-    for packing in parameters.ways.iter().filter_map(on_card) {
+    let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
+    for packing in parameters.methods.iter().filter_map(on_card) {
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
     let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose()?;
@@ -73,30 +73,34 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let changed = change::apply(&parameters.changes, &parameters.scene, &patches, &system)?;
     let mut solved = Vec::new();
-    for (at, way) in parameters.ways.iter().enumerate() {
-        progress(&format!("solving: {}", way.label(&parameters.profile)), at as u64, parameters.ways.len() as u64);
-        solved.push(solve::solve(*way, &system, changed.as_ref(), parameters)?);
+    for (at, method) in parameters.methods.iter().enumerate() {
+        progress(
+            &format!("solving: {}", method.label(&parameters.profile)),
+            at as u64,
+            parameters.methods.len() as u64,
+        );
+        solved.push(solve::solve(*method, &system, changed.as_ref(), parameters)?);
     }
-    let direct = solved.iter().find(|s| s.way == SolveMethod::DIRECT);
-    let truth = direct.map(|s| s.radiosity.clone());
+    let direct = solved.iter().find(|s| s.method == SolveMethod::DIRECT);
+    let reference = direct.map(|s| s.radiosity.clone());
     let exposure = parameters.exposure.unwrap_or_else(|| {
         let brightness = |s: &solve::Solved| pictures::exposure(&patches, system.emittance(), &s.radiosity);
         direct.or(solved.first()).map_or(1.0, brightness)
     });
     let in_atlas = atlas.as_ref().zip(direct.or(solved.first())).map(|(atlas, shown)| {
-        let label = shown.way.label(&parameters.profile);
+        let label = shown.method.label(&parameters.profile);
         atlas::show((&patches, atlas), (&label, &shown.radiosity), &parameters.camera, exposure)
     });
     let in_atlas = in_atlas.transpose()?;
     let mut studio = PictureRenderer::new(&patches, parameters, exposure)?;
     let frames = studio.frames(&solved)?;
-    if let Some(truth) = &truth {
-        studio.compare_with(truth)?;
+    if let Some(reference) = &reference {
+        studio.compare_with(reference)?;
     }
-    let (mut rows, ways) = (Vec::new(), solved.len() as u64);
+    let (mut rows, methods) = (Vec::new(), solved.len() as u64);
     for one in solved {
-        progress(&format!("drawing: {}", one.way.label(&parameters.profile)), rows.len() as u64, ways);
-        rows.push(row(one, &system, truth.as_deref(), &mut studio, parameters)?);
+        progress(&format!("drawing: {}", one.method.label(&parameters.profile)), rows.len() as u64, methods);
+        rows.push(row(one, &system, reference.as_deref(), &mut studio, parameters)?);
     }
     drop(studio);
     let sweep = sweep::run(parameters, progress)?;
@@ -116,20 +120,20 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Rad
 fn row(
     mut one: solve::Solved,
     system: &System,
-    truth: Option<&[[f64; 3]]>,
+    reference: Option<&[[f64; 3]]>,
     studio: &mut PictureRenderer<'_>,
     parameters: &Parameters,
 ) -> Result<MethodRow, RadiosityError> {
     let (pictures, card) = studio.show(&mut one, system)?;
     let last = one.history.last().copied().unwrap_or(f64::NAN);
     Ok(MethodRow {
-        label: one.way.label(&parameters.profile),
+        label: one.method.label(&parameters.profile),
         residual: (last / one.emitted).sqrt(),
         energy_balance_error: energy_balance_error(system, &one.radiosity),
-        off: truth.map(|truth| SolutionError::between(&one.radiosity, truth, system.emittance())),
+        error: reference.map(|reference| SolutionError::between(&one.radiosity, reference, system.emittance())),
         pictures,
         card,
-        way: one.way,
+        method: one.method,
         radiosity: one.radiosity,
         history: one.history,
         stopped: one.stopped,

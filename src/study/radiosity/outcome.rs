@@ -14,7 +14,7 @@ use crate::radiosity::form_factor::RowSums;
 #[derive(Debug)]
 pub struct MethodRow {
     /// Method.
-    pub way: SolveMethod,
+    pub method: SolveMethod,
     /// Name of the method, unique in a study and valid as a file name.
     pub label: String,
     /// Radiosity of each patch.
@@ -28,7 +28,7 @@ pub struct MethodRow {
     /// Energy-balance error relative to the emitted power, the maximum over the channels.
     pub energy_balance_error: f64,
     /// Error against the direct solution, if that was requested.
-    pub off: Option<SolutionError>,
+    pub error: Option<SolutionError>,
     /// Cost on a card; `None` on the host.
     pub card: Option<CardFacts>,
     /// Solution after the changes, if there are any.

@@ -20,7 +20,7 @@ pub struct Parameters {
     /// Computation of form factors, and their requirements.
     pub factors: FactorRequirements,
     /// Methods, one row of the table for each.
-    pub ways: Vec<SolveMethod>,
+    pub methods: Vec<SolveMethod>,
     /// Card of the methods that run on one.
     pub profile: Profile,
     /// Switches of the card that were set.

@@ -64,19 +64,19 @@ pub(super) struct PictureRenderer<'a> {
     machine: Machine,
     display: Display,
     /// Direct solution, each patch in its radiosity.
-    truth: Option<Picture>,
+    reference: Option<Picture>,
 }
 
 impl<'a> PictureRenderer<'a> {
     pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, RadiosityError> {
         let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
-        Ok(Self { patches, parameters, exposure, machine, display, truth: None })
+        Ok(Self { patches, parameters, exposure, machine, display, reference: None })
     }
 
     /// Sets the solution that later solutions on a card are compared with.
-    pub(super) fn compare_with(&mut self, truth: &[[f64; 3]]) -> Result<(), RadiosityError> {
-        self.truth = Some(self.flat(truth)?);
+    pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), RadiosityError> {
+        self.reference = Some(self.flat(reference)?);
         Ok(())
     }
 
@@ -111,11 +111,12 @@ impl<'a> PictureRenderer<'a> {
             }
             _ => (self.flat(&solved.radiosity)?, self.smooth(&solved.radiosity)?),
         };
-        let facts = match solved.way {
+        let facts = match solved.method {
             SolveMethod::Card(how) => Some(time::facts(card, how, system, self.patches, self.parameters)?),
             SolveMethod::Host(_) => None,
         };
-        let error = self.truth.as_ref().map(|truth| relative_luminance_differences(truth, &flat)).transpose()?;
+        let error =
+            self.reference.as_ref().map(|reference| relative_luminance_differences(reference, &flat)).transpose()?;
         Ok((Pictures { flat: flat.display(1.0)?, smooth, relit, error }, facts))
     }
 
@@ -125,6 +126,6 @@ impl<'a> PictureRenderer<'a> {
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {
             Ok(IterationPicture { iteration: *iteration, flat: self.flat(radiosity)?.display(1.0)? })
         };
-        first.kept.iter().map(frame).collect()
+        first.recorded.iter().map(frame).collect()
     }
 }

@@ -24,14 +24,14 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
         parameters.profile.title,
         Cell::ratio(outcome.exposure).text(),
     );
-    let Tables { room, ways, ends, card, relit, sweep } = tables(parameters, &outcome);
+    let Tables { room, methods, ends, card, relit, sweep } = tables(parameters, &outcome);
     let (residuals, darkness) = (residuals(&outcome), darkness(&outcome));
     let errors = errors(parameters, &outcome);
     // The pictures of the least accurate method and of the direct one come first.
     let first = least_accurate(&outcome.rows).or(outcome.rows.first()).map(|row| row.label.clone());
     let (mut lead, mut pictures, mut relit_pictures) = (Vec::new(), Vec::new(), Vec::new());
     for row in outcome.rows {
-        let leads = row.way == SolveMethod::DIRECT || Some(&row.label) == first.as_ref();
+        let leads = row.method == SolveMethod::DIRECT || Some(&row.label) == first.as_ref();
         let (label, drawn) = (row.label, row.pictures);
         let picture = |kind: &str, image, what: &str| {
             NamedPicture::new(format!("{label}-{kind}"), image, format!("{label}: {what}"))
@@ -68,7 +68,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Re
     }
     found.explained_table(FoundTable::from(atlas).csv("atlas").field("atlas"), ATLAS);
     found.heading("How it was solved");
-    found.table(FoundTable::from(ways).csv("rows").field("ways"));
+    found.table(FoundTable::from(methods).csv("rows").field("ways"));
     residuals.into_iter().for_each(|chart| found.chart(chart));
     let has_rows = |table: &Table| !table.rows().is_empty();
     found.explained_table(FoundTable::from(ends).field("ends"), ENDS);
@@ -163,7 +163,7 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
         points: row.history.iter().enumerate().map(|(k, &error)| (k as f64, error)).collect(),
     };
     let lines: Vec<Series> =
-        outcome.rows.iter().filter(|row| row.iterations() > 0 && row.way != SolveMethod::DIRECT).map(line).collect();
+        outcome.rows.iter().filter(|row| row.iterations() > 0 && row.method != SolveMethod::DIRECT).map(line).collect();
     let caption = "The mean over the channels of the mean squared residual, as in the paper's Figure 3.";
     let names = ["Mean squared residual of M B - E", "iterations", "error"];
     // A method without convergence must not compress the others into a corner.
@@ -177,15 +177,16 @@ const APART: f64 = 1.5;
 /// Chart of the mean error by number of patches: a line per method on the card as it is, and one per setting that makes
 /// a difference. `None` without a sweep.
 fn darkness(outcome: &RadiosityOutcome) -> Option<NamedChart> {
-    let error = |row: &SweepRow| 100.0 * row.off.bias.abs();
+    let error = |row: &SweepRow| 100.0 * row.error.bias.abs();
     let apart = |row: &SweepRow| {
-        let same = |other: &&SweepRow| other.switch.is_none() && (other.patches, &other.way) == (row.patches, &row.way);
+        let same =
+            |other: &&SweepRow| other.switch.is_none() && (other.patches, &other.method) == (row.patches, &row.method);
         let default = outcome.sweep.iter().find(same).map_or(0.0, error);
         error(row).max(default) > APART * error(row).min(default)
     };
     let label = |row: &SweepRow| {
         let turned = row.switch.as_ref().map(|_| row.setting());
-        std::iter::once(row.way.clone()).chain(turned).collect::<Vec<_>>().join(", ")
+        std::iter::once(row.method.clone()).chain(turned).collect::<Vec<_>>().join(", ")
     };
     let mut lines: Vec<Series> = Vec::new();
     for (_, row) in outcome

@@ -10,7 +10,7 @@ use crate::radiosity::solve::{Options, Solver, mean_square};
 
 /// Solution of a method, with its card.
 pub(super) struct Solved {
-    pub(super) way: SolveMethod,
+    pub(super) method: SolveMethod,
     pub(super) radiosity: Vec<[f64; 3]>,
     pub(super) history: Vec<f64>,
     /// Initial residual, for normalising.
@@ -19,7 +19,7 @@ pub(super) struct Solved {
     pub(super) relit: Option<Relit>,
     pub(super) card: Option<CardSolver>,
     /// Radiosities after the iterations requested by `--frames`.
-    pub(super) kept: Vec<(u32, Vec<[f64; 3]>)>,
+    pub(super) recorded: Vec<(u32, Vec<[f64; 3]>)>,
 }
 
 /// Mean squared emittance, over all channels.
@@ -33,12 +33,12 @@ fn mean([r, g, b]: [f64; 3]) -> f64 {
 
 /// Solves, and solves again after the changes.
 pub(super) fn solve(
-    way: SolveMethod,
+    method: SolveMethod,
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
 ) -> Result<Solved, RadiosityError> {
-    match way {
+    match method {
         SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options),
         SolveMethod::Card(how) => on_card(how, system, changed, parameters),
     }
@@ -66,7 +66,7 @@ fn on_host(
     let at = |k: usize| [0, 1, 2].map(|c| found.channels[c].history[k.min(found.channels[c].history.len() - 1)]);
     let converged = found.channels.iter().all(|c| c.converged);
     Ok(Solved {
-        way: SolveMethod::Host(solver),
+        method: SolveMethod::Host(solver),
         history: (0..longest).map(|k| mean(at(k))).collect(),
         emitted: emitted(system),
         stopped: match (solver, converged) {
@@ -77,7 +77,7 @@ fn on_host(
         relit: relit.transpose()?,
         radiosity,
         card: None,
-        kept: Vec::new(),
+        recorded: Vec::new(),
     })
 }
 
@@ -91,10 +91,10 @@ fn on_card(
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
     let options = CardOptions { tolerance, most_iterations, check_every: 1 };
-    let mut kept = Vec::new();
+    let mut recorded = Vec::new();
     let found = card.solve(system, &options, &mut |at| {
         if parameters.frames.contains(&at.number) {
-            kept.push((at.number, to_f64(at.radiosity)));
+            recorded.push((at.number, to_f64(at.radiosity)));
         }
     })?;
     let radiosity = to_f64(&found.radiosity);
@@ -114,13 +114,13 @@ fn on_card(
     });
     let relit = relit.transpose()?;
     Ok(Solved {
-        way: SolveMethod::Card(how),
+        method: SolveMethod::Card(how),
         radiosity,
         history: found.history.iter().map(|(_, residual)| mean(*residual)).collect(),
         emitted: emitted(system),
         stopped: StopReason::on_card(&found),
         relit,
         card: Some(card),
-        kept,
+        recorded,
     })
 }

@@ -16,7 +16,7 @@ pub struct SweepRow {
     /// Number of patches.
     pub patches: usize,
     /// Name of the method.
-    pub way: String,
+    pub method: String,
     /// Switch that was changed, and its value; `None` for the card as configured.
     pub switch: Option<(String, String)>,
     /// Index of the first row of the sweep with the same bits: this one, or an earlier one of the same patches and
@@ -27,7 +27,7 @@ pub struct SweepRow {
     /// Reason why it stopped.
     pub stopped: StopReason,
     /// Error against the direct solution.
-    pub off: SolutionError,
+    pub error: SolutionError,
     /// First-order prediction of [`SolutionError::bias`]; `None` for formats without exponents.
     pub predicted: Option<f64>,
 }
@@ -41,26 +41,26 @@ impl SweepRow {
 
 /// Runs the sweep: rows by patches, method and settings.
 pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, RadiosityError> {
-    let on_card = |way: &SolveMethod| if let SolveMethod::Card(how) = way { Some(*how) } else { None };
-    let ways: Vec<CardMethod> = parameters.ways.iter().filter_map(on_card).collect();
+    let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(*how) } else { None };
+    let methods: Vec<CardMethod> = parameters.methods.iter().filter_map(on_card).collect();
     let settings = Configuration::of(&parameters.profile).under_each_switch()?;
     let (mut rows, mut done) = (Vec::new(), 0);
-    let all = (parameters.sweep.len() * ways.len() * settings.len()) as u64;
+    let all = (parameters.sweep.len() * methods.len() * settings.len()) as u64;
     for &size in &parameters.sweep {
         let patches = Patches::new(&parameters.scene, Subdivision::AtMost(size as usize))?;
-        for how in &ways {
+        for how in &methods {
             let fit = Fit::of(&parameters.profile, how.packing)?;
             fit.require(&parameters.profile, how.packing, patches.list().len())?;
         }
         let factors = room::find(&patches, parameters, progress)?.factors;
         let system = System::new(factors, patches.reflectances(), patches.emittances())?;
-        let truth = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
-        for &how in &ways {
+        let reference = system.solve(Solver::Direct, &parameters.options, None)?.radiosity();
+        for &how in &methods {
             let mut found: Vec<(usize, Vec<[f32; 3]>)> = Vec::new();
             for setting in &settings {
                 progress("sweep", done, all);
                 done += 1;
-                let (radiosity, row) = solved(how, setting, &system, &truth, parameters)?;
+                let (radiosity, row) = solved(how, setting, &system, &reference, parameters)?;
                 let same = found.iter().find(|(_, other)| same_bits(other, &radiosity)).map(|(row, _)| *row);
                 if same.is_none() {
                     found.push((rows.len(), radiosity));
@@ -76,7 +76,7 @@ fn solved(
     how: CardMethod,
     setting: &Configuration,
     system: &System,
-    truth: &[[f64; 3]],
+    reference: &[[f64; 3]],
     parameters: &Parameters,
 ) -> Result<(Vec<[f32; 3]>, SweepRow), RadiosityError> {
     let profile = &setting.profile;
@@ -86,14 +86,14 @@ fn solved(
     let solution = card.solve(system, &options, &mut |_| ())?;
     let widened: Vec<[f64; 3]> = solution.radiosity.iter().map(|b| b.map(f64::from)).collect();
     let row = SweepRow {
-        patches: truth.len(),
-        way: SolveMethod::Card(how).label(profile),
+        patches: reference.len(),
+        method: SolveMethod::Card(how).label(profile),
         switch: setting.switch.clone(),
         same_as: 0,
         iterations: solution.iterations(),
         stopped: StopReason::on_card(&solution),
-        off: SolutionError::between(&widened, truth, system.emittance()),
-        predicted: bias(how, profile, system, truth)?,
+        error: SolutionError::between(&widened, reference, system.emittance()),
+        predicted: bias(how, profile, system, reference)?,
     };
     Ok((solution.radiosity, row))
 }
@@ -103,15 +103,16 @@ fn bias(
     how: CardMethod,
     profile: &Profile,
     system: &System,
-    truth: &[[f64; 3]],
+    reference: &[[f64; 3]],
 ) -> Result<Option<f64>, RadiosityError> {
     let rules = &profile.rules;
     let format = if how.storage == Storage::Fp16 { rules.partial.unwrap_or(rules.format) } else { rules.format };
     let block = Fit::of(profile, how.packing)?.block;
     let Some(accumulator) = Accumulator::of(&format, how.packing, block) else { return Ok(None) };
-    let off = predicted(system, truth, accumulator)?;
-    let found: Vec<[f64; 3]> = truth.iter().zip(off).map(|(b, off)| [0, 1, 2].map(|c| b[c] + off[c])).collect();
-    Ok(Some(SolutionError::between(&found, truth, system.emittance()).bias))
+    let error = predicted(system, reference, accumulator)?;
+    let found: Vec<[f64; 3]> =
+        reference.iter().zip(error).map(|(b, error)| [0, 1, 2].map(|c| b[c] + error[c])).collect();
+    Ok(Some(SolutionError::between(&found, reference, system.emittance()).bias))
 }
 
 fn same_bits(a: &[[f32; 3]], b: &[[f32; 3]]) -> bool {

@@ -8,7 +8,7 @@ pub(super) struct Tables {
     /// The room, and the properties of its form factors.
     pub(super) room: Table,
     /// A row per method.
-    pub(super) ways: Table,
+    pub(super) methods: Table,
     /// End state of iterations on a card: a row per method on a card.
     pub(super) ends: Table,
     /// A row per method on a card.
@@ -23,7 +23,7 @@ pub(super) struct Tables {
 pub(super) fn tables(parameters: &Parameters, outcome: &RadiosityOutcome) -> Tables {
     Tables {
         room: room(parameters, outcome),
-        ways: ways(outcome),
+        methods: methods(outcome),
         ends: ends(parameters, outcome),
         card: card(outcome),
         relit: relit(outcome),
@@ -56,23 +56,23 @@ fn room(parameters: &Parameters, outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-fn ways(outcome: &RadiosityOutcome) -> Table {
+fn methods(outcome: &RadiosityOutcome) -> Table {
     let columns = "way iterations stopped_by residual light_unaccounted largest_error largest_relative mean_relative";
     let mut table = Table::of(
         "Ways of solving; errors against the direct solution: of the brightest patch, of each patch, and with its sign in the mean",
         columns,
     );
     for row in &outcome.rows {
-        let off = |of: fn(SolutionError) -> f64| row.off.map_or(Cell::Empty, |off| Cell::error(of(off)));
+        let error = |of: fn(SolutionError) -> f64| row.error.map_or(Cell::Empty, |error| Cell::error(of(error)));
         table.push([
             row.label.as_str().into(),
-            if row.way == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
+            if row.method == SolveMethod::DIRECT { Cell::Empty } else { row.iterations().into() },
             row.stopped.to_string().into(),
             Cell::error(row.residual),
             Cell::error(row.energy_balance_error),
-            off(|off| off.largest),
-            off(|off| off.relative),
-            off(|off| off.bias),
+            error(|error| error.largest),
+            error(|error| error.relative),
+            error(|error| error.bias),
         ]);
     }
     table
@@ -114,12 +114,12 @@ fn sweep(outcome: &RadiosityOutcome) -> Table {
     for row in &outcome.sweep {
         table.push([
             row.patches.into(),
-            row.way.as_str().into(),
+            row.method.as_str().into(),
             row.setting().into(),
             row.iterations.into(),
             row.stopped.to_string().into(),
-            Cell::error(row.off.largest),
-            Cell::error(row.off.bias),
+            Cell::error(row.error.largest),
+            Cell::error(row.error.bias),
             row.predicted.map_or(Cell::Empty, Cell::error),
         ]);
     }
@@ -168,7 +168,7 @@ fn relit(outcome: &RadiosityOutcome) -> Table {
             }
             _ => Cell::Empty,
         };
-        if row.way != SolveMethod::DIRECT {
+        if row.method != SolveMethod::DIRECT {
             table.push([row.label.as_str().into(), count(relit.from_last), count(relit.from_nothing), saved]);
         }
     }

@@ -32,7 +32,7 @@ pub struct Beam {
 
 /// Result of a beam's search in an octree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Reached {
+pub struct BeamCells {
     /// GPU cells and leaves with triangles that rays of the beam may meet, in ascending order.
     pub cells: Vec<CellId>,
     /// Number of cells tested.
@@ -81,7 +81,7 @@ impl Beam {
 impl Octree {
     /// Returns the first cell with triangles that a ray of the beam may meet, or all of them; GPU cells are not
     /// subdivided. Never omits a cell that [`Octree::traverse`] would visit for a ray of the beam.
-    pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> Reached {
+    pub fn reached(&self, beam: &Beam, gpu: Option<&GpuCells>, all: bool) -> BeamCells {
         let middle = self.corner + self.size / 2.0;
         let extent = beam.reach + self.size + self.corner.abs().max_element();
         let mut search = BeamSearch {
@@ -90,7 +90,7 @@ impl Octree {
             beam,
             margin: self.margin + ROUNDING * extent,
             all,
-            found: Reached::default(),
+            found: BeamCells::default(),
         };
         search.enter(0, middle, self.size / 2.0);
         search.found
@@ -99,7 +99,7 @@ impl Octree {
     /// Returns `true` if the beam test is conservative for these rays: from very far away, traversal visits cells that
     /// a ray does not meet.
     pub(crate) fn sees(&self, rays: &[Ray]) -> bool {
-        !rays.iter().any(|ray| self.is_out_of_sight(ray))
+        !rays.iter().any(|ray| self.is_too_far(ray))
     }
 }
 
@@ -109,7 +109,7 @@ struct BeamSearch<'a> {
     beam: &'a Beam,
     margin: f64,
     all: bool,
-    found: Reached,
+    found: BeamCells,
 }
 
 impl BeamSearch<'_> {

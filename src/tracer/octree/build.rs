@@ -11,9 +11,9 @@ use crate::geom::vector::wide;
 /// few units in the last place of fp32.
 const MARGIN: f64 = 5e-7;
 /// Relative growth of the root over the mesh, so that nothing lies on its outer planes.
-const ROOM: f64 = 1e-3;
+const ROOT_MARGIN: f64 = 1e-3;
 /// Maximum number of consecutive useless levels: splits that leave a child with all of its parent's triangles.
-const VAIN_LEVELS: u32 = 3;
+const MAX_USELESS_LEVELS: u32 = 3;
 
 /// Builder with the triangles in its own form.
 struct OctreeBuilder {
@@ -30,7 +30,8 @@ impl Octree {
         let widest = (high - low).max_element();
         let magnitude = low.abs().max(high.abs()).max_element();
         // A root of no size cannot be cut: a mesh in one point gets some room.
-        let size = (widest * (1.0 + ROOM) + magnitude * ROOM * ROOM).max(f64::from(f32::MIN_POSITIVE));
+        let size =
+            (widest * (1.0 + ROOT_MARGIN) + magnitude * ROOT_MARGIN * ROOT_MARGIN).max(f64::from(f32::MIN_POSITIVE));
         let corner = (low + high) / 2.0 - size / 2.0;
         let margin = MARGIN * (size + magnitude);
         let octree =
@@ -38,21 +39,22 @@ impl Octree {
         let corners =
             (0..mesh.len() as u32).filter_map(|id| mesh.corners(id)).map(|corners| corners.map(wide)).collect();
         let mut builder = OctreeBuilder { corners, parameters, margin, octree };
-        let everything = (0..builder.corners.len() as u32).collect();
+        let all = (0..builder.corners.len() as u32).collect();
         let middle = corner + size / 2.0;
-        builder.fill(0, middle, size / 2.0, everything, 0, 0);
+        builder.fill(0, middle, size / 2.0, all, 0, 0);
         builder.octree
     }
 }
 
 impl OctreeBuilder {
-    /// Makes `node` a leaf of these triangles, or splits it. `vain` counts the useless levels above.
-    fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, vain: u32) {
+    /// Makes `node` a leaf of these triangles, or splits it. `useless` counts the useless levels above.
+    fn fill(&mut self, node: usize, middle: DVec3, half: f64, inside: Vec<u32>, depth: u32, useless: u32) {
         let deepest = self.parameters.most_depth.min(MAX_DEPTH);
         self.octree.depth = self.octree.depth.max(depth);
         // Cells as small as the margin separate triangles no better than their parents.
         let small = half < 4.0 * self.margin;
-        if inside.len() <= self.parameters.most_triangles || depth >= deepest || vain >= VAIN_LEVELS || small {
+        if inside.len() <= self.parameters.most_triangles || depth >= deepest || useless >= MAX_USELESS_LEVELS || small
+        {
             let first = self.octree.triangles.len() as u32;
             self.octree.nodes[node] = OctreeNode::Leaf(first, inside.len() as u32);
             self.octree.triangles.extend(inside);
@@ -68,8 +70,8 @@ impl OctreeBuilder {
             let grown = DVec3::splat(quarter + self.margin);
             let touching = |id: &u32| touches(&self.from(*id, middle), grown);
             let list: Vec<u32> = inside.iter().copied().filter(touching).collect();
-            let vain = if list.len() == inside.len() { vain + 1 } else { 0 };
-            self.fill(first + child, middle, quarter, list, depth + 1, vain);
+            let useless = if list.len() == inside.len() { useless + 1 } else { 0 };
+            self.fill(first + child, middle, quarter, list, depth + 1, useless);
         }
     }
 

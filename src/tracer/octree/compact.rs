@@ -12,7 +12,7 @@
 
 use glam::DVec3;
 
-use super::traverse::{earliest, is_out_of_sight, latest, middle, root_planes};
+use super::traverse::{earliest, is_too_far, latest, middle, root_planes};
 use super::{Flow, MAX_DEPTH, Octree, OctreeNode, TraversalCounts};
 use crate::geom::Ray;
 
@@ -89,8 +89,8 @@ impl Compact {
         waiting: &mut Waiting,
         mut visit: impl FnMut(u32, [f64; 2]) -> Flow,
     ) -> TraversalCounts {
-        if is_out_of_sight(self.corner, self.margin, ray) {
-            return self.everything(visit);
+        if is_too_far(self.corner, self.margin, ray) {
+            return self.all_leaves(visit);
         }
         let mut counts = TraversalCounts::default();
         let ([low, high], mirror) = root_planes(self.corner, self.size, ray);
@@ -114,7 +114,9 @@ impl Compact {
         let (mut frame, mut far) = WaitingCell::enter(self.root, high.map(key), span, 0, now);
         loop {
             let (exit, axis) = first(far);
+            // `& 7` changes nothing: it lets the compiler drop the bounds check.
             let word = self.children[frame.children as usize][((frame.child ^ mirror) & 7) as usize];
+            // From the lower half of the axis the ray goes to the upper one; from the upper half, out of the cell.
             let last = frame.child & axis != 0;
             frame.child |= axis;
             counts.cells += 1;
@@ -143,7 +145,7 @@ impl Compact {
     }
 
     /// Visits all leaves with triangles, as the reference does for a ray from too far away.
-    fn everything(&self, mut visit: impl FnMut(u32, [f64; 2]) -> Flow) -> TraversalCounts {
+    fn all_leaves(&self, mut visit: impl FnMut(u32, [f64; 2]) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         let words = self.children.iter().flatten().chain([&self.root]);
         for word in words.filter(|word| **word & LEAF != 0 && **word != EMPTY) {

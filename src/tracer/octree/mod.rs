@@ -13,7 +13,7 @@ mod compact;
 mod overlap;
 mod traverse;
 
-pub use beam::{Beam, Reached};
+pub use beam::{Beam, BeamCells};
 pub use cells::{CellId, GpuCells};
 pub(super) use compact::{Compact, Waiting};
 pub use traverse::{Flow, TraversalCounts, Visit};

@@ -10,11 +10,11 @@ use crate::geom::Ray;
 
 /// Substitute for a zero component of a direction: a plane one scene away is met at a parameter that f64 can represent,
 /// and the middle between two such parameters still tells which half of a cell the ray is in.
-const STILL: f64 = 1e-200;
+const TINY_COMPONENT: f64 = 1e-200;
 
 /// Maximum distance of a ray's origin, in margins: the parameter of a plane is a difference and a quotient, each
 /// rounded to 53 bits, and those of inner planes are differences of such, one more per level.
-const SIGHT: f64 = (1u64 << 48) as f64;
+const MAX_DISTANCE: f64 = (1u64 << 48) as f64;
 
 /// Traversal control after a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,8 +97,8 @@ impl Octree {
         from: f64,
         visit: impl FnMut(&Visit<'a>) -> Flow,
     ) -> TraversalCounts {
-        if self.is_out_of_sight(ray) {
-            return self.everything(visit);
+        if self.is_too_far(ray) {
+            return self.all_leaves(visit);
         }
         let ([low, high], mirror) = root_planes(self.corner, self.size, ray);
         let span = [0, 1, 2].map(|i| high[i] - low[i]);
@@ -112,13 +112,13 @@ impl Octree {
 
     /// Returns `true` if a ray starts so far away that f64 cannot resolve the parameters of the cells' planes to within
     /// the margins.
-    pub(super) fn is_out_of_sight(&self, ray: &Ray) -> bool {
-        is_out_of_sight(self.corner, self.margin, ray)
+    pub(super) fn is_too_far(&self, ray: &Ray) -> bool {
+        is_too_far(self.corner, self.margin, ray)
     }
 
     /// Visits all leaves, for a ray whose crossings cannot be computed. No hit rules out the other leaves, so each has
     /// t of minus infinity. GPU cells are not visited: a ray could not continue behind one.
-    fn everything<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
+    fn all_leaves<'a>(&'a self, mut visit: impl FnMut(&Visit<'a>) -> Flow) -> TraversalCounts {
         let mut counts = TraversalCounts::default();
         for node in 0..self.nodes.len() as u32 {
             let (triangles, t) = (self.list(node), [f64::NEG_INFINITY; 2]);
@@ -136,8 +136,8 @@ impl Octree {
 
 /// Returns `true` if a ray starts too far from the corner of an octree with this margin.
 #[inline(always)]
-pub(super) fn is_out_of_sight(corner: DVec3, margin: f64, ray: &Ray) -> bool {
-    let far = |axis: usize| (f64::from(ray.origin()[axis]) - corner[axis]).abs() > margin * SIGHT;
+pub(super) fn is_too_far(corner: DVec3, margin: f64, ray: &Ray) -> bool {
+    let far = |axis: usize| (f64::from(ray.origin()[axis]) - corner[axis]).abs() > margin * MAX_DISTANCE;
     far(0) | far(1) | far(2)
 }
 
@@ -155,7 +155,7 @@ pub(super) fn root_planes(corner: DVec3, size: f64, ray: &Ray) -> (Planes, u32) 
         }
         // +0 or -0.
         if speed == 0.0 {
-            speed = STILL;
+            speed = TINY_COMPONENT;
         }
         low[axis] = (near - origin) / speed;
         high[axis] = (far - origin) / speed;
@@ -226,6 +226,7 @@ impl<'a, F: FnMut(&Visit<'a>) -> Flow> Walk<'a, F> {
 /// span before its upper planes. The fraction is a power of two, so that only the difference is rounded.
 #[inline(always)]
 pub(super) fn middle(high: [f64; 3], span: [f64; 3], level: u32) -> [f64; 3] {
+    // 2^-(level + 1), made of its exponent bits.
     let half = f64::from_bits(u64::from(1022 - level) << 52);
     [high[0] - half * span[0], high[1] - half * span[1], high[2] - half * span[2]]
 }

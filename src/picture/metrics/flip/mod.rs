@@ -53,7 +53,8 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
         return None;
     }
     let ppd = if ppd > MIN_PPD { ppd.min(MAX_PPD) } else { MIN_PPD };
-    let [(colors, features), (other_colors, other_features)] = [left, right].map(|picture| seen(picture, ppd));
+    let [(colors, features), (other_colors, other_features)] = [left, right].map(|picture| perceived(picture, ppd));
+    // Green and blue are farthest apart of all colors of the screen.
     let largest = pow(hyab(to_hunt_lab([0.0, 1.0, 0.0]), to_hunt_lab([0.0, 0.0, 1.0])), COLOR_EXPONENT);
     let knee = KNEE * largest;
     let error = |at: usize| {
@@ -72,7 +73,7 @@ pub fn flip(left: &ScreenPicture, right: &ScreenPicture, ppd: f64) -> Option<Fli
 }
 
 /// Computes the filtered colors and the features of a picture.
-fn seen(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
+fn perceived(picture: &ScreenPicture, ppd: f64) -> (Vec<[f64; 3]>, Features) {
     let width = picture.width;
     let opponents: Vec<[f64; 3]> = picture.linear.par_iter().map(|&linear| to_opponents(linear)).collect();
     let plane = |channel: usize| PixelPlane { width, values: opponents.iter().map(|pixel| pixel[channel]).collect() };

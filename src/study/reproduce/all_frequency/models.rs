@@ -99,7 +99,7 @@ impl TableMaterial {
 }
 
 /// Visibility at the vertices of a model.
-pub(super) struct SeenModel {
+pub(super) struct ModelVisibility {
     vertices: Vertices,
     maps: VisibilityMaps,
     hats: Hats,
@@ -137,7 +137,7 @@ pub(super) struct CodedModel {
     pub(super) squared_error: f64,
 }
 
-impl SeenModel {
+impl ModelVisibility {
     /// Computes visibility by ray casting.
     pub(super) fn new(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
         let fail = failed(HOST);
@@ -156,7 +156,7 @@ impl SeenModel {
         let reduced = self.size == ModelSize::Reduced;
         let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
         let wanted = if reduced { &SOME_SEGMENTS[..] } else { &all[..] };
-        let mut work = Work::default();
+        let mut work = SegmentSums::default();
         for &segment in wanted {
             if let Some(found) = transfer.segment(segment).map_err(|e| fail(&e))? {
                 let iterations = if reduced { REDUCED_ITERATIONS } else { SegmentOptions::default().iterations };
@@ -189,7 +189,7 @@ impl SeenModel {
 
 /// Sums over segments.
 #[derive(Default)]
-struct Work {
+struct SegmentSums {
     clusters: usize,
     numbers: usize,
     squares: f64,
@@ -199,7 +199,7 @@ struct Work {
     error_of: Vec<(usize, f64)>,
 }
 
-impl Work {
+impl SegmentSums {
     fn add(
         &mut self,
         segment: usize,

@@ -1,6 +1,6 @@
 //! Table 1 by compressing models: remaining size after clustering and coding of transfer.
 
-use super::models::{CODINGS, CompressedModel, HAAR_BITS, SeenModel, TableMaterial, TableModel};
+use super::models::{CODINGS, CompressedModel, HAAR_BITS, ModelVisibility, TableMaterial, TableModel};
 use super::{
     Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep,
     number,
@@ -43,12 +43,12 @@ const OPEN: &str = "what coding leaves open";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mut found: Vec<CompressedModel> = Vec::new();
-    let mut seen: Option<(TableModel, SeenModel)> = None;
+    let mut seen: Option<(TableModel, ModelVisibility)> = None;
     let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
     for column in &TABLE_1 {
         let model = match seen.take() {
             Some((model, seen)) if model == column.model => seen,
-            _ => SeenModel::new(column.model, shared.models)?,
+            _ => ModelVisibility::new(column.model, shared.models)?,
         };
         let reflectance = match column.material {
             Diffuse => &diffuse,

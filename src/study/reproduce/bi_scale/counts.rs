@@ -107,7 +107,7 @@ impl PrintedScene {
     }
 }
 
-/// Row on the size of bidirectional textures: only for the temple is it stated which materials have small patches.
+/// Row on the size of bidirectional textures; the text states the sizes of patches for the temple alone.
 fn texture_row(scene: &PrintedScene) -> Option<PaperRow> {
     let (counts, megabytes) = scene.textures?;
     let texels: usize = counts.into_iter().zip(PATCHES).map(|(count, side)| count * side * side).sum();

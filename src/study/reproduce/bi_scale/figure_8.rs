@@ -1,7 +1,7 @@
 //! Figure 8: more local directions.
 
 use super::display::{CARD, display};
-use super::models::SeenModel;
+use super::models::ModelVisibility;
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, number,
@@ -24,7 +24,7 @@ const PRINTED: [f64; 2] = [24.2, 58.5];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let coarser = if shared.models == ModelSize::Reduced { 3 } else { 1 };
-    let model = SeenModel::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Geometry)?;
+    let model = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Geometry)?;
     let vertices = model.vertices.len() as f64;
     let mut table = Table::of(
         "Local directions",

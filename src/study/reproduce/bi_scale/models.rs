@@ -18,7 +18,7 @@ pub(super) const LOG2_SAMPLES: u32 = 1;
 
 /// Model with the visibility at its vertices.
 #[derive(Debug)]
-pub(super) struct SeenModel {
+pub(super) struct ModelVisibility {
     pub(super) mesh: Mesh,
     pub(super) vertices: Vertices,
     maps: VisibilityMaps,
@@ -34,14 +34,14 @@ pub(super) struct ClusteredModel {
 /// Intermediate results that entries share, for the small bunny.
 #[derive(Debug, Default)]
 pub(in crate::study::reproduce) struct BiScaleShared {
-    seen: OnceCell<SeenModel>,
+    seen: OnceCell<ModelVisibility>,
     biclusters: OnceCell<ClusteredModel>,
 }
 
 impl BiScaleShared {
     /// Bunny of both tables, with visibility by its triangles alone.
-    pub(super) fn bunny(&self) -> Result<&SeenModel, ReproduceError> {
-        get_or_try(&self.seen, || SeenModel::new(&TransferModel::BiScaleBunny.mesh(1), Horizon::Geometry))
+    pub(super) fn bunny(&self) -> Result<&ModelVisibility, ReproduceError> {
+        get_or_try(&self.seen, || ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(1), Horizon::Geometry))
     }
 
     /// Its biclusters with the directions of both tables.
@@ -50,7 +50,7 @@ impl BiScaleShared {
     }
 }
 
-impl SeenModel {
+impl ModelVisibility {
     pub(super) fn new(mesh: &Mesh, horizon: Horizon) -> Result<Self, ReproduceError> {
         let vertices = Vertices::new(mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();

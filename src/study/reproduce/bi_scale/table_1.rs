@@ -1,6 +1,6 @@
 //! Table I on stand-ins: biclusters of an armor, a chair and a temple; the bunny is Table II's.
 
-use super::models::{ClusteredModel, SeenModel};
+use super::models::{ClusteredModel, ModelVisibility};
 use super::printed::{PrintedScene, SCENES};
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
@@ -34,7 +34,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     );
     let mut rows = Vec::new();
     for (scene, mesh) in models {
-        let seen = SeenModel::new(&mesh, Horizon::Geometry)?;
+        let seen = ModelVisibility::new(&mesh, Horizon::Geometry)?;
         let (vertices, found) = (seen.vertices.len(), seen.clustered(scene.side)?);
         rows.extend(scene_rows(scene, vertices, &found));
         table.push([

@@ -1,6 +1,6 @@
 //! Table II on stand-ins: biclusters of models with the printed vertex counts.
 
-use super::models::{ClusteredModel, LOG2_SAMPLES, SeenModel};
+use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::printed::{BUNNIES, PrintedScene};
 use super::{
     Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
@@ -30,11 +30,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let larger;
         let found = if rows.is_empty() {
             let found = shared.bi_scale.biclusters()?;
-            let above = SeenModel::new(&model.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
+            let above = ModelVisibility::new(&model.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
             found
         } else {
-            larger = SeenModel::new(&model.mesh(1), Horizon::Geometry)?.clustered(scene.side)?;
+            larger = ModelVisibility::new(&model.mesh(1), Horizon::Geometry)?.clustered(scene.side)?;
             &larger
         };
         rows.extend(scene_rows(scene, found));

@@ -185,7 +185,7 @@ impl ComputedSignal {
         Ok(compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering)
     }
 
-    /// Squared error with 0 to `most` vectors, for the clusters of compression without vectors.
+    /// Squared error with 0 to `most` vectors; static clusters do not depend on the number of vectors.
     ///
     /// By section 4.1's formula: dropping a vector adds its D_i^2.
     pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {

@@ -9,7 +9,7 @@ use super::super::{Bound, EntryChart, EntryFindings, Method, PaperFigure, PaperR
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
-use super::workload::{Asks, Job, TIMES};
+use super::workload::{Job, JobRenderer, TIMES};
 use super::{HOST_ALONE, QUESTION, RATE, commands, speed_up};
 use crate::report::{Cell, Chart, Series, Table};
 
@@ -25,7 +25,7 @@ struct PrintedScene {
     rays: usize,
 }
 
-const EYES: Job = Job { scene: "office-floor", view: Some("top"), asks: Asks::Eyes, side: 512 };
+const EYES: Job = Job { scene: "office-floor", view: Some("top"), renderer: JobRenderer::Eyes, side: 512 };
 
 const SCENES: [PrintedScene; 5] = [
     // The room of Tables 3 to 5. Section 6.3: 256 rays and an octree tuned by hand; ours is not tuned.
@@ -41,7 +41,7 @@ const SCENES: [PrintedScene; 5] = [
     PrintedScene {
         what: "teapot room, Monte Carlo",
         tick: "teapot, Monte Carlo",
-        job: Some(Job { scene: "teapot-room", view: None, asks: Asks::MonteCarlo(4), side: 112 }),
+        job: Some(Job { scene: "teapot-room", view: None, renderer: JobRenderer::MonteCarlo(4), side: 112 }),
         polygons: 2650,
         rays_per_s: 149_233.0,
         share: 71.0,
@@ -50,7 +50,7 @@ const SCENES: [PrintedScene; 5] = [
     PrintedScene {
         what: "office",
         tick: "office",
-        job: Some(Job { scene: "office", view: None, asks: Asks::Classical, side: 224 }),
+        job: Some(Job { scene: "office", view: None, renderer: JobRenderer::Classical, side: 224 }),
         polygons: 34_000,
         rays_per_s: 114_499.0,
         share: 65.0,
@@ -87,7 +87,7 @@ const READINGS: &str = "A printed share of rays on the card is read in two ways:
     first, which was chosen before any of them was worked out.";
 
 /// Run of a scene.
-struct Ran {
+struct SceneRun {
     run: Rc<Run>,
     triangles: usize,
     rays_per_s: f64,
@@ -107,14 +107,14 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let first = first.into_iter().map(|run| (run, room.work.mesh.len(), room.work.alone));
     let ran = first.chain(others.into_iter().map(|(run, triangles, alone)| (Rc::new(run), triangles, alone)));
     let ran = ran.map(|(run, triangles, alone)| {
-        Ok(Ran {
+        Ok(SceneRun {
             rays_per_s: rays_per_s(&run, &room.host, commands())?,
             alone_rays_per_s: alone.rays_per_s(&room.host),
             run,
             triangles,
         })
     });
-    let ran: Vec<Ran> = ran.collect::<Result<_, ReproduceError>>()?;
+    let ran: Vec<SceneRun> = ran.collect::<Result<_, ReproduceError>>()?;
     let mut rows = rates(&ran);
     let shares: Vec<Share<'_>> = SCENES
         .iter()
@@ -145,9 +145,9 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     })
 }
 
-fn rates(ran: &[Ran]) -> Vec<PaperRow> {
+fn rates(ran: &[SceneRun]) -> Vec<PaperRow> {
     let by = (TIMES, Method::Engine);
-    let row = |(i, (scene, ran)): (usize, (&PrintedScene, &Ran))| {
+    let row = |(i, (scene, ran)): (usize, (&PrintedScene, &SceneRun))| {
         let target = PaperFigure::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
         // The first row's room is the one on which the host was calibrated; for the others no rate of the host alone is printed.
         let gain = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
@@ -161,7 +161,7 @@ fn rates(ran: &[Ran]) -> Vec<PaperRow> {
     rows
 }
 
-fn rates_chart(ran: &[Ran], ticks: &[&str]) -> Chart {
+fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Chart {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value / 1000.0)).collect();
     let dots = |label: &str, values: Vec<f64>| Series { label: label.to_owned(), points: points(values) };
     Chart {
@@ -177,7 +177,7 @@ fn rates_chart(ran: &[Ran], ticks: &[&str]) -> Chart {
     }
 }
 
-fn table(ran: &[Ran]) -> Table {
+fn table(ran: &[SceneRun]) -> Table {
     let columns =
         "scene polygons_printed triangles rays_traced printed_rays_per_s ours_rays_per_s host_alone_rays_per_s";
     let mut table = Table::of("Five scenes", columns);

@@ -19,7 +19,7 @@ pub(super) const OCTREE: OctreeParameters = OctreeParameters { most_triangles: 8
 
 /// Renderer that casts the rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Asks {
+pub(super) enum JobRenderer {
     /// Eye rays alone.
     Eyes,
     /// Whitted's ray tracing: "classical" in the paper.
@@ -33,13 +33,14 @@ pub(super) enum Asks {
 pub(super) struct Job {
     pub(super) scene: &'static str,
     pub(super) view: Option<&'static str>,
-    pub(super) asks: Asks,
+    pub(super) renderer: JobRenderer,
     /// Side of the picture in pixels, which the paper does not state.
     pub(super) side: u32,
 }
 
 /// The teapot room as Tables 3 to 5 render it.
-pub(super) const CLASSICAL_TEAPOT: Job = Job { scene: "teapot-room", view: None, asks: Asks::Classical, side: 256 };
+pub(super) const CLASSICAL_TEAPOT: Job =
+    Job { scene: "teapot-room", view: None, renderer: JobRenderer::Classical, side: 256 };
 
 /// Bundles of a picture.
 #[derive(Clone, Debug)]
@@ -99,10 +100,10 @@ impl Job {
     fn render(&self, scene: &Scene, camera: &Camera, caster: &mut dyn Caster) -> Result<(), RenderError> {
         let settings = Settings::default();
         let mut watch = |_| {};
-        match self.asks {
-            Asks::Eyes => eye::render(scene, camera, &settings, caster, &mut watch).map(drop),
-            Asks::Classical => whitted::render(scene, camera, &settings, caster, &mut watch).map(drop),
-            Asks::MonteCarlo(samples) => {
+        match self.renderer {
+            JobRenderer::Eyes => eye::render(scene, camera, &settings, caster, &mut watch).map(drop),
+            JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch).map(drop),
+            JobRenderer::MonteCarlo(samples) => {
                 let settings = Settings { samples, ..settings };
                 distributed::render(scene, camera, &settings, caster, &mut watch).map(drop)
             }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
+use super::baselines::COLORS;
 use super::lit::Surface;
-use super::rivals::COLORS;
 use super::scene::{FigureScene, stand_in};
 use super::{
     Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,

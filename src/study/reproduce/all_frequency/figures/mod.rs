@@ -1,11 +1,11 @@
 //! Figures 1, 2 and 4 to 7: pictures and derived counts. Figure 3 is with the factors.
 
+mod baselines;
 mod clusters;
 mod lit;
 mod models;
 mod parts;
 mod rates;
-mod rivals;
 mod scene;
 mod terms;
 mod truncation;
@@ -23,7 +23,7 @@ const QUESTION: &str = "the models, the light of St. Peter's, the cameras and th
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };
     for parts in [
-        rivals::figure(shared.models)?,
+        baselines::figure(shared.models)?,
         terms::figure(shared.models)?,
         clusters::figure(shared.models)?,
         truncation::figure(shared.models)?,

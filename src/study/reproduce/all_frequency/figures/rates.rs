@@ -4,8 +4,8 @@ use glam::DVec3;
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
 
+use super::baselines::COLORS;
 use super::lit::Surface;
-use super::rivals::COLORS;
 use super::scene::{FigureScene, stand_in};
 use super::{
     Bound, FigureParts, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Standing, failed, models,
@@ -103,7 +103,7 @@ fn rate(model: &PrintedModel, omega: f64) -> Result<f64, ReproduceError> {
 }
 
 /// Model of Figure 7 on its ground.
-struct Drawn {
+struct GroundedModel {
     name: &'static str,
     caption: &'static str,
     lobe: Option<Lobe>,
@@ -113,11 +113,11 @@ struct Drawn {
 fn pictures(
     mesh: &Mesh,
     size: ModelSize,
-    all: &[Drawn],
+    all: &[GroundedModel],
 ) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), ReproduceError> {
     let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
     let mut found = Vec::new();
-    for Drawn { name, caption, lobe, light } in all {
+    for GroundedModel { name, caption, lobe, light } in all {
         let reflectance = match lobe {
             Some(lobe) => Reflectance::Factored(models::factorization(lobe, TERMS)?.factors(TERMS)),
             None => Reflectance::Diffuse,
@@ -138,7 +138,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let sky = stand_in()?;
     let whole = HaarLight::new(&sky, Segmentation::Quarters);
     let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
-    let drawn = |name, caption, lobe, light: &HaarLight| Drawn { name, caption, lobe, light: light.clone() };
+    let drawn = |name, caption, lobe, light: &HaarLight| GroundedModel { name, caption, lobe, light: light.clone() };
     let (buddha, mut all) = pictures(
         &models::buddha(size),
         size,

@@ -80,12 +80,12 @@ fn apart(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 }
 
 /// Radiance of every vertex per frame, and the error of truncation by number of coefficients.
-struct Turning {
+struct FlickerFrames {
     whole: Vec<Vec<[f64; 3]>>,
     lost: Vec<Vec<Vec<[f64; 3]>>>,
 }
 
-impl Turning {
+impl FlickerFrames {
     fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, ReproduceError> {
         let mut found = Self { whole: Vec::new(), lost: vec![Vec::new(); KEPT.len()] };
         for frame in 0..FRAMES {
@@ -119,19 +119,19 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let hats: &Hats = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
     let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;
-    let turning = Turning::new(&segments, scene.vertices.len())?;
-    let flicker = turning.flicker();
+    let frames = FlickerFrames::new(&segments, scene.vertices.len())?;
+    let flicker = frames.flicker();
     let faces = on_faces(RADII[RADIUS], &DMat3::IDENTITY)?;
     let (nonzero, energy) = (faces.nonzero(), faces.energy());
-    let exposure = scene.exposure(&turning.whole[0]);
+    let exposure = scene.exposure(&frames.whole[0]);
     let mut table =
         Table::of("Figure 6: light coefficients", "kept of_nonzero_% energy_% rms_% flip flicker_% modelled_fps");
     let mut pictures = Vec::new();
     for (at, keep) in KEPT.into_iter().enumerate() {
         let few = cut(&faces, keep)?;
-        let pairs = turning.whole[0].iter().zip(&turning.lost[at][0]);
+        let pairs = frames.whole[0].iter().zip(&frames.lost[at][0]);
         let drawn: Vec<[f64; 3]> = pairs.map(|(whole, lost)| [0, 1, 2].map(|c| whole[c] - lost[c])).collect();
-        let error = scene.error(&drawn, &turning.whole[0], exposure)?;
+        let error = scene.error(&drawn, &frames.whole[0], exposure)?;
         let steps = buddha_without_drawing(keep.min(nonzero) as f64 / LIGHT_TEXELS as f64);
         table.push([
             keep.into(),
@@ -149,7 +149,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
         )?);
     }
     let all = "all coefficients".to_owned();
-    pictures.push(scene.picture(&turning.whole[0], exposure, ("figure-6-all".to_owned(), all))?);
+    pictures.push(scene.picture(&frames.whole[0], exposure, ("figure-6-all".to_owned(), all))?);
     let rows = rows(nonzero, &flicker)?;
     let figures = [
         number(scene.of_model.len() as f64, 0),

@@ -1,6 +1,6 @@
 //! Figure 3: light directions of a local direction, and the matrix of its vertex.
 
-use super::super::models::SeenModel;
+use super::super::models::ModelVisibility;
 use super::{Bound, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::picture::rgb8;
@@ -24,7 +24,7 @@ pub(super) struct MatrixFigure {
 }
 
 pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, ReproduceError> {
-    let seen = SeenModel::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Normal)?;
+    let seen = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Normal)?;
     let matrix = seen.matrix(side)?;
     let lights = side * side;
     let of_vertex = |vertex: usize| (vertex * lights..(vertex + 1) * lights).map(|row| matrix.row(row).len());

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::models::SeenModel;
+use super::super::models::ModelVisibility;
 use super::{HOST, ModelSize, ReproduceError, failed};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
@@ -57,7 +57,7 @@ impl TexturedModel {
     pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, ReproduceError> {
         let fail = failed(HOST);
         let MaterialMesh { mesh, material_of, .. } = &self.model;
-        let seen = SeenModel::new(mesh, Horizon::Normal)?;
+        let seen = ModelVisibility::new(mesh, Horizon::Normal)?;
         let matrix = seen.matrix(side)?;
         let biclusters = bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|e| fail(&e))?;
         let meaning =

@@ -3,12 +3,12 @@
 use crate::geom::random::CounterRng;
 
 /// Random number generator with a seed; its numbers depend on the order of calls.
-pub(super) struct Chance {
+pub(super) struct SceneRng {
     random: CounterRng,
     drawn: u64,
 }
 
-impl Chance {
+impl SceneRng {
     pub(super) const fn new(seed: u64) -> Self {
         Self { random: CounterRng::new(seed), drawn: 0 }
     }

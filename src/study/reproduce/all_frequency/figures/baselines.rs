@@ -35,7 +35,7 @@ const HOW: &str = "Figure 1 draws a bird with {} vertices on a ground with {} un
     a number of wavelets on six faces, by area times magnitude.";
 
 /// Radiance of all vertices of a scene by each method.
-struct Ways {
+struct MethodColors {
     exact: Vec<[f64; 3]>,
     others: Vec<(String, Vec<[f64; 3]>)>,
 }
@@ -43,14 +43,14 @@ struct Ways {
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
     let light = stand_in()?;
-    let ways = ways(&scene, &light, models::options(size, VECTORS))?;
-    let exposure = scene.exposure(&ways.exact);
+    let methods = methods(&scene, &light, models::options(size, VECTORS))?;
+    let exposure = scene.exposure(&methods.exact);
     let caption = "exact: no factors, no compression, the whole light".to_owned();
-    let mut pictures = vec![scene.picture(&ways.exact, exposure, ("figure-1-exact".to_owned(), caption))?];
+    let mut pictures = vec![scene.picture(&methods.exact, exposure, ("figure-1-exact".to_owned(), caption))?];
     let mut table = Table::of("Figure 1: off the exact picture", "method rms_% flip");
     let mut errors: Vec<PictureDifference> = Vec::new();
-    for (at, (name, colors)) in ways.others.iter().enumerate() {
-        let error = scene.error(colors, &ways.exact, exposure)?;
+    for (at, (name, colors)) in methods.others.iter().enumerate() {
+        let error = scene.error(colors, &methods.exact, exposure)?;
         table.push([name.clone().into(), Cell::measured(100.0 * error.rms), Cell::measured(error.flip)]);
         pictures.push(scene.picture(colors, exposure, (format!("figure-1-{at}"), name.clone()))?);
         errors.push(error);
@@ -71,7 +71,7 @@ fn order(what: String, ours: f64) -> PaperRow {
 }
 
 /// Computes model and ground by each method.
-fn ways(scene: &FigureScene, light: &CubeLight, options: SegmentOptions) -> Result<Ways, ReproduceError> {
+fn methods(scene: &FigureScene, light: &CubeLight, options: SegmentOptions) -> Result<MethodColors, ReproduceError> {
     let lobe = models::schlick();
     let factors = models::factorization(&lobe, TERMS)?.factors(TERMS);
     let glossy = Reflectance::Factored(factors);
@@ -106,5 +106,5 @@ fn ways(scene: &FigureScene, light: &CubeLight, options: SegmentOptions) -> Resu
         .into_iter()
         .chain(KEPT.map(|keep| format!("fixed view, {keep} wavelets")));
     let others = names.zip(all).collect();
-    Ok(Ways { exact, others })
+    Ok(MethodColors { exact, others })
 }

@@ -1,0 +1,105 @@
+//! Words of the source: no documentation begins with a question, and no type is named by a riddle.
+//!
+//! Rooms that are still to be rewritten are listed with the number of their violations, which may only fall.
+
+use std::collections::BTreeMap;
+
+use crate::source::{read, root, rust_files};
+
+/// Words that no block of documentation begins with.
+const BANNED_BEGINNINGS: [&str; 5] = ["What", "Whether", "Who", "Of what", "So many"];
+
+/// Names that say nothing of a type's role.
+const BANNED_NAMES: [&str; 22] = [
+    "Asked", "Asks", "Hands", "Hats", "Keyed", "Kept", "Manner", "Ran", "Rivals", "Seen", "Somebody", "Stuff",
+    "Subject", "Told", "Truth", "Wanted", "Way", "Ways", "Whoever", "Whole", "Wish", "Wishes",
+];
+
+/// Rooms that are still to be rewritten: the most beginnings and names that each may have.
+const PENDING: [(&str, usize, usize); 9] = [
+    ("refsim/src", 420, 1),
+    ("src/card", 3, 0),
+    ("src/cli", 129, 1),
+    ("src/io", 22, 0),
+    ("src/prt", 177, 4),
+    ("src/study/prt", 78, 4),
+    ("src/study/subsurface", 15, 1),
+    ("src/subsurface", 47, 0),
+    ("tests", 113, 3),
+];
+
+/// Returns the lines, from 1, on which a block of documentation begins with banned words.
+fn banned_beginnings(text: &str) -> Vec<usize> {
+    let doc = |line: &str| ["///", "//!"].into_iter().find(|prefix| line.trim_start().starts_with(prefix));
+    let mut found = Vec::new();
+    let mut previous = None;
+    for (number, line) in (1..).zip(text.lines()) {
+        let current = doc(line);
+        if let Some(prefix) = current.filter(|_| current != previous) {
+            let words = line.trim_start().trim_start_matches(prefix).trim_start();
+            let begins = |beginning: &str| {
+                words.strip_prefix(beginning).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+            };
+            if BANNED_BEGINNINGS.into_iter().any(begins) {
+                found.push(number);
+            }
+        }
+        previous = current;
+    }
+    found
+}
+
+/// Returns the lines, from 1, that define a type with a banned name.
+fn banned_names(text: &str) -> Vec<usize> {
+    let defines = |line: &str| {
+        let code = line.split("//").next().unwrap_or_default();
+        let mut words = code.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty());
+        let is_type = words.any(|word| ["struct", "enum", "trait", "type"].contains(&word));
+        is_type && words.next().is_some_and(|name| BANNED_NAMES.contains(&name))
+    };
+    (1..).zip(text.lines()).filter(|(_, line)| defines(line)).map(|(number, _)| number).collect()
+}
+
+#[test]
+fn documentation_and_names_are_plain() {
+    let mut counts: BTreeMap<&str, [usize; 2]> = PENDING.iter().map(|&(room, ..)| (room, [0; 2])).collect();
+    let mut found = Vec::new();
+    for folder in ["refsim/src", "src", "tests"] {
+        for file in rust_files(&root().join(folder)) {
+            let below = file.strip_prefix(root()).expect("below the root");
+            let pending = PENDING.iter().map(|&(room, ..)| room).find(|room| below.starts_with(room));
+            let text = read(&file);
+            let violations = [banned_beginnings(&text), banned_names(&text)];
+            if let Some(counts) = pending.and_then(|room| counts.get_mut(room)) {
+                for (count, lines) in counts.iter_mut().zip(&violations) {
+                    *count += lines.len();
+                }
+            } else {
+                found.extend(violations.iter().flatten().map(|line| format!("{}:{line}", below.display())));
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "expected documentation that states what a thing is or does, and types named by their roles, found blocks that \
+         begin with one of {BANNED_BEGINNINGS:?} or types named by one of {BANNED_NAMES:?}:\n{}",
+        found.join("\n")
+    );
+    for (room, most_beginnings, most_names) in PENDING {
+        let [beginnings, names] = counts[room];
+        assert!(
+            beginnings <= most_beginnings && names <= most_names,
+            "expected at most {most_beginnings} banned beginnings and {most_names} banned names in {room}, found \
+             {beginnings} and {names}: write new documentation plainly"
+        );
+    }
+}
+
+#[test]
+fn banned_words_are_seen_where_a_block_begins() {
+    let text = "//! What a module is.\n\n/// Whether.\n/// What follows is no beginning.\nfn f() {}\n/// Whole numbers.\n\
+                fn g() {}\n    /// Of what it is made.\n    a: u8,\n    /// So many times.\n    b: u8,\n// What a comment says.\n";
+    assert_eq!(banned_beginnings(text), [1, 3, 8, 10]);
+    let names = "pub struct Way;\nenum Ways { A }\npub(crate) trait Wayward {}\ntype Kept = u8;\n// struct Told\nlet way = 1;\n";
+    assert_eq!(banned_names(names), [1, 2, 4]);
+}
