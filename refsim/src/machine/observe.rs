@@ -62,7 +62,7 @@ impl Machine {
         plan: &Plan,
     ) -> Result<(DrawEvents, [SamplerTraffic; SAMPLERS]), MachineError> {
         #[cfg(feature = "wgpu")]
-        self.memory.bring_home(&call.targets, call.depth_buffer)?;
+        self.memory.download_newer(&call.targets, call.depth_buffer)?;
         let (memory, profile) = (&self.memory, &self.profile);
         let layout = if profile.rates.textures_tiled == Some(1) { Layout::Tiles } else { Layout::Rows };
         let draw = tile_draw(profile, memory, call);

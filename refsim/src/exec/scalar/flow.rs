@@ -53,18 +53,18 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     fn condition(&mut self, instruction: &Instruction) -> u8 {
         let mut holds = 0;
         for lane in self.active_lanes() {
-            let truth = match instruction.opcode {
+            let lane_holds = match instruction.opcode {
                 Opcode::IfC | Opcode::BreakC => self.compare_sources(lane, instruction),
-                Opcode::CallNz => instruction.sources.get(1).is_some_and(|s| self.truth(lane, s)),
-                _ => instruction.sources.first().is_some_and(|s| self.truth(lane, s)),
+                Opcode::CallNz => instruction.sources.get(1).is_some_and(|s| self.boolean_value(lane, s)),
+                _ => instruction.sources.first().is_some_and(|s| self.boolean_value(lane, s)),
             };
-            holds |= u8::from(truth) << lane;
+            holds |= u8::from(lane_holds) << lane;
         }
         holds
     }
 
     /// Value of a boolean operand: `b#` or a component of `p0`, possibly inverted.
-    fn truth(&self, lane: usize, source: &Source) -> bool {
+    fn boolean_value(&self, lane: usize, source: &Source) -> bool {
         let value = match source.register.file {
             RegisterFile::Predicate => self.lanes[lane].predicate[usize::from(source.swizzle.0[0] & 3)],
             RegisterFile::ConstantBool => {
