@@ -8,9 +8,10 @@
 //! [`event`] counts the work of a draw, and [`timing`] derives durations from it. The crate is independent of what is
 //! drawn: ray casting, radiosity and transfer are implemented in the crate above.
 //!
-//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Two
-//! executors compute them by different means: the scalar one by integers alone, a value at a time, to be read beside
-//! the specification; the batch one in vector code of the host. Tests hold them together.
+//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. The
+//! executors compute them by different means: the scalar one in integers, one value at a time, following the
+//! specifications; the batch one with the host's SIMD instructions; a third, with the feature `wgpu`, in WGSL. Tests
+//! compare them.
 //!
 //! A full-screen quad on a Radeon 8500 that doubles a colour, in 16-bit fixed point:
 //!

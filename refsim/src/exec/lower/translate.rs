@@ -157,6 +157,7 @@ impl<'a> Translator<'a> {
                 self.make.convert(Arith::Single, Arith::Main, node)
             }
             RegisterFile::Constant => self.constant(register, component),
+            // Unwritten registers are zero.
             _ => self.make.zero(),
         }
     }

@@ -87,6 +87,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             live: self.active,
             restore: self.active,
             left,
+            // `rep` does not change aL.
             step: if with_counter { step } else { 0 },
             outer_counter: self.loop_counter,
         });
@@ -115,6 +116,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// Removes `lanes` from all open blocks up to and including the innermost loop.
     fn leave_loop(&mut self, lanes: u8) {
+        // A `break` outside of a loop has no effect.
         let in_loop = self
             .open
             .iter()
@@ -131,6 +133,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                     *restore &= !lanes;
                     *otherwise &= !lanes;
                 }
+                // The lanes leave the loop but rejoin after it, so `restore` keeps them.
                 OpenBlock::Loop { live, .. } => {
                     *live &= !lanes;
                     return;
@@ -169,6 +172,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         if cut == 0 {
             return;
         }
+        // No open block may reactivate a stopped lane.
         self.active &= !cut;
         for block in &mut self.open {
             match block {
@@ -192,6 +196,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             Some(OpenBlock::Call { .. }) => return self.return_from_call(),
             Some(_) => {}
         }
+        // No open block of the subroutine may reactivate a lane that has returned.
         let done = self.active;
         self.active = 0;
         for block in self.open.iter_mut().rev() {

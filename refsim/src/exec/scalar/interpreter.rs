@@ -125,6 +125,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 }
                 continue;
             };
+            // In Direct3D programs `arithmetic` executes a co-issued pair at once; in OpenGL programs the second
+            // instruction comes separately, and is not another step.
             if let Some(budget) = self.prepared.budget
                 && instruction.opcode != Opcode::Phase
                 && !(self.fragment.is_some() && instruction.coissue)

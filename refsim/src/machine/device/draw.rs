@@ -80,6 +80,7 @@ impl Machine {
             }
         }
         self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
+        // The GPU found an error but not which fragment is first; the host repeats the draw and reports it.
         let kind = (ExecutorKind::Batch, &self.batch);
         let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
         walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
