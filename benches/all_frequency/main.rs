@@ -1,7 +1,7 @@
 //! Host speed of shading with all-frequency transfer: data in the sizes of the paper's teapot (51,300 vertices, ten
 //! terms, sixteen representatives, 3,801 clusters, omega of 61.8 %), all light coefficients, two threads.
 //!
-//! Figure to beat: 13 frames per second, ten times the printed 1.3 without drawing, so 77 ms for steps 2 and 3 together;
+//! Figure to beat: 13 frames per second, ten times the printed 1.3 without drawing, so 77 ms for steps 2 and 3;
 //! an element is one of their multiplications. For comparison: dense representatives, and equation 13 in plain f64
 //! loops. `density` finds where sparse representatives lose time: one segment, by the share of its nonzero numbers.
 //! Sparse storage is larger above two thirds, where three bytes per nonzero number exceed two per number.

@@ -29,7 +29,8 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
     let ours = HostTracer::new(mesh, Sides::Front);
     let mut shapes: Vec<Shape> = mesh.iter_corners().map(|c| Shape { corners: c.map(Into::into), node: 0 }).collect();
     let tree = bvh::bvh::Bvh::build(&mut shapes);
-    let way = |way| Box::new(Boxes { shapes: shapes.clone(), tree: tree.clone(), flat: tree.flatten(), way });
+    let traversal =
+        |traversal| Box::new(BvhTracer { shapes: shapes.clone(), tree: tree.clone(), flat: tree.flatten(), traversal });
     let triangles: Vec<obvhs::triangle::Triangle> = mesh
         .iter_corners()
         .map(|[a, b, c]| obvhs::triangle::Triangle { v0: a.into(), v1: b.into(), v2: c.into() })
@@ -40,12 +41,12 @@ pub(crate) fn all(mesh: &Mesh) -> Vec<(&'static str, Box<dyn Tracer>)> {
     let ordered = |order: &[u32]| order.iter().map(|&i| triangles[i as usize]).collect::<Vec<_>>();
     vec![
         ("octree", Box::new(ours)),
-        ("bvh: traverse_iterator", way(Way::All)),
-        ("bvh: nearest_traverse_iterator", way(Way::Heap)),
-        ("bvh: nearest_child_traverse_iterator", way(Way::Child)),
-        ("bvh: flat", way(Way::Flat)),
-        ("obvhs: CwBvh", Box::new(Wide { triangles: ordered(&wide.primitive_indices), tree: wide })),
-        ("obvhs: Bvh2", Box::new(Two { triangles: ordered(&two.primitive_indices), tree: two })),
+        ("bvh: traverse_iterator", traversal(Traversal::All)),
+        ("bvh: nearest_traverse_iterator", traversal(Traversal::Heap)),
+        ("bvh: nearest_child_traverse_iterator", traversal(Traversal::Child)),
+        ("bvh: flat", traversal(Traversal::Flat)),
+        ("obvhs: CwBvh", Box::new(CwBvhTracer { triangles: ordered(&wide.primitive_indices), tree: wide })),
+        ("obvhs: Bvh2", Box::new(Bvh2Tracer { triangles: ordered(&two.primitive_indices), tree: two })),
     ]
 }
 
@@ -100,18 +101,18 @@ impl BHShape<f32, 3> for Shape {
 }
 
 #[derive(Clone, Copy)]
-enum Way {
+enum Traversal {
     All,
     Heap,
     Child,
     Flat,
 }
 
-struct Boxes {
+struct BvhTracer {
     shapes: Vec<Shape>,
     tree: bvh::bvh::Bvh<f32, 3>,
     flat: FlatBvh<f32, 3>,
-    way: Way,
+    traversal: Traversal,
 }
 
 fn each<R: Send>(rays: &[Ray], trace: impl Fn(&Ray) -> R + Sync) -> Vec<R> {
@@ -119,7 +120,7 @@ fn each<R: Send>(rays: &[Ray], trace: impl Fn(&Ray) -> R + Sync) -> Vec<R> {
     parts.into_iter().flatten().collect()
 }
 
-impl Boxes {
+impl BvhTracer {
     fn distance(ray: &bvh::ray::Ray<f32, 3>, shape: &Shape) -> f32 {
         let [a, b, c] = &shape.corners;
         ray.intersects_triangle(a, b, c).distance
@@ -128,11 +129,13 @@ impl Boxes {
     fn first(&self, ray: &Ray) -> f32 {
         let ray = bvh::ray::Ray::new(ray.origin().into(), ray.direction().into());
         let nearest = |best: f32, shape: &Shape| best.min(Self::distance(&ray, shape));
-        match self.way {
-            Way::All => self.tree.traverse_iterator(&ray, &self.shapes).fold(f32::INFINITY, nearest),
-            Way::Child => self.tree.nearest_child_traverse_iterator(&ray, &self.shapes).fold(f32::INFINITY, nearest),
-            Way::Flat => self.flat.traverse(&ray, &self.shapes).into_iter().fold(f32::INFINITY, nearest),
-            Way::Heap => {
+        match self.traversal {
+            Traversal::All => self.tree.traverse_iterator(&ray, &self.shapes).fold(f32::INFINITY, nearest),
+            Traversal::Child => {
+                self.tree.nearest_child_traverse_iterator(&ray, &self.shapes).fold(f32::INFINITY, nearest)
+            }
+            Traversal::Flat => self.flat.traverse(&ray, &self.shapes).into_iter().fold(f32::INFINITY, nearest),
+            Traversal::Heap => {
                 let mut best = f32::INFINITY;
                 for shape in self.tree.nearest_traverse_iterator(&ray, &self.shapes) {
                     // Boxes come in the order of their entry.
@@ -151,16 +154,16 @@ impl Boxes {
         let length = ray.direction().iter().map(|x| x * x).sum::<f32>().sqrt();
         let ray = bvh::ray::Ray::new(ray.origin().into(), ray.direction().into());
         let before = |shape: &Shape| Self::distance(&ray, shape) < length;
-        match self.way {
-            Way::All => self.tree.traverse_iterator(&ray, &self.shapes).any(before),
-            Way::Child => self.tree.nearest_child_traverse_iterator(&ray, &self.shapes).any(before),
-            Way::Heap => self.tree.nearest_traverse_iterator(&ray, &self.shapes).any(before),
-            Way::Flat => self.flat.traverse(&ray, &self.shapes).into_iter().any(before),
+        match self.traversal {
+            Traversal::All => self.tree.traverse_iterator(&ray, &self.shapes).any(before),
+            Traversal::Child => self.tree.nearest_child_traverse_iterator(&ray, &self.shapes).any(before),
+            Traversal::Heap => self.tree.nearest_traverse_iterator(&ray, &self.shapes).any(before),
+            Traversal::Flat => self.flat.traverse(&ray, &self.shapes).into_iter().any(before),
         }
     }
 }
 
-impl Tracer for Boxes {
+impl Tracer for BvhTracer {
     fn nearest(&self, rays: &[Ray]) -> usize {
         each(rays, |ray| self.first(ray)).into_iter().filter(|t| *t < f32::INFINITY).count()
     }
@@ -171,12 +174,12 @@ impl Tracer for Boxes {
 }
 
 /// Triangles in the order of their tree.
-struct Wide {
+struct CwBvhTracer {
     triangles: Vec<obvhs::triangle::Triangle>,
     tree: CwBvh,
 }
 
-struct Two {
+struct Bvh2Tracer {
     triangles: Vec<obvhs::triangle::Triangle>,
     tree: Bvh2,
 }
@@ -206,4 +209,4 @@ macro_rules! trace_with_obvhs {
     )*};
 }
 
-trace_with_obvhs!(Wide, Two);
+trace_with_obvhs!(CwBvhTracer, Bvh2Tracer);

@@ -4,13 +4,14 @@
 //! against a [`device::Profile`], which holds a card's limits and arithmetic, and returns a [`check::Checked`] program
 //! or all rules that it violates. A [`machine::Machine`] owns textures and render targets and executes draw calls:
 //! vertices through a vertex program, [`raster`] from triangles to fragments, [`exec`] for the pixel program,
-//! [`output`] for tests and blending. [`texture`] says what a texel is, [`num`] what a number is, and [`event`] counts
-//! what happened. Nothing in here knows what is drawn: rays, radiosity and transfer are the business of the crate
-//! above.
+//! [`output`] for tests and blending. [`texture`] defines texels and sampling, [`num`] number formats and arithmetic;
+//! [`event`] counts the work of a draw, and [`timing`] derives durations from it. The crate is independent of what is
+//! drawn: ray casting, radiosity and transfer are implemented in the crate above.
 //!
-//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. Two
-//! executors compute them by different means: the scalar one by integers alone, a value at a time, to be read beside
-//! the specification; the batch one in vector code of the host. Tests hold them together.
+//! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. The
+//! executors compute them by different means: the scalar one in integers, one value at a time, following the
+//! specifications; the batch one with the host's SIMD instructions; a third, with the feature `wgpu`, in WGSL. Tests
+//! compare them.
 //!
 //! A full-screen quad on a Radeon 8500 that doubles a colour, in 16-bit fixed point:
 //!

@@ -12,9 +12,9 @@ use running::{bits, constants, ideal, into, run, run_vertex};
 type V = [u32; 4];
 
 /// Reference operations under a device's rules.
-struct Hand<'a>(&'a Rules, Format);
+struct Reference<'a>(&'a Rules, Format);
 
-impl Hand<'_> {
+impl Reference<'_> {
     fn add(&self, a: u32, b: u32) -> u32 {
         ops::add(self.1, a, b).bits
     }
@@ -131,7 +131,7 @@ fn ps_1_4_operations_are_their_documented_steps() {
     let mut seed = 1;
     for profile in profiles() {
         let format = profile.rules.format;
-        let hand = Hand(&profile.rules, format);
+        let reference = Reference(&profile.rules, format);
         for (op, count) in table {
             for _ in 0..8 {
                 let values = vectors(&mut seed);
@@ -139,7 +139,7 @@ fn ps_1_4_operations_are_their_documented_steps() {
                 let text = format!("ps_1_4\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{line}\nmov r0, r4");
                 let ran = run(&text, &profile, &values);
                 let s = values.map(|v| into(format, v));
-                assert_eq!(ran.value(3), hand.expected(op, &s), "{op} in {format}: {values:?}");
+                assert_eq!(ran.value(3), reference.expected(op, &s), "{op} in {format}: {values:?}");
             }
         }
     }
@@ -166,7 +166,7 @@ fn ps_2_0_operations_are_their_documented_steps() {
     let mut seed = 2;
     for profile in profiles() {
         let format = profile.rules.format;
-        let hand = Hand(&profile.rules, format);
+        let reference = Reference(&profile.rules, format);
         for (op, count, suffix) in table {
             for _ in 0..8 {
                 let mut values = vectors(&mut seed);
@@ -177,7 +177,7 @@ fn ps_2_0_operations_are_their_documented_steps() {
                 let text = format!("ps_2_0\nmov r0, c0\nmov r1, c1\nmov r2, c2\n{line}\nmov oC0, r4");
                 let ran = run(&text, &profile, &values);
                 let s = values.map(|v| into(format, v));
-                assert_eq!(ran.value(3), hand.expected(op, &s), "{op} in {format}: {values:?}");
+                assert_eq!(ran.value(3), reference.expected(op, &s), "{op} in {format}: {values:?}");
             }
         }
     }
@@ -188,20 +188,20 @@ fn cross_products_dp2add_and_matrices() {
     let mut seed = 3;
     for profile in profiles() {
         let format = profile.rules.format;
-        let hand = Hand(&profile.rules, format);
+        let reference = Reference(&profile.rules, format);
         let values = vectors(&mut seed);
         let [a, b, c] = values.map(|v| into(format, v));
         let load = "ps_2_0\nmov r0, c0\nmov r1, c1\nmov r2, c2\n";
         let ran = run(&format!("{load}crs r3.xyz, r0, r1\nmov r3.w, r0.x\nmov oC0, r3"), &profile, &values);
-        assert_eq!(ran.value(3)[..3], hand.expected("crs", &[a, b, c])[..3], "crs in {format}");
+        assert_eq!(ran.value(3)[..3], reference.expected("crs", &[a, b, c])[..3], "crs in {format}");
         let ran = run(&format!("{load}dp2add r3, r0, r1, r2.z\nmov oC0, r3"), &profile, &values);
-        assert_eq!(ran.value(3), [hand.add(hand.dot(2, &a, &b), c[2]); 4], "dp2add in {format}");
+        assert_eq!(ran.value(3), [reference.add(reference.dot(2, &a, &b), c[2]); 4], "dp2add in {format}");
         for (op, rows, terms, mask) in [("m3x2", 2, 3, "xy"), ("m3x3", 3, 3, "xyz"), ("m4x3", 3, 4, "xyz")] {
             let text = format!("{load}{op} r3.{mask}, r2, c0\nmov oC0, r2");
             let ran = run(&text, &profile, &values);
             let matrix = [a, b, c];
             for (row, vector) in matrix.iter().enumerate().take(rows) {
-                assert_eq!(ran.value(3)[row], hand.dot(terms, &c, vector), "{op} row {row} in {format}");
+                assert_eq!(ran.value(3)[row], reference.dot(terms, &c, vector), "{op} row {row} in {format}");
             }
         }
     }

@@ -17,7 +17,7 @@ mod running;
 use refsim::device::Profile;
 use refsim::exec::{Constants, PixelBindings};
 use refsim::raster::FragmentInput;
-use running::{Ran, bits, constants, run_quad};
+use running::{QuadRun, bits, constants, run_quad};
 
 /// A GeForce FX 5900 Ultra.
 fn nv35() -> Profile {
@@ -25,17 +25,17 @@ fn nv35() -> Profile {
 }
 
 /// Runs `!!FP1.0` statements with parameters from `p[0]` on, then writes R0 out.
-fn run(statements: &str, values: &[[f32; 4]]) -> Ran {
+fn run(statements: &str, values: &[[f32; 4]]) -> QuadRun {
     run_with(statements, &constants(values), &FragmentInput::default())
 }
 
-fn run_with(statements: &str, host: &Constants, input: &FragmentInput) -> Ran {
+fn run_with(statements: &str, host: &Constants, input: &FragmentInput) -> QuadRun {
     let text = format!("!!FP1.0\n{statements}\nMOV o[COLR], R0;\nEND\n");
     run_quad(&text, &nv35(), &PixelBindings::new(host), &[*input; 4])
 }
 
 /// Final colour of lane 0.
-fn color(ran: &Ran) -> [f32; 4] {
+fn color(ran: &QuadRun) -> [f32; 4] {
     ran.results[0].colors[0].map(f32::from_bits)
 }
 

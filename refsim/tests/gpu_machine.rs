@@ -31,9 +31,9 @@ fn main() -> ExitCode {
 }
 
 /// Pseudo-random numbers.
-struct Dice(u64);
+struct Random(u64);
 
-impl Dice {
+impl Random {
     fn next(&mut self) -> u32 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 32) as u32
@@ -52,15 +52,15 @@ impl Dice {
     }
 }
 
-fn vertices(dice: &mut Dice, count: usize) -> Vec<Vertex> {
-    let flat = dice.below(2) == 0;
+fn vertices(random: &mut Random, count: usize) -> Vec<Vertex> {
+    let flat = random.below(2) == 0;
     (0..count)
         .map(|_| {
-            let w = if flat { 1.0 } else { dice.number(0.2, 3.0) };
-            let [x, y] = [dice.number(-1.4, 1.4) * w, dice.number(-1.4, 1.4) * w];
-            let color = [0; 4].map(|_| dice.number(-0.5, 1.5));
+            let w = if flat { 1.0 } else { random.number(0.2, 3.0) };
+            let [x, y] = [random.number(-1.4, 1.4) * w, random.number(-1.4, 1.4) * w];
+            let color = [0; 4].map(|_| random.number(-0.5, 1.5));
             Vertex {
-                position: bits([x, y, dice.number(-0.1, 1.1) * w, w]),
+                position: bits([x, y, random.number(-0.1, 1.1) * w, w]),
                 texcoords: [bits(color); 8],
                 colors: [bits(color); 2],
                 ..Vertex::default()
@@ -144,26 +144,26 @@ struct State {
 }
 
 impl State {
-    fn random(dice: &mut Dice) -> Self {
-        let on = |dice: &mut Dice| dice.below(2) == 0;
-        let equation = |dice: &mut Dice| BlendEquation {
-            source: dice.of(BlendFactor::ALL),
-            destination: dice.of(BlendFactor::ALL),
-            op: dice.of(&[BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max]),
+    fn random(random: &mut Random) -> Self {
+        let on = |random: &mut Random| random.below(2) == 0;
+        let equation = |random: &mut Random| BlendEquation {
+            source: random.of(BlendFactor::ALL),
+            destination: random.of(BlendFactor::ALL),
+            op: random.of(&[BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max]),
         };
         Self {
-            alpha: on(dice).then(|| AlphaTest {
-                function: dice.of(CompareFunction::ALL),
-                reference: dice.number(-0.2, 1.2).to_bits(),
+            alpha: on(random).then(|| AlphaTest {
+                function: random.of(CompareFunction::ALL),
+                reference: random.number(-0.2, 1.2).to_bits(),
             }),
-            depth: DepthState { test: on(dice).then(|| dice.of(CompareFunction::ALL)), write: on(dice) },
-            blend: on(dice).then(|| BlendState { color: equation(dice), alpha: equation(dice) }),
-            mask: if on(dice) { WriteMask::ALL } else { WriteMask(dice.below(16) as u8) },
-            scissor: on(dice).then_some(Region { x: 3, y: 5, width: 27, height: 17 }),
-            viewport: on(dice).then_some(Viewport { x: -7, y: 3, ..Viewport::new(50, 30) }),
-            center: dice.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
-            clip_space: dice.of(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
-            cull: dice.of(&[Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
+            depth: DepthState { test: on(random).then(|| random.of(CompareFunction::ALL)), write: on(random) },
+            blend: on(random).then(|| BlendState { color: equation(random), alpha: equation(random) }),
+            mask: if on(random) { WriteMask::ALL } else { WriteMask(random.below(16) as u8) },
+            scissor: on(random).then_some(Region { x: 3, y: 5, width: 27, height: 17 }),
+            viewport: on(random).then_some(Viewport { x: -7, y: 3, ..Viewport::new(50, 30) }),
+            center: random.of(&[PixelCenter::Direct3d, PixelCenter::OpenGl]),
+            clip_space: random.of(&[ClipSpace::Direct3d, ClipSpace::OpenGl]),
+            cull: random.of(&[Cull::None, Cull::None, Cull::Clockwise, Cull::CounterClockwise]),
         }
     }
 
@@ -186,9 +186,9 @@ fn triangles(gpu: &Arc<Gpu>) {
     let host = Constants::default();
     let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba32f, 40, 24, [0; 4]);
-    let mut dice = Dice(1);
+    let mut random = Random(1);
     for count in [3, 30, 300] {
-        let corners = vertices(&mut dice, count);
+        let corners = vertices(&mut random, count);
         let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
         pair.draw(&call, "triangles");
         pair.same(&[target], None, "triangles");
@@ -211,18 +211,18 @@ fn output_under(profile: &Profile, gpu: &Arc<Gpu>, seed: u64, formats: &[TexelFo
     let program = copy(profile);
     let host = Constants::default();
     let mut pair = Pair::new(profile, gpu);
-    let mut dice = Dice(seed);
+    let mut random = Random(seed);
     for (i, &format) in formats.iter().enumerate() {
         if !profile.limits.target_formats.iter().any(|f| f == format.name()) {
             continue;
         }
-        let clear = bits([0; 4].map(|_| dice.number(-0.3, 1.3)));
+        let clear = bits([0; 4].map(|_| random.number(-0.3, 1.3)));
         let target = pair.target(format, 40, 24, clear);
         let depth_format = DepthFormat::ALL[i % DepthFormat::ALL.len()];
-        let depth = pair.depth(depth_format, 40, 24, dice.number(0.0, 1.0).to_bits());
+        let depth = pair.depth(depth_format, 40, 24, random.number(0.0, 1.0).to_bits());
         for round in 0..3 {
-            let corners = vertices(&mut dice, 12);
-            let state = State::random(&mut dice);
+            let corners = vertices(&mut random, 12);
+            let state = State::random(&mut random);
             let source = VertexSource::Transformed(&corners);
             let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
             call.depth_buffer = Some(depth);
@@ -243,10 +243,10 @@ fn memory_follows(gpu: &Arc<Gpu>) {
     let program = copy(&profile);
     let host = Constants::default();
     let mut pair = Pair::new(&profile, gpu);
-    let mut dice = Dice(5);
+    let mut random = Random(5);
     let first = pair.target(TexelFormat::Rgba8, 33, 17, bits([0.5; 4]));
     let second = pair.target(TexelFormat::Bgr565, 33, 17, bits([0.25; 4]));
-    let corners = vertices(&mut dice, 6);
+    let corners = vertices(&mut random, 6);
     let draw = |pair: &mut Pair, target| {
         let call = DrawCall::new(VertexSource::Transformed(&corners), Primitive::TriangleList, &program, &host, target);
         pair.draw(&call, "memory");
@@ -300,14 +300,14 @@ fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
         let program = checked(text, &profile);
         let host = running::constants(&[[0.5, -0.25, 0.125, 1.0]; 4]);
         let mut pair = Pair::new(&profile, gpu);
-        let mut dice = Dice(77);
+        let mut random = Random(77);
         let target = pair.target(TexelFormat::Bgra8, 24, 24, [0; 4]);
         let depth = pair.depth(DepthFormat::Unorm24, 24, 24, 0x3f80_0000);
-        let image = texture(&mut dice);
+        let image = texture(&mut random);
         let id = pair.reference.create_texture(image.clone()).unwrap();
         assert_eq!(pair.device.create_texture(image), Ok(id));
         for filter in [Filter::Nearest, Filter::Linear] {
-            let corners = vertices(&mut dice, 9);
+            let corners = vertices(&mut random, 9);
             let source = VertexSource::Transformed(&corners);
             let state = SamplerState { min: filter, mag: filter, ..SamplerState::NEAREST_CLAMP };
             let mut call =
@@ -320,8 +320,8 @@ fn agree(gpu: &Arc<Gpu>, texts: &[(&str, &str)]) {
     }
 }
 
-fn texture(dice: &mut Dice) -> Image {
-    let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| dice.number(0.0, 1.0)))).collect();
+fn texture(random: &mut Random) -> Image {
+    let values: Vec<[u32; 4]> = (0..64).map(|_| bits([0; 4].map(|_| random.number(0.0, 1.0)))).collect();
     let kind = TextureKind::D2;
     Image::from_values(TexelFormat::Rgba8, kind, [8, 8, 1], Format::FP32, &values, TargetRounding::Nearest).unwrap()
 }
@@ -337,7 +337,7 @@ fn long_traces_are_whole(gpu: &Arc<Gpu>) {
     let mut pair = Pair::new(&profile, gpu);
     let target = pair.target(TexelFormat::Rgba16f, 9, 7, bits([0.25; 4]));
     let depth = pair.depth(DepthFormat::Unorm16, 9, 7, 0x3f80_0000);
-    let corners = vertices(&mut Dice(11), 12);
+    let corners = vertices(&mut Random(11), 12);
     let source = VertexSource::Transformed(&corners);
     let mut call = DrawCall::new(source, Primitive::TriangleList, &program, &host, target);
     let one = BlendEquation { source: BlendFactor::One, destination: BlendFactor::One, op: BlendOp::Add };

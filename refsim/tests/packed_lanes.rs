@@ -54,7 +54,7 @@ const PROGRAMS: [&str; 7] = [
 ];
 
 /// A draw of many small triangles, and some larger ones.
-struct Fine {
+struct SmallTriangles {
     size: [u32; 2],
     program: &'static str,
     vertices: Vec<Vertex>,
@@ -68,7 +68,7 @@ struct Fine {
     register: &'static str,
 }
 
-impl Fine {
+impl SmallTriangles {
     fn new(r: &mut Random) -> Self {
         let size = r.choose(&[[16, 16], [40, 33], [17, 30], [300, 1], [290, 2], [7, 5], [1, 1]]);
         let ops = [BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max];
@@ -123,7 +123,7 @@ fn triangles(size: [u32; 2], r: &mut Random) -> Vec<Vertex> {
 
 type Drawn = Result<(Vec<u8>, Vec<u32>, DrawEvents), MachineError>;
 
-fn drawn(fine: &Fine, kind: ExecutorKind, threads: usize, budget: Option<u32>) -> Drawn {
+fn drawn(fine: &SmallTriangles, kind: ExecutorKind, threads: usize, budget: Option<u32>) -> Drawn {
     let mut profile = Profile::named("ideal-fp32").unwrap();
     profile.set_format(fine.register.parse::<Format>().unwrap());
     profile.rules.iterator_format = fine.iterators.parse().unwrap();
@@ -168,10 +168,21 @@ fn fine_triangles_are_drawn_alike() {
     let cases = if std::env::var_os("CROSSBAR_FULL").is_some() { 20_000 } else { 500 };
     let (mut r, mut passed) = (Random(0x9e37_79b9_7f4a_7c15), 0);
     for case in 0..cases {
-        let fine = Fine::new(&mut r);
+        let fine = SmallTriangles::new(&mut r);
         let what = || {
-            let Fine { size, program, target, blend, depth, depth_format, alpha, mask, iterators, register, .. } =
-                &fine;
+            let SmallTriangles {
+                size,
+                program,
+                target,
+                blend,
+                depth,
+                depth_format,
+                alpha,
+                mask,
+                iterators,
+                register,
+                ..
+            } = &fine;
             format!(
                 "case {case}, {size:?} {target}, {blend:?}, {depth:?} {depth_format:?}, {alpha:?}, {mask:?}, \
                  {iterators}, {register}\n{program}"
@@ -196,7 +207,7 @@ fn overruns_in_fine_triangles_are_reported_alike() {
     let mut r = Random(7);
     let mut overruns = 0;
     for case in 0..60 {
-        let fine = Fine { program: PROGRAMS[5], ..Fine::new(&mut r) };
+        let fine = SmallTriangles { program: PROGRAMS[5], ..SmallTriangles::new(&mut r) };
         for budget in [9, 12, 14, 15] {
             let expected = drawn(&fine, ExecutorKind::Scalar, 1, Some(budget)).map_err(|e| e.to_string());
             let found = drawn(&fine, ExecutorKind::Batch, 3, Some(budget)).map_err(|e| e.to_string());

@@ -43,7 +43,7 @@ pub(super) fn check(context: &mut Context<'_>) {
             continue;
         }
         match instruction.opcode {
-            Opcode::Phase if context.phase_marker() == Some(index) => forget_alpha(&mut written),
+            Opcode::Phase if context.phase_marker() == Some(index) => clear_alpha(&mut written),
             // Once for the outermost loop, which contains the inner ones.
             Opcode::Rep | Opcode::Loop if index >= loop_end => {
                 loop_end = context.jump[index].unwrap_or(index);
@@ -73,7 +73,7 @@ pub(super) fn check(context: &mut Context<'_>) {
     results(context, &written);
 }
 
-fn forget_alpha(written: &mut Written) {
+fn clear_alpha(written: &mut Written) {
     for ((file, _), mask) in &mut written.0 {
         if *file == RegisterFile::Temp {
             *mask &= Mask::RGB.0;
@@ -105,7 +105,7 @@ fn write(written: &mut Written, version: Version, instruction: &Instruction) {
 }
 
 /// Returns `true` if reads of this file need an earlier write.
-fn is_followed(version: Version, file: RegisterFile) -> bool {
+fn needs_write(version: Version, file: RegisterFile) -> bool {
     match file {
         RegisterFile::Temp | RegisterFile::Address | RegisterFile::Predicate => true,
         RegisterFile::Texture => version.is_ps_1_1_to_1_3(),
@@ -122,7 +122,7 @@ fn read(context: &mut Context<'_>, written: &mut Written, instruction: &Instruct
             need(context, written, RegisterFile::Address, 0, mask, source.span, RuleId::UnsetAddress);
         }
         let (file, first) = (source.register.file, source.register.index);
-        if !is_followed(version, file) {
+        if !needs_write(version, file) {
             continue;
         }
         // V22 covers the address of texld in ps_1_4; texcrd copies what is written, but something must be.

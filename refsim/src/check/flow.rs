@@ -257,8 +257,8 @@ fn inside(context: &mut Context<'_>, walk: &mut Walk, index: usize, instruction:
         _ => false,
     };
     if gradient {
-        let parted = walk.blocks.iter().any(|b| b.dynamic);
-        walk.gradients.push((index, walk.section, parted));
+        let diverged = walk.blocks.iter().any(|b| b.dynamic);
+        walk.gradients.push((index, walk.section, diverged));
     }
 }
 
@@ -272,7 +272,7 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
     }
     // Callers precede callees, so one pass in the order of the text visits every caller first.
     let mut depths: BTreeMap<u16, u32> = BTreeMap::new();
-    let mut parted: BTreeMap<u16, bool> = BTreeMap::new();
+    let mut diverged: BTreeMap<u16, bool> = BTreeMap::new();
     for call in &walk.calls {
         let Some(&target) = walk.labels.get(&call.label) else {
             context.breach(RuleId::Subroutines, span(call.at), format!("`l{}` labels no subroutine", call.label));
@@ -290,11 +290,11 @@ fn subroutines(context: &mut Context<'_>, walk: &Walk) {
         *entry = (*entry).max(outer + 1);
         let found = *entry;
         depth(context, Limit::CallDepth, found, "calls are", span(call.at));
-        let apart = call.dynamic || call.within.is_some_and(|w| parted.get(&w).copied().unwrap_or(false));
-        *parted.entry(call.label).or_insert(false) |= apart;
+        let diverges = call.dynamic || call.within.is_some_and(|w| diverged.get(&w).copied().unwrap_or(false));
+        *diverged.entry(call.label).or_insert(false) |= diverges;
     }
     for &(at, section, within) in &walk.gradients {
-        if within || section.is_some_and(|s| parted.get(&s).copied().unwrap_or(false)) {
+        if within || section.is_some_and(|s| diverged.get(&s).copied().unwrap_or(false)) {
             let name = program.instructions[at].opcode.info().mnemonic;
             context
                 .breach(

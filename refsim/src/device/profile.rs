@@ -190,6 +190,7 @@ impl Profile {
         if LIMIT_SWITCHES.contains(&name) {
             self.set_limit_switch(name, value);
         } else {
+            // Applied to a copy, so that an invalid value changes nothing.
             let mut rules = self.rules.clone();
             apply(&mut rules, name, value).ok_or(error)?;
             self.rules = rules;
@@ -288,6 +289,7 @@ impl Profile {
         part.finish()?;
 
         let mut profile = Self { name: raw.name, title: raw.title, rules, limits, rates, bus, switches, figures };
+        // Applies the defaults of all switches, because some change limits.
         for (name, value) in profile.switches.iter().map(|s| (s.name.clone(), s.current.clone())).collect::<Vec<_>>() {
             profile.set_switch(&name, &value)?;
         }

@@ -83,7 +83,7 @@ pub(super) fn denormals_name(denormals: Denormals) -> &'static str {
     }
 }
 
-fn alter(format: &mut Format, name: &str, value: &str) -> Option<()> {
+fn set_format_rule(format: &mut Format, name: &str, value: &str) -> Option<()> {
     match name {
         "rounding" => {
             let all = [Rounding::NearestEven, Rounding::NearestAway, Rounding::TowardZero, Rounding::Down];
@@ -107,7 +107,7 @@ fn alter(format: &mut Format, name: &str, value: &str) -> Option<()> {
     Some(())
 }
 
-fn truth(value: &str) -> Option<bool> {
+fn parse_bool(value: &str) -> Option<bool> {
     match value {
         "true" => Some(true),
         "false" => Some(false),
@@ -115,7 +115,7 @@ fn truth(value: &str) -> Option<bool> {
     }
 }
 
-fn bits(value: &str) -> Option<u8> {
+fn parse_bits(value: &str) -> Option<u8> {
     value.parse().ok().filter(|b| *b <= 8)
 }
 
@@ -144,19 +144,19 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
         "texdepth-denominator" => rules.texdepth_denominator = TexdepthDenominator::from_name(value)?,
         "texkill-components" => rules.texkill_components = TexkillComponents::from_name(value)?,
         "signed-texel-minimum" => rules.signed_texel_minimum = SignedTexelMinimum::from_name(value)?,
-        "zero-times-anything" => rules.zero_times_anything = truth(value)?,
+        "zero-times-anything" => rules.zero_times_anything = parse_bool(value)?,
         "target-rounding" => rules.target_rounding = TargetRounding::from_name(value)?,
         "mipmap-rounding" => rules.mipmap_rounding = TargetRounding::from_name(value)?,
         "depth-rounding" => rules.depth_rounding = TargetRounding::from_name(value)?,
-        "subpixel-bits" => rules.subpixel_bits = bits(value)?,
-        "filter-fraction-bits" => rules.filter_fraction_bits = bits(value)?,
-        "lod-fraction-bits" => rules.lod_fraction_bits = bits(value)?,
+        "subpixel-bits" => rules.subpixel_bits = parse_bits(value)?,
+        "filter-fraction-bits" => rules.filter_fraction_bits = parse_bits(value)?,
+        "lod-fraction-bits" => rules.lod_fraction_bits = parse_bits(value)?,
         "rounding" | "overflow" | "denormals" => {
-            alter(&mut rules.format, name, value)?;
+            set_format_rule(&mut rules.format, name, value)?;
             if let Some(partial) = &mut rules.partial {
                 // fp16 of NV30 keeps its subnormals whatever fp32 does.
                 if name != "denormals" {
-                    alter(partial, name, value)?;
+                    set_format_rule(partial, name, value)?;
                 }
             }
         }

@@ -213,8 +213,8 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
         times[at] = now;
         match instruction.opcode {
             Opcode::If | Opcode::IfC => {
-                let truth = || truth(program, constants, instruction.sources.first());
-                let taken = if instruction.opcode == Opcode::If { truth() } else { None };
+                let condition = || boolean_value(program, constants, instruction.sources.first());
+                let taken = if instruction.opcode == Opcode::If { condition() } else { None };
                 open.push(OpenBranch { outside: now, taken });
                 now = if taken == Some(false) { 0 } else { now };
             }
@@ -224,7 +224,7 @@ fn executions(program: &Program, constants: FlowConstants<'_>) -> Vec<u64> {
             }
             Opcode::Call | Opcode::CallNz => {
                 let never = instruction.opcode == Opcode::CallNz
-                    && truth(program, constants, instruction.sources.get(1)) == Some(false);
+                    && boolean_value(program, constants, instruction.sources.get(1)) == Some(false);
                 if let Some(&target) = labels.get(&label(instruction)).filter(|&&target| target > at && !never) {
                     called[target] = called[target].saturating_add(now);
                 }
@@ -255,7 +255,7 @@ fn passes(program: &Program, constants: FlowConstants<'_>, instruction: &Instruc
 }
 
 /// The value of a boolean operand; `None` if it is computed.
-fn truth(program: &Program, constants: FlowConstants<'_>, source: Option<&Source>) -> Option<bool> {
+fn boolean_value(program: &Program, constants: FlowConstants<'_>, source: Option<&Source>) -> Option<bool> {
     let source = source.filter(|s| s.register.file == RegisterFile::ConstantBool)?;
     let index = source.register.index;
     let defined = program.constants.iter().rev().find_map(|c| match c.value {

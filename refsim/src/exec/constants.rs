@@ -81,6 +81,7 @@ impl ResolvedConstants {
             false => (FLOAT_CONSTANTS, FLOAT_CONSTANTS),
         };
         let mut out = Self {
+            // Constants from `FIRST_NAMED` on are set by name, not by number.
             float: host.float.iter().take(from_host).map(|c| c.map(&convert)).collect(),
             int: [[0; 4]; FLOW_CONSTANTS],
             boolean: [false; FLOW_CONSTANTS],
@@ -91,6 +92,7 @@ impl ResolvedConstants {
         for (to, from) in out.boolean.iter_mut().zip(&host.boolean) {
             *to = *from;
         }
+        // Definitions in the program override the host's values.
         for definition in &program.constants {
             let number = usize::from(definition.register.index);
             match definition.value {

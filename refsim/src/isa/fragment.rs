@@ -1,7 +1,7 @@
 //! Syntax that only OpenGL fragment programs have: precision suffixes, condition codes, texture targets, mnemonics.
 //!
 //! Sources: the extension specifications GL_NV_fragment_program (`!!FP1.0`) and GL_ARB_fragment_program (`!!ARBfp1.0`).
-//! Their operations are those of THE opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]`
+//! Their operations are those of the opcode table; `R#` is [`super::RegisterFile::Temp`], `f[COL#]` is `v#`, `f[TEX#]`
 //! is `t#`, `o[COLR]` is `oC0`, `o[DEPR]` is `oDepth`, and every constant is a `c#`.
 
 use strum::{EnumString, IntoStaticStr};
@@ -12,7 +12,7 @@ use super::{Opcode, Span, Swizzle};
 pub const FIRST_ENVIRONMENT: u16 = 256;
 /// The first `c#` of constants with a name that the host can set.
 pub const FIRST_NAMED: u16 = 512;
-/// The first `c#` of constants that stand in the text.
+/// The first `c#` of literals.
 pub const FIRST_LITERAL: u16 = 1024;
 
 /// Precision suffix of an instruction: the format in which it computes.

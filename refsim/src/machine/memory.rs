@@ -79,7 +79,7 @@ impl Memory {
 
     /// Downloads targets that are newer on the GPU.
     #[cfg(feature = "wgpu")]
-    pub(super) fn bring_home(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
+    pub(super) fn download_newer(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
         for &id in targets {
             let newest = self.current(id)?.clone();
             *self.texture_mut(id)? = newest;
@@ -91,9 +91,13 @@ impl Memory {
         Ok(())
     }
 
-    /// Discards what the GPU drew into targets since [`Self::bring_home`].
+    /// Discards what the GPU drew into targets since [`Self::download_newer`].
     #[cfg(feature = "wgpu")]
-    pub(super) fn forget_drawn(&mut self, targets: &[TextureId], depth: Option<DepthId>) -> Result<(), MachineError> {
+    pub(super) fn discard_gpu_contents(
+        &mut self,
+        targets: &[TextureId],
+        depth: Option<DepthId>,
+    ) -> Result<(), MachineError> {
         for &id in targets {
             self.texture_mut(id)?;
         }

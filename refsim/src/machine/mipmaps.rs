@@ -32,7 +32,7 @@ impl Machine {
         let rules = MipmapRules::from(&self.profile.rules);
         let record = record(&self.profile, id, self.memory.texture(id)?)?;
         #[cfg(feature = "wgpu")]
-        self.memory.bring_home(&[id], None)?;
+        self.memory.download_newer(&[id], None)?;
         self.memory.texture_mut(id)?.generate_mipmaps(rules);
         self.recorder.push(|| Event::GenerateMipmaps(record.clone()));
         Ok(record)

@@ -62,7 +62,7 @@ impl Machine {
         plan: &Plan,
     ) -> Result<(DrawEvents, [SamplerTraffic; SAMPLERS]), MachineError> {
         #[cfg(feature = "wgpu")]
-        self.memory.bring_home(&call.targets, call.depth_buffer)?;
+        self.memory.download_newer(&call.targets, call.depth_buffer)?;
         let (memory, profile) = (&self.memory, &self.profile);
         let layout = if profile.rates.textures_tiled == Some(1) { Layout::Tiles } else { Layout::Rows };
         let draw = tile_draw(profile, memory, call);
@@ -80,10 +80,12 @@ impl Machine {
         observer.begin();
         let mut reporter = TexelReporter { bound, rules: sample_rules(&profile.rules), observer: observer.as_mut() };
         let tiles = ScalarTiles::new(&draw);
+        // Vertex programs read no textures, so the batch executor can run them.
         let stage = VertexStage::new(call, profile, (ExecutorKind::Batch, &self.batch), ComponentMask::ALL);
         let mut events = DrawEvents { draws: 1, instances: plan.instance_count as u64, ..DrawEvents::default() };
         let region = plan.raster.scissor;
         let empty = region.width == 0 || region.height == 0;
+        // The whole region is one tile here, because the hardware finishes a primitive before the next.
         let mut target = if empty { None } else { Some(load(memory, call, region)?) };
         for round in plan.rounds() {
             let batch = stage.run(round.start, round.len(), plan)?;

@@ -135,7 +135,7 @@ impl Machine {
     pub fn release_texture(&mut self, id: TextureId) -> Result<Image, MachineError> {
         self.memory.texture(id)?;
         #[cfg(feature = "wgpu")]
-        self.settle_texture(id)?;
+        self.release_gpu_texture(id)?;
         let missing = MachineError::NoSuchResource { what: "texture", number: id.0 };
         self.memory.textures.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
@@ -146,7 +146,7 @@ impl Machine {
     /// If the handle is invalid.
     pub fn release_depth(&mut self, id: DepthId) -> Result<DepthSurface, MachineError> {
         #[cfg(feature = "wgpu")]
-        self.settle_depth(id)?;
+        self.release_gpu_depth(id)?;
         let missing = MachineError::NoSuchResource { what: "depth buffer", number: id.0 };
         self.memory.depths.get_mut(id.0).and_then(Option::take).ok_or(missing)
     }
@@ -175,7 +175,7 @@ impl Machine {
 /// Releases GPU copies along with their resources.
 #[cfg(feature = "wgpu")]
 impl Machine {
-    fn settle_texture(&mut self, id: TextureId) -> Result<(), MachineError> {
+    fn release_gpu_texture(&mut self, id: TextureId) -> Result<(), MachineError> {
         let Some(mut card) = self.memory.card.take() else { return Ok(()) };
         let fresh = match self.memory.texture(id) {
             Ok(image) => card.release_texture(id.0, image),
@@ -188,7 +188,7 @@ impl Machine {
         Ok(())
     }
 
-    fn settle_depth(&mut self, id: DepthId) -> Result<(), MachineError> {
+    fn release_gpu_depth(&mut self, id: DepthId) -> Result<(), MachineError> {
         let Some(mut card) = self.memory.card.take() else { return Ok(()) };
         let fresh = match self.memory.depth(id) {
             Ok(surface) => card.release_depth(id.0, surface),

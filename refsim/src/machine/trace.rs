@@ -1,7 +1,7 @@
 //! Traces of pixels through a draw.
 
 #[cfg(feature = "wgpu")]
-use super::device::{Follower, StepBudget};
+use super::device::{GpuTracer, StepBudget};
 use super::tiles::tile_draw;
 use super::validate::{Plan, ROUND};
 use super::vertices::{VertexStage, raster_rules};
@@ -57,31 +57,31 @@ impl Machine {
         pixels: &[(u32, u32)],
     ) -> Result<Vec<Vec<FragmentTrace>>, MachineError> {
         let plan = validate::plan(&self.profile, &self.memory, call)?;
-        let mut followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
+        let mut traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
         #[cfg(feature = "wgpu")]
         if self.executor == ExecutorKind::Wgpu && self.step_budget(call) != StepBudget::Exceeded {
             let mut overrun = false;
-            for some in followed.chunks_mut(ON_GPU) {
-                overrun |= self.follow_on_gpu(call, &plan, some)?;
+            for some in traced.chunks_mut(ON_GPU) {
+                overrun |= self.trace_on_gpu(call, &plan, some)?;
             }
             if overrun {
                 // The batch executor determines which fragment it was.
-                followed = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
+                traced = pixels.iter().map(|&pixel| self.start(call, pixel)).collect::<Result<Vec<_>, _>>()?;
                 let tracer = tracer((ExecutorKind::Batch, &self.batch), &tile_draw(&self.profile, &self.memory, call));
-                self.follow(call, &plan, tracer.as_ref(), &mut followed)?;
+                self.trace_on_host(call, &plan, tracer.as_ref(), &mut traced)?;
                 return Err(self.disagreement());
             }
-            return Ok(followed.into_iter().map(|pixel| pixel.fragments).collect());
+            return Ok(traced.into_iter().map(|pixel| pixel.fragments).collect());
         }
         let mut work = || {
             let tracer = tracer((self.executor, &self.batch), &tile_draw(&self.profile, &self.memory, call));
-            self.follow(call, &plan, tracer.as_ref(), &mut followed)
+            self.trace_on_host(call, &plan, tracer.as_ref(), &mut traced)
         };
         match &self.pool {
             Some(pool) => pool.install(work),
             None => work(),
         }?;
-        Ok(followed.into_iter().map(|pixel| pixel.fragments).collect())
+        Ok(traced.into_iter().map(|pixel| pixel.fragments).collect())
     }
 
     /// Corners of a triangle of an instance, as output by the vertex stage; `None` if the call has no such triangle.
@@ -104,7 +104,7 @@ impl Machine {
         Ok(a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]))
     }
 
-    fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<Followed, MachineError> {
+    fn start(&self, call: &DrawCall<'_>, (x, y): (u32, u32)) -> Result<TracedPixel, MachineError> {
         let tile = load(&self.memory, call, Region { x, y, width: 1, height: 1 })?;
         if tile.index(x, y).is_none() {
             let size = match (call.targets.first(), call.depth_buffer) {
@@ -114,19 +114,19 @@ impl Machine {
             };
             return Err(MachineError::NoSuchPixel { x, y, width: size.0, height: size.1 });
         }
-        Ok(Followed { tile, fragments: Vec::new() })
+        Ok(TracedPixel { tile, fragments: Vec::new() })
     }
 
     /// Traces all pixels through all triangles of a call, in the same rounds as a draw.
-    fn follow(
+    fn trace_on_host(
         &self,
         call: &DrawCall<'_>,
         plan: &Plan,
         tracer: &dyn PixelTracer,
-        followed: &mut [Followed],
+        traced: &mut [TracedPixel],
     ) -> Result<(), MachineError> {
         self.rounds(call, plan, |setups| {
-            let passed: Vec<_> = followed.par_iter_mut().map(|pixel| pixel.pass(setups, tracer)).collect();
+            let passed: Vec<_> = traced.par_iter_mut().map(|pixel| pixel.pass(setups, tracer)).collect();
             let budget = self.profile.limits.step_budget(Stage::Pixel);
             match passed.into_iter().filter_map(Result::err).min() {
                 Some(overrun) => Err(MachineError::overrun(overrun, program(call.pixel_program), budget)),
@@ -165,17 +165,17 @@ impl Machine {
 
     /// Traces pixels on the GPU; returns `true` if a fragment exceeded the step budget.
     #[cfg(feature = "wgpu")]
-    fn follow_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [Followed]) -> Result<bool, MachineError> {
+    fn trace_on_gpu(&self, call: &DrawCall<'_>, plan: &Plan, pixels: &mut [TracedPixel]) -> Result<bool, MachineError> {
         let places: Vec<(u32, u32)> = pixels.iter().map(|p| (p.tile.region.x, p.tile.region.y)).collect();
         let states = pixels.iter().map(|p| PixelState::of(&p.tile)).collect();
         let budget = match self.step_budget(call) {
             StepBudget::Enforced(budget) => Some(budget),
             _ => None,
         };
-        let mut follower = Follower::new(self, call, &places, states, budget)?;
+        let mut gpu_tracer = GpuTracer::new(self, call, &places, states, budget)?;
         self.rounds(call, plan, |placed| {
             let setups: Vec<&TriangleSetup> = placed.iter().map(|(.., setup)| setup).collect();
-            for (pixel, found) in pixels.iter_mut().zip(follower.pass(&setups)?) {
+            for (pixel, found) in pixels.iter_mut().zip(gpu_tracer.pass(&setups)?) {
                 pixel.fragments.extend(found.into_iter().map(|f| {
                     let (instance, triangle, part, _) = placed[f.triangle];
                     FragmentTrace { instance, triangle, part, before: f.before, shading: f.shading, after: f.after }
@@ -183,7 +183,7 @@ impl Machine {
             }
             Ok(())
         })?;
-        Ok(follower.overrun)
+        Ok(gpu_tracer.overrun)
     }
 }
 
@@ -211,12 +211,12 @@ fn set_up(
 }
 
 /// A pixel being traced.
-struct Followed {
+struct TracedPixel {
     tile: TargetTile,
     fragments: Vec<FragmentTrace>,
 }
 
-impl Followed {
+impl TracedPixel {
     fn pass(&mut self, setups: &[PlacedSetup], tracer: &dyn PixelTracer) -> Result<(), Overrun> {
         let pixel = self.tile.region;
         for (number, (instance, triangle, part, setup)) in (0..).zip(setups) {

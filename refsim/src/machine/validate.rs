@@ -76,6 +76,7 @@ pub(super) fn plan(profile: &Profile, memory: &Memory, call: &DrawCall<'_>) -> R
     }
     let triangles = triangles(call, vertex_count)?;
     let provoking = call.flat.map(|convention| {
+        // The provoking corner is a position in the index list.
         let through = |corner: usize| call.indices.map_or(corner, |indices| indices[corner] as usize);
         (0..triangles.len()).map(|i| through(provoking(call.primitive, i, convention))).collect()
     });

@@ -93,6 +93,7 @@ impl<'a> VertexStage<'a> {
             }
             Self::Batch(..) => {
                 let rows = self.rows(first, count, plan, ComponentMask::ALL)?;
+                // Transposes from all instances of a vertex to all vertices of an instance.
                 let at = |i: usize| (i % plan.vertex_count) * count + i / plan.vertex_count;
                 let vertices = (0..count * plan.vertex_count).map(|i| rows.vertex(at(i))).collect();
                 Batch { vertices, slots: rows.executed }
@@ -124,6 +125,7 @@ impl<'a> VertexStage<'a> {
             Self::Transformed(vertices) => VertexRows::from_vertices(vertices, needed),
             Self::Program(..) => {
                 let batch = self.run(first, count, plan)?;
+                // Transposes from all vertices of an instance to all instances of a vertex.
                 let at = |i: usize| (i % count) * plan.vertex_count + i / count;
                 let vertices: Vec<Vertex> = (0..batch.vertices.len()).map(|i| batch.vertices[at(i)]).collect();
                 VertexRows { executed: batch.slots, ..VertexRows::from_vertices(&vertices, needed) }
@@ -223,6 +225,7 @@ pub(super) fn set_up(
             (out, counts)
         })
         .collect();
+    // Concatenated in order, so that the result does not depend on the threads.
     let mut setups = Vec::with_capacity(total);
     let mut counts = PrimitiveCounts::default();
     for (part, more) in parts {

@@ -161,6 +161,7 @@ fn shade<'s>(
             return Ok(());
         };
         let touches = |i: &u32| geometry(*i as usize).is_some_and(|s| !s.misses(work.region));
+        // Triangles after a known overrun can't be reported, so they need not be drawn.
         let known = first.get();
         let (y, x) = (work.region.y, work.region.x);
         let matters = |&triangle: &u32| known.is_none_or(|known| Overrun { triangle, y, x, instruction: 0 } < known);

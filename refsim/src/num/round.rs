@@ -95,6 +95,7 @@ fn round_float(env: &Env, exp_bits: u8, man_bits: u8, sign: bool, sig: u64, exp:
     }
     let mut flags = if inexact { Flags::INEXACT } else { Flags::empty() };
     if inexact && top < min_exp {
+        // Tininess after rounding: with an unbounded exponent, the value would round up to the smallest normal number.
         let grows = env.tininess == Tininess::After
             && top == min_exp - 1
             && shift_round(format.rounding, sign, sig, top - man - exp, sticky).0 >> (man + 1) != 0;

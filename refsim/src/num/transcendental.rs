@@ -35,12 +35,14 @@ pub fn exp2(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sign, sig, exp } => (sign, sig, exp),
     };
     let whole = floor_clamped(sign, sig, exp);
+    // An overflowing exponential has no residue to wrap to, so it saturates.
     if let FormatKind::Fixed { int_bits, .. } = format.kind
         && format.overflow == Overflow::Wrap
         && whole >= i32::from(int_bits)
     {
         return Outcome::new(format.max_finite(), Flags::OVERFLOW | Flags::INEXACT);
     }
+    // An integer exponent: the result is an exact power of two.
     if exp >= 0 || sig == 0 || sig.trailing_zeros() >= exp.unsigned_abs() {
         return from_parts(env, false, 1, whole, false);
     }
@@ -79,6 +81,7 @@ pub fn log2(env: impl Into<Env>, x: u32) -> Outcome {
         Unpacked::Finite { sig, exp, .. } => {
             let top = 63 - sig.leading_zeros().cast_signed();
             let whole = exp + top;
+            // The logarithm of a power of two is an exact integer.
             if sig.is_power_of_two() {
                 return from_parts(env, whole < 0, whole.unsigned_abs().into(), 0, false);
             }

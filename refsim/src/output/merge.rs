@@ -168,6 +168,7 @@ fn write_color(
 ) {
     let format = target.format;
     let writes = format.record().stored().iter().filter(|c| mask.has(c.stored_from));
+    // Bits of the written channels; the others keep their contents.
     let bits = writes.fold(0u128, |bits, c| bits | (u128::from(u32::MAX >> (32 - c.bits)) << c.shift));
     if bits == 0 {
         return;

@@ -25,6 +25,7 @@ pub(super) fn clipped_setup(
     let (mut emitted, mut why) = (0, if polygon.corners().is_empty() { Dropped::Clipped } else { Dropped::Degenerate });
     for pair in corners.get(1..).unwrap_or(&[]).windows(2) {
         let part = [corners[0], pair[0], pair[1]];
+        // Snapping to the subpixel grid can turn a sliver of the fan over; it would be filled twice.
         if doubled_area(part.map(|(_, corner)| corner)).signum() != winding {
             continue;
         }

@@ -34,11 +34,15 @@ fn unclipped(
     if triangle.iter().any(|v| v.position.iter().any(|&p| value::is_not_finite(p))) {
         return Some(Err(Dropped::NotFinite));
     }
-    is_inside(&triangle, state.clip_space).then(|| whole(&triangle.map(ClipVertex::new), state, rules))
+    is_inside(&triangle, state.clip_space).then(|| setup_inside(&triangle.map(ClipVertex::new), state, rules))
 }
 
 /// Sets up a triangle that needs no clipping.
-fn whole(vertices: &[ClipVertex; 3], state: &RasterState, rules: &RasterRules) -> Result<TriangleSetup, Dropped> {
+fn setup_inside(
+    vertices: &[ClipVertex; 3],
+    state: &RasterState,
+    rules: &RasterRules,
+) -> Result<TriangleSetup, Dropped> {
     let subpixel_bits = u32::from(rules.subpixel_bits.min(8));
     let [Some(c0), Some(c1), Some(c2)] = vertices.map(|v| to_window(v.position, state, subpixel_bits)) else {
         return Err(Dropped::NotFinite);

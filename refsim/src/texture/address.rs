@@ -55,7 +55,7 @@ pub(crate) fn resolve(mode: AddressMode, position: i64, size: u32) -> Option<u32
 ///
 /// NaN and infinities become 0. From 2^24 on every FP32 number is an even integer, so all of one sign address alike in
 /// every mode, and 2^24 stands for them.
-fn tamed(bits: u32) -> u32 {
+fn bounded(bits: u32) -> u32 {
     const LARGEST: u32 = 0x4b80_0000; // 2^24
     let finite = value::finite_or_zero(bits);
     if finite & 0x7fff_ffff > LARGEST { finite & 0x8000_0000 | LARGEST } else { finite }
@@ -66,7 +66,7 @@ fn tamed(bits: u32) -> u32 {
 /// `scale` is `size` for normalised coordinates and 1 for rectangle textures. `None` is the border. The floor is
 /// exact: no product is rounded.
 pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) -> Option<u32> {
-    resolve(mode, value::scaled_floor(tamed(coordinate), scale, 0, false), size)
+    resolve(mode, value::scaled_floor(bounded(coordinate), scale, 0, false), size)
 }
 
 /// The two texels of linear filtering, and the weight of the second in units of `2^-fraction_bits`.
@@ -81,11 +81,11 @@ pub fn linear_taps(
     fraction_bits: u8,
 ) -> ([Option<u32>; 2], u32) {
     let bits = u32::from(fraction_bits.min(12));
-    let tamed = tamed(coordinate);
+    let bounded = bounded(coordinate);
     // Without fraction bits, `position - 1/2` rounded with halves up is the floor of the position.
     let position = match bits {
-        0 => value::scaled_floor(tamed, scale, 0, false),
-        _ => value::scaled_floor(tamed, scale, bits, true) - (1 << (bits - 1)),
+        0 => value::scaled_floor(bounded, scale, 0, false),
+        _ => value::scaled_floor(bounded, scale, bits, true) - (1 << (bits - 1)),
     };
     let whole = position >> bits;
     let weight = (position - (whole << bits)) as u32;

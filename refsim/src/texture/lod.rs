@@ -98,6 +98,7 @@ fn half_log2(bits: u32, fraction_bits: u8) -> u32 {
     let mut result = i64::from(exponent) + i64::from(top);
     let mut mantissa = u128::from(significand) << (62 - top); // in [1, 2), 62 fraction bits
     for _ in 0..fraction_bits {
+        // Squaring doubles the logarithm; reaching 2 is its next binary digit.
         mantissa = (mantissa * mantissa) >> 62;
         let carry = mantissa >> 63;
         mantissa >>= carry;

@@ -273,8 +273,10 @@ impl<'a> SamplePlace<'a> {
         let first = i64::from(state.max_mip_level).min(last);
         let (level, weight) = match state.mip {
             MipFilter::None => (first, 0),
+            // Half a step is added, so that the floor rounds to the nearest level.
             MipFilter::Nearest => (((lambda + ((1 << bits) >> 1)) >> bits).clamp(first, last), 0),
             MipFilter::Linear => {
+                // The integer part selects the level, the fraction is the weight of the next one.
                 let clamped = lambda.clamp(first << bits, last << bits);
                 (clamped >> bits, clamped & ((1 << bits) - 1))
             }
@@ -321,6 +323,7 @@ impl<'a> SamplePlace<'a> {
                 }
             }
         }
+        // The weights of three axes and of the level have this many fraction bits in total.
         let shift = 3 * u32::from(bits) + lod_bits;
         [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
     }

@@ -124,6 +124,7 @@ impl TexelObserver for TextureCaches {
             *misses += u64::from(!cache.access(texel.address));
         }
         let line = texel.address / self.caches[1].line_bytes;
+        // Consecutive accesses mostly hit the same line, so the hash set is skipped for them.
         if self.last[sampler] != Some(line) {
             self.last[sampler] = Some(line);
             self.lines[sampler].insert(line);

@@ -171,6 +171,7 @@ impl Player<'_> {
                 let label = format!("read back {}", name(*resource));
                 let passed = self.queue.read_back(copy, costs.read_back(*bytes), mode, label);
                 if let Some(id) = fence {
+                    // An option made the read-back synchronous: the log's fence is passed with it, at no cost.
                     let passed = passed.unwrap_or_else(|| self.queue.fence_for_free());
                     self.fences.insert(*id, passed);
                 }

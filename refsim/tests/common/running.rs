@@ -41,13 +41,13 @@ pub(crate) fn constants(values: &[[f32; 4]]) -> Constants {
 }
 
 /// Result of a program on a quad whose lanes have equal inputs.
-pub(crate) struct Ran {
+pub(crate) struct QuadRun {
     pub(crate) results: [FragmentResult; 4],
     pub(crate) steps: Vec<Step>,
     pub(crate) fetches: [u64; 16],
 }
 
-impl Ran {
+impl QuadRun {
     /// Value that the last execution of instruction `index` wrote in lane 0.
     pub(crate) fn value(&self, index: usize) -> [u32; 4] {
         let step = self.steps.iter().rev().find(|s| s.instruction == index);
@@ -61,7 +61,7 @@ pub(crate) fn run_quad(
     profile: &Profile,
     bindings: &PixelBindings<'_>,
     inputs: &[FragmentInput; 4],
-) -> Ran {
+) -> QuadRun {
     let program = checked(text, profile);
     run_program(&program, &profile.rules, bindings, inputs)
 }
@@ -71,22 +71,22 @@ pub(crate) fn run_program(
     rules: &Rules,
     bindings: &PixelBindings<'_>,
     inputs: &[FragmentInput; 4],
-) -> Ran {
+) -> QuadRun {
     let mut trace = Trace::of_lane(0);
     let mut fetches = [0; 16];
     let prepared = PixelProgram::new(program, rules, bindings);
     let results = prepared.run(inputs, 0b1111, &mut fetches, &mut trace).0;
-    Ran { results, steps: trace.steps, fetches }
+    QuadRun { results, steps: trace.steps, fetches }
 }
 
 /// Runs a pixel program that reads constants only.
-pub(crate) fn run(text: &str, profile: &Profile, values: &[[f32; 4]]) -> Ran {
+pub(crate) fn run(text: &str, profile: &Profile, values: &[[f32; 4]]) -> QuadRun {
     let constants = constants(values);
     run_quad(text, profile, &PixelBindings::new(&constants), &[FragmentInput::default(); 4])
 }
 
 /// Runs a pixel program with coordinate sets from t0 on.
-pub(crate) fn run_with_coordinates(text: &str, profile: &Profile, sets: &[[f32; 4]]) -> Ran {
+pub(crate) fn run_with_coordinates(text: &str, profile: &Profile, sets: &[[f32; 4]]) -> QuadRun {
     let constants = Constants::default();
     run_quad(text, profile, &PixelBindings::new(&constants), &[input(sets); 4])
 }

@@ -5,7 +5,7 @@ use refsim::exec::{BumpStage, DepthValue, PixelBindings, Projection, SamplerBind
 use refsim::num::Format;
 use refsim::texture::{Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
 
-use crate::running::{Ran, bits, constants, ideal, input, run_quad};
+use crate::running::{QuadRun, bits, constants, ideal, input, run_quad};
 
 /// `D3DTTFF_PROJECTED`: `tex` reads at (x / w, y / w) or (x / z, y / z), `texbem` adds to those.
 #[test]
@@ -36,7 +36,7 @@ fn texture(texels: [[f32; 4]; 4]) -> Image {
 }
 
 /// Runs with a 4x1 texture on the first four stages.
-pub(crate) fn with_texture(text: &str, profile: &Profile, sets: &[[f32; 4]], bump: BumpStage) -> Ran {
+pub(crate) fn with_texture(text: &str, profile: &Profile, sets: &[[f32; 4]], bump: BumpStage) -> QuadRun {
     let image = texture([[0.0, 0.1, 0.2, 0.3], [0.25, 0.5, 0.75, 1.0], [0.5, 0.25, 0.0, 0.75], [0.75, 0.0, 0.0, 0.5]]);
     let constants = constants(&[[1.0, 0.0, 0.0, 0.0]]);
     let mut bindings = PixelBindings::new(&constants);

@@ -14,11 +14,11 @@ const FIRST_WORDS: usize = 1 << 16;
 
 /// A buffer that is reallocated when it must grow.
 #[derive(Debug)]
-struct Growing {
+struct GrowableBuffer {
     buffer: Buffer,
 }
 
-impl Growing {
+impl GrowableBuffer {
     fn new(gpu: &Gpu, words: usize) -> Result<Self, GpuError> {
         Ok(Self { buffer: gpu.buffer(words)? })
     }
@@ -41,15 +41,15 @@ impl Growing {
 #[derive(Debug)]
 pub struct Board {
     gpu: Arc<Gpu>,
-    video: Growing,
+    video: GrowableBuffer,
     arena: Arena,
-    draw: Growing,
-    setups: Growing,
-    tiles: Growing,
-    samplers: Growing,
-    code: Growing,
-    scratch: Growing,
-    counts: Growing,
+    draw: GrowableBuffer,
+    setups: GrowableBuffer,
+    tiles: GrowableBuffer,
+    samplers: GrowableBuffer,
+    code: GrowableBuffer,
+    scratch: GrowableBuffer,
+    counts: GrowableBuffer,
 }
 
 /// The pixel program of a draw, loaded on the GPU.
@@ -69,7 +69,7 @@ impl Board {
     /// # Errors
     /// [`GpuError::Memory`].
     pub fn new(gpu: Arc<Gpu>) -> Result<Self, GpuError> {
-        let one = |words| Growing::new(&gpu, words);
+        let one = |words| GrowableBuffer::new(&gpu, words);
         Ok(Self {
             video: one(FIRST_WORDS)?,
             arena: Arena::default(),

@@ -11,7 +11,7 @@ pub(crate) type NodeVector = [NodeId; 4];
 
 /// Builds nodes. Its methods are the operations of the instruction set in one format, with the rounding sequence given
 /// by the rules.
-pub(crate) struct Maker<'a> {
+pub(crate) struct GraphBuilder<'a> {
     pub(crate) graph: Graph,
     pub(crate) formats: Formats,
     pub(crate) rules: &'a Rules,
@@ -19,7 +19,7 @@ pub(crate) struct Maker<'a> {
     legacy_zero: bool,
 }
 
-impl<'a> Maker<'a> {
+impl<'a> GraphBuilder<'a> {
     pub(crate) fn new(formats: Formats, rules: &'a Rules, pixel: bool) -> Self {
         Self { graph: Graph::default(), formats, rules, legacy_zero: pixel && rules.zero_times_anything }
     }

@@ -95,14 +95,14 @@ impl Translator<'_> {
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
                 let word = self.packed(instruction.opcode, source);
-                Some([self.kept(word); 4])
+                Some([self.stored_word(word); 4])
             }
             _ => None,
         }
     }
 
     /// Contents of a full-precision register after a word is written to it.
-    fn kept(&mut self, word: NodeId) -> NodeId {
+    fn stored_word(&mut self, word: NodeId) -> NodeId {
         if self.keeps_words() {
             self.words.insert(word);
             return word;
@@ -185,8 +185,8 @@ impl Translator<'_> {
         match (opcode, instruction.sources.first()) {
             (Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub, Some(source)) => {
                 let word = self.packed(opcode, source);
-                let kept = self.kept(word);
-                let number = self.number(kept);
+                let stored = self.stored_word(word);
+                let number = self.number(stored);
                 return [self.make.convert(Arith::Main, k, number); 4];
             }
             (Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub, Some(source)) => {
@@ -306,6 +306,7 @@ impl Translator<'_> {
             return;
         }
         for i in destination.mask.components() {
+            // Depth is a scalar: one component, whatever the mask.
             let depth = file == RegisterFile::DepthOut;
             let place = if depth { (file, 0, 0) } else { (file, index, i as u8) };
             let zero = self.make.zero();
@@ -338,7 +339,7 @@ impl Translator<'_> {
     }
 
     /// Initial condition codes.
-    pub(crate) fn first_codes(make: &mut super::arith::Maker<'_>) -> [CodeNodes; 4] {
+    pub(crate) fn first_codes(make: &mut super::arith::GraphBuilder<'_>) -> [CodeNodes; 4] {
         let (zero, all) = (make.zero(), make.graph.constant(TRUE));
         [CodeNodes { less: zero, equal: all, greater: zero }; 4]
     }

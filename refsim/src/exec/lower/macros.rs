@@ -1,11 +1,11 @@
 //! Operations of several rounded steps, as graph nodes. The scalar executor documents the sequences.
 
-use super::arith::{Maker, NodeVector};
+use super::arith::{GraphBuilder, NodeVector};
 use super::graph::{Arith, NodeId, NodeKind};
 use crate::isa::Opcode;
 use crate::num::{self, NumberOperation as Op};
 
-impl Maker<'_> {
+impl GraphBuilder<'_> {
     /// The result of an arithmetic operation; missing operands are zeros.
     pub(crate) fn operation(&mut self, k: Arith, opcode: Opcode, s: &[NodeVector; 3], bump: &NodeVector) -> NodeVector {
         let [a, b, c] = *s;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::arith::{Maker, NodeVector};
+use super::arith::{GraphBuilder, NodeVector};
 use super::formats::Formats;
 use super::graph::{Arith, NodeId, NodeKind};
 use super::graph::{Slot, TRUE};
@@ -38,7 +38,7 @@ pub(crate) enum Effect {
 
 /// Translates one program.
 pub(crate) struct Translator<'a> {
-    pub(crate) make: Maker<'a>,
+    pub(crate) make: GraphBuilder<'a>,
     pub(crate) program: &'a Program,
     pub(crate) constants: &'a ResolvedConstants,
     pub(crate) bindings: Option<&'a PixelBindings<'a>>,
@@ -72,7 +72,7 @@ impl<'a> Translator<'a> {
         constants: &'a ResolvedConstants,
         bindings: Option<&'a PixelBindings<'a>>,
     ) -> Self {
-        let mut make = Maker::new(formats, rules, program.version.stage() == Stage::Pixel);
+        let mut make = GraphBuilder::new(formats, rules, program.version.stage() == Stage::Pixel);
         let zero = make.zero();
         let codes = Self::first_codes(&mut make);
         Self {
@@ -157,6 +157,7 @@ impl<'a> Translator<'a> {
                 self.make.convert(Arith::Single, Arith::Main, node)
             }
             RegisterFile::Constant => self.constant(register, component),
+            // Unwritten registers are zero.
             _ => self.make.zero(),
         }
     }
@@ -336,13 +337,13 @@ impl<'a> Translator<'a> {
                 let y = self.operand(Arith::Main, b)[0];
                 self.comparison(Arith::Main, instruction.comparison.unwrap_or(Comparison::Eq), x, y)
             }
-            Opcode::CallNz => self.truth(b),
-            _ => self.truth(a),
+            Opcode::CallNz => self.boolean_value(b),
+            _ => self.boolean_value(a),
         }
     }
 
     /// Mask of a boolean operand.
-    fn truth(&mut self, source: Option<&Source>) -> NodeId {
+    fn boolean_value(&mut self, source: Option<&Source>) -> NodeId {
         let Some(source) = source else { return self.make.zero() };
         let value = match source.register.file {
             RegisterFile::Predicate => {

@@ -17,7 +17,7 @@ pub(crate) struct Alu<'r> {
 }
 
 /// Wrappers of functions in [`ops`] that use the format of the [`Alu`] and accumulate flags.
-macro_rules! kept {
+macro_rules! operations {
     ($($name:ident($($operand:ident),+) = $definition:path;)*) => {$(
         pub(crate) fn $name(&mut self, $($operand: u32),+) -> u32 {
             self.keep($definition(self.format, $($operand),+))
@@ -80,7 +80,7 @@ impl<'r> Alu<'r> {
         self.keep(ops::convert(&self.format, to, bits))
     }
 
-    kept! {
+    operations! {
         add(a, b) = ops::add;
         sub(a, b) = ops::sub;
         div(a, b) = ops::div;

@@ -18,7 +18,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             };
             let depth = if self.full.format.is_zero(divisor) { self.full.one() } else { self.full.div(r, divisor) };
             self.depth[lane] = Some((self.prepared.format, depth));
-            self.tell(at, lane, None);
+            self.notify(at, lane, None);
         }
     }
 
@@ -45,7 +45,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                 below |= allowed && unit.less(x, 0);
             }
             self.killed |= u8::from(below) << lane;
-            self.tell(at, lane, None);
+            self.notify(at, lane, None);
         }
     }
 }

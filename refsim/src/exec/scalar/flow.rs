@@ -53,18 +53,18 @@ impl<O: Observer> Interpreter<'_, '_, O> {
     fn condition(&mut self, instruction: &Instruction) -> u8 {
         let mut holds = 0;
         for lane in self.active_lanes() {
-            let truth = match instruction.opcode {
+            let lane_holds = match instruction.opcode {
                 Opcode::IfC | Opcode::BreakC => self.compare_sources(lane, instruction),
-                Opcode::CallNz => instruction.sources.get(1).is_some_and(|s| self.truth(lane, s)),
-                _ => instruction.sources.first().is_some_and(|s| self.truth(lane, s)),
+                Opcode::CallNz => instruction.sources.get(1).is_some_and(|s| self.boolean_value(lane, s)),
+                _ => instruction.sources.first().is_some_and(|s| self.boolean_value(lane, s)),
             };
-            holds |= u8::from(truth) << lane;
+            holds |= u8::from(lane_holds) << lane;
         }
         holds
     }
 
     /// Value of a boolean operand: `b#` or a component of `p0`, possibly inverted.
-    fn truth(&self, lane: usize, source: &Source) -> bool {
+    fn boolean_value(&self, lane: usize, source: &Source) -> bool {
         let value = match source.register.file {
             RegisterFile::Predicate => self.lanes[lane].predicate[usize::from(source.swizzle.0[0] & 3)],
             RegisterFile::ConstantBool => {
@@ -87,6 +87,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             live: self.active,
             restore: self.active,
             left,
+            // `rep` does not change aL.
             step: if with_counter { step } else { 0 },
             outer_counter: self.loop_counter,
         });
@@ -115,6 +116,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
 
     /// Removes `lanes` from all open blocks up to and including the innermost loop.
     fn leave_loop(&mut self, lanes: u8) {
+        // A `break` outside of a loop has no effect.
         let in_loop = self
             .open
             .iter()
@@ -131,6 +133,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                     *restore &= !lanes;
                     *otherwise &= !lanes;
                 }
+                // The lanes leave the loop but rejoin after it, so `restore` keeps them.
                 OpenBlock::Loop { live, .. } => {
                     *live &= !lanes;
                     return;
@@ -169,6 +172,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         if cut == 0 {
             return;
         }
+        // No open block may reactivate a stopped lane.
         self.active &= !cut;
         for block in &mut self.open {
             match block {
@@ -192,6 +196,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             Some(OpenBlock::Call { .. }) => return self.return_from_call(),
             Some(_) => {}
         }
+        // No open block of the subroutine may reactivate a lane that has returned.
         let done = self.active;
         self.active = 0;
         for block in self.open.iter_mut().rev() {

@@ -119,7 +119,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             let x = if destination.saturate { unit.saturate(raw[i]) } else { raw[i] };
             out[i] = unit.leave(to, x);
         }
-        self.settle(lane);
+        self.assign_flags(lane);
         out
     }
 
@@ -138,7 +138,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
             }
             Opcode::Pk2h | Opcode::Pk2us | Opcode::Pk4b | Opcode::Pk4ub => {
                 let word = self.packed(lane, instruction, source);
-                Some([pack::kept(self.full.format, word); 4])
+                Some([pack::stored_word(self.full.format, word); 4])
             }
             _ => None,
         }
@@ -160,7 +160,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
                 let Some(source) = instruction.sources.first() else { return [0; 4] };
                 let word = self.packed(lane, instruction, source);
                 let full = self.full.format;
-                let number = ops::convert(&full, full, pack::kept(full, word)).bits;
+                let number = ops::convert(&full, full, pack::stored_word(full, word)).bits;
                 return [self.unit(k).enter(full, number); 4];
             }
             Opcode::Up2h | Opcode::Up2us | Opcode::Up4b | Opcode::Up4ub => {
@@ -240,15 +240,15 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
                 let kept = destination.mask.components().next();
                 let new = kept.map_or(old, |c| if mask.contains(c) { value[c] } else { old });
                 self.lanes[lane].depth_out = Some(ops::convert(&format, format, new).bits);
-                return self.tell(at, lane, Some((destination.mask, [new; 4])));
+                return self.notify(at, lane, Some((destination.mask, [new; 4])));
             }
         };
-        let Some(slot) = slot else { return self.tell(at, lane, None) };
+        let Some(slot) = slot else { return self.notify(at, lane, None) };
         for i in mask.components() {
             slot[i] = value[i];
         }
         let holds = slot.map(|x| ops::convert(&format, format, x).bits);
-        self.tell(at, lane, Some((destination.mask, holds)));
+        self.notify(at, lane, Some((destination.mask, holds)));
     }
 
     /// `KIL`: kills the fragment if one of the four condition codes passes; in ARB, if a component is below zero.
@@ -263,7 +263,7 @@ impl<'a, O: Observer> Interpreter<'_, 'a, O> {
                 killed |= value.iter().any(|&x| self.full.less(x, 0));
             }
             self.killed |= u8::from(killed) << lane;
-            self.settle(lane);
+            self.assign_flags(lane);
         }
     }
 }

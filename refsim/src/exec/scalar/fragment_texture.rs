@@ -22,7 +22,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
                 Opcode::TexLdP => [self.address.div(x, w), self.address.div(y, w), self.address.div(z, w), w],
                 _ => [x, y, z, w],
             };
-            self.settle(lane);
+            self.assign_flags(lane);
         }
         let detail = match (instruction.opcode, rest) {
             (Opcode::TexLdB, _) => Detail::Biased([0, 1, 2, 3].map(|lane: usize| coordinates[lane][3])),

@@ -125,6 +125,8 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 }
                 continue;
             };
+            // In Direct3D programs `arithmetic` executes a co-issued pair at once; in OpenGL programs the second
+            // instruction comes separately, and is not another step.
             if let Some(budget) = self.prepared.budget
                 && instruction.opcode != Opcode::Phase
                 && !(self.fragment.is_some() && instruction.coissue)
@@ -339,12 +341,12 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
                 registers.write(&destination.register, mask, value);
             }
         }
-        self.tell(at, lane, Some((mask, value)));
+        self.notify(at, lane, Some((mask, value)));
     }
 
     /// Notifies the observer that a lane has executed an instruction.
-    pub(super) fn tell(&mut self, at: usize, lane: usize, written: Option<(Mask, Components)>) {
-        self.settle(lane);
+    pub(super) fn notify(&mut self, at: usize, lane: usize, written: Option<(Mask, Components)>) {
+        self.assign_flags(lane);
         let flags = std::mem::take(&mut self.flags[lane]);
         if O::ACTIVE {
             let (mask, value) = written.unwrap_or((Mask(0), [0; 4]));
@@ -353,7 +355,7 @@ impl<'p, 'a, O: Observer> Interpreter<'p, 'a, O> {
     }
 
     /// Assigns the flags raised since the last call to a lane; discards them if the lane is inactive.
-    pub(super) fn settle(&mut self, lane: usize) {
+    pub(super) fn assign_flags(&mut self, lane: usize) {
         let partial = self.partial.as_mut().map(Alu::take_flags).unwrap_or_default();
         let own = self.fragment.as_mut().map(|f| f.take_flags()).unwrap_or_default();
         let raised = self.full.take_flags() | self.address.take_flags() | partial | own;

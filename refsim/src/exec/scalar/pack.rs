@@ -23,7 +23,7 @@ pub(super) fn pack(formats: &FragmentFormats, opcode: Opcode, value: &Components
 
 /// Contents of a register of the format after a word is written to it: the word's bits, if the register is a 32-bit
 /// float, else the number encoded by its lower bits.
-pub(super) fn kept(format: Format, word: u32) -> u32 {
+pub(super) fn stored_word(format: Format, word: u32) -> u32 {
     if format.width() == 32 && !format.is_fixed() {
         word
     } else {

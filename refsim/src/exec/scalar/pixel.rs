@@ -108,6 +108,7 @@ impl<'a> PixelProgram<'a> {
         for (lane, result) in results.iter_mut().enumerate() {
             let registers = &run.lanes[lane];
             result.killed = run.killed >> lane & 1 == 1;
+            // No version has both oDepth and a texture instruction that writes depth.
             result.depth = run.depth[lane]
                 .or(registers.depth_out.map(|bits| (format, bits)))
                 .map(|(format, bits)| DepthValue { format, bits });

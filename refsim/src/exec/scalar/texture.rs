@@ -54,7 +54,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         let mut coordinates = [[0; 4]; LANES];
         for (lane, slot) in coordinates.iter_mut().enumerate() {
             *slot = self.coordinates_of(lane, instruction, destination);
-            self.settle(lane);
+            self.assign_flags(lane);
         }
         self.pads = 0;
         let detail = match instruction.opcode {
@@ -346,11 +346,11 @@ impl<O: Observer> Interpreter<'_, '_, O> {
         for lane in 0..LANES {
             let own = self.coordinate_set(lane, destination.register.index);
             self.padded[lane][slot] = self.row(lane, own, source);
-            self.settle(lane);
+            self.assign_flags(lane);
         }
         self.pads += 1;
         for lane in self.active_lanes() {
-            self.tell(at, lane, None);
+            self.notify(at, lane, None);
         }
     }
 
@@ -366,7 +366,7 @@ impl<O: Observer> Interpreter<'_, '_, O> {
             let z = self.padded[lane][0];
             let depth = if w & 0x7fff_ffff == 0 { ONE } else { self.address.div(z, w) };
             self.depth[lane] = Some((Format::FP32, depth));
-            self.tell(at, lane, None);
+            self.notify(at, lane, None);
         }
         self.pads = 0;
     }

@@ -57,11 +57,11 @@ impl Machine {
         let budget = match self.step_budget(call) {
             StepBudget::Exceeded => return self.draw_on_host(ExecutorKind::Scalar, call, plan),
             StepBudget::Enforced(budget) => Some(budget),
-            StepBudget::Kept => None,
+            StepBudget::NeverExceeded => None,
         };
         let may_fail = budget.is_some() || self.vertices_may_fail(call);
         if may_fail {
-            self.memory.bring_home(&call.targets, call.depth_buffer)?;
+            self.memory.download_newer(&call.targets, call.depth_buffer)?;
         }
         let mut card = match self.memory.card.take() {
             Some(card) => card,
@@ -74,12 +74,13 @@ impl Machine {
             Ok(None) => {}
             Err(error) => {
                 if may_fail {
-                    self.memory.forget_drawn(&call.targets, call.depth_buffer)?;
+                    self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
                 }
                 return Err(error);
             }
         }
-        self.memory.forget_drawn(&call.targets, call.depth_buffer)?;
+        self.memory.discard_gpu_contents(&call.targets, call.depth_buffer)?;
+        // The GPU found an error but not which fragment is first; the host repeats the draw and reports it.
         let kind = (ExecutorKind::Batch, &self.batch);
         let tiles = executor(kind, &tile_draw(&self.profile, &self.memory, call));
         walk::draw(&self.memory, &self.profile, call, plan, kind, &tiles)?;
@@ -102,7 +103,7 @@ impl Machine {
         match enforced(source, &FlowMap::new(source), &constants, budget) {
             Some(budget) if checked.facts().has_flow => StepBudget::Enforced(budget),
             Some(_) => StepBudget::Exceeded,
-            None => StepBudget::Kept,
+            None => StepBudget::NeverExceeded,
         }
     }
 
@@ -123,7 +124,7 @@ pub(in crate::machine) enum StepBudget {
     /// A fragment may exceed it; the value is the budget.
     Enforced(u32),
     /// No fragment can exceed it.
-    Kept,
+    NeverExceeded,
 }
 
 impl Card {

@@ -27,7 +27,7 @@ const INPUTS: usize = 12;
 
 /// A fragment of a traced pixel: the index of the triangle's set-up within the pass, the pixel's state before, the
 /// execution of the program, and the pixel's state after.
-pub(in crate::machine) struct Followed {
+pub(in crate::machine) struct TracedFragment {
     pub(in crate::machine) triangle: usize,
     pub(in crate::machine) before: PixelState,
     pub(in crate::machine) shading: Shading,
@@ -35,7 +35,7 @@ pub(in crate::machine) struct Followed {
 }
 
 /// Traces pixels through a draw.
-pub(in crate::machine) struct Follower<'a> {
+pub(in crate::machine) struct GpuTracer<'a> {
     card: Card,
     machine: &'a Machine,
     call: &'a DrawCall<'a>,
@@ -53,13 +53,13 @@ pub(in crate::machine) struct Follower<'a> {
 }
 
 /// Progress of a pixel through one pass.
-struct PixelWay {
+struct PixelProgress {
     triangles: Vec<u32>,
     /// Number of triangles already processed.
     at: usize,
 }
 
-impl<'a> Follower<'a> {
+impl<'a> GpuTracer<'a> {
     /// Creates a tracer for pixels with the given target contents.
     pub(in crate::machine) fn new(
         machine: &'a Machine,
@@ -108,10 +108,9 @@ impl<'a> Follower<'a> {
         let depth = depth.map(|place| place.base as usize);
         let pixels = pixels.to_vec();
         let overrun = false;
-        let follower =
-            Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room, overrun };
-        follower.send()?;
-        Ok(follower)
+        let tracer = Self { card, machine, call, pixels, states, words, shader, colors, depth, records, room, overrun };
+        tracer.send()?;
+        Ok(tracer)
     }
 
     /// Uploads the current contents of the pixels' targets.
@@ -150,42 +149,51 @@ impl<'a> Follower<'a> {
     }
 
     /// Traces the pixels through a group of triangles; returns the fragments of each pixel, in order.
-    pub(in crate::machine) fn pass(&mut self, setups: &[&TriangleSetup]) -> Result<Vec<Vec<Followed>>, MachineError> {
+    pub(in crate::machine) fn pass(
+        &mut self,
+        setups: &[&TriangleSetup],
+    ) -> Result<Vec<Vec<TracedFragment>>, MachineError> {
         let mut packed = Vec::with_capacity(setups.len() * self.words.setup_words());
         setups.iter().for_each(|setup| self.words.setup(setup, &mut packed));
         self.card.board.set_setups(&packed)?;
-        let mut ways: Vec<PixelWay> =
-            self.pixels.iter().map(|&pixel| PixelWay { triangles: near(setups, pixel), at: 0 }).collect();
-        let mut out: Vec<Vec<Followed>> = self.pixels.iter().map(|_| Vec::new()).collect();
+        let mut progress: Vec<PixelProgress> =
+            self.pixels.iter().map(|&pixel| PixelProgress { triangles: near(setups, pixel), at: 0 }).collect();
+        let mut out: Vec<Vec<TracedFragment>> = self.pixels.iter().map(|_| Vec::new()).collect();
         loop {
-            let jobs: Vec<usize> = (0..ways.len()).filter(|&p| ways[p].at < ways[p].triangles.len()).collect();
+            let jobs: Vec<usize> =
+                (0..progress.len()).filter(|&p| progress[p].at < progress[p].triangles.len()).collect();
             if jobs.is_empty() {
                 return Ok(out);
             }
-            self.round(&jobs, &mut ways, &mut out)?;
+            self.round(&jobs, &mut progress, &mut out)?;
         }
     }
 
     /// Advances pixels to the next triangle that covers each.
-    fn round(&mut self, jobs: &[usize], ways: &mut [PixelWay], out: &mut [Vec<Followed>]) -> Result<(), MachineError> {
-        let lists: Vec<_> = jobs.iter().map(|&p| (p, p, ways[p].at..ways[p].triangles.len())).collect();
-        let words = self.run(&lists, ways, 0)?;
+    fn round(
+        &mut self,
+        jobs: &[usize],
+        progress: &mut [PixelProgress],
+        out: &mut [Vec<TracedFragment>],
+    ) -> Result<(), MachineError> {
+        let lists: Vec<_> = jobs.iter().map(|&p| (p, p, progress[p].at..progress[p].triangles.len())).collect();
+        let words = self.run(&lists, progress, 0)?;
         let size = HEAD + TRACE_WORDS * self.room;
         let after = self.fetch()?;
         for (&p, words) in jobs.iter().zip(words.chunks_exact(size)) {
             let Some(record) = Record::new(words) else { continue };
             let Some(place) = record.triangle() else {
-                ways[p].at = ways[p].triangles.len();
+                progress[p].at = progress[p].triangles.len();
                 continue;
             };
-            let place = ways[p].at + place;
-            let steps = self.steps(&record, p, place, ways)?;
+            let place = progress[p].at + place;
+            let steps = self.steps(&record, p, place, progress)?;
             let (x, y) = self.pixels[p];
             let lane = ((x & 1) | (y & 1) << 1) as usize;
             let shading = record.shading(&steps, self.call.pixel_program, &self.machine.profile.rules, lane);
-            let triangle = ways[p].triangles[place] as usize;
-            out[p].push(Followed { triangle, before: self.states[p], shading, after: after[p] });
-            ways[p].at = place + 1;
+            let triangle = progress[p].triangles[place] as usize;
+            out[p].push(TracedFragment { triangle, before: self.states[p], shading, after: after[p] });
+            progress[p].at = place + 1;
         }
         self.states = after;
         Ok(())
@@ -197,12 +205,12 @@ impl<'a> Follower<'a> {
         record: &Record<'_>,
         p: usize,
         place: usize,
-        ways: &[PixelWay],
+        progress: &[PixelProgress],
     ) -> Result<Vec<u32>, MachineError> {
         let mut steps = record.kept(0).to_vec();
         while steps.len() < TRACE_WORDS * record.steps() {
             let skipped = steps.len() / TRACE_WORDS;
-            let words = self.run(&[(p, self.pixels.len(), place..place + 1)], ways, skipped)?;
+            let words = self.run(&[(p, self.pixels.len(), place..place + 1)], progress, skipped)?;
             let more = Record::new(&words).map_or(&[][..], |record| record.kept(skipped));
             if more.is_empty() {
                 break;
@@ -217,14 +225,14 @@ impl<'a> Follower<'a> {
     fn run(
         &mut self,
         jobs: &[(usize, usize, Range<usize>)],
-        ways: &[PixelWay],
+        progress: &[PixelProgress],
         skipped: usize,
     ) -> Result<Vec<u32>, MachineError> {
         let (mut told, mut lists) = (Vec::new(), Vec::new());
         for (p, column, range) in jobs {
             let ((x, y), first) = (self.pixels[*p], JOB_WORDS * jobs.len() + lists.len());
             told.extend([x, y, first as u32, range.len() as u32, *column as u32]);
-            lists.extend_from_slice(&ways[*p].triangles[range.clone()]);
+            lists.extend_from_slice(&progress[*p].triangles[range.clone()]);
         }
         told.append(&mut lists);
         let (registers, passes) = (self.shader.registers, draw::passes(self.card.board.gpu()));

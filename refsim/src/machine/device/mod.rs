@@ -9,7 +9,7 @@ mod follow;
 mod shader;
 
 pub(super) use draw::StepBudget;
-pub(super) use follow::Follower;
+pub(super) use follow::GpuTracer;
 
 use super::MachineError;
 use crate::exec::gpu::{Board, Gpu, GpuError};
@@ -23,13 +23,13 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub(super) struct Card {
     board: Board,
-    textures: BTreeMap<usize, Held<Image>>,
-    depths: BTreeMap<usize, Held<DepthSurface>>,
+    textures: BTreeMap<usize, GpuCopy<Image>>,
+    depths: BTreeMap<usize, GpuCopy<DepthSurface>>,
 }
 
 /// The GPU copy of a resource.
 #[derive(Debug)]
-struct Held<T> {
+struct GpuCopy<T> {
     base: usize,
     words: usize,
     newer: Newer,
@@ -46,7 +46,7 @@ enum Newer {
     Device,
 }
 
-impl<T> Held<T> {
+impl<T> GpuCopy<T> {
     fn new(board: &mut Board, words: usize) -> Result<Self, GpuError> {
         Ok(Self { base: board.allocate(words)?, words, newer: Newer::Host, back: OnceLock::new() })
     }
@@ -172,7 +172,7 @@ impl Card {
         let held = match self.textures.entry(number) {
             std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),
             std::collections::btree_map::Entry::Vacant(slot) => {
-                slot.insert(Held::new(&mut self.board, texture::image_size(host))?)
+                slot.insert(GpuCopy::new(&mut self.board, texture::image_size(host))?)
             }
         };
         held.send(&self.board, || texture::image_words(host))?;
@@ -184,7 +184,7 @@ impl Card {
         let held = match self.depths.entry(number) {
             std::collections::btree_map::Entry::Occupied(held) => held.into_mut(),
             std::collections::btree_map::Entry::Vacant(slot) => {
-                slot.insert(Held::new(&mut self.board, host.data().len())?)
+                slot.insert(GpuCopy::new(&mut self.board, host.data().len())?)
             }
         };
         held.send(&self.board, || host.data().to_vec())?;

@@ -71,6 +71,7 @@ fn exact(env: &Env, terms: &[(u32, u32)]) -> Outcome {
             }
         }
     }
+    // As in `fused_mad`, an invalid product or sum takes precedence over a NaN operand.
     if bad {
         return invalid(format);
     }

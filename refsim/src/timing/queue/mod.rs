@@ -50,15 +50,15 @@ pub struct Queue {
 }
 
 /// A submitted command: its arrival at the card, and the label of its spans.
-struct Given {
+struct SubmittedCommand {
     ready: Mark,
     label: Label,
-    command: u32,
+    index: u32,
 }
 
-impl Given {
+impl SubmittedCommand {
     fn work(&self, kind: SpanKind) -> SpanWork<'_> {
-        SpanWork { kind, label: &self.label, command: self.command }
+        SpanWork { kind, label: &self.label, command: self.index }
     }
 }
 
@@ -89,19 +89,19 @@ impl Queue {
 
     /// Adds work of the host.
     pub fn host(&mut self, duration: Picoseconds, label: impl Into<Label>) {
-        let given = self.name(label.into());
-        self.on_host(SpanKind::HostWork, duration, &given);
+        let command = self.new_command(label.into());
+        self.on_host(SpanKind::HostWork, duration, &command);
     }
 
     /// Uploads data for a whole resource, in parallel with the card's work. The bus waits for earlier draws that read
     /// or write the resource.
     pub fn upload(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
-        let given = self.give(self.figures.upload_ps, label.into());
-        let taken = self.take(given.ready);
-        let held = self.held(resource);
+        let command = self.submit(self.figures.upload_ps, label.into());
+        let taken = self.dequeue(command.ready);
+        let held = self.resource_use(resource);
         let needs = [(taken, WaitReason::Order), (held.written.or_later(held.read), WaitReason::Hazard)];
         let sent =
-            self.schedule.place(Unit::UploadBus, given.ready, &needs, duration, &given.work(SpanKind::Upload)).end;
+            self.schedule.place(Unit::UploadBus, command.ready, &needs, duration, &command.work(SpanKind::Upload)).end;
         self.resources.entry(resource).or_default().written = sent;
         self.done = self.done.or_later(sent);
     }
@@ -109,30 +109,31 @@ impl Queue {
     /// Changes state on the card, including `constants` constants.
     pub fn state(&mut self, duration: Picoseconds, constants: u32, label: impl Into<Label>) {
         let handed = self.figures.constant_ps.saturating_mul(constants.into());
-        let given = self.give(self.figures.state_ps.saturating_add(handed), label.into());
-        let end = self.front_end(&given, duration, SpanKind::State).1;
+        let command = self.submit(self.figures.state_ps.saturating_add(handed), label.into());
+        let end = self.front_end(&command, duration, SpanKind::State).1;
         self.done = self.done.or_later(end);
     }
 
     /// Fills a resource with one value, in memory time.
     pub fn clear(&mut self, resource: ResourceId, duration: Picoseconds, label: impl Into<Label>) {
-        let given = self.give(self.figures.clear_ps, label.into());
-        let (start, _) = self.front_end(&given, Picoseconds::ZERO, SpanKind::State);
+        let command = self.submit(self.figures.clear_ps, label.into());
+        let (start, _) = self.front_end(&command, Picoseconds::ZERO, SpanKind::State);
         let needs = self.body_needs(start, &[], &[resource]);
-        let end = self.schedule.place(Unit::Memory, given.ready, &needs, duration, &given.work(SpanKind::Clear)).end;
+        let end =
+            self.schedule.place(Unit::Memory, command.ready, &needs, duration, &command.work(SpanKind::Clear)).end;
         self.body_ends(end, &[], &[resource]);
     }
 
     /// Submits a draw that reads some resources and writes others. The front end may be ahead of the pixel pipelines by
     /// [`QueueFigures::draws_ahead`] draws; pixel pipelines and memory work in parallel, on one draw at a time.
     pub fn draw(&mut self, reads: &[ResourceId], writes: &[ResourceId], cost: DrawCost, label: impl Into<Label>) {
-        let given = self.give(self.figures.draw_ps, label.into());
+        let command = self.submit(self.figures.draw_ps, label.into());
         // Remainder of the total without the busiest unit: the time to fill and drain the pipeline.
         let fill = cost.front_end.max(cost.shader).max(cost.memory).until(cost.total);
-        let (start, vertices) = self.front_end(&given, cost.front_end, SpanKind::Vertices);
+        let (start, vertices) = self.front_end(&command, cost.front_end, SpanKind::Vertices);
         let needs = self.body_needs(start.plus(fill), reads, writes);
         let mut place =
-            |unit, duration, kind| self.schedule.place(unit, given.ready, &needs, duration, &given.work(kind)).end;
+            |unit, duration, kind| self.schedule.place(unit, command.ready, &needs, duration, &command.work(kind)).end;
         let shaded = place(Unit::ShaderArray, cost.shader, SpanKind::Fragments);
         let moved = place(Unit::Memory, cost.memory, SpanKind::Traffic);
         self.body_ends(shaded.or_later(moved).or_later(vertices.plus(fill)), reads, writes);
@@ -148,19 +149,22 @@ impl Queue {
         mode: ReadBackMode,
         label: impl Into<Label>,
     ) -> Option<Fence> {
-        let given = self.give(self.figures.read_back_ps, label.into());
-        let taken = self.take(given.ready);
+        let command = self.submit(self.figures.read_back_ps, label.into());
+        let taken = self.dequeue(command.ready);
         let drawn = self.bodies.back().copied().unwrap_or_default();
-        let needs =
-            [(taken, WaitReason::Order), (drawn, WaitReason::Order), (self.held(resource).written, WaitReason::Hazard)];
-        let work = given.work(SpanKind::ReadBack);
-        let arrived = self.schedule.place(Unit::ReadBackBus, given.ready, &needs, duration, &work).end;
+        let needs = [
+            (taken, WaitReason::Order),
+            (drawn, WaitReason::Order),
+            (self.resource_use(resource).written, WaitReason::Hazard),
+        ];
+        let work = command.work(SpanKind::ReadBack);
+        let arrived = self.schedule.place(Unit::ReadBackBus, command.ready, &needs, duration, &work).end;
         let held = self.resources.entry(resource).or_default();
         held.read = held.read.or_later(arrived);
         self.done = self.done.or_later(arrived);
         match mode {
             ReadBackMode::Synchronous => {
-                self.schedule.host_waits(self.done, WaitReason::Transfer, given.command);
+                self.schedule.host_waits(self.done, WaitReason::Transfer, command.index);
                 None
             }
             ReadBackMode::Asynchronous => Some(self.fence_for_free()),
@@ -198,8 +202,8 @@ impl Queue {
     }
 
     fn mark_fence(&mut self, fence: Fence) {
-        let given = self.give(self.figures.set_fence_ps, "set fence".into());
-        let taken = self.take(given.ready);
+        let command = self.submit(self.figures.set_fence_ps, "set fence".into());
+        let taken = self.dequeue(command.ready);
         self.fences.set(fence, self.done.or_later(taken)).ok();
     }
 
@@ -209,8 +213,8 @@ impl Queue {
     /// [`FenceError`] for a fence that is not set or not known.
     pub fn test(&mut self, fence: Fence) -> Result<bool, FenceError> {
         let passed = self.fences.passed(fence)?;
-        let given = self.name("test fence".into());
-        self.on_host(SpanKind::Submit, Picoseconds(self.figures.test_fence_ps), &given);
+        let command = self.new_command("test fence".into());
+        self.on_host(SpanKind::Submit, Picoseconds(self.figures.test_fence_ps), &command);
         Ok(passed.time <= self.now())
     }
 
@@ -220,16 +224,16 @@ impl Queue {
     /// [`FenceError`] for a fence that is not set or not known.
     pub fn finish(&mut self, fence: Fence) -> Result<(), FenceError> {
         let passed = self.fences.passed(fence)?;
-        let given = self.name("finish fence".into());
-        self.on_host(SpanKind::Submit, Picoseconds(self.figures.finish_fence_ps), &given);
-        self.schedule.host_waits(passed, WaitReason::Fence, given.command);
+        let command = self.new_command("finish fence".into());
+        self.on_host(SpanKind::Submit, Picoseconds(self.figures.finish_fence_ps), &command);
+        self.schedule.host_waits(passed, WaitReason::Fence, command.index);
         Ok(())
     }
 
     /// Waits on the host until everything is done, as `glFinish` does.
     pub fn finish_all(&mut self) {
-        let given = self.name("finish".into());
-        self.schedule.host_waits(self.done, WaitReason::Finish, given.command);
+        let command = self.new_command("finish".into());
+        self.schedule.host_waits(self.done, WaitReason::Finish, command.index);
     }
 
     /// Returns everything submitted as a timeline.
@@ -237,52 +241,52 @@ impl Queue {
         self.schedule.finish(self.done)
     }
 
-    fn name(&mut self, label: Label) -> Given {
-        let command = self.commands;
+    fn new_command(&mut self, label: Label) -> SubmittedCommand {
+        let index = self.commands;
         self.commands = self.commands.saturating_add(1);
-        Given { ready: self.schedule.free(Unit::Host), label, command }
+        SubmittedCommand { ready: self.schedule.free(Unit::Host), label, index }
     }
 
-    fn on_host(&mut self, kind: SpanKind, duration: Picoseconds, given: &Given) -> Mark {
-        self.schedule.place(Unit::Host, Mark::default(), &[], duration, &given.work(kind)).end
+    fn on_host(&mut self, kind: SpanKind, duration: Picoseconds, command: &SubmittedCommand) -> Mark {
+        self.schedule.place(Unit::Host, Mark::default(), &[], duration, &command.work(kind)).end
     }
 
     /// Submits a command at the given host cost, once the queue has room.
-    fn give(&mut self, cost_ps: u64, label: Label) -> Given {
-        let mut given = self.name(label);
+    fn submit(&mut self, cost_ps: u64, label: Label) -> SubmittedCommand {
+        let mut command = self.new_command(label);
         let room = usize::try_from(self.figures.commands.max(1)).unwrap_or(usize::MAX);
         if self.taken.len() >= room {
             let oldest = self.taken[self.taken.len() - room];
-            self.schedule.host_waits(oldest, WaitReason::QueueFull, given.command);
+            self.schedule.host_waits(oldest, WaitReason::QueueFull, command.index);
             self.taken.drain(..=self.taken.len() - room);
         }
-        given.ready = self.on_host(SpanKind::Submit, Picoseconds(cost_ps), &given);
-        given
+        command.ready = self.on_host(SpanKind::Submit, Picoseconds(cost_ps), &command);
+        command
     }
 
     /// Removes a command from the queue at `moment`, but not before its predecessor.
-    fn take(&mut self, moment: Mark) -> Mark {
+    fn dequeue(&mut self, moment: Mark) -> Mark {
         let taken = moment.or_later(self.taken.back().copied().unwrap_or_default());
         self.taken.push_back(taken);
         taken
     }
 
     /// Executes a command in the front end, which takes it from the queue. Returns start and end.
-    fn front_end(&mut self, given: &Given, duration: Picoseconds, kind: SpanKind) -> (Mark, Mark) {
+    fn front_end(&mut self, command: &SubmittedCommand, duration: Picoseconds, kind: SpanKind) -> (Mark, Mark) {
         let ahead = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX);
         let behind = self.bodies.len().checked_sub(ahead.saturating_add(1)).map_or(Mark::default(), |i| self.bodies[i]);
         let before = self.taken.back().copied().unwrap_or_default();
         let needs = [(before, WaitReason::Order), (behind, WaitReason::Order)];
-        let placed = self.schedule.place(Unit::FrontEnd, given.ready, &needs, duration, &given.work(kind));
-        self.take(placed.start);
+        let placed = self.schedule.place(Unit::FrontEnd, command.ready, &needs, duration, &command.work(kind));
+        self.dequeue(placed.start);
         (placed.start, placed.end)
     }
 
     /// Dependencies of a draw's or clear's first pixel; `filled` is when the pipeline has one.
     fn body_needs(&self, filled: Mark, reads: &[ResourceId], writes: &[ResourceId]) -> [(Mark, WaitReason); 3] {
-        let inputs = reads.iter().map(|resource| self.held(*resource).written);
+        let inputs = reads.iter().map(|resource| self.resource_use(*resource).written);
         let outputs = writes.iter().map(|resource| {
-            let held = self.held(*resource);
+            let held = self.resource_use(*resource);
             held.written.or_later(held.read)
         });
         let hazard = inputs.chain(outputs).fold(Mark::default(), Mark::or_later);
@@ -298,15 +302,15 @@ impl Queue {
         for resource in writes {
             self.resources.entry(*resource).or_default().written = end;
         }
-        let kept = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX).saturating_add(1);
-        if self.bodies.len() >= kept {
+        let capacity = usize::try_from(self.figures.draws_ahead).unwrap_or(usize::MAX).saturating_add(1);
+        if self.bodies.len() >= capacity {
             self.bodies.pop_front();
         }
         self.bodies.push_back(end);
         self.done = self.done.or_later(end);
     }
 
-    fn held(&self, resource: ResourceId) -> ResourceUse {
+    fn resource_use(&self, resource: ResourceId) -> ResourceUse {
         self.resources.get(&resource).copied().unwrap_or_default()
     }
 }

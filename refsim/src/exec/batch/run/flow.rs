@@ -122,6 +122,7 @@ impl<'p> FlowRun<'p> {
             if running {
                 watch.before(at, slots);
                 run_steps(&instruction.block.steps, self.around, self.run, slots);
+                // Swapping rows avoids copying them.
                 for (&root, &to) in instruction.block.roots.iter().zip(&instruction.to) {
                     slots.rows.swap(root.into(), to.into());
                 }

@@ -53,6 +53,7 @@ impl LeveledTexture {
         let sets = LevelSets::of(&picked, run);
         for (level, smaller) in sets.keys(sets.first) {
             let filter = self.choice.filter(smaller);
+            // All lanes use the same level and filter, so the row can be written in place.
             if sets.first.count_ones() == 1 {
                 self.levels[level].add_up(filter, source, step, (slots, simd), &mut rows);
                 continue;

@@ -105,11 +105,13 @@ pub(crate) fn schedule(
         next: first_slot,
         texels: BTreeMap::new(),
     };
+    // Components get their slots together with the texture read.
     for &node in &needed {
         if let NodeKind::Texel(fetch, component) = graph.kind(node) {
             maker.texels.entry(fetch).or_default().push((component, node));
         }
     }
+    // Leaves come first and keep their slots to the end.
     for &node in &needed {
         if !placed.contains_key(&node) {
             maker.leaf(node, &given);

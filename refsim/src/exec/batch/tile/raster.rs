@@ -93,10 +93,12 @@ pub(crate) fn cover(
         out.fill(0);
         return 0;
     }
+    // The whole tile is covered, so no lane needs its edge functions.
     if (inside.width * inside.height) as usize == LANES && setup.covers(inside) {
         out.fill(TRUE);
         return LANES as u64;
     }
+    // Covered means value >= bias: with the bias subtracted only the sign is left to test.
     let edges = setup.edges.map(|e| [e.a, e.b, e.at(origin.0, origin.1) - e.bias]);
     let columns = (inside.x - origin.0, inside.x - origin.0 + inside.width);
     let rows = (inside.y - origin.1, inside.y - origin.1 + inside.height);

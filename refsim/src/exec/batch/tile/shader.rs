@@ -114,6 +114,7 @@ impl TileShader {
         let planes = |i: usize| surfaces.triangles.get(order[i] as usize).map_or(0, |t| t.planes);
         let closed = |used: usize| most == used || (most > used && self.closed_by == Some(shape(used)));
         let same = self.used > 0 && closed(self.used) && (0..self.used).all(|i| self.members[i].shape == shape(i));
+        // The next triangles cover the same lanes as the current part, so coverage and weights stay valid.
         if same {
             for (i, member) in self.members[..self.used].iter_mut().enumerate() {
                 let new = planes(i);
@@ -131,6 +132,7 @@ impl TileShader {
                 break;
             }
         }
+        // A line has no complete quads, hence no helper lanes.
         match self.frame.shape {
             TileShape::Line => self.run = self.covered,
             TileShape::Square | TileShape::Flat => quads(&self.covered, &mut self.run),
@@ -172,6 +174,7 @@ impl TileShader {
             if !setup.depth_constant {
                 member.weights.make(setup, self.frame);
             }
+            // The first member fills all lanes; the others overwrite the lanes that they cover.
             if i == 0 {
                 member.weights.depth(setup, &mut self.depth);
             } else {

@@ -124,6 +124,7 @@ impl<'r> TileShading<'r> {
     ) -> Result<(), Overrun> {
         let Self { around, round, shader, output, survivors, .. } = self;
         round.count(shader.covered_count, counts);
+        // The early test needs the depths left by previous triangles, so only the sink that writes immediately has it.
         let stored = self.early.and_then(|buffer| Some((buffer, sink.stored_depths()?)));
         let tested = stored.is_some();
         if let Some((buffer, stored)) = stored {
@@ -134,6 +135,7 @@ impl<'r> TileShading<'r> {
         }
         match &round.code {
             RoundCode::Straight(_, plan) => {
+                // The invariant block runs again only if its inputs have changed.
                 if shader.fill_inputs(round.surfaces, &round.inputs, around.formats) {
                     round.give_fixed(&mut shader.slots);
                     run_steps(&plan.invariant.steps, around, &shader.run, &mut shader.slots);
@@ -205,6 +207,7 @@ impl<'r> TileShading<'r> {
         if let Some((buffer, stored)) = stored {
             output.test_packed(packed, (around.formats, buffer), stored, counts);
         }
+        // Rejected fragments have freed lanes: waits until more triangles fill them.
         if packed.is_empty() || tested && !last && !packed.is_worth_shading() {
             return Ok(());
         }

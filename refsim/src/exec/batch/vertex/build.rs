@@ -82,6 +82,7 @@ impl Surfaces {
             let range = chunk * CHUNK..((chunk + 1) * CHUNK).min(total);
             shapes((instances, &window, &repeats), range, state, rules)
         };
+        // A single chunk is not worth waking other threads.
         let chunks: Vec<_> = match total.div_ceil(CHUNK) {
             few @ 0..2 => (0..few).map(chunk).collect(),
             many => (0..many).into_par_iter().map(chunk).collect(),
@@ -104,6 +105,8 @@ impl Surfaces {
                     }
                     let shape = numbers[i];
                     let placed = Triangle { shape, planes: planes as u32 };
+                    // `joined` compares with the previous triangle of the instance, which must also be the last one
+                    // emitted.
                     if triangle > 0 && last == Some(index - 1) {
                         out.push_joined(placed, joined[planes]);
                     } else {
@@ -253,6 +256,7 @@ fn shapes(
         outcome
     };
     for i in range {
+        // An instance with the positions of the previous one has the same outcomes.
         let known = outcomes.len().checked_sub(each).filter(|_| repeats[i / each]);
         let outcome = known.map_or_else(|| outcome(i), |before| outcomes[before]);
         outcomes.push(outcome);

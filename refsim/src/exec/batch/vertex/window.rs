@@ -143,6 +143,7 @@ impl WindowSpan {
             let depth = ndc_z * (distant - near) + near;
             let reciprocal = 1.0 / w;
             let arrived = is_finite(window_x) & is_finite(window_y) & is_finite(depth) & is_finite(reciprocal);
+            // Index into `ClipResult::ALL`: 1 lost, 2 outside, 3 not finite.
             flags[i] = u32::from(inside & !arrived) | (u32::from(!inside) << 1) | (u32::from(!finite) * 3);
             to_x[i] = snapped(window_x, grid, far);
             to_y[i] = snapped(window_y, grid, far);

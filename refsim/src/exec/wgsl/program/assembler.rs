@@ -120,6 +120,7 @@ impl Assembler<'_> {
             let mut last = sink.nodes.iter().copied().max();
             match sink.what {
                 SinkKind::Merge(_) | SinkKind::Move(_) | SinkKind::Condition => last = Some(NodeId(u32::MAX)),
+                // Trace records must keep the order of the program.
                 SinkKind::Trace(..) => {
                     last = last.max(traced);
                     traced = last;
