@@ -42,7 +42,7 @@ pub(crate) trait Lane: Copy + Send + Sync {
         self.round_f64(f64::from(x))
     }
 
-    /// Whether [`Lane::is_guarded`] can say yes.
+    /// True if [`Lane::is_guarded`] can say yes.
     const GUARDED: bool = false;
     /// Whether results of this arithmetic are right only where they are finite: another must be asked for the rest.
     #[inline(always)]

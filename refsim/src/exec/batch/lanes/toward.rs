@@ -28,7 +28,7 @@ pub(crate) fn sum<const R: u8>(a: f32, b: f32) -> f32 {
     f32::from_bits(s.to_bits().wrapping_sub(is_above(s.abs(), a, b).into()))
 }
 
-/// Whether `s`, the single nearest to `a + b`, is larger than the sum; so is infinity, if the operands are finite.
+/// Tells if `s`, the single nearest to `a + b`, is larger than the sum, as infinity is where the operands are finite.
 ///
 /// Let `|a| >= |b|`. Then `s - a` is a single, and compares with `b` as `s` does with `a + b`. The other difference may
 /// be rounded, but not past `a`, which is a single: it never says that `s` is larger where it isn't.
@@ -129,8 +129,8 @@ fn tie_away(x: f32, error: f32) -> f32 {
     if error + error == next - x { next } else { x }
 }
 
-/// The sum of the host, and its error (Knuth's two-sum, which needs no order of the operands). The error is NaN if
-/// the sum is infinite, or was rounded up to the largest number.
+/// The sum of the host, and its error (Knuth's two-sum, which needs no order of the operands). The error is NaN if the
+/// sum is infinite; it can be if the sum was rounded outward and the second operand is the largest number.
 #[inline(always)]
 fn sum_and_error(a: f32, b: f32) -> (f32, f32) {
     let s = a + b;
