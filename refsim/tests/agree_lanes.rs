@@ -282,7 +282,7 @@ fn single_floats_agree_at_their_largest_and_smallest() {
     let exponents = [1, 24, 63, 64, 126, 127, 128, 190, 191, 192, 229, 230, 231, 253, 254, 255];
     let magnitudes = exponents.into_iter().flat_map(near).chain([0, 1, 2, 0x7f_ffff, 0x7fc0_0000]);
     let all: Vec<u32> = magnitudes.flat_map(|bits| [bits, bits | 0x8000_0000]).collect();
-    for text in ["fp32:ftz:nvovf:nv", "fp32:nvovf", "fp32:ftz", "fp32:nvovf:rtz"] {
+    for text in ["fp32:ftz:nvovf:nv", "fp32:nvovf", "fp32:ftz", "fp32:nvovf:rtz", "fp32:rtz", "fp32:rdn", "fp32:rna"] {
         let f = layout(text);
         for &a in &all {
             let first = vec![a; all.len()];

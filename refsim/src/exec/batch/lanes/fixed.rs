@@ -171,17 +171,18 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if a == 0 { 0 } else { extreme }
     }
 
-    /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and saturated; anything if `d` is zero.
+    /// `n / d` units for `|n| <= 2^30` and `|d| <= 2^15`, rounded and fitted; anything if `d` is zero.
     ///
     /// A quotient that lies between two numbers with a half lies at least one part in `2^16` away from all of them, and
-    /// the double errs by one in `2^22` at most: it rounds as the quotient does. Clamping first keeps the integer
-    /// small.
+    /// the double errs by one in `2^22` at most: it rounds as the quotient does. What saturates is clamped first; what
+    /// wraps is an integer of at most 31 bits.
     #[inline(always)]
     fn quotient(&self, n: i32, d: i32) -> i32 {
         let exact = f64::from(n) / f64::from(d);
         let (low, high) = (f64::from(self.low) - 1.0, f64::from(self.high) + 1.0);
         let above = if exact > low { exact } else { low };
-        let near = ((if above < high { above } else { high }) + PIVOT).to_bits() as i32;
+        let clamped = if above < high { above } else { high };
+        let near = (if WRAP { exact } else { clamped } + PIVOT).to_bits() as i32;
         // Positive where the exact quotient lies above the integer.
         let rest = (n - near * d) * d.signum();
         let (below, beyond) = (rest >> 31, -rest >> 31);
@@ -307,7 +308,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
 
     #[inline(always)]
     fn div(&self, a: i32, b: i32) -> i32 {
-        if !WIDE && !WRAP {
+        if !WIDE {
             let quotient = self.quotient(a << self.frac, b);
             return if b == 0 { self.by_zero(a) } else { quotient };
         }
@@ -331,7 +332,7 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
 
     #[inline(always)]
     fn rcp(&self, a: i32) -> i32 {
-        if !WIDE && !WRAP {
+        if !WIDE {
             let quotient = self.quotient(1 << (2 * self.frac), a);
             return if a == 0 { self.high } else { quotient };
         }

@@ -2,10 +2,10 @@
 
 use super::lane::Lane;
 use super::odd::SIGN;
-use super::round::{AWAY, DOWN, DoubleRounder, EVEN, SingleRounder, ZERO, rounding_index};
+use super::round::{AWAY, DOWN, DoubleRounder, EVEN, ShortRounder, SingleRounder, ZERO, rounding_index};
 use super::{odd, power, toward};
 use crate::exec::lower::{FloatLayout, pow2};
-use crate::num::{Format, Overflow, Rounding, Specials};
+use crate::num::{Denormals, Format, Overflow, Rounding, Specials};
 
 /// Binary32, in `f32`: nearest even is the host's own rounding.
 pub(crate) const HOST: u8 = 0;
@@ -15,7 +15,8 @@ pub(crate) const HOST: u8 = 0;
 /// (Figueroa 1995, "When is double rounding innocuous?"): 24 >= 2 * 11 + 2. It stays so where the narrow result is
 /// subnormal, because the argument is about the distance between a result and a midpoint of at most `p + 1` bits, and
 /// subnormal midpoints have fewer. The wide result must not be subnormal itself: with six exponent bits and ten
-/// mantissa bits the smallest product is 2^-80. Products are exact.
+/// mantissa bits the smallest product is 2^-80. Products are exact. The other roundings are [`ShortRounder`]'s, for
+/// formats that keep subnormal numbers.
 pub(crate) const SINGLE: u8 = 1;
 /// Nearest even in `f64` by the same argument, `53 >= 2 * 24 + 2`; the other roundings in `f32` (see [`toward`]).
 pub(crate) const DOUBLE: u8 = 2;
@@ -36,6 +37,7 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
     layout: FloatLayout,
     single: SingleRounder,
     double: DoubleRounder,
+    short: ShortRounder,
     /// The magnitude of what `1/0` and `log2 0` give.
     pole: f32,
     nv: bool,
@@ -45,8 +47,10 @@ pub(crate) struct FloatLane<const PATH: u8, const R: u8> {
 /// The path that fits a format with these bits.
 pub(crate) fn path(format: &Format, exp_bits: u8, man_bits: u8) -> u8 {
     match (exp_bits, man_bits) {
+        // The largest number where the rule asks for infinity, and the guard sees nothing.
+        (8, _) if format.overflow == Overflow::Nv30 && format.rounding != Rounding::NearestEven => GENERAL,
         (8, 23) => HOST,
-        (..=6, ..=10) => SINGLE,
+        (..=6, ..=10) if format.rounding == Rounding::NearestEven || format.denormals == Denormals::Keep => SINGLE,
         // Below the smallest normal number these would need a bit more than a single has.
         (_, 23) if format.rounding != Rounding::NearestEven => GENERAL,
         _ => DOUBLE,
@@ -64,11 +68,16 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
             layout: FloatLayout::new(exp_bits, man_bits, format.denormals),
             single: SingleRounder::new(format, exp_bits, man_bits),
             double: DoubleRounder::new(format, exp_bits, man_bits),
+            short: ShortRounder::new(exp_bits, man_bits),
             pole: if format.overflow == Overflow::Saturate { largest } else { f32::INFINITY },
             nv: format.specials == Specials::Nv,
             guarded: match (PATH, R) {
                 (GENERAL, _) | (DOUBLE, EVEN) => false,
                 (_, EVEN) => exp_bits == 8 && bounded,
+                // Rounded to a power of two that is infinite, as the rule has it or not.
+                (SINGLE, AWAY) => bounded,
+                (SINGLE, ZERO) => format.overflow != Overflow::Nv30,
+                (SINGLE, _) => true,
                 // A product just below the power of two that is infinite is rounded to it on its way.
                 (_, DOWN) if format.overflow == Overflow::Nv30 => true,
                 _ => exp_bits == 8,
@@ -87,7 +96,7 @@ impl<const PATH: u8, const R: u8> FloatLane<PATH, R> {
         match (PATH, R) {
             (HOST, _) => self.single.flushed(x),
             (_, EVEN) => self.single.round(EVEN, x),
-            (SINGLE, AWAY | ZERO) => self.single.cut_short(R, x),
+            (SINGLE, _) => self.short.round(R, x),
             _ => self.single.cut(R, x),
         }
     }
@@ -154,14 +163,16 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
         if PATH == HOST { self.single.flushed(x) } else { self.round_f64(f64::from(x)) }
     }
 
+    const GUARDED: bool = !matches!((PATH, R), (GENERAL, _) | (SINGLE | DOUBLE, EVEN));
+
     #[inline(always)]
     fn is_guarded(&self) -> bool {
         self.guarded
     }
 
     fn general(&self) -> Option<GeneralLane> {
-        let Self { rounding, layout, single, double, pole, nv, .. } = *self;
-        Some(FloatLane { rounding, layout, single, double, pole, nv, guarded: false })
+        let Self { rounding, layout, single, double, short, pole, nv, .. } = *self;
+        Some(FloatLane { rounding, layout, single, double, short, pole, nv, guarded: false })
     }
 
     #[inline(always)]
@@ -174,7 +185,7 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             (DOUBLE, EVEN) => self.round_f64(f64::from(a) + f64::from(b)),
             (_, EVEN) => self.narrow(a + b),
             (HOST, AWAY) => self.narrow(toward::nearest_sum(a, b)),
-            (SINGLE, AWAY | ZERO) => self.narrow(toward::short_sum(a, b)),
+            (SINGLE, _) => self.narrow(toward::short_sum::<R>(a, b)),
             _ => self.narrow(toward::sum::<R>(a, b)),
         }
     }

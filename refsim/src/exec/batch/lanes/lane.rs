@@ -42,6 +42,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
         self.round_f64(f64::from(x))
     }
 
+    /// True if [`Lane::is_guarded`] can say yes.
+    const GUARDED: bool = false;
     /// Whether results of this arithmetic are right only where they are finite: another must be asked for the rest.
     #[inline(always)]
     fn is_guarded(&self) -> bool {

@@ -143,28 +143,12 @@ impl SingleRounder {
         1u32.wrapping_shl(self.pivot >> 23).wrapping_sub(1)
     }
 
-    /// As [`Self::cut`], away from zero or toward it, for formats of at most eleven bits.
-    ///
-    /// Adding the smallest normal number to a smaller one gives that one the unit of the format. With eleven bits, or
-    /// twelve where half a unit counts, the sum is exact or the number less than a quarter of a unit.
-    #[inline(always)]
-    pub(crate) fn cut_short(&self, rounding: u8, x: f32) -> f32 {
-        let size = x.to_bits() & !Self::SIGN;
-        let dropped = self.dropped();
-        let (below, half) =
-            if rounding == AWAY { (dropped >> 1, (dropped >> 1).wrapping_add(1)) } else { (dropped, 0) };
-        let kept = f32::from_bits(size & !below);
-        let lowest = f32::from_bits(self.lowest);
-        let raised = if size < self.lowest { lowest } else { 0.0 };
-        let sum = if size < self.lowest { kept + lowest } else { kept };
-        let cut = f32::from_bits(sum.to_bits().wrapping_add(half) & !dropped);
-        self.fit(rounding, x, cut - raised)
-    }
-
-    /// Makes a number that lies below the smallest normal one zero, if the format asks for it.
+    /// Makes a subnormal number of binary32 zero, if the format asks for it.
     #[inline(always)]
     pub(crate) fn flushed(&self, x: f32) -> f32 {
-        if x.abs() < self.flush { f32::from_bits(x.to_bits() & Self::SIGN) } else { x }
+        let kept = if self.flush == 0.0 { u32::MAX } else { Self::SIGN };
+        // No branch: the mask is a constant of the loop, and one bit test decides.
+        if x.to_bits() & Self::EXPONENT == 0 { f32::from_bits(x.to_bits() & kept) } else { x }
     }
 }
 
@@ -176,5 +160,51 @@ impl DoubleRounder {
         let limited = if max < size { max } else { size };
         let fits = if size >= self.infinite[0] { f64::INFINITY } else { limited };
         f64::from_bits(fits.to_bits() | x.to_bits() & Self::SIGN) as f32
+    }
+}
+
+/// How numbers of single precision become numbers of a format of at most eleven bits and six exponent bits, in
+/// roundings other than nearest even; subnormal numbers are kept, and what is too large becomes infinite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ShortRounder {
+    /// Exponent bits of the smallest normal number, and of the power of two that is too large.
+    binades: [u32; 2],
+    /// Less the exponent bits of a binade it is the reciprocal of its unit.
+    per_unit: u32,
+    /// Added to the exponent bits of a binade makes its unit, stretched so that what is too large is so for the host.
+    unit: u32,
+    /// Undoes the stretching.
+    shrink: f32,
+}
+
+impl ShortRounder {
+    /// For a format with these bits.
+    pub(crate) fn new(exp_bits: u8, man_bits: u8) -> Self {
+        const BIAS: u32 = 127;
+        let (m, emax) = (u32::from(man_bits), (1 << (exp_bits - 1)) - 1);
+        Self {
+            binades: [(BIAS + 1).wrapping_sub(emax) << 23, (BIAS + 1 + emax) << 23],
+            per_unit: (2 * BIAS + m) << 23,
+            unit: BIAS.wrapping_sub(emax).wrapping_sub(m) << 23,
+            shrink: pow2(emax.cast_signed() - 127) as f32,
+        }
+    }
+
+    /// Rounds a number that comes from numbers of the format; infinities and NaN pass.
+    ///
+    /// In units of its binade it has eleven bits before the point, where the host rounds to an integer in the way asked
+    /// for. Half a unit is added without an error that matters: numbers of less than a unit come from products, which
+    /// have 22 bits.
+    #[inline(always)]
+    pub(crate) fn round(&self, rounding: u8, x: f32) -> f32 {
+        let [lowest, highest] = self.binades;
+        let binade = (x.to_bits() & 0x7f80_0000).max(lowest).min(highest);
+        let units = x * f32::from_bits(self.per_unit.wrapping_sub(binade));
+        let whole = match rounding {
+            AWAY => (units + 0.5_f32.copysign(units)).trunc(),
+            DOWN => units.floor(),
+            _ => units.trunc(),
+        };
+        whole * f32::from_bits(binade.wrapping_add(self.unit)) * self.shrink
     }
 }

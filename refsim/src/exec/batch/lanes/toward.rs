@@ -2,41 +2,57 @@
 //! moved by one unit where its error has the wrong sign.
 //!
 //! Truncating twice, to 24 bits and then to fewer, is truncating once, and so is rounding down twice; and rounding to
-//! nearest away sees the same halves after a truncation. So these serve every format of up to 24 bits. A finite result
-//! that is too large for single precision is infinite here, in every rounding.
+//! nearest away sees the same halves after a truncation. So these serve every format of up to 24 bits. A finite
+//! result that is too large for single precision is the largest number where it is cut off, and what the host makes of
+//! it where it is rounded to nearest; a reciprocal is infinite.
 
-use super::round::DOWN;
+use super::round::{AWAY, DOWN};
 
 const SIGN: u32 = 1 << 31;
-/// The pattern of -infinity as an integer: negative finite numbers, `-0` among them, lie below.
+/// The pattern of -infinity as an integer: negative finite numbers, `-0` among them, lie below, and every NaN above.
 const INFINITE: i32 = 0xff80_0000_u32.cast_signed();
-/// Products from here on have an error that is a number of single precision.
-const TINY: f32 = f32::from_bits((127 - 100) << 23);
+/// `2^-49`: a product times this is less than the last bit that the exact product can have.
+const HAIR: f32 = f32::from_bits((127 - 49) << 23);
 
 /// `a + b` cut off or, for [`DOWN`], rounded down.
 #[inline(always)]
 pub(crate) fn sum<const R: u8>(a: f32, b: f32) -> f32 {
-    let (s, e) = sum_and_error(a, b);
-    if R != DOWN {
-        // Negative where the sum is too large; one less than `-0`, which is no error, is a positive integer.
-        let inward = e.to_bits() ^ s.to_bits() & SIGN;
-        let too_large = inward.wrapping_sub(1).cast_signed() < INFINITE - 1;
-        return f32::from_bits(s.to_bits().wrapping_sub(too_large.into()));
+    if R == DOWN {
+        // Rounding is symmetric, and `-a - b` is `+0` where it cancels.
+        let s = -(-a - b);
+        return one_lower(s, is_above(s, a, b));
     }
-    let too_large = e.to_bits().wrapping_sub(1).cast_signed() < INFINITE - 1;
-    let lower = one_lower(s, too_large);
-    // What cancels is -0, unless both are +0.
-    if s == 0.0 { f32::from_bits((a.to_bits() | b.to_bits()) & SIGN) } else { lower }
+    let s = a + b;
+    let sign = s.to_bits() & SIGN;
+    let [a, b] = [a, b].map(|x| f32::from_bits(x.to_bits() ^ sign));
+    f32::from_bits(s.to_bits().wrapping_sub(is_above(s.abs(), a, b).into()))
 }
 
-/// `a + b` cut off, of numbers of at most eleven bits: the sum is exact, unless the smaller operand is less than a
-/// quarter of a unit of the larger one and rounds away.
+/// Tells if `s`, the single nearest to `a + b`, is larger than the sum, as infinity is where the operands are finite.
+///
+/// Let `|a| >= |b|`. Then `s - a` is a single, and compares with `b` as `s` does with `a + b`. The other difference may
+/// be rounded, but not past `a`, which is a single: it never says that `s` is larger where it isn't.
 #[inline(always)]
-pub(crate) fn short_sum(a: f32, b: f32) -> f32 {
+fn is_above(s: f32, a: f32, b: f32) -> bool {
+    (s - a > b) | (s - b > a)
+}
+
+/// Singles from which rounding as `R` says to at most eleven bits gives what `a + b` itself gives, for numbers of at
+/// most eleven bits and exponents of at most six.
+///
+/// If the sum `s` of the host is not exact, the smaller operand is less than an eighth of a unit of `s` in the format.
+/// Then `s` and the sum round to the larger operand when rounding to nearest. When cutting off, it matters on which
+/// side of the larger operand the sum lies if `s` is that operand itself, and not otherwise: no other multiple of a
+/// unit is near.
+#[inline(always)]
+pub(crate) fn short_sum<const R: u8>(a: f32, b: f32) -> f32 {
+    if R == DOWN {
+        return sum::<DOWN>(a, b);
+    }
     let s = a + b;
-    // Negative and finite where the signs differ and neither is zero or infinite.
-    let opposite = (a * b).to_bits().wrapping_sub(1).cast_signed() < INFINITE - 1;
-    let too_large = ((s == a) | (s == b)) & opposite;
+    // Both products are the same number if `s` is exact. If `s` is one of the operands the right one is zero, and the
+    // left one negative if the other operand makes the sum smaller than `s`.
+    let too_large = (R != AWAY) & (a * b < (s - a) * (s - b));
     f32::from_bits(s.to_bits().wrapping_sub(too_large.into()))
 }
 
@@ -46,15 +62,14 @@ pub(crate) fn short_sum(a: f32, b: f32) -> f32 {
 /// at least, and no error is `+0`.
 #[inline(always)]
 pub(crate) fn product<const R: u8>(a: f32, b: f32) -> f32 {
-    if R != DOWN {
-        let sign = (a.to_bits() ^ b.to_bits()) & SIGN;
-        let (a, b) = (a.abs(), b.abs());
-        let p = a * b;
-        let too_large = error(a, b, p).to_bits().cast_signed() < INFINITE;
-        return f32::from_bits(p.to_bits().wrapping_sub(too_large.into()) | sign);
-    }
     let p = a * b;
-    one_lower(p, error(a, b, p).to_bits().cast_signed() < INFINITE)
+    if R == DOWN {
+        return one_lower(p, error(a, b, p).to_bits().cast_signed() <= INFINITE);
+    }
+    // Of the magnitudes: `a` with the sign of the product times `b` is positive.
+    let a = f32::from_bits(a.to_bits() ^ p.to_bits() & SIGN);
+    let too_large = error(a, b, p.abs()).to_bits().cast_signed() <= INFINITE;
+    f32::from_bits(p.to_bits().wrapping_sub(too_large.into()))
 }
 
 /// `1 / x` cut off or, for [`DOWN`], rounded down; of zero an infinity of its sign.
@@ -80,22 +95,31 @@ pub(crate) fn nearest_sum(a: f32, b: f32) -> f32 {
     tie_away(s, e)
 }
 
-/// `a b` rounded likewise; NaN where its error is too small for single precision.
+/// `a b` rounded likewise; NaN where the product is too small to be moved.
+///
+/// The product has 48 bits at most. Moved outward by less than the last of them, and by something, ties round away and
+/// nothing else changes: what it is moved by, rounded where it is subnormal, is at most half of its last bit.
 #[inline(always)]
 pub(crate) fn nearest_product(a: f32, b: f32) -> f32 {
-    let p = a * b;
-    let near = tie_away(p, error(a, b, p));
-    if (p.abs() < TINY) & (a != 0.0) & (b != 0.0) { f32::NAN } else { near }
+    let outward = a * b * HAIR;
+    let near = multiply_add(a, b, outward);
+    if (outward == 0.0) & (a != 0.0) & (b != 0.0) { f32::NAN } else { near }
 }
 
 /// `a b - p`, rounded once.
+#[inline(always)]
+fn error(a: f32, b: f32, p: f32) -> f32 {
+    multiply_add(a, b, -p)
+}
+
+/// `a b + c`, rounded once.
 #[inline(always)]
 #[expect(
     clippy::disallowed_methods,
     reason = "fused on every host, in software where need be: its one rounding is wanted"
 )]
-fn error(a: f32, b: f32, p: f32) -> f32 {
-    a.mul_add(b, -p)
+fn multiply_add(a: f32, b: f32, c: f32) -> f32 {
+    a.mul_add(b, c)
 }
 
 /// The next number away from zero if the error is half the way to it; otherwise the number, which is the nearest then.
@@ -105,13 +129,13 @@ fn tie_away(x: f32, error: f32) -> f32 {
     if error + error == next - x { next } else { x }
 }
 
-/// The sum of the host, and its error `(a + b) - s` (Dekker's fast two-sum). An infinite sum of finite numbers leaves
-/// -infinity times its sign, one of infinities NaN.
+/// The sum of the host, and its error (Knuth's two-sum, which needs no order of the operands). The error is NaN if the
+/// sum is infinite; it can be if the sum was rounded outward and the second operand is the largest number.
 #[inline(always)]
 fn sum_and_error(a: f32, b: f32) -> (f32, f32) {
     let s = a + b;
-    let (large, small) = if a.abs() < b.abs() { (b, a) } else { (a, b) };
-    (s, small - (s - large))
+    let part = s - a;
+    (s, (a - (s - part)) + (b - part))
 }
 
 /// The next number toward -infinity, where told.

@@ -2,19 +2,36 @@
 //!
 //! Each row is a separate argument, so that the compiler knows that the result does not alias the operands. Behind a
 //! box or in a slice of rows it can't tell, and doesn't vectorise.
+//!
+//! Loops that write rows also return the largest magnitude of their results, which arithmetics with a guard need: it
+//! costs next to nothing in the same loop, and nothing where it is not read.
 
 use super::slots::Slots;
-use crate::exec::batch::lanes::{LANES, Lane, LaneRow, is_finite};
+use crate::exec::batch::lanes::{LANES, Lane, LaneRow};
 use crate::exec::batch::schedule::LaneOp;
 use crate::exec::lower::TRUE;
 
+/// Largest host bits, without the sign bit, of the results of a loop. For floats it tells whether all are finite.
+pub(crate) type Largest = u32;
+
+/// Stores a result and updates the largest magnitude.
+#[inline(always)]
+fn put<L: Lane>(out: &mut u32, largest: &mut Largest, value: L::T) {
+    *out = L::store(value);
+    *largest = (*largest).max(*out & 0x7fff_ffff);
+}
+
 /// Applies a function of pairs of rows.
 #[inline(always)]
-pub(crate) fn dot<L: Lane, const N: usize>(op: &LaneOp, slots: &mut Slots, f: impl Fn([L::T; N], [L::T; N]) -> L::T) {
+pub(crate) fn dot<L: Lane, const N: usize>(
+    op: &LaneOp,
+    slots: &mut Slots,
+    f: impl Fn([L::T; N], [L::T; N]) -> L::T,
+) -> Largest {
     let Slots { rows, scratch, .. } = slots;
     let a: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k])]);
     let b: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
-    pairs::<L, N>(a, b, scratch, f);
+    pairs::<L, N>(a, b, scratch, f)
 }
 
 #[inline(always)]
@@ -23,14 +40,16 @@ pub(crate) fn pairs<L: Lane, const N: usize>(
     b: [&LaneRow; N],
     out: &mut LaneRow,
     f: impl Fn([L::T; N], [L::T; N]) -> L::T,
-) {
+) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
         let (mut x, mut y) = ([L::load(0); N], [L::load(0); N]);
         for k in 0..N {
             (x[k], y[k]) = (L::load(a[k][i]), L::load(b[k][i]));
         }
-        out[i] = L::store(f(x, y));
+        put::<L>(&mut out[i], &mut largest, f(x, y));
     }
+    largest
 }
 
 /// Applies a function of pairs of a uniform value and a row.
@@ -39,11 +58,11 @@ pub(crate) fn dot_by<L: Lane, const N: usize>(
     op: &LaneOp,
     slots: &mut Slots,
     f: impl Fn([L::T; N], [L::T; N]) -> L::T,
-) {
+) -> Largest {
     let Slots { rows, scratch, values, .. } = slots;
     let a: [L::T; N] = std::array::from_fn(|k| L::load(values[usize::from(op.args[2 * k])]));
     let b: [&LaneRow; N] = std::array::from_fn(|k| &**rows[usize::from(op.args[2 * k + 1])]);
-    pairs_by::<L, N>(a, b, scratch, f);
+    pairs_by::<L, N>(a, b, scratch, f)
 }
 
 #[inline(always)]
@@ -52,28 +71,34 @@ pub(crate) fn pairs_by<L: Lane, const N: usize>(
     b: [&LaneRow; N],
     out: &mut LaneRow,
     f: impl Fn([L::T; N], [L::T; N]) -> L::T,
-) {
+) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
         let mut y = [L::load(0); N];
         for k in 0..N {
             y[k] = L::load(b[k][i]);
         }
-        out[i] = L::store(f(a, y));
+        put::<L>(&mut out[i], &mut largest, f(a, y));
     }
+    largest
 }
 
 #[inline(always)]
-pub(crate) fn one<L: Lane>(a: &LaneRow, out: &mut LaneRow, f: impl Fn(L::T) -> L::T) {
+pub(crate) fn one<L: Lane>(a: &LaneRow, out: &mut LaneRow, f: impl Fn(L::T) -> L::T) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i])));
+        put::<L>(&mut out[i], &mut largest, f(L::load(a[i])));
     }
+    largest
 }
 
 #[inline(always)]
-pub(crate) fn two<L: Lane>(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(L::T, L::T) -> L::T) {
+pub(crate) fn two<L: Lane>(a: &LaneRow, b: &LaneRow, out: &mut LaneRow, f: impl Fn(L::T, L::T) -> L::T) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i]), L::load(b[i])));
+        put::<L>(&mut out[i], &mut largest, f(L::load(a[i]), L::load(b[i])));
     }
+    largest
 }
 
 #[inline(always)]
@@ -83,10 +108,12 @@ pub(crate) fn three<L: Lane>(
     c: &LaneRow,
     out: &mut LaneRow,
     f: impl Fn(L::T, L::T, L::T) -> L::T,
-) {
+) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
-        out[i] = L::store(f(L::load(a[i]), L::load(b[i]), L::load(c[i])));
+        put::<L>(&mut out[i], &mut largest, f(L::load(a[i]), L::load(b[i]), L::load(c[i])));
     }
+    largest
 }
 
 #[inline(always)]
@@ -132,22 +159,21 @@ pub(crate) fn narrow<L: Lane>(lane: &L, a: &[f64; LANES], out: &mut LaneRow) {
     }
 }
 
-/// Returns `true` if no float of a row is infinite or NaN.
+/// Returns the [`Largest`] of a row.
 #[inline(always)]
-pub(crate) fn all_finite(row: &LaneRow) -> bool {
-    let mut largest = 0;
-    for &raw in row {
-        largest = largest.max(raw & 0x7fff_ffff);
-    }
-    is_finite(largest)
+pub(crate) fn largest_of(row: &LaneRow) -> Largest {
+    row.iter().fold(0, |largest, raw| largest.max(raw & 0x7fff_ffff))
 }
 
 /// Differences between lane pairs whose indices differ in `bit`: higher minus lower.
 #[inline(always)]
-pub(crate) fn difference<L: Lane>(lane: &L, a: &LaneRow, out: &mut LaneRow, bit: usize) {
+pub(crate) fn difference<L: Lane>(lane: &L, a: &LaneRow, out: &mut LaneRow, bit: usize) -> Largest {
+    let mut largest = 0;
     for i in 0..LANES {
-        out[i] = L::store(lane.sub(L::load(a[i | bit]), L::load(a[i & !bit])));
+        let value = lane.sub(L::load(a[i | bit]), L::load(a[i & !bit]));
+        put::<L>(&mut out[i], &mut largest, value);
     }
+    largest
 }
 
 /// Converts an integer in a double to an address; NaN gives 0.

@@ -2,11 +2,12 @@
 
 use super::guard;
 use super::loops::{
-    address, all_finite, bitwise, compare, difference, dot, dot_by, narrow, one, or_less, select, three, two, widen,
+    Largest, address, bitwise, compare, difference, dot, dot_by, largest_of, narrow, one, or_less, select, three, two,
+    widen,
 };
 use super::pack::{fraction, join, signed, split, unsigned};
 use super::slots::Slots;
-use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, with_any_lane};
+use crate::exec::batch::lanes::{AnyLane, LANES, Lane, LaneRow, SimdLevel, is_finite, with_any_lane};
 use crate::exec::batch::schedule::{LaneCode, LaneOp};
 use crate::num::NumberOperation as Op;
 
@@ -24,7 +25,7 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
 #[inline(always)]
 fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     for op in ops {
-        match op.code {
+        let largest = match op.code {
             LaneCode::Dot(2) => dot::<L, 2>(
                 op,
                 slots,
@@ -61,14 +62,12 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
                 #[inline(always)]
                 |a, b| lane.sum(a, b),
             ),
-            LaneCode::Difference => {
-                dot::<L, 2>(
-                    op,
-                    slots,
-                    #[inline(always)]
-                    |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
-                );
-            }
+            LaneCode::Difference => dot::<L, 2>(
+                op,
+                slots,
+                #[inline(always)]
+                |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
+            ),
             LaneCode::SumBy(1) => dot_by::<L, 1>(
                 op,
                 slots,
@@ -99,16 +98,21 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
                 continue;
             }
             _ => step(lane, op, slots),
-        }
-        if (op.zero_wins || lane.is_guarded() && op.code.is_guarded()) && !all_finite(&slots.scratch) {
-            guard::mend(lane.general(), op, slots);
+        };
+        if op.zero_wins || lane.is_guarded() && op.code.is_guarded() {
+            // Where there is never a guard the loops don't look for the largest.
+            let largest = if L::GUARDED { largest } else { largest_of(&slots.scratch) };
+            if !is_finite(largest) {
+                guard::mend(lane.general(), op, slots);
+            }
         }
         slots.commit(op.to);
     }
 }
 
+/// An operation of the table, or of neighbours. An operation that is never guarded gives 0.
 #[inline(always)]
-fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
+fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) -> Largest {
     let Slots { rows, scratch, values, wide, .. } = slots;
     let (out, wide): (&mut LaneRow, &[f64; LANES]) = (scratch, wide);
     let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
@@ -137,20 +141,32 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         LaneCode::Plain(Op::Saturate) => one::<L>(a, out, |a| l.saturate(a)),
         LaneCode::Immediate(Op::Scale, shift) => {
             let shift = i32::from(shift);
-            one::<L>(a, out, |a| l.scale(a, shift));
+            one::<L>(a, out, |a| l.scale(a, shift))
         }
         LaneCode::Plain(Op::Factor) => two::<L>(a, b, out, |a, b| l.factor(a, b)),
         LaneCode::Plain(Op::SelectNonNegative) => {
             let zero = L::load(0);
-            three::<L>(a, b, c, out, |a, b, c| if l.le(zero, a) { b } else { c });
+            three::<L>(a, b, c, out, |a, b, c| if l.le(zero, a) { b } else { c })
         }
         LaneCode::Plain(Op::SelectAboveHalf) => three::<L>(a, b, c, out, |a, b, c| if l.above_half(a) { b } else { c }),
+        LaneCode::Neighbors(false) => difference(l, a, out, 1),
+        LaneCode::Neighbors(true) => difference(l, a, out, 16),
+        LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
+        code => {
+            apart(l, code, [a, b, c], wide, out);
+            0
+        }
+    }
+}
+
+/// An operation whose results are no numbers of the format, or are never guarded.
+#[inline(always)]
+fn apart<L: Lane>(l: &L, code: LaneCode, [a, b, c]: [&LaneRow; 3], wide: &[f64; LANES], out: &mut LaneRow) {
+    match code {
         LaneCode::Plain(Op::Less) => compare::<L>(a, b, out, |a, b| l.lt(a, b)),
         LaneCode::Plain(Op::LessEqual) => compare::<L>(a, b, out, |a, b| l.le(a, b)),
         LaneCode::Plain(Op::Equal) => compare::<L>(a, b, out, |a, b| l.eq(a, b)),
         LaneCode::OrLess => or_less(l, a, b, c, out),
-        LaneCode::Neighbors(false) => difference(l, a, out, 1),
-        LaneCode::Neighbors(true) => difference(l, a, out, 16),
         LaneCode::Plain(Op::AddressFloor) => {
             for i in 0..LANES {
                 out[i] = address(l.to_f64(l.floor(L::load(a[i]))).trunc());
@@ -197,9 +213,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) {
         LaneCode::Plain(Op::And) => bitwise(a, b, out, |a, b| a & b),
         LaneCode::Plain(Op::Or) => bitwise(a, b, out, |a, b| a | b),
         LaneCode::Plain(Op::AndNot) => bitwise(a, b, out, |a, b| !a & b),
-        LaneCode::Plain(Op::Sqrt) => one::<L>(a, out, |a| l.sqrt(a)),
         // Executed by the caller, or by separate steps.
-        LaneCode::Dot(_) | LaneCode::Sum(_) | LaneCode::SumBy(_) | LaneCode::Difference | LaneCode::Widen => {}
-        LaneCode::Plain(_) | LaneCode::Immediate(..) => {}
+        _ => {}
     }
 }
