@@ -6,6 +6,7 @@ use refsim::asm::assemble;
 use refsim::check::check;
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
 
 /// What stands before and after the part of a kernel that is repeated.
 const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
@@ -104,6 +105,39 @@ impl KernelText {
     pub fn block(&self, max_instructions: usize) -> usize {
         max_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
     }
+}
+
+/// Refuses a device that does not run all of these languages. `what` is written in them.
+///
+/// # Errors
+/// [`KernelError`] with the cards that run them.
+pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
+    let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));
+    if runs(profile) {
+        return Ok(());
+    }
+    let runs_it = |name: &&str| Profile::named(name).is_ok_and(|profile| runs(&profile));
+    let have: Vec<&str> = Profile::card_names().into_iter().filter(runs_it).collect();
+    let needed: Vec<String> = versions.iter().map(|version| format!("`{version}`")).collect();
+    let problem = format!("it runs no {} programs; expected one of {}", needed.join(" and "), have.join(", "));
+    Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
+}
+
+/// The language of vertex programs that is asked for, else vs_2_0 where the device has it, else vs_1_1.
+///
+/// # Errors
+/// [`KernelError`] if the device does not run it.
+pub fn vertex_version(profile: &Profile, asked: Option<Version>) -> Result<Version, KernelError> {
+    let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
+    let version = asked.unwrap_or(if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 });
+    require_versions(profile, &[version], "the vertex stage")?;
+    Ok(version)
+}
+
+/// Slots of a program's texture reads and of its arithmetic.
+pub(crate) fn slots(program: &CheckedProgram) -> [u32; 2] {
+    let slots = &program.facts().slots;
+    [slots.iter().map(|phase| phase.texture).sum(), slots.iter().map(|phase| phase.arithmetic).sum()]
 }
 
 /// Instructions of a text: lines that end in `;`.

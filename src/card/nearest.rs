@@ -47,14 +47,14 @@ impl NearestTarget {
 
 /// The target of pictures: kept from one to the next while format and size stay.
 #[derive(Debug, Default)]
-pub struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
+pub(super) struct ViewTarget(Option<(NearestTarget, TexelFormat, [u32; 2])>);
 
 impl ViewTarget {
     /// The target for a picture, with a depth buffer of 24 bits: the last one, if that is like it.
     ///
     /// # Errors
     /// As [`NearestTarget::new`].
-    pub fn of(
+    pub(super) fn of(
         &mut self,
         machine: &mut Machine,
         format: TexelFormat,

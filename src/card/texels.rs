@@ -115,6 +115,20 @@ pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) 
     machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
 }
 
+/// A texture of texels in order, each number rounded once into the format.
+///
+/// # Errors
+/// [`MachineError`] if the texels do not fill the extents, or the card does not have the format.
+pub fn new_texture(
+    machine: &mut Machine,
+    (format, kind): (TexelFormat, TextureKind),
+    extents: [u32; 3],
+    texels: impl IntoIterator<Item = [f32; 4]>,
+) -> Result<TextureId, MachineError> {
+    let bits: Vec<[u32; 4]> = texels.into_iter().map(|texel| texel.map(f32::to_bits)).collect();
+    machine.create_texture(Image::from_values(format, kind, extents, Format::FP32, &bits, TargetRounding::Nearest)?)
+}
+
 /// Extents that an image can refuse.
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);

@@ -52,6 +52,11 @@ pub struct Vertices {
 type VertexKey = ([u32; 3], [u64; 3], bool, u32);
 
 impl Vertices {
+    /// Positions and triangles, for [`seen_pixels`](crate::card::seen_pixels).
+    pub fn geometry(&self) -> (&[[f32; 3]], &[[u32; 3]]) {
+        (&self.positions, &self.triangles)
+    }
+
     /// The vertices of a mesh of one material. Normals are those of the mesh; where it has none, the mean over the
     /// triangles at the same position, weighted by area.
     ///

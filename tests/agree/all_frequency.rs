@@ -9,7 +9,7 @@ use crossbar::all_frequency::on_card::{
     FactoredCard, ProductOptions, ProductPlace, RadianceFormat, SumCard, TransferredMesh, VertexColors, ViewMaker,
 };
 use crossbar::all_frequency::shade::TransferredRadiance;
-use crossbar::cpca::on_card::PrtView;
+use crossbar::card::MeshView;
 use crossbar::scene::Camera;
 use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
 use crossbar::transfer::{Tangents, Vertices};
@@ -54,7 +54,7 @@ impl Hills {
             let profile = Profile::named(device).expect("a device");
             let mut card = FactoredCard::new(profile, how, mesh, place).unwrap_or_else(|e| panic!("{what}: {e}"));
             let seen = cameras.map(|camera| {
-                let view = PrtView { camera, exposure: 0.8, format };
+                let view = MeshView { camera, exposure: 0.8, format };
                 let picture = card.view_texels(&view).unwrap_or_else(|e| panic!("{what}: {e}"));
                 let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value != 0.0)).count();
                 assert!(lit > 20, "{what}: {lit} pixels with light");

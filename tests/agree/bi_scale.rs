@@ -7,7 +7,7 @@ use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crossbar::bi_scale::on_card::{BiScaleCard, DisplayOptions, GatherCard, LightFormat, LocalFormat, TexturedMesh};
 use crossbar::bi_scale::product::Gather;
 use crossbar::bi_scale::texture::BidirectionalTexture;
-use crossbar::cpca::on_card::PrtView;
+use crossbar::card::MeshView;
 use crossbar::geom::random::CounterRng;
 use crossbar::scene::Camera;
 use crossbar::transfer::synthetic::hills;
@@ -108,7 +108,7 @@ fn pictures_are_the_same_everywhere() {
             let profile = Profile::named(device).expect("a device");
             let mut card = BiScaleCard::new(profile, how, mesh, options).unwrap_or_else(|e| panic!("{what}: {e}"));
             let seen = cameras.map(|camera| {
-                let view = PrtView { camera, exposure: 0.8, format };
+                let view = MeshView { camera, exposure: 0.8, format };
                 let picture = card.view_texels(&local, &view).unwrap_or_else(|e| panic!("{what}: {e}"));
                 let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 0.0)).count();
                 assert!(lit > 20, "{what}: {lit} pixels with light");

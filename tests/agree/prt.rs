@@ -1,7 +1,8 @@
 //! Compressed transfer: pictures of every kind of card on every executor. That the vertex programs give the host's sums
 //! is proved beside them.
 
-use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView};
+use crossbar::card::MeshView;
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
@@ -47,7 +48,7 @@ fn agrees(hills: &Hills, device: &str, format: TexelFormat, options: &PrtCardOpt
         let profile = Profile::named(device).expect("a device");
         let mut card = PrtCard::new(profile, how, transfer, options).unwrap_or_else(|e| panic!("{what}: {e}"));
         let seen = cameras.map(|camera| {
-            let view = PrtView { camera, exposure: 0.8, format };
+            let view = MeshView { camera, exposure: 0.8, format };
             let picture = card.view_texels(&light, &view).unwrap_or_else(|e| panic!("{what}: {e}"));
             let lit = picture.texels.iter().filter(|texel| texel[..3].iter().any(|&value| value > 0.0)).count();
             assert!(lit > 20, "{what}: {lit} pixels with light");

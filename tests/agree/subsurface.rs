@@ -1,7 +1,7 @@
 //! The three passes of system 3: the same bits by every executor, and pass 2 as the host's loop has it.
 
 use crossbar::atlas::Atlas;
-use crossbar::card::Texels;
+use crossbar::card::{MeshView, Texels};
 use crossbar::geom::Mesh;
 use crossbar::scene::Camera;
 use crossbar::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, ViewKernel};
@@ -68,8 +68,8 @@ fn lights() -> Vec<Light> {
 
 fn view(kernel: ViewKernel, format: TexelFormat) -> View {
     let camera = Camera::new([2.5, -3.0, 1.5], [0.0; 3], [0.0, 0.0, 1.0], 0.4, 33, 27).expect("a camera");
-    let scattered = View::scattered(camera);
-    View { kernel, exposure: 1.5, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, format, ..scattered }
+    let scattered = View::scattered(MeshView { camera, exposure: 1.5, format });
+    View { kernel, diffuse: [0.5, 0.4, 0.3], specular: [0.2; 3], shininess: 12.0, ..scattered }
 }
 
 /// Maps and pictures of a card on every executor, against the scalar one's; pass 2 against the host's loop. In the

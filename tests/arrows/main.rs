@@ -50,7 +50,7 @@ const CROSSBAR: Law = (
         ("tracer", &["geom"]),
         ("scene", &["elementary", "geom", "linalg"]),
         ("io", &["names", "picture", "geom", "scene", "linalg"]),
-        ("card", &[]),
+        ("card", &["geom", "scene"]),
         ("atlas", &["elementary", "geom"]),
         ("report", &["elementary", "picture"]),
         ("shader", &["io", "report"]),
@@ -78,7 +78,7 @@ const CROSSBAR: Law = (
             ],
         ),
         (
-            "transfer",
+            "prt",
             &[
                 "card",
                 "tracer",
@@ -88,31 +88,11 @@ const CROSSBAR: Law = (
                 "picture",
                 "sphere",
                 "geom",
+                "atlas",
                 "scene",
                 "linalg",
                 "io",
             ],
-        ),
-        (
-            "cpca",
-            &[
-                "transfer",
-                "card",
-                "tracer",
-                "elementary",
-                "quadrature",
-                "picture",
-                "sphere",
-                "geom",
-                "scene",
-                "linalg",
-                "io",
-            ],
-        ),
-        ("all_frequency", &["transfer", "card", "elementary", "picture", "sphere", "geom", "scene", "linalg", "io"]),
-        (
-            "bi_scale",
-            &["transfer", "card", "tracer", "elementary", "picture", "sphere", "geom", "scene", "linalg", "io"],
         ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "fresnel", "picture", "geom", "scene", "linalg"]),
@@ -123,10 +103,7 @@ const CROSSBAR: Law = (
                 "ray_engine",
                 "radiosity",
                 "subsurface",
-                "transfer",
-                "cpca",
-                "all_frequency",
-                "bi_scale",
+                "prt",
                 "sphere",
                 "atlas",
                 "renderer",
@@ -149,10 +126,7 @@ const CROSSBAR: Law = (
                 "ray_engine",
                 "radiosity",
                 "subsurface",
-                "transfer",
-                "cpca",
-                "all_frequency",
-                "bi_scale",
+                "prt",
                 "sphere",
                 "atlas",
                 "renderer",
@@ -196,22 +170,8 @@ const BATCH: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] = &[
-    "card",
-    "tracer",
-    "case",
-    "compare",
-    "shader",
-    "radiosity",
-    "subsurface",
-    "transfer",
-    "cpca",
-    "all_frequency",
-    "bi_scale",
-    "ray_engine",
-    "study",
-    "cli",
-];
+const SPEAKS_REFSIM: &[&str] =
+    &["card", "tracer", "case", "compare", "shader", "radiosity", "subsurface", "prt", "ray_engine", "study", "cli"];
 
 /// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
 /// where the rooms have files in common, may name no room at all.

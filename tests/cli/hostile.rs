@@ -153,7 +153,7 @@ fn hostile_values() {
     // In the short form each option gets a third of the values, another third than its neighbours.
     let full = std::env::var_os("CROSSBAR_FULL").is_some();
     for (number, (base, option)) in all_options().into_iter().enumerate() {
-        let base = || base.iter().map(OsString::from).chain([OsString::from(option)]);
+        let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
         let (first, step) = if full { (0, 1) } else { (number % 3, 3) };
         runs.extend(
             HOSTILE

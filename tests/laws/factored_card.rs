@@ -9,11 +9,11 @@ use crossbar::all_frequency::kernels::ViewNumbers;
 use crossbar::all_frequency::on_card::reference::pixel_of_products;
 use crossbar::all_frequency::on_card::time::{FactoredFrame, TABLE_1, host_of_table_1, streamed_bytes};
 use crossbar::all_frequency::on_card::{
-    FactoredCard, ProductOptions, ProductPlace, SumCard, TransferredMesh, VertexColors, seen_pixels,
+    FactoredCard, ProductOptions, ProductPlace, SumCard, TransferredMesh, VertexColors,
 };
 use crossbar::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
-use crossbar::cpca::on_card::PrtView;
-use crossbar::cpca::on_card::time::frame_time;
+use crossbar::card::frame_time::frame_time;
+use crossbar::card::{MeshView, seen_pixels};
 use crossbar::scene::Camera;
 use crossbar::study::prt::{factored_precision, factored_precision_table};
 use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
@@ -62,7 +62,7 @@ impl Hills {
 fn pixels_show_what_their_rays_meet() {
     let hills = Hills::new();
     let profile = Profile::named("ideal-fp32").expect("a device");
-    let seen = seen_pixels(&profile, &hills.vertices, &camera()).expect("pixels");
+    let seen = seen_pixels(&profile, hills.vertices.geometry(), &camera()).expect("pixels");
     let eye = DVec3::from(camera().eye().map(f64::from));
     let mut worst = 0.0_f64;
     for (number, seen) in (0..).zip(&seen) {
@@ -85,7 +85,8 @@ fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
     let executor = Executor::from(ExecutorKind::Batch);
     let ways = factored_precision(hills.mesh(), &executor, (camera(), 2.5), &mut |_| ()).expect("pictures");
-    let seen = seen_pixels(&Profile::named("r350").expect("a card"), &hills.vertices, &camera()).expect("pixels");
+    let seen =
+        seen_pixels(&Profile::named("r350").expect("a card"), hills.vertices.geometry(), &camera()).expect("pixels");
     let brightest = seen.iter().flatten().flat_map(|seen| {
         let view = (ViewNumbers::Coordinates, camera().eye());
         pixel_of_products(&hills.mesh(), view, seen.corners, seen.weights).map(|value| 2.5 * value)
@@ -140,7 +141,7 @@ fn a_frame_is_counted_and_timed() {
     ] {
         assert_eq!(streamed_bytes(&place, 10), bytes);
         let mut card = FactoredCard::new(r350.clone(), ExecutorKind::Batch, hills.mesh(), place).expect("a card");
-        let view = PrtView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let view = MeshView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
         let (texels, _, log) = card.logged_view(&view, steps).expect("a frame");
         assert!(texels.texels == card.view_texels(&view).expect("a frame").texels);
         let time = frame_time(&r350, &log, &host).expect("a time");

@@ -13,6 +13,7 @@ mod engine;
 mod engine_devices;
 mod engine_modes;
 mod factored_card;
+mod front_faces;
 mod geometry;
 mod gltf;
 mod ground_truth;

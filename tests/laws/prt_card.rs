@@ -1,11 +1,12 @@
 //! Compressed transfer drawn on a card against an image that the host interpolates in f64, ray by ray.
 
 use approx::assert_relative_eq;
-use crossbar::card::Texels;
+use crossbar::card::frame_time::frame_time;
+use crossbar::card::{MeshView, Texels};
 use crossbar::cpca::on_card::estimate::FrameCounts;
 use crossbar::cpca::on_card::model::TransferSize;
-use crossbar::cpca::on_card::time::{frame_time, host_of_section_7};
-use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, PrtView, WeightFormat};
+use crossbar::cpca::on_card::time::host_of_section_7;
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions, WeightFormat};
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::transfer::brdf::ExitBasis;
@@ -50,7 +51,7 @@ impl Hills {
         let vectors = self.clustering.subspaces().iter().map(|s| s.len()).max().expect("a cluster");
         let profile = Profile::named(device).expect("a device");
         let mut card = PrtCard::new(profile, ExecutorKind::Batch, self.transfer(vectors), options).expect("a card");
-        let view = PrtView { camera: camera(), exposure: 0.5, format };
+        let view = MeshView { camera: camera(), exposure: 0.5, format };
         card.view_texels(&self.light, &view).expect("a picture")
     }
 
@@ -184,7 +185,7 @@ fn a_frame_is_counted_and_timed() {
         let options = PrtCardOptions::default();
         let transfer = hills.transfer(vectors);
         let mut card = PrtCard::new(r300.clone(), ExecutorKind::Batch, transfer, &options).expect("a card");
-        let view = PrtView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
+        let view = MeshView { camera: camera(), exposure: 0.5, format: TexelFormat::Bgra8 };
         let (texels, log) = card.logged_view(&hills.light, &view).expect("a frame");
         assert!(texels.texels == card.view_texels(&hills.light, &view).expect("a frame").texels);
         let time = frame_time(&r300, &log, &host).expect("a time");

@@ -1,5 +1,5 @@
-//! The programs that draw all-frequency transfer (section 6, "Per-Vertex Computation", last paragraph): files where a
-//! program is one text, and text written here where the number of terms decides.
+//! The programs that draw all-frequency transfer (section 6, "Per-Vertex Computation", last paragraph), beside those of
+//! [`crate::card::kernels`]: text written here, as the number of terms decides.
 
 mod layout;
 mod product;
@@ -8,22 +8,14 @@ mod vertex;
 
 use refsim::isa::Version;
 
-use crate::card::kernels;
 pub use layout::{SetLayout, ViewNumbers};
 pub use product::{MapFilter, ProductKernel};
 pub use sum::{OF_REPRESENTATIVES, OF_SUM, SUMMED, SumKernel};
 pub use vertex::{LEAST_DENOMINATOR, TransferredVertexKernel};
 
-kernels! {
-    /// Every file of this folder.
-    FILES:
-    COLOR "color.vsa"
-    FLOAT_COLOR "float_color.vsa"
-}
-
-/// Every program that there is, by name: files, and those written here for a few numbers of terms.
+/// Programs for a few numbers of terms, by name.
 pub fn programs() -> Vec<(String, String)> {
-    let mut all: Vec<_> = FILES.iter().map(|file| (file.name.to_owned(), file.text.to_owned())).collect();
+    let mut all = Vec::new();
     let (two, three) = (ViewNumbers::Coordinates, ViewNumbers::Vector);
     for (terms, channels, view) in
         [(10, 3, two), (4, 3, two), (3, 3, two), (9, 3, three), (10, 1, three), (7, 1, two), (1, 1, three)]
@@ -64,7 +56,6 @@ mod tests {
                 crate::card::checked(&profile, name, &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
             }
         }
-        COLOR.checked(&device("nv20")).unwrap_or_else(|e| panic!("{e}"));
     }
 
     /// Within two levels of reads, and with room to spare.

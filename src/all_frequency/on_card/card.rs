@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use refsim::device::Profile;
 use refsim::event::Event;
-use refsim::machine::{DrawCall, Executor, Machine, VertexSource};
-use refsim::output::{CompareFunction, DepthState, WriteMask};
-use refsim::raster::Primitive;
+use refsim::machine::{Executor, Machine};
+use refsim::output::WriteMask;
 use refsim::texture::{SamplerState, TexelFormat};
 
 use super::counts::FactoredCounts;
@@ -20,10 +19,8 @@ use super::time;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::MapFilter;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::{Attribute, BILINEAR, NearestTarget, Texels, ViewTarget, attribute, constants, vertex_streams};
-use crate::cpca::on_card::{PrtView, positions};
+use crate::card::{Attribute, BILINEAR, KeptFragments, MeshDraw, MeshOnCard, MeshView, Texels, attribute, slots};
 use crate::geom::UnitFrame;
-use crate::geom::vector::wide;
 
 /// The write masks of passes of one channel; alpha marks what is covered.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
@@ -32,16 +29,14 @@ const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
 #[derive(Debug)]
 pub struct FactoredCard<'a> {
     machine: Machine,
-    mesh: TransferredMesh<'a>,
+    transferred: TransferredMesh<'a>,
     place: ProductPlace,
-    frame: UnitFrame,
-    positions: Attribute,
+    mesh: MeshOnCard,
     /// Tangents and normals, where the vertex program makes the view.
     axes: Vec<Attribute>,
     indices: Vec<u32>,
     programs: Programs,
     maps: Option<FactorMaps>,
-    target: ViewTarget,
 }
 
 /// What a frame sends, pass by pass.
@@ -73,7 +68,6 @@ impl<'a> FactoredCard<'a> {
             }
             _ => None,
         };
-        let frame = UnitFrame::new(mesh.vertices.positions().iter().copied().map(wide));
         let frames = || mesh.vertices.frames().iter();
         let axes = if programs.makes_view() {
             let tangents = frames().map(|frame| attribute(frame.tangent().to_array(), 0.0)).collect();
@@ -83,15 +77,13 @@ impl<'a> FactoredCard<'a> {
         };
         Ok(Self {
             machine,
-            mesh,
+            transferred: mesh,
             place,
-            positions: positions(mesh.vertices, &frame),
-            frame,
+            mesh: MeshOnCard::new(mesh.vertices.positions().iter().copied()),
             axes,
             indices: mesh.vertices.triangles().as_flattened().to_vec(),
             programs,
             maps,
-            target: ViewTarget::default(),
         })
     }
 
@@ -102,8 +94,7 @@ impl<'a> FactoredCard<'a> {
 
     /// Texture reads and arithmetic slots of the pixel program.
     pub(super) fn pixel_slots(&self) -> [u32; 2] {
-        let slots = &self.programs.pixel.facts().slots;
-        [slots.iter().map(|phase| phase.texture).sum(), slots.iter().map(|phase| phase.arithmetic).sum()]
+        slots(&self.programs.pixel)
     }
 
     /// A frame as the target holds it. Pixels that show nothing are 0, alpha is 1 elsewhere.
@@ -111,10 +102,8 @@ impl<'a> FactoredCard<'a> {
     /// # Errors
     /// [`FactoredCardError`] for an exposure out of range, radiance that its format does not hold, and draws that the
     /// card refuses.
-    pub fn view_texels(&mut self, view: &PrtView) -> Result<Texels, FactoredCardError> {
-        let streams = self.streams(view)?;
-        let target = self.draw(view, &streams)?;
-        Ok(Texels::read_back(&self.machine, target.color)?)
+    pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, FactoredCardError> {
+        Ok(self.show((view, false))?.0)
     }
 
     /// The same, with what the frame asks of host and card, for [`time`]: steps 2 and 3 multiply what `host` says.
@@ -123,81 +112,40 @@ impl<'a> FactoredCard<'a> {
     /// As [`Self::view_texels`].
     pub fn logged_view(
         &mut self,
-        view: &PrtView,
+        view: &MeshView,
         host: Multiplies,
     ) -> Result<(Texels, FactoredCounts, Vec<Event>), FactoredCardError> {
-        let streams = self.streams(view)?;
-        let mut log = time::host_log(&self.mesh, &self.place, host);
-        self.machine.record(true);
-        let drawn = self.draw(view, &streams);
-        self.machine.record(false);
-        log.extend(self.machine.take_log());
-        Ok((Texels::read_back(&self.machine, drawn?.color)?, streams.counts, log))
+        let (texels, counts, drawn) = self.show((view, true))?;
+        let mut log = time::host_log(&self.transferred, &self.place, host);
+        log.extend(drawn);
+        Ok((texels, counts, log))
     }
 
-    /// What the host sends.
-    fn streams(&self, view: &PrtView) -> Result<FrameStreams, FactoredCardError> {
-        let found = view.exposure;
-        if !(0.0..=1e30).contains(&found) {
-            return Err(FactoredCardError::Figure { what: "an exposure of 0 to 1e30", found });
-        }
-        if let (ProductPlace::Pixels(options), Some(maps)) = (&self.place, &self.maps) {
-            let stream = RadianceStream { mesh: self.mesh, options, scales: &maps.scales, frame: &self.frame };
-            let passes = if options.is_pass_per_channel { 3 } else { 1 };
-            let sets = |pass| stream.sets(&view.camera, view.exposure, pass);
-            let passes = (0..passes).map(sets).collect::<Result<_, _>>()?;
-            return Ok(FrameStreams { passes, counts: FactoredCounts::default() });
-        }
-        let stream = match self.place {
-            ProductPlace::Vertices(format) => ColorStream::new(&self.mesh, (&view.camera, view.exposure), format)?,
-            ProductPlace::Pixels(_) => ColorStream::diffuse(&self.mesh, view.exposure)?,
-        };
-        let ColorStream { colors, below_zero, above_one } = stream;
-        let counts = FactoredCounts {
-            vertices_below_zero: Some(below_zero),
-            vertices_above_one: Some(above_one),
-            ..FactoredCounts::default()
-        };
-        Ok(FrameStreams { passes: vec![vec![colors]], counts })
-    }
-
-    fn draw(&mut self, view: &PrtView, streams: &FrameStreams) -> Result<NearestTarget, FactoredCardError> {
-        let size = [view.camera.width(), view.camera.height()];
-        let target = self.target.of(&mut self.machine, view.format, size)?;
-        target.clear(&mut self.machine)?;
-        let mut head = view.camera.clip_rows(&self.frame).to_vec();
-        let [x, y, z] = self.frame.of_scene(wide(view.camera.eye())).to_array().map(|value| value as f32);
-        head.push([x, y, z, 1.0]);
-        head.truncate(if self.programs.makes_view() { 5 } else { 4 });
-        let (vertex_constants, pixel_constants) = (constants(head), constants([]));
-        for (pass, sets) in streams.passes.iter().enumerate() {
-            let attributes = std::iter::once(&self.positions).chain(sets).chain(&self.axes);
-            let source = VertexSource::Program {
-                program: &self.programs.vertex,
-                constants: &vertex_constants,
-                streams: vertex_streams(attributes),
-            };
-            let pixel = &self.programs.pixel;
-            let mut call = DrawCall::new(source, Primitive::TriangleList, pixel, &pixel_constants, target.color);
-            target.keep_nearest(&mut call);
-            if pass > 0 {
-                call.depth = DepthState { test: Some(CompareFunction::Equal), write: false };
+    fn show(&mut self, view: (&MeshView, bool)) -> Result<(Texels, FactoredCounts, Vec<Event>), FactoredCardError> {
+        let frame = *self.mesh.frame();
+        let Self { transferred, place, axes, programs, maps, .. } = self;
+        let sampler = sampler(&programs.drawing);
+        let textures: Vec<_> = maps.iter().flat_map(|maps| &maps.textures).map(|&texture| (texture, sampler)).collect();
+        let mut counts = FactoredCounts::default();
+        let (texels, log) = self.mesh.show(&mut self.machine, view, |pass| {
+            let streams = streams((transferred, place, maps.as_ref()), view.0, &frame)?;
+            counts = streams.counts;
+            let mut head = pass.head();
+            head.truncate(if programs.makes_view() { 5 } else { 4 });
+            for (number, sets) in streams.passes.iter().enumerate() {
+                pass.draw(MeshDraw {
+                    vertex: (&programs.vertex, head.clone()),
+                    attributes: [pass.positions()].into_iter().chain(sets).chain(axes.iter()).collect(),
+                    indices: Some(&self.indices),
+                    pixel: (&programs.pixel, Vec::new()),
+                    textures: textures.clone(),
+                    fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
+                    mask: if streams.passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
+                })?;
             }
-            call.indices = Some(&self.indices);
-            call.masks[0] = if streams.passes.len() == 1 { WriteMask::ALL } else { CHANNELS[pass] };
-            for (sampler, &texture) in self.maps.iter().flat_map(|maps| &maps.textures).enumerate() {
-                call = call.with_texture(sampler, texture, self.sampler());
-            }
-            self.machine.draw(&call)?;
-        }
-        Ok(target)
-    }
-
-    fn sampler(&self) -> SamplerState {
-        match &self.programs.drawing {
-            Drawing::Products(kernel) if kernel.filter == MapFilter::Program => SamplerState::NEAREST_CLAMP,
-            _ => BILINEAR,
-        }
+            Ok::<_, FactoredCardError>(())
+        })?;
+        Ok((texels, counts, log))
     }
 
     /// A target of floats that the device has, to see what others clamp.
@@ -206,5 +154,38 @@ impl<'a> FactoredCard<'a> {
             self.machine.profile().limits.target_formats.iter().any(|name| name == format.name())
         };
         [TexelFormat::Rgba32f, TexelFormat::Rgba16f].into_iter().find(has)
+    }
+}
+
+/// What the host sends for a view.
+fn streams(
+    (mesh, place, maps): (&TransferredMesh<'_>, &ProductPlace, Option<&FactorMaps>),
+    view: &MeshView,
+    frame: &UnitFrame,
+) -> Result<FrameStreams, FactoredCardError> {
+    if let (ProductPlace::Pixels(options), Some(maps)) = (place, maps) {
+        let stream = RadianceStream { mesh: *mesh, options, scales: &maps.scales, frame };
+        let passes = if options.is_pass_per_channel { 3 } else { 1 };
+        let sets = |pass| stream.sets(&view.camera, view.exposure, pass);
+        let passes = (0..passes).map(sets).collect::<Result<_, _>>()?;
+        return Ok(FrameStreams { passes, counts: FactoredCounts::default() });
+    }
+    let stream = match *place {
+        ProductPlace::Vertices(format) => ColorStream::new(mesh, (&view.camera, view.exposure), format)?,
+        ProductPlace::Pixels(_) => ColorStream::diffuse(mesh, view.exposure)?,
+    };
+    let ColorStream { colors, below_zero, above_one } = stream;
+    let counts = FactoredCounts {
+        vertices_below_zero: Some(below_zero),
+        vertices_above_one: Some(above_one),
+        ..FactoredCounts::default()
+    };
+    Ok(FrameStreams { passes: vec![vec![colors]], counts })
+}
+
+fn sampler(drawing: &Drawing) -> SamplerState {
+    match drawing {
+        Drawing::Products(kernel) if kernel.filter == MapFilter::Program => SamplerState::NEAREST_CLAMP,
+        _ => BILINEAR,
     }
 }

@@ -1,12 +1,10 @@
 //! Errors of drawing all-frequency transfer on a card.
 
-use refsim::device::DeviceError;
 use refsim::machine::MachineError;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
-use crate::card::KernelError;
-use crate::cpca::on_card::PrtCardError;
+use crate::card::{KernelError, MeshError};
 
 /// Why a card does not draw all-frequency transfer. Vertices count from 0.
 #[derive(Debug, Error)]
@@ -46,22 +44,13 @@ pub enum FactoredCardError {
     /// Two terms in a texel, and a program that filters.
     #[error("maps of two terms per texel are filtered by the sampler alone, found {found} filtered by the program")]
     TwoTerms { found: TexelFormat },
-    /// A size that differs from what the mesh says.
-    #[error("expected {expected} {what}, found {found}")]
-    Size { what: &'static str, expected: usize, found: usize },
-    /// A figure out of its range.
-    #[error("expected {what}, found {found}")]
-    Figure { what: &'static str, found: f64 },
-    /// The device has no programs of a version.
+    /// A size or a figure that does not fit, or a draw that the card refuses.
     #[error(transparent)]
-    Version(#[from] PrtCardError),
-    /// The device refuses a program.
+    Mesh(#[from] MeshError),
+    /// The device does not run a language, or refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
     /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// A device is not known, or lacks a switch.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
 }

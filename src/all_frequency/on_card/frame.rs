@@ -12,8 +12,7 @@ use super::error::FactoredCardError;
 use super::options::ProductPlace;
 use super::subject::TransferredMesh;
 use crate::all_frequency::shade::Multiplies;
-use crate::card::Texels;
-use crate::cpca::on_card::PrtView;
+use crate::card::{MeshView, Texels};
 
 /// A picture, and what it took.
 #[derive(Clone, Debug)]
@@ -26,7 +25,7 @@ pub struct FactoredDrawing {
     pub counts: FactoredCounts,
     /// Texture reads and arithmetic slots of the pixel program.
     pub pixel_slots: [u32; 2],
-    /// What the frame asks of host and card, for [`crate::cpca::on_card::time::frame_time`].
+    /// What the frame asks of host and card, for [`frame_time`](crate::card::frame_time::frame_time).
     pub log: Vec<Event>,
 }
 
@@ -38,14 +37,14 @@ pub fn draw(
     mesh: TransferredMesh<'_>,
     (profile, executor): (impl Into<Arc<Profile>>, impl Into<Executor>),
     place: ProductPlace,
-    view: &PrtView,
+    view: &MeshView,
     host: Multiplies,
 ) -> Result<FactoredDrawing, FactoredCardError> {
     let mut card = FactoredCard::new(profile, executor, mesh, place)?;
     let (texels, mut counts, log) = card.logged_view(view, host)?;
     let signed = match card.float_target() {
         Some(format) if format == view.format => Some(texels.clone()),
-        Some(format) => Some(card.view_texels(&PrtView { format, ..*view })?),
+        Some(format) => Some(card.view_texels(&MeshView { format, ..*view })?),
         None => None,
     };
     if let Some(signed) = &signed {

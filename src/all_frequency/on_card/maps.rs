@@ -1,10 +1,11 @@
 //! G in parabolic maps.
 
 use refsim::machine::{Machine, MachineError, TextureId};
+use refsim::texture::TextureKind;
 
 use super::options::ProductOptions;
 use crate::all_frequency::factor::ProductFactors;
-use crate::cpca::on_card::map_texture;
+use crate::card::new_texture;
 
 /// Maps of G as textures.
 #[derive(Clone, Debug)]
@@ -46,7 +47,12 @@ impl FactorMaps {
                 // Exchanged, as the program joins it with the one before.
                 _ => [value(texel, first + 1), value(texel, first), 0.0, 0.0],
             });
-            map_texture(machine, (map, options.map_format), texels)
+            new_texture(
+                machine,
+                (options.map_format, TextureKind::D2),
+                [map.side() as u32, map.side() as u32, 1],
+                texels,
+            )
         };
         let textures = (0..terms).step_by(per_texel).enumerate().map(texture).collect::<Result<_, _>>()?;
         Ok(Self { textures, scales })

@@ -13,7 +13,6 @@ mod maps;
 mod options;
 mod programs;
 pub mod reference;
-mod seen;
 mod streams;
 mod subject;
 mod sums;
@@ -24,7 +23,6 @@ pub use counts::FactoredCounts;
 pub use error::FactoredCardError;
 pub use frame::{FactoredDrawing, draw};
 pub use options::{ProductOptions, ProductPlace, RadianceFormat, VertexColors, ViewMaker};
-pub use seen::{SeenPixel, seen_pixels};
 pub use subject::TransferredMesh;
 pub use sums::{SumCard, SumLog};
 

@@ -6,7 +6,7 @@ use refsim::texture::{ChannelClass, TexelFormat};
 
 use super::error::FactoredCardError;
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
-use crate::cpca::on_card::PrtCardError;
+use crate::card::{MeshError, require_versions};
 
 /// Where step 4, G(v) . T_p, is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,9 +117,9 @@ impl ProductOptions {
 
     /// Refuses what a device has no room for.
     pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), FactoredCardError> {
-        PrtCardError::check_version(profile, Version::Ps2_0, "the product per pixel")?;
+        require_versions(profile, &[Version::Ps2_0], "the product per pixel")?;
         if let Some(found) = self.map_bits.filter(|bits| !(2..=24).contains(bits)) {
-            return Err(FactoredCardError::Figure { what: "2 to 24 bits of G", found: found.into() });
+            return Err(MeshError::Figure { what: "2 to 24 bits of G", found: found.into() }.into());
         }
         let (device, format, record) = (profile.name.clone(), self.map_format, self.map_format.record());
         let holds = |class| matches!(class, ChannelClass::Snorm | ChannelClass::Float(_));

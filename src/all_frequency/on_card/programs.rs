@@ -8,9 +8,9 @@ use super::error::FactoredCardError;
 use super::options::{ProductOptions, ProductPlace, VertexColors, ViewMaker};
 use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::kernels::{COLOR, FLOAT_COLOR, ProductKernel, TransferredVertexKernel};
-use crate::cpca::kernels::{SHADE, SHADE_COLOR};
-use crate::cpca::on_card::PrtCardError;
+use crate::all_frequency::kernels::{ProductKernel, TransferredVertexKernel};
+use crate::card::kernels::{COLOR, FLOAT_COLOR, SHADE, SHADE_COLOR};
+use crate::card::{require_versions, vertex_version};
 
 /// What the programs draw.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl Programs {
                 Self::products(profile, options, (factors.terms(), factors.view_map().side()))
             }
             (ProductPlace::Vertices(VertexColors::Floats) | ProductPlace::Pixels(_), _) => {
-                PrtCardError::check_version(profile, Version::Ps2_0, "the interpolation of floats")?;
+                require_versions(profile, &[Version::Ps2_0], "the interpolation of floats")?;
                 let (vertex, pixel) = (FLOAT_COLOR.checked(profile)?, SHADE.checked(profile)?);
                 Ok(Self { drawing: Drawing::Colors, vertex, pixel, makes_view: false })
             }
@@ -58,9 +58,7 @@ impl Programs {
         options: &ProductOptions,
         (terms, side): (usize, usize),
     ) -> Result<Self, FactoredCardError> {
-        let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
-        let version = options.vertex_version.unwrap_or(if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 });
-        PrtCardError::check_version(profile, version, "the vertex stage")?;
+        let version = vertex_version(profile, options.vertex_version)?;
         let layout = options.layout(terms);
         let computes_view = options.view_maker == ViewMaker::Program;
         let vertex = TransferredVertexKernel { layout, computes_view, version };

@@ -3,13 +3,12 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::error::FactoredCardError;
 use super::options::{ProductOptions, RadianceFormat, VertexColors, ViewMaker};
 use super::subject::TransferredMesh;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::kernels::{LEAST_DENOMINATOR, ViewNumbers};
 use crate::all_frequency::shade::exit_radiance;
-use crate::card::{Attribute, attribute, through_half};
+use crate::card::{Attribute, MeshError, attribute, through_half};
 use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
@@ -30,12 +29,12 @@ impl ColorStream {
         mesh: &TransferredMesh<'_>,
         (camera, exposure): (&Camera, f64),
         format: VertexColors,
-    ) -> Result<Self, FactoredCardError> {
+    ) -> Result<Self, MeshError> {
         Self::of(&radiance(mesh, camera.eye()), exposure, format)
     }
 
     /// The one term of a diffuse surface, whose G does not depend on the view.
-    pub(super) fn diffuse(mesh: &TransferredMesh<'_>, exposure: f64) -> Result<Self, FactoredCardError> {
+    pub(super) fn diffuse(mesh: &TransferredMesh<'_>, exposure: f64) -> Result<Self, MeshError> {
         let mut g = [0.0];
         Reflectance::Diffuse.view(DVec3::Z, &mut g);
         let of = |vertex: usize| {
@@ -46,7 +45,7 @@ impl ColorStream {
         Self::of(&radiance, exposure, VertexColors::Floats)
     }
 
-    fn of(radiance: &[[f64; 3]], exposure: f64, format: VertexColors) -> Result<Self, FactoredCardError> {
+    fn of(radiance: &[[f64; 3]], exposure: f64, format: VertexColors) -> Result<Self, MeshError> {
         let mut stream = Self::default();
         for color in radiance {
             let color = color.map(|value| exposure * value);
@@ -65,10 +64,10 @@ impl ColorStream {
 }
 
 /// Refuses numbers beyond single precision.
-fn finite(attribute: &[[u32; 4]]) -> Result<(), FactoredCardError> {
+fn finite(attribute: &[[u32; 4]]) -> Result<(), MeshError> {
     let mut numbers = attribute.as_flattened().iter().map(|&bits| f32::from_bits(bits));
     match numbers.find(|value| !value.is_finite()) {
-        Some(found) => Err(FactoredCardError::Figure { what: "radiance that its format holds", found: found.into() }),
+        Some(found) => Err(MeshError::Figure { what: "radiance that its format holds", found: found.into() }),
         None => Ok(()),
     }
 }
@@ -86,12 +85,7 @@ pub(super) struct RadianceStream<'a> {
 impl RadianceStream<'_> {
     /// The sets of a pass, register by register: T_p times exposure, color and scales, and the view if the host makes
     /// it.
-    pub(super) fn sets(
-        &self,
-        camera: &Camera,
-        exposure: f64,
-        pass: usize,
-    ) -> Result<Vec<Attribute>, FactoredCardError> {
+    pub(super) fn sets(&self, camera: &Camera, exposure: f64, pass: usize) -> Result<Vec<Attribute>, MeshError> {
         let layout = self.options.layout(self.mesh.terms());
         let eye = self.frame.of_scene(wide(camera.eye()));
         let rounded = |value: f64| match self.options.radiance {

@@ -1,8 +1,8 @@
 //! What is drawn: a mesh whose vertices have transferred radiance.
 
-use super::error::FactoredCardError;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::TransferredRadiance;
+use crate::card::MeshError;
 use crate::transfer::Vertices;
 
 /// A mesh with transferred radiance at its vertices.
@@ -30,16 +30,11 @@ impl TransferredMesh<'_> {
     }
 
     /// Checks that the parts go together.
-    pub(super) fn check(&self) -> Result<(), FactoredCardError> {
+    pub(super) fn check(&self) -> Result<(), MeshError> {
         let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
-        let sizes = [
-            ("vertices with transferred radiance", self.vertices.len(), self.transferred.vertices()),
-            ("rows, one per term", self.terms(), self.transferred.rows()),
-            ("colors, one per material", materials, self.colors.len().min(materials)),
-        ];
-        match sizes.into_iter().find(|(_, expected, found)| expected != found) {
-            Some((what, expected, found)) => Err(FactoredCardError::Size { what, expected, found }),
-            None => Ok(()),
-        }
+        let transferred = self.transferred;
+        MeshError::check_size("vertices with transferred radiance", self.vertices.len(), transferred.vertices())?;
+        MeshError::check_size("rows, one per term", self.terms(), transferred.rows())?;
+        MeshError::check_size("colors, one per material", materials, self.colors.len().min(materials))
     }
 }

@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use refsim::device::Profile;
-use refsim::event::{Event, HostWork};
+use refsim::event::Event;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::machine::{Executor, Machine, TextureId};
@@ -21,8 +21,8 @@ use super::error::FactoredCardError;
 use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::kernels::{OF_SUM, SUMMED, SumKernel};
 use crate::all_frequency::shade::{LightSizeError, Representatives, Shader, TransferredRadiance};
-use crate::card::{FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest};
-use crate::cpca::on_card::PrtCardError;
+use crate::card::frame_time::host_work;
+use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest, require_versions};
 
 /// Everything is in single precision: weights are the integers of the code, and their steps are in T.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
@@ -63,7 +63,8 @@ pub struct SumCard {
 /// What the sums of a light ask of host and card.
 #[derive(Clone, Debug, Default)]
 pub struct SumLog {
-    /// For [`crate::cpca::on_card::time::frame_time`]: step 2 on the host, T on its way, passes, T_p on its way back.
+    /// For [`frame_time`](crate::card::frame_time::frame_time): step 2 on the host, T on its way, passes, T_p on its
+    /// way back.
     pub events: Vec<Event>,
     /// Passes.
     pub passes: usize,
@@ -84,7 +85,7 @@ impl SumCard {
         coded: &CodedTransfer,
     ) -> Result<Self, FactoredCardError> {
         let profile = profile.into();
-        PrtCardError::check_version(&profile, Version::ArbFp1_0, "sums over representatives")?;
+        require_versions(&profile, &[Version::ArbFp1_0], "sums over representatives")?;
         let kernels = [true, false].map(|is_first| SumKernel { is_first });
         let needed = kernels[1].samplers();
         let found = profile.limits.samplers.map_or(16, |limit| limit as usize).min(16);
@@ -148,15 +149,11 @@ impl SumCard {
     /// [`FactoredCardError`]: light for fewer segments, draws that the card refuses.
     pub fn transferred(&mut self, light: &[[f32; 3]]) -> Result<(TransferredRadiance, SumLog), FactoredCardError> {
         let products = self.shader.per_cluster(light).map_err(|LightSizeError { expected, found, .. }| {
-            FactoredCardError::Size { what: "light coefficients", expected, found }
+            MeshError::Size { what: "light coefficients", expected, found }
         })?;
         let numbers = 3 * self.rows;
         let mut log = SumLog::default();
-        let host = HostWork {
-            kind: HostOperation::MultiplyAdd.name().into(),
-            operations: self.shader.multiplies(light).per_cluster,
-        };
-        log.events.push(Event::Host(host));
+        log.events.push(host_work(HostOperation::MultiplyAdd, self.shader.multiplies(light).per_cluster));
         let mut values = vec![[0.0_f32; 3]; self.vertices * self.rows];
         let into = values.as_flattened_mut();
         self.machine.record(true);

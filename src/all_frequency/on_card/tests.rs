@@ -12,8 +12,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
 use crate::all_frequency::kernels::{MapFilter, ViewNumbers};
 use crate::all_frequency::shade::{Multiplies, TransferredRadiance};
-use crate::card::Texels;
-use crate::cpca::on_card::PrtView;
+use crate::card::{MeshError, MeshView, SeenPixel, Texels, seen_pixels};
 use crate::scene::Camera;
 use crate::transfer::synthetic::{hills, signal_at};
 use crate::transfer::{Tangents, Vertices};
@@ -53,7 +52,7 @@ impl Hills {
     }
 
     fn draw(&self, name: &str, place: ProductPlace, format: TexelFormat) -> FactoredDrawing {
-        let view = PrtView { camera: camera(), exposure: 0.7, format };
+        let view = MeshView { camera: camera(), exposure: 0.7, format };
         draw(self.mesh(), (device(name), ExecutorKind::Batch), place, &view, Multiplies::default())
             .unwrap_or_else(|e| panic!("{name}, {place:?}: {e}"))
     }
@@ -61,7 +60,7 @@ impl Hills {
     /// The largest difference of a picture from step 4 in f64, as a share of the largest radiance, with the number of
     /// pixels.
     fn error(&self, name: &str, place: ProductPlace, drawing: &Texels) -> (f64, usize) {
-        let seen = seen_pixels(&device(name), &self.vertices, &camera()).expect("pixels");
+        let seen = seen_pixels(&device(name), self.vertices.geometry(), &camera()).expect("pixels");
         let colors = vertex_radiance(&self.mesh(), camera().eye());
         let (mut worst, mut largest, mut count) = (0.0_f64, 0.0_f64, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
@@ -190,7 +189,7 @@ fn what_does_not_fit_is_refused() {
     let by_program = ProductOptions { filter: MapFilter::Program, ..half };
     assert!(message("nv35", 10, by_program).contains("as rectangles alone"));
     assert!(message("nv35", 10, options).contains("rgba16s"), "{}", message("nv35", 10, options));
-    assert!(message("nv25", 10, options).contains("`nv25` runs no `ps_2_0`"));
+    assert!(message("nv25", 10, options).contains("`nv25` refuses the product per pixel: it runs no `ps_2_0`"));
     let unsigned = ProductOptions { map_format: TexelFormat::Rgba16, ..options };
     assert!(message("r350", 10, unsigned).contains("signed fractions"));
     let two = ProductOptions { map_format: TexelFormat::Rg16Snorm, filter: MapFilter::Program, ..options };
@@ -206,7 +205,7 @@ fn what_does_not_fit_is_refused() {
     let bright = TransferredRadiance::new(3, vec![[3e38; 3]; 3 * hills.vertices.len()]);
     let mesh = TransferredMesh { transferred: &bright, ..hills.mesh() };
     let mut card = FactoredCard::new(device("r350"), ExecutorKind::Batch, mesh, place).expect("a card");
-    let view = |exposure| PrtView { camera: camera(), exposure, format: FLOATS };
-    assert!(matches!(card.view_texels(&view(1e3)), Err(FactoredCardError::Figure { .. })));
-    assert!(matches!(card.view_texels(&view(-1.0)), Err(FactoredCardError::Figure { .. })));
+    let view = |exposure| MeshView { camera: camera(), exposure, format: FLOATS };
+    assert!(matches!(card.view_texels(&view(1e3)), Err(FactoredCardError::Mesh(MeshError::Figure { .. }))));
+    assert!(matches!(card.view_texels(&view(-1.0)), Err(FactoredCardError::Mesh(MeshError::Figure { .. }))));
 }

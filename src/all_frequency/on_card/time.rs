@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use refsim::event::{Event, FlowConstants, HostWork, ProgramWork, ResourceId};
+use refsim::event::{Event, FlowConstants, ProgramWork, ResourceId};
 use refsim::isa::Version;
 use refsim::timing::host::{HostCounts, HostError, HostModel, HostOperation};
 
@@ -10,8 +10,8 @@ use super::options::{ProductPlace, VertexColors, ViewMaker};
 use super::subject::TransferredMesh;
 use crate::all_frequency::kernels::TransferredVertexKernel;
 use crate::all_frequency::shade::Multiplies;
-use crate::cpca::kernels::SHADE;
-use crate::cpca::on_card::estimate::unseen_draw;
+use crate::card::frame_time::{host_work, unseen_draw};
+use crate::card::kernels::SHADE;
 
 /// Channels of light.
 const CHANNELS: u64 = 3;
@@ -116,11 +116,9 @@ pub(super) fn host_log(mesh: &TransferredMesh<'_>, place: &ProductPlace, host: M
 
 fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
     let step_4 = CHANNELS * terms as u64 * vertices;
-    let work =
-        |operation: HostOperation, operations| Event::Host(HostWork { kind: operation.name().into(), operations });
     vec![
-        work(HostOperation::MultiplyAdd, host.per_cluster + host.per_vertex + step_4),
-        work(HostOperation::VertexSent, vertices),
+        host_work(HostOperation::MultiplyAdd, host.per_cluster + host.per_vertex + step_4),
+        host_work(HostOperation::VertexSent, vertices),
         Event::Upload { resource: VERTEX_STREAM, bytes: vertices * streamed_bytes(place, terms) as u64 },
     ]
 }

@@ -1,13 +1,10 @@
 //! Errors of bi-scale transfer on a card.
 
-use refsim::device::DeviceError;
 use refsim::machine::MachineError;
 use refsim::texture::{TexelFormat, TextureError};
 use thiserror::Error;
 
-use crate::all_frequency::on_card::FactoredCardError;
-use crate::card::KernelError;
-use crate::cpca::on_card::PrtCardError;
+use crate::card::{KernelError, MeshError};
 
 /// Why a card does not multiply or show bi-scale transfer.
 #[derive(Debug, Error)]
@@ -42,19 +39,13 @@ pub enum BiScaleCardError {
     /// Float textures on a card that does not filter them.
     #[error("`{device}` filters no {format} textures (limits.float_filtering); hold samples in 8 bits")]
     FloatFilter { device: String, format: TexelFormat },
-    /// A size that differs from what another part says.
-    #[error("expected {expected} {what}, found {found}")]
-    Size { what: &'static str, expected: usize, found: usize },
-    /// A figure out of its range.
-    #[error("expected {what}, found {found}")]
-    Figure { what: &'static str, found: f64 },
+    /// A size or a figure that does not fit, or a draw that the card refuses.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
     /// A mesh without texture coordinates.
     #[error("the mesh has no texture coordinates, by which a bidirectional texture is placed")]
     NoTextureCoordinates,
-    /// The device has no programs of a version.
-    #[error(transparent)]
-    Version(#[from] PrtCardError),
-    /// The device refuses a program.
+    /// The device does not run a language, or refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
     /// An image that there cannot be.
@@ -63,10 +54,4 @@ pub enum BiScaleCardError {
     /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// A device is not known, or lacks a switch.
-    #[error(transparent)]
-    Device(#[from] DeviceError),
-    /// What pixels show cannot be found.
-    #[error(transparent)]
-    Seen(#[from] FactoredCardError),
 }

@@ -23,8 +23,7 @@ use super::lists::{ListLimits, ListPass, Lists, MOST_PLACES, extents};
 use super::options::LightFormat;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::kernels::ListSumKernel;
-use crate::card::{FullScreenPass, Texels, constants};
-use crate::cpca::on_card::PrtCardError;
+use crate::card::{FullScreenPass, KernelError, MeshError, Texels, constants, require_versions};
 
 /// Lists and sums are in single precision.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
@@ -73,10 +72,10 @@ pub struct GatherCard {
 }
 
 /// The language of both kinds of programs on a device.
-pub(super) fn version(profile: &Profile, what: &'static str) -> Result<Version, PrtCardError> {
+pub(super) fn version(profile: &Profile, what: &str) -> Result<Version, KernelError> {
     let has_ps_2_b = profile.limits.versions.contains(&Version::Ps2B);
     let version = if has_ps_2_b { Version::Ps2B } else { Version::Ps2A };
-    PrtCardError::check_version(profile, version, what)?;
+    require_versions(profile, &[version], what)?;
     Ok(version)
 }
 
@@ -174,12 +173,12 @@ impl GatherCard {
     fn draw(&mut self, light: &[[f32; 3]]) -> Result<f32, BiScaleCardError> {
         if light.len() != self.columns {
             let (expected, found) = (self.columns, light.len());
-            return Err(BiScaleCardError::Size { what: "numbers of light", expected, found });
+            return Err(MeshError::Size { what: "numbers of light", expected, found }.into());
         }
         let is_good = |value: &&f32| value.is_finite() && (**value >= 0.0 || self.format != LightFormat::Bytes);
         if let Some(&found) = light.as_flattened().iter().find(|value| !is_good(value)) {
             let what = "light of finite numbers, of 0 or more in bytes";
-            return Err(BiScaleCardError::Figure { what, found: found.into() });
+            return Err(MeshError::Figure { what, found: found.into() }.into());
         }
         let largest = light.as_flattened().iter().fold(0.0_f32, |most, value| most.max(value.abs()));
         let scale = self.format.scale(largest);

@@ -1,5 +1,7 @@
 //! Textures with the triangles that show them.
 
+use std::ops::Range;
+
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 use refsim::machine::Machine;
@@ -8,7 +10,7 @@ use super::error::BiScaleCardError;
 use super::options::DisplayOptions;
 use super::subject::{CardVertices, TexturedMesh};
 use super::volume::VolumeTexture;
-use crate::bi_scale::kernels::{DisplayKernel, LocalLayout};
+use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
 
 /// The pixel program for so many directions.
 #[derive(Clone, Debug)]
@@ -24,6 +26,25 @@ pub(super) struct CardPart {
     pub(super) volume: VolumeTexture,
     /// Of a whole pass, and of the last one if that has fewer directions.
     pub(super) pixels: Vec<PixelProgram>,
+}
+
+impl CardPart {
+    /// The pixel program for so many directions, of a whole pass or of the last one.
+    pub(super) fn program(&self, directions: usize) -> &CheckedProgram {
+        let known = self.pixels.iter().find(|known| known.directions == directions);
+        &known.expect("a program for each number of directions").program
+    }
+
+    /// The constants of the pixel program for directions: where their blocks begin.
+    pub(super) fn constants(&self, directions: Range<usize>) -> Vec<[f32; 4]> {
+        let grid = &self.volume.grid;
+        let [width, height, _] = grid.extents().map(|side| side as f64);
+        let origin = |direction: usize| {
+            let [x, y] = grid.origin(direction);
+            [(x as f64 / width) as f32, (y as f64 / height) as f32, 0.0, 0.0]
+        };
+        std::iter::repeat_n([0.0; 4], FIRST_ORIGIN).chain(directions.map(origin)).collect()
+    }
 }
 
 /// The parts of a mesh: textures that no triangle names stay away.

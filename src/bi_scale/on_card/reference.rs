@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::subject::TexturedMesh;
-use crate::all_frequency::on_card::SeenPixel;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::texture::ViewSamples;
+use crate::card::SeenPixel;
 use crate::geom::vector::wide;
 
 /// A patch at u, v, bilinear between texel centers and repeated; blocks that touch end half a texel inside.

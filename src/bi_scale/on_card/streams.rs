@@ -2,11 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::error::BiScaleCardError;
 use super::options::LocalFormat;
 use super::subject::CardVertices;
 use crate::bi_scale::kernels::LocalLayout;
-use crate::card::Attribute;
+use crate::card::{Attribute, MeshError};
 
 /// Local light of a frame, and how it is handed over.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +24,7 @@ pub(super) struct LocalStream<'a> {
 
 impl LocalStream<'_> {
     /// The sets of a pass but the last, which is begun by the first direction of the pass.
-    pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, BiScaleCardError> {
+    pub(super) fn sets(&self, first: usize, count: usize) -> Result<Vec<Attribute>, MeshError> {
         let of_vertex = |&vertex: &u32| {
             let mut sets = vec![[0_u32; 4]; self.layout.last()];
             let light = &self.local[vertex as usize * self.directions..][..self.directions];
@@ -41,7 +40,7 @@ impl LocalStream<'_> {
         let by_vertex: Vec<Vec<[u32; 4]>> = self.vertices.vertices.par_iter().map(of_vertex).collect();
         let mut numbers = by_vertex.iter().flatten().flatten().map(|&bits| f32::from_bits(bits));
         if let Some(found) = numbers.find(|value| !value.is_finite()) {
-            return Err(BiScaleCardError::Figure { what: "local light that its format holds", found: found.into() });
+            return Err(MeshError::Figure { what: "local light that its format holds", found: found.into() });
         }
         Ok((0..self.layout.last()).map(|set| by_vertex.iter().map(|sets| sets[set]).collect()).collect())
     }
@@ -50,12 +49,12 @@ impl LocalStream<'_> {
 /// The largest number of local light times a factor.
 ///
 /// # Errors
-/// [`BiScaleCardError::Figure`] if single precision does not hold it.
-pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, BiScaleCardError> {
+/// [`MeshError::Figure`] if single precision does not hold it.
+pub(super) fn largest(local: &[[f32; 3]], factor: f64) -> Result<f64, MeshError> {
     let numbers = local.as_flattened().iter();
     let found = numbers.fold(0.0_f64, |most, &value| most.max((factor * f64::from(value)).abs()));
     if found.is_finite() && found <= f64::from(f32::MAX) {
         return Ok(found);
     }
-    Err(BiScaleCardError::Figure { what: "local light times exposure that single precision holds", found })
+    Err(MeshError::Figure { what: "local light times exposure that single precision holds", found })
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::error::BiScaleCardError;
 use crate::bi_scale::texture::BidirectionalTexture;
+use crate::card::MeshError;
 use crate::geom::Mesh;
 use crate::transfer::Vertices;
 
@@ -74,29 +75,20 @@ impl TexturedMesh<'_> {
     }
 
     /// Checks that the parts go together.
-    pub(super) fn check(&self) -> Result<(), BiScaleCardError> {
-        let expected = self.vertices.triangles().len();
-        for (what, found) in [
-            ("triangles with texture coordinates", self.coordinates.len()),
-            ("triangles with a texture", self.texture_of.len()),
-        ] {
-            if expected != found {
-                return Err(BiScaleCardError::Size { what, expected, found });
-            }
+    pub(super) fn check(&self) -> Result<(), MeshError> {
+        let triangles = self.vertices.triangles().len();
+        MeshError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;
+        MeshError::check_size("triangles with a texture", triangles, self.texture_of.len())?;
+        let named = self.texture_of.iter().max().map_or(0, |&most| most as usize + 1);
+        let found = self.textures.len();
+        MeshError::check_size("textures, which triangles name", named.max(found), found)?;
+        for texture in self.textures {
+            let found = texture.light().directions().len();
+            MeshError::check_size("directions of light in each texture", self.directions(), found)?;
         }
-        if let Some(&number) = self.texture_of.iter().find(|&&number| number as usize >= self.textures.len()) {
-            let (expected, found) = (number as usize + 1, self.textures.len());
-            return Err(BiScaleCardError::Size { what: "textures, which triangles name", expected, found });
-        }
-        let expected = self.directions();
-        let mut lights = self.textures.iter().map(|texture| texture.light().directions().len());
-        if let Some(found) = lights.find(|&found| found != expected) {
-            let what = "directions of light in each texture";
-            return Err(BiScaleCardError::Size { what, expected, found });
-        }
-        let bad = self.coordinates.as_flattened().as_flattened().iter().find(|value| !value.is_finite());
-        match bad {
-            Some(&found) => Err(BiScaleCardError::Figure { what: "finite texture coordinates", found: found.into() }),
+        let mut numbers = self.coordinates.as_flattened().as_flattened().iter();
+        match numbers.find(|value| !value.is_finite()) {
+            Some(&found) => Err(MeshError::Figure { what: "finite texture coordinates", found: found.into() }),
             None => Ok(()),
         }
     }

@@ -7,15 +7,13 @@ use refsim::texture::{Image, Lod, SampleRules, TexelFormat, sample, touched};
 
 use super::reference::{patch_at, pixel};
 use super::*;
-use crate::all_frequency::on_card::seen_pixels;
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::kernels::{BlockEdges, BlockGrid};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::bi_scale::product::Gather;
 use crate::bi_scale::texture::BidirectionalTexture;
-use crate::card::{BILINEAR, Texels};
-use crate::cpca::on_card::PrtView;
+use crate::card::{BILINEAR, MeshView, Texels, seen_pixels};
 use crate::geom::random::CounterRng;
 use crate::scene::Camera;
 use crate::transfer::synthetic::hills;
@@ -237,13 +235,13 @@ impl Hills {
     fn draw(&self, profile: &Profile, options: DisplayOptions, format: TexelFormat) -> Texels {
         let mut card = BiScaleCard::new(profile.clone(), ExecutorKind::Batch, self.mesh(), options)
             .unwrap_or_else(|e| panic!("{options:?}: {e}"));
-        let view = PrtView { camera: camera(), exposure: 0.7, format };
+        let view = MeshView { camera: camera(), exposure: 0.7, format };
         card.view_texels(&self.local, &view).unwrap_or_else(|e| panic!("{options:?}: {e}"))
     }
 
     /// Root mean square and largest difference from equation 3 in f64, as shares of the largest pixel.
     fn error(&self, profile: &Profile, edges: BlockEdges, drawing: &Texels) -> [f64; 2] {
-        let seen = seen_pixels(profile, &self.vertices, &camera()).expect("pixels");
+        let seen = seen_pixels(profile, self.vertices.geometry(), &camera()).expect("pixels");
         let local: Vec<[f64; 3]> = self.local.iter().map(|rgb| rgb.map(f64::from)).collect();
         let (mut worst, mut largest, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0, 0);
         for (texel, seen) in drawing.texels.iter().zip(&seen) {
@@ -358,7 +356,7 @@ fn passes_fill_the_sets_of_coordinates() {
     assert_eq!((counts.passes, counts.directions_per_pass), (2, 9));
     assert_eq!(card.volumes().collect::<Vec<_>>(), [[24, 24, 9]]);
     assert_eq!(counts.volume_bytes, 4 * 24 * 24 * 9);
-    let view = PrtView { camera: camera(), exposure: 1.0, format: FLOATS };
+    let view = MeshView { camera: camera(), exposure: 1.0, format: FLOATS };
     let (_, log) = card.logged_view(&hills.local, &view).expect("a frame");
     let draws: Vec<_> = log.iter().filter(|event| matches!(event, refsim::event::Event::Draw(_))).collect();
     assert_eq!(draws.len(), 3, "depth, nine directions, seven");
@@ -397,7 +395,7 @@ fn what_does_not_fit_is_refused() {
     expected a bidirectional texture in rgba8, rgba16f or rgba32f, found rgba16s
     `gt200` filters no rgba32f textures (limits.float_filtering); hold samples in 8 bits
     a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `gt200` has 2 (limits.texture_coordinates)
-    device `r350` runs no `ps_2_a` programs, in which the display is written; expected one of nv30, nv35, gt200
+    device `r350` refuses the display: it runs no `ps_2_a` programs; expected one of nv30, nv35, gt200
     ");
 }
 
@@ -406,7 +404,7 @@ fn parts_that_do_not_go_together_are_refused() {
     let hills = Hills::new(flat(2, 2));
     let mut card = BiScaleCard::new(device("gt200"), ExecutorKind::Batch, hills.mesh(), DisplayOptions::default())
         .expect("a card");
-    let view = |exposure| PrtView { camera: camera(), exposure, format: FLOATS };
+    let view = |exposure| MeshView { camera: camera(), exposure, format: FLOATS };
     let mut refused = |local: &[[f32; 3]], exposure| {
         card.view_texels(local, &view(exposure)).map(|_| ()).expect_err("refused").to_string()
     };

@@ -8,6 +8,7 @@ use refsim::texture::{Image, TargetRounding, TexelFormat, TextureKind, encode};
 use super::error::BiScaleCardError;
 use crate::bi_scale::kernels::{BlockEdges, BlockGrid};
 use crate::bi_scale::texture::BidirectionalTexture;
+use crate::card::MeshError;
 
 /// The largest number of half precision.
 const HALF_MOST: f32 = 65_504.0;
@@ -30,7 +31,7 @@ pub fn volume_image(
     let largest = texture.samples().as_flattened().iter().fold(0.0_f32, |most, &value| most.max(value));
     if format == TexelFormat::Rgba16f && largest > HALF_MOST {
         let found = largest.into();
-        return Err(BiScaleCardError::Figure { what: "samples of at most 65504, which half precision holds", found });
+        return Err(MeshError::Figure { what: "samples of at most 65504, which half precision holds", found }.into());
     }
     let scale = if format == TexelFormat::Rgba8 && largest > 0.0 { f64::from(largest) } else { 1.0 };
     let [width, height, layers] = extents;

@@ -1,25 +1,16 @@
-//! The programs that draw compressed transfer: files where a program is one text, and text written here where the
-//! number of vectors and of functions decides.
+//! The programs that draw compressed transfer, beside those of [`crate::card::kernels`]: text written here, as the
+//! numbers of vectors and of functions decide.
 
 mod exit;
 mod vertex;
 
-use crate::card::kernels;
 pub use exit::ExitKernel;
 use refsim::isa::Version;
 pub use vertex::{VertexKernel, VertexShading};
 
-kernels! {
-    /// Every file of this folder.
-    FILES:
-    DEPTH "depth.vsa"
-    SHADE "shade.psa"
-    SHADE_COLOR "shade_color.psa"
-}
-
-/// Every program that there is, by name: files, and those written here for a few numbers of vectors.
+/// Programs for a few numbers of vectors and functions, by name.
 pub fn programs() -> Vec<(String, String)> {
-    let mut all: Vec<_> = FILES.iter().map(|file| (file.name.to_owned(), file.text.to_owned())).collect();
+    let mut all = Vec::new();
     let shadings = [1, 4, 6, 7].map(|registers| VertexShading::Glossy { registers });
     for shading in [VertexShading::Diffuse, VertexShading::DiffuseColor].into_iter().chain(shadings) {
         for (vectors, version) in [(0, Version::Vs1_1), (5, Version::Vs1_1), (8, Version::Vs2_0), (20, Version::Vs2_0)]
@@ -52,7 +43,6 @@ mod tests {
         for name in ["nv20", "nv25", "r200"] {
             let kernel = VertexKernel { shading: VertexShading::DiffuseColor, vectors: 8, version: Version::Vs1_1 };
             kernel.checked(&device(name)).unwrap_or_else(|e| panic!("{e}"));
-            SHADE_COLOR.checked(&device(name)).unwrap_or_else(|e| panic!("{e}"));
         }
     }
 

@@ -8,9 +8,6 @@ use super::weights::CardWeights;
 use crate::card::{Attribute, attribute};
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::kernels::{VertexKernel, VertexShading};
-use crate::geom::UnitFrame;
-use crate::geom::vector::wide;
-use crate::transfer::Vertices;
 
 /// Triangles that are drawn at once, with the attributes of their vertices.
 #[derive(Clone, Debug, Default)]
@@ -42,12 +39,6 @@ impl Chunk {
         }
         all
     }
-}
-
-/// Positions of all vertices in a frame, w = 1.
-pub(crate) fn positions(vertices: &Vertices, frame: &UnitFrame) -> Attribute {
-    let positions = vertices.positions().iter();
-    positions.map(|&position| attribute(frame.of_scene(wide(position)).to_array(), 1.0)).collect()
 }
 
 /// A chunk per supercluster.

@@ -1,11 +1,9 @@
 //! Errors of drawing compressed transfer on a card.
 
-use refsim::device::Profile;
-use refsim::isa::Version;
 use refsim::machine::MachineError;
 use thiserror::Error;
 
-use crate::card::KernelError;
+use crate::card::{KernelError, MeshError};
 use crate::cpca::coherence::CoherenceError;
 
 /// Why a card does not draw compressed transfer. Clusters and vertices count from 0.
@@ -13,9 +11,6 @@ use crate::cpca::coherence::CoherenceError;
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum PrtCardError {
-    /// The card has no programs of this kind.
-    #[error("device `{device}` runs no `{needed}` programs, in which {what} is written; expected one of {have}")]
-    NoPrograms { device: String, what: &'static str, needed: Version, have: String },
     /// Numbers of vectors that differ, as the adaptive method leaves them.
     #[error(
         "cluster {cluster} has {found} vectors, expected at most {expected}: the programs have no loops that depend on \
@@ -31,9 +26,6 @@ pub enum PrtCardError {
     /// Clusters and mesh do not go together, or a cluster exceeds the constant registers.
     #[error(transparent)]
     Coherence(#[from] CoherenceError),
-    /// A size that differs from what the transfer says.
-    #[error("expected {expected} {what}, found {found}")]
-    Size { what: &'static str, expected: usize, found: usize },
     /// The numbers of a point are no matrices from light to exit radiance.
     #[error(
         "expected {channels} x {rows} x n^2 numbers per vertex for light of an order n of 1 to 10, found {found}; \
@@ -43,26 +35,13 @@ pub enum PrtCardError {
     /// A light of too low an order.
     #[error("expected light of order {expected} or more, found {found}")]
     LightOrder { expected: usize, found: usize },
-    /// A figure out of its range.
-    #[error("expected {what}, found {found}")]
-    Figure { what: &'static str, found: f64 },
-    /// The device refuses a program.
+    /// A size or a figure that does not fit, or a draw that the card refuses.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The device does not run a language, or refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
     /// The card refuses a resource or a draw, or does not open.
     #[error(transparent)]
     Machine(#[from] MachineError),
-}
-
-impl PrtCardError {
-    /// An error if a device does not run programs of a version.
-    pub(crate) fn check_version(profile: &Profile, needed: Version, what: &'static str) -> Result<(), Self> {
-        let runs = |profile: &Profile| profile.limits.versions.contains(&needed);
-        if runs(profile) {
-            return Ok(());
-        }
-        let runs_it = |name: &&str| Profile::named(name).is_ok_and(|profile| runs(&profile));
-        let have: Vec<&str> = Profile::card_names().into_iter().filter(runs_it).collect();
-        Err(Self::NoPrograms { device: profile.name.clone(), what, needed, have: have.join(", ") })
-    }
 }

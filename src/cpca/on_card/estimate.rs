@@ -3,12 +3,14 @@
 
 use std::sync::Arc;
 
-use refsim::event::{DrawEvents, DrawRecord, Event, FlowConstants, HostWork, PrimitiveCounts, ProgramWork};
+use refsim::event::{Event, FlowConstants, ProgramWork};
 use refsim::isa::Version;
 use refsim::timing::host::HostOperation;
 
 use super::model::TransferSize;
-use crate::cpca::kernels::{SHADE, VertexKernel, VertexShading};
+use crate::card::frame_time::{host_work, unseen_draw};
+use crate::card::kernels::SHADE;
+use crate::cpca::kernels::{VertexKernel, VertexShading};
 
 /// What decides a frame, beside its pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +27,6 @@ pub struct FrameCounts {
     pub run_per_triangle: f64,
 }
 
-/// Bytes of an attribute.
-const ATTRIBUTE_BYTES: u64 = 16;
 /// Attributes beside the weights of glossy and of diffuse transfer: position, cluster, and tangent and normal.
 const GLOSSY_ATTRIBUTES: usize = 4;
 const DIFFUSE_ATTRIBUTES: usize = 2;
@@ -34,8 +34,8 @@ const DIFFUSE_ATTRIBUTES: usize = 2;
 const POSITION_SLOTS: u64 = 4;
 
 impl FrameCounts {
-    /// The log of such a frame, for [`super::time::frame_time`]: products, the mesh into the depth buffer, group by
-    /// group its constants and its passes. Groups are equal in size.
+    /// The log of such a frame, for [`frame_time`](crate::card::frame_time::frame_time): products, the mesh into the
+    /// depth buffer, group by group its constants and its passes. Groups are equal in size.
     pub fn log(&self) -> Vec<Event> {
         let registers = self.size.rows.div_ceil(4);
         let shading = if self.size.rows == 1 { VertexShading::Diffuse } else { VertexShading::Glossy { registers } };
@@ -43,10 +43,9 @@ impl FrameCounts {
         let beside = if self.size.rows == 1 { DIFFUSE_ATTRIBUTES } else { GLOSSY_ATTRIBUTES };
         let attributes = (beside + kernel.weight_registers()) as u64;
         let work = self.size.host_multiply_adds() as u64;
-        let kind = HostOperation::MultiplyAdd.name().into();
         let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");
         let pixel = Arc::new(ProgramWork::new(&program, FlowConstants::default()));
-        let mut log = vec![Event::Host(HostWork { kind, operations: work })];
+        let mut log = vec![host_work(HostOperation::MultiplyAdd, work)];
         log.push(self.draw(self.triangles, (POSITION_SLOTS, 1), &pixel));
         let groups = self.groups.max(1);
         let (passes, slots) = (self.size.passes() as u64, kernel.slots() as u64);
@@ -65,33 +64,4 @@ impl FrameCounts {
         let run = (triangles as f64 * self.run_per_triangle).round() as u64;
         unseen_draw([triangles, run], vertex, pixel)
     }
-}
-
-/// A draw of triangles of which no pixel is seen: triangles and vertices run, slots and attributes of a vertex.
-pub(crate) fn unseen_draw(
-    [triangles, run]: [u64; 2],
-    (slots, attributes): (u64, u64),
-    pixel: &Arc<ProgramWork>,
-) -> Event {
-    let mut counts = DrawEvents {
-        draws: 1,
-        instances: 1,
-        vertices: run,
-        vertex_instructions: slots * run,
-        primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
-        ..DrawEvents::default()
-    };
-    counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
-    Event::Draw(Box::new(DrawRecord {
-        counts,
-        vertices_run: [run; 3],
-        quads: 0,
-        pixel: pixel.clone(),
-        vertex: None,
-        samplers: Vec::new(),
-        targets: Vec::new(),
-        depth: None,
-        alpha_test: false,
-        blend: true,
-    }))
 }

@@ -3,8 +3,8 @@
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
-use super::error::PrtCardError;
 use super::weights::WeightFormat;
+use crate::card::MeshError;
 
 /// How compressed transfer is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,10 +31,10 @@ impl Default for PrtCardOptions {
 
 impl PrtCardOptions {
     /// Checks the ranges.
-    pub(super) fn check(&self) -> Result<(), PrtCardError> {
+    pub(super) fn check(&self) -> Result<(), MeshError> {
         if (1..=4096).contains(&self.map_side) {
             return Ok(());
         }
-        Err(PrtCardError::Figure { what: "1 to 4096 texels along an edge of a map", found: self.map_side as f64 })
+        Err(MeshError::Figure { what: "1 to 4096 texels along an edge of a map", found: self.map_side as f64 })
     }
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::error::PrtCardError;
 use super::transfer::{CompressedTransfer, TransferShape};
 use super::weights::CardWeights;
+use crate::card::MeshError;
 use crate::linalg::dot;
 use crate::sphere::HarmonicLight;
 
@@ -50,7 +51,7 @@ impl Products {
         let clusters: Vec<Vec<f32>> =
             (0..transfer.clustering.subspaces().len()).into_par_iter().map(of_cluster).collect();
         match clusters.iter().flatten().find(|value| !value.is_finite()) {
-            Some(&found) => Err(PrtCardError::Figure { what: "products of finite size", found: found.into() }),
+            Some(&found) => Err(MeshError::Figure { what: "products of finite size", found: found.into() }.into()),
             None => Ok(Self { rows: shape.rows, clusters }),
         }
     }

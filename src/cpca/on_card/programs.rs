@@ -7,18 +7,16 @@ use refsim::isa::Version;
 use super::error::PrtCardError;
 use super::options::PrtCardOptions;
 use super::transfer::CompressedTransfer;
-use crate::card::KernelError;
+use crate::card::kernels::{SHADE, SHADE_COLOR};
+use crate::card::{DepthPrograms, KernelError, require_versions, vertex_version};
 use crate::cpca::coherence::ConstantRegisters;
-use crate::cpca::kernels::{DEPTH, ExitKernel, SHADE, SHADE_COLOR, VertexKernel, VertexShading};
+use crate::cpca::kernels::{ExitKernel, VertexKernel, VertexShading};
 
 /// Checked programs.
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
     pub(super) kernel: VertexKernel,
-    /// Position alone.
-    pub(super) depth: CheckedProgram,
-    /// For pixels of which only the depth is kept.
-    pub(super) unseen: CheckedProgram,
+    pub(super) depth: DepthPrograms,
     pub(super) vertex: CheckedProgram,
     pub(super) pixel: CheckedProgram,
 }
@@ -29,22 +27,19 @@ pub(super) fn kernel(
     transfer: &CompressedTransfer<'_>,
     options: &PrtCardOptions,
 ) -> Result<VertexKernel, PrtCardError> {
-    let has = |version| profile.limits.versions.contains(&version);
     let shading = if transfer.is_glossy() {
-        PrtCardError::check_version(profile, Version::Ps2_0, "glossy transfer")?;
+        require_versions(profile, &[Version::Ps2_0], "glossy transfer")?;
         let (found, most) = (transfer.basis.len(), 4 * ExitKernel::MAX_REGISTERS);
         if found > most {
             return Err(PrtCardError::Functions { found, most });
         }
         VertexShading::Glossy { registers: found.div_ceil(4) }
-    } else if has(Version::Ps2_0) {
+    } else if profile.limits.versions.contains(&Version::Ps2_0) {
         VertexShading::Diffuse
     } else {
         VertexShading::DiffuseColor
     };
-    let best = if has(Version::Vs2_0) { Version::Vs2_0 } else { Version::Vs1_1 };
-    let version = options.vertex_version.unwrap_or(best);
-    PrtCardError::check_version(profile, version, "the vertex stage")?;
+    let version = vertex_version(profile, options.vertex_version)?;
     let kernel = VertexKernel { shading, vectors: transfer.vectors, version };
     if transfer.vectors > kernel.most_vectors() {
         return Err(PrtCardError::Weights { found: transfer.vectors, most: kernel.most_vectors() });
@@ -60,8 +55,7 @@ impl Programs {
             VertexShading::DiffuseColor => SHADE_COLOR.checked(profile)?,
             VertexShading::Glossy { registers } => ExitKernel { registers }.checked(profile)?,
         };
-        let (depth, unseen) = (DEPTH.checked(profile)?, SHADE_COLOR.checked(profile)?);
-        Ok(Self { kernel, depth, unseen, vertex: kernel.checked(profile)?, pixel })
+        Ok(Self { kernel, depth: DepthPrograms::new(profile)?, vertex: kernel.checked(profile)?, pixel })
     }
 }
 

@@ -4,8 +4,10 @@ use refsim::exec::NoObserver;
 use refsim::exec::scalar::VertexProgram;
 use refsim::isa::Version;
 use refsim::machine::ExecutorKind;
+use refsim::texture::TexelFormat;
 
 use super::*;
+use crate::card::{MeshError, constants};
 use crate::cpca::kernels::VertexShading;
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
@@ -113,7 +115,7 @@ fn check_chunk(
         attributes.iter_mut().zip(&chunk.attributes).for_each(|(into, from)| *into = from[at]);
         let (result, _) = program.run(&attributes, &mut NoObserver);
         let alpha = f32::from_bits(attributes[1][1]);
-        let vertex = card.positions.iter().position(|position| *position == attributes[0]).expect("a vertex");
+        let vertex = card.mesh.positions().iter().position(|position| *position == attributes[0]).expect("a vertex");
         let sums = &expected[vertex];
         let wanted: Vec<f32> = match kernel.shading {
             VertexShading::Glossy { .. } => sums[channel].clone(),
@@ -184,7 +186,10 @@ fn what_does_not_fit_is_refused() {
     let refused = message("r300", &twenty, 20, &in_vs_1_1);
     assert!(refused.contains("needs 126 constant registers, expected at most 91"), "{refused}");
     let refused = message("nv25", &twenty, 20, &options);
-    assert!(refused.contains("`nv25` runs no `ps_2_0`") && refused.contains("r300"), "{refused}");
+    assert!(
+        refused.contains("`nv25` refuses glossy transfer: it runs no `ps_2_0`") && refused.contains("r300"),
+        "{refused}"
+    );
     let forty = Hills::new(glossy(24), 1, 40, CpcaMethod::Iterative);
     let refused = message("r300", &forty, 40, &options);
     assert!(refused.contains("256") && refused.contains("258"), "constants suffice, slots do not: {refused}");
@@ -204,5 +209,8 @@ fn what_does_not_fit_is_refused() {
     let found = Products::new(&diffuse.transfer(2), &weights, &dim, 1.0);
     assert!(matches!(found, Err(PrtCardError::LightOrder { expected: 4, found: 3 })));
     let bright = HarmonicLight::constant(4, [1e30; 3]).expect("a light");
-    assert!(matches!(Products::new(&diffuse.transfer(2), &weights, &bright, 1e30), Err(PrtCardError::Figure { .. })));
+    assert!(matches!(
+        Products::new(&diffuse.transfer(2), &weights, &bright, 1e30),
+        Err(PrtCardError::Mesh(MeshError::Figure { .. }))
+    ));
 }

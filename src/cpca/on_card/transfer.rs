@@ -1,5 +1,6 @@
 //! Compressed transfer of a mesh: what is drawn.
 
+use crate::card::MeshError;
 use crate::sphere::order_with;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
@@ -59,10 +60,7 @@ impl CompressedTransfer<'_> {
         if ![1, 3].contains(&channels) || size * columns != found || order_with(columns).is_none() {
             return Err(PrtCardError::Shape { channels, rows, found });
         }
-        let (expected, found) = (self.vertices.len(), self.clustering.points());
-        if expected != found {
-            return Err(PrtCardError::Size { what: "points, one per vertex", expected, found });
-        }
+        MeshError::check_size("points, one per vertex", self.vertices.len(), self.clustering.points())?;
         let lens = self.clustering.subspaces().iter().map(|subspace| subspace.len());
         match lens.enumerate().find(|&(_, found)| found > self.vectors) {
             Some((cluster, found)) => Err(PrtCardError::Vectors { cluster, found, expected: self.vectors }),

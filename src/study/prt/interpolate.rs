@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::card::SeenPixel;
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Mesh, Ray};
@@ -20,6 +21,12 @@ impl Seen {
     /// From a camera, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
         Self::of_parts(&[(mesh, vertices)], camera)
+    }
+
+    /// By the raster of a device.
+    pub(super) fn by_raster(pixels: &[Option<SeenPixel>]) -> Self {
+        let pixel = |pixel: &SeenPixel| (pixel.corners, DVec3::from(pixel.weights));
+        Self { pixels: pixels.iter().map(|seen| seen.as_ref().map(pixel)).collect() }
     }
 
     /// The nearest of several meshes; vertices of a mesh are counted after those of the meshes before it.

@@ -1,8 +1,8 @@
 //! Links as the programs of pass 2 read them.
 
-use super::error::{SubsurfaceCardError, same};
+use super::error::SubsurfaceCardError;
 use super::options::FloatTexels;
-use crate::card::Texels;
+use crate::card::{MeshError, Texels};
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 use crate::subsurface::links::{EncodedLinks, LinkChoice, Links, MeanWeighting};
@@ -37,7 +37,7 @@ impl LinkTextures {
     /// its own.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Size`] for another number of textures or texels.
+    /// [`SubsurfaceCardError::Mesh`] for another number of textures or texels.
     pub fn from_textures(
         side: u32,
         level: Option<u32>,
@@ -50,13 +50,13 @@ impl LinkTextures {
             (Some(_), true) => 3 * count.div_ceil(4),
             (None, rgb) => count * if rgb { 2 } else { 1 },
         };
-        same("textures of links", expected, textures.len())?;
+        MeshError::check_size("textures of links", expected, textures.len())?;
         for texture in &textures {
-            same("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
+            MeshError::check_size("texels of a texture of links", side as usize * side as usize, texture.texels.len())?;
         }
         if let Some(level) = level {
             let width = (side >> level.min(31)) as usize;
-            same("links to a level", width * width, count)?;
+            MeshError::check_size("links to a level", width * width, count)?;
         }
         Ok(Self { side, level, rgb, count, textures })
     }

@@ -19,6 +19,7 @@ mod view;
 use std::sync::Arc;
 
 use refsim::device::Profile;
+use refsim::isa::Version;
 use refsim::machine::{Executor, Machine};
 
 pub use error::SubsurfaceCardError;
@@ -31,9 +32,8 @@ pub use options::{FloatTexels, LightStage, MapFormat, SubsurfaceCardOptions};
 pub use time::{PassEvent, PassKind, PassTime, pass_times};
 pub use view::View;
 
-use crate::card::Texels;
+use crate::card::{MeshError, Texels, require_versions};
 use crate::picture::Picture;
-use error::{has_programs, same};
 use gather::Gather;
 use levels::LeveledMap;
 use light::CardLights;
@@ -75,7 +75,7 @@ impl SubsurfaceCard {
     ) -> Result<Self, SubsurfaceCardError> {
         let profile = profile.into();
         options.check()?;
-        same("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
+        MeshError::check_size("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
         Self::fits(&profile, links, &options)?;
         let passes = gather::programs(&profile, links, &options)?.len();
         let memory = CardMemory::new(links, &options, passes);
@@ -95,9 +95,7 @@ impl SubsurfaceCard {
         links: &LinkTextures,
         options: &SubsurfaceCardOptions,
     ) -> Result<(), SubsurfaceCardError> {
-        if !has_programs(profile) {
-            return Err(SubsurfaceCardError::no_programs(profile));
-        }
+        require_versions(profile, &[Version::Fp1_0, Version::Vs2_0], "the passes")?;
         let sides = [profile.limits.max_texture_size, profile.limits.max_target_size].into_iter().flatten();
         let limit = sides.min().unwrap_or(MAX_TEXELS);
         let row = !options.map.is_leveled() && links.level.is_none();
@@ -143,7 +141,7 @@ impl SubsurfaceCard {
     /// 2. There is no direct light then.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Size`], [`SubsurfaceCardError::Figure`], [`SubsurfaceCardError::Machine`].
+    /// [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
     pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
         self.lights = CardLights::default();
         self.light.fill_from_table(&mut self.machine, &self.model, by_face, self.map.map)?;
@@ -171,7 +169,7 @@ impl SubsurfaceCard {
     /// The model from a camera: pass 3. Pixels that show nothing are 0.
     ///
     /// # Errors
-    /// [`SubsurfaceCardError::Lights`], [`SubsurfaceCardError::Figure`], [`SubsurfaceCardError::Machine`].
+    /// [`SubsurfaceCardError::Lights`], [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
     pub fn view(&mut self, view: &View) -> Result<Picture, SubsurfaceCardError> {
         let Texels { width, height, texels } = self.view_texels(view)?;
         let pixels: Vec<[f32; 3]> = texels.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect();
@@ -183,10 +181,7 @@ impl SubsurfaceCard {
     /// # Errors
     /// As [`Self::view`].
     pub fn view_texels(&mut self, view: &View) -> Result<Texels, SubsurfaceCardError> {
-        let scene = (&self.model, &self.lights);
-        let target = self.view.draw(&mut self.machine, scene, self.gather.scattered(), view)?;
-        self.note(PassKind::View);
-        let texels = Texels::read_back(&self.machine, target.color)?;
+        let texels = self.view.show(&mut self.machine, &self.lights, self.gather.scattered(), view)?;
         self.note(PassKind::View);
         Ok(texels)
     }

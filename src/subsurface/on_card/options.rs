@@ -2,7 +2,7 @@
 
 use refsim::texture::TexelFormat;
 
-use super::error::SubsurfaceCardError;
+use crate::card::MeshError;
 
 /// Floats of a texture or target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -100,11 +100,11 @@ pub struct SubsurfaceCardOptions {
 }
 
 impl SubsurfaceCardOptions {
-    pub(super) fn check(&self) -> Result<(), SubsurfaceCardError> {
+    pub(super) fn check(&self) -> Result<(), MeshError> {
         let scale = self.map.scale();
         if scale.is_finite() && scale > 0.0 && (scale as f32).is_normal() {
             return Ok(());
         }
-        Err(SubsurfaceCardError::Figure { what: "a scale of the 8-bit map above 0", found: scale })
+        Err(MeshError::Figure { what: "a scale of the 8-bit map above 0", found: scale })
     }
 }

@@ -6,11 +6,11 @@ use refsim::output::WriteMask;
 use refsim::raster::{PixelCenter, Primitive};
 use refsim::texture::{SamplerState, TexelFormat};
 
-use super::error::{SubsurfaceCardError, same};
+use super::error::SubsurfaceCardError;
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::{CardFace, CardModel};
 use super::options::{LightStage, MapFormat};
-use crate::card::{FullScreenPass, PingPong, ReadTexture, Texels, constants, nearest};
+use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest};
 use crate::subsurface::fresnel::mean_transmittance;
 use crate::subsurface::kernels::{self, LightKernel};
 
@@ -66,7 +66,7 @@ impl LightPass {
         eta: f64,
     ) -> Result<Self, SubsurfaceCardError> {
         if !(1.0..=1e6).contains(&eta) {
-            return Err(SubsurfaceCardError::Figure { what: "an index of refraction of 1 to 1000000", found: eta });
+            return Err(MeshError::Figure { what: "an index of refraction of 1 to 1000000", found: eta }.into());
         }
         let most = lights_per_pass(machine, stage);
         let stage = match stage {
@@ -194,9 +194,9 @@ impl LightPass {
         irradiances: &[[f64; 3]],
         map: TextureId,
     ) -> Result<(), SubsurfaceCardError> {
-        same("irradiances, one per face", model.faces(), irradiances.len())?;
+        MeshError::check_size("irradiances, one per face", model.faces(), irradiances.len())?;
         if let Some(&found) = irradiances.iter().flatten().find(|value| !(value.is_finite() && **value >= 0.0)) {
-            return Err(SubsurfaceCardError::Figure { what: "finite irradiances of at least 0", found });
+            return Err(MeshError::Figure { what: "finite irradiances of at least 0", found }.into());
         }
         let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
         let side = self.side as usize;

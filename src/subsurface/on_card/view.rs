@@ -2,18 +2,16 @@
 
 use std::f64::consts::PI;
 
-use refsim::machine::{AttributeStream, DrawCall, Machine, StepRate, TextureId, VertexSource, VertexStreams};
-use refsim::num::Format;
-use refsim::output::DepthFormat;
-use refsim::raster::Primitive;
-use refsim::texture::{Filter, Image, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use refsim::machine::{Machine, TextureId};
+use refsim::output::WriteMask;
+use refsim::texture::{SamplerState, TexelFormat, TextureKind};
 
 use super::error::SubsurfaceCardError;
 use super::light::{CardLight, CardLights, LEAST_LENGTH, LEAST_SQUARE, colored};
 use super::model::CardModel;
-use crate::card::{NearestTarget, constants};
-use crate::geom::vector::wide;
-use crate::scene::Camera;
+use crate::card::{
+    Attribute, BILINEAR, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshPass, MeshView, Texels, new_texture,
+};
 use crate::subsurface::fresnel::{fresnel_transmittance, mean_transmittance};
 use crate::subsurface::kernels::{self, Combine, DirectLight, EyeTransmittance, ViewKernel};
 
@@ -23,135 +21,91 @@ const TABLE: u32 = 256;
 /// How the model is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The camera.
-    pub camera: Camera,
+    /// The camera, exposure, and format: [`TexelFormat::Bgra8`] clamps to 0 to 1, floats keep all.
+    pub mesh: MeshView,
     /// The program.
     pub kernel: ViewKernel,
-    /// What radiances are multiplied by in the picture.
-    pub exposure: f64,
     /// Diffuse reflectance for direct light.
     pub diffuse: [f64; 3],
     /// Specular coefficient for direct light.
     pub specular: [f64; 3],
     /// OpenGL's specular exponent, 0 to 128.
     pub shininess: f64,
-    /// The picture's format: [`TexelFormat::Bgra8`] clamps to 0 to 1, floats keep all.
-    pub format: TexelFormat,
 }
 
 impl View {
-    /// Scattered light alone, with the exact transmittance, as it is.
-    pub fn scattered(camera: Camera) -> Self {
+    /// Scattered light alone, with the exact transmittance.
+    pub fn scattered(mesh: impl Into<MeshView>) -> Self {
         let kernel = ViewKernel { direct: DirectLight::None, ..ViewKernel::default() };
-        let (diffuse, specular) = ([0.0; 3], [0.0; 3]);
-        Self { camera, kernel, exposure: 1.0, diffuse, specular, shininess: 0.0, format: TexelFormat::Rgba32f }
+        Self { mesh: mesh.into(), kernel, diffuse: [0.0; 3], specular: [0.0; 3], shininess: 0.0 }
     }
 
-    fn check(&self) -> Result<(), SubsurfaceCardError> {
-        let figures =
-            [("an exposure of 0 to 1e30", self.exposure, 1e30), ("a shininess of 0 to 128", self.shininess, 128.0)];
+    fn check(&self) -> Result<(), MeshError> {
+        let shininess = [("a shininess of 0 to 128", self.shininess, 128.0)];
         let colors = self.diffuse.iter().map(|&value| ("a diffuse reflectance of 0 to 1", value, 1.0));
         let shine = self.specular.iter().map(|&value| ("a specular coefficient of 0 to 1e30", value, 1e30));
         let wrong =
-            figures.into_iter().chain(colors).chain(shine).find(|(_, value, most)| !(0.0..=*most).contains(value));
-        wrong.map_or(Ok(()), |(what, found, _)| Err(SubsurfaceCardError::Figure { what, found }))
+            shininess.into_iter().chain(colors).chain(shine).find(|(_, value, most)| !(0.0..=*most).contains(value));
+        wrong.map_or(Ok(()), |(what, found, _)| Err(MeshError::Figure { what, found }))
     }
 }
 
-/// The model's faces, the table of transmittances, and the target of the last view.
+/// The model's faces, and the table of transmittances.
 #[derive(Debug)]
 pub(super) struct ViewPass {
     eta: f64,
-    positions: Vec<[u32; 4]>,
-    normals: Vec<[u32; 4]>,
-    places: Vec<[u32; 4]>,
-    bounds: Vec<[u32; 4]>,
+    mesh: MeshOnCard,
+    /// Normals, two places in the atlas, and bounds of reads.
+    beside: [Attribute; 3],
     table: Option<TextureId>,
-    target: Option<(NearestTarget, TexelFormat, [u32; 2])>,
 }
 
 impl ViewPass {
     pub(super) fn new(model: &CardModel, eta: f64) -> Self {
-        let mut pass = Self {
-            eta,
-            positions: Vec::new(),
-            normals: Vec::new(),
-            places: Vec::new(),
-            bounds: Vec::new(),
-            table: None,
-            target: None,
-        };
-        for face in &model.faces {
-            for vertex in &face.whole {
-                let ([px, py, pz], [nx, ny, nz]) = (vertex.position, vertex.normal);
-                pass.positions.push([px, py, pz, 1.0].map(f32::to_bits));
-                pass.normals.push([nx, ny, nz, 0.0].map(f32::to_bits));
-                pass.places.push(vertex.at.map(f32::to_bits));
-                pass.bounds.push(face.bounds.map(f32::to_bits));
-            }
+        let (mut positions, mut beside) = (Vec::new(), [const { Vec::new() }; 3]);
+        for (face, vertex) in model.faces.iter().flat_map(|face| face.whole.iter().map(move |vertex| (face, vertex))) {
+            let ([px, py, pz], [nx, ny, nz]) = (vertex.position, vertex.normal);
+            positions.push([px, py, pz, 1.0].map(f32::to_bits));
+            let of_vertex = [[nx, ny, nz, 0.0], vertex.at, face.bounds];
+            beside.iter_mut().zip(of_vertex).for_each(|(into, value)| into.push(value.map(f32::to_bits)));
         }
-        pass
+        Self { eta, mesh: MeshOnCard::in_frame(*model.frame(), positions), beside, table: None }
     }
 
-    /// Draws a view. The target holds it until the next one.
-    pub(super) fn draw(
+    /// Draws a view.
+    pub(super) fn show(
         &mut self,
         machine: &mut Machine,
-        (model, lights): (&CardModel, &CardLights),
+        lights: &CardLights,
         scattered: TextureId,
         view: &View,
-    ) -> Result<NearestTarget, SubsurfaceCardError> {
+    ) -> Result<Texels, SubsurfaceCardError> {
         view.check()?;
-        let target = self.target(machine, view)?;
         let direct = direct_lights(machine, lights, view.kernel)?;
-        let table = match view.kernel.transmittance {
-            EyeTransmittance::Table => Some(self.table(machine)?),
-            EyeTransmittance::Exact | EyeTransmittance::Mean => None,
-        };
-        target.clear(machine)?;
+        let mut textures = vec![(scattered, SamplerState::NEAREST_CLAMP)];
+        if view.kernel.transmittance == EyeTransmittance::Table {
+            textures.push((self.table(machine)?, BILINEAR));
+        }
         let profile = machine.profile();
         let pixel = view.kernel.checked(profile, direct.len())?;
         let vertex = match view.kernel.direct {
             DirectLight::ByVertex => kernels::VIEW_LIGHTS.checked(profile, direct.len())?,
             DirectLight::None | DirectLight::ByFragment => kernels::VIEW.checked(profile)?,
         };
-        let scene = ViewConstants { eta: self.eta, model, view, lights, direct };
-        let (vertex_constants, pixel_constants) = (constants(scene.of_vertices()), constants(scene.of_fragments()));
-        let source = VertexSource::Program { program: &vertex, constants: &vertex_constants, streams: self.streams() };
-        let mut call = DrawCall::new(source, Primitive::TriangleList, &pixel, &pixel_constants, target.color)
-            .with_texture(0, scattered, SamplerState::NEAREST_CLAMP);
-        if let Some(table) = table {
-            let state = SamplerState { min: Filter::Linear, mag: Filter::Linear, ..SamplerState::NEAREST_CLAMP };
-            call = call.with_texture(1, table, state);
-        }
-        target.keep_nearest(&mut call);
-        machine.draw(&call)?;
-        Ok(target)
-    }
-
-    fn streams(&self) -> VertexStreams<'_> {
-        let streams = [&self.positions, &self.normals, &self.places, &self.bounds].into_iter().enumerate();
-        let streams = streams.map(|(register, data)| AttributeStream { register, step: StepRate::Vertex, data });
-        VertexStreams { vertex_count: self.positions.len(), instance_count: 1, streams: streams.collect() }
-    }
-
-    /// The target for a view: the last one, if that is like it.
-    fn target(&mut self, machine: &mut Machine, view: &View) -> Result<NearestTarget, SubsurfaceCardError> {
-        let size = [view.camera.width(), view.camera.height()];
-        match self.target.take() {
-            Some(last) if (last.1, last.2) == (view.format, size) => {
-                self.target = Some(last);
-                return Ok(last.0);
-            }
-            Some((last, ..)) => {
-                machine.release_texture(last.color)?;
-                machine.release_depth(last.depth)?;
-            }
-            None => {}
-        }
-        let target = NearestTarget::new(machine, (view.format, DepthFormat::Unorm24), size)?;
-        self.target = Some((target, view.format, size));
-        Ok(target)
+        let scene = ViewConstants { eta: self.eta, view, lights, direct };
+        let (texels, _) = self.mesh.show(machine, (&view.mesh, false), |pass| {
+            pass.draw(MeshDraw {
+                vertex: (&vertex, scene.of_vertices(pass)),
+                attributes: [pass.positions()].into_iter().chain(&self.beside).collect(),
+                indices: None,
+                pixel: (&pixel, scene.of_fragments(pass)),
+                textures,
+                fragments: KeptFragments::Nearest,
+                mask: WriteMask::ALL,
+            })
+            .map_err(SubsurfaceCardError::from)
+        })?;
+        Ok(texels)
     }
 
     /// Transmittances of cosines 0 to 1, 16 bits each.
@@ -159,16 +113,9 @@ impl ViewPass {
         if let Some(table) = self.table {
             return Ok(table);
         }
-        let texel = |at: u32| {
-            let transmittance = fresnel_transmittance(self.eta, f64::from(at) / f64::from(TABLE - 1));
-            [(transmittance as f32).to_bits(); 4]
-        };
-        let values: Vec<[u32; 4]> = (0..TABLE).map(texel).collect();
-        let extents = [TABLE, 1, 1];
-        let rounding = TargetRounding::Nearest;
-        let image = Image::from_values(TexelFormat::L16, TextureKind::D1, extents, Format::FP32, &values, rounding)
-            .map_err(refsim::machine::MachineError::from)?;
-        Ok(*self.table.insert(machine.create_texture(image)?))
+        let texel = |at: u32| [fresnel_transmittance(self.eta, f64::from(at) / f64::from(TABLE - 1)) as f32; 4];
+        let texture = new_texture(machine, (TexelFormat::L16, TextureKind::D1), [TABLE, 1, 1], (0..TABLE).map(texel))?;
+        Ok(*self.table.insert(texture))
     }
 }
 
@@ -199,21 +146,15 @@ fn direct_lights<'a>(
 /// What the constants of a view are made of.
 struct ViewConstants<'a> {
     eta: f64,
-    model: &'a CardModel,
     view: &'a View,
     lights: &'a CardLights,
     direct: &'a [CardLight],
 }
 
 impl ViewConstants<'_> {
-    fn eye(&self, w: f32) -> [f32; 4] {
-        let [x, y, z] = self.model.frame().of_scene(wide(self.view.camera.eye())).to_array().map(|value| value as f32);
-        [x, y, z, w]
-    }
-
     /// The factor of direct light: in a product the exposure is in the scattered light already.
     fn direct_exposure(&self) -> f64 {
-        if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.exposure }
+        if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.mesh.exposure }
     }
 
     /// Sky that is reflected: of a diffuse surface the radiance times reflectance.
@@ -231,9 +172,9 @@ impl ViewConstants<'_> {
         ]
     }
 
-    fn of_vertices(&self) -> Vec<[f32; 4]> {
-        let mut all = self.view.camera.clip_rows(self.model.frame()).to_vec();
-        all.extend([[0.0, 1.0, LEAST_LENGTH, self.view.shininess as f32], self.eye(LEAST_SQUARE), self.ambient()]);
+    fn of_vertices(&self, pass: &MeshPass<'_>) -> Vec<[f32; 4]> {
+        let mut all = pass.rows().to_vec();
+        all.extend([[0.0, 1.0, LEAST_LENGTH, self.view.shininess as f32], pass.eye(LEAST_SQUARE), self.ambient()]);
         for light in self.direct {
             let [diffuse, specular] = self.colors(light);
             all.extend([light.place, light.attenuation, diffuse, specular]);
@@ -241,7 +182,7 @@ impl ViewConstants<'_> {
         all
     }
 
-    fn of_fragments(&self) -> Vec<[f32; 4]> {
+    fn of_fragments(&self, pass: &MeshPass<'_>) -> Vec<[f32; 4]> {
         let shininess = self.view.shininess as f32;
         let square = self.eta * self.eta;
         let (factor, [x, y, z]) = match self.view.kernel.transmittance {
@@ -252,9 +193,9 @@ impl ViewConstants<'_> {
             }
             EyeTransmittance::Mean => (mean_transmittance(self.eta), [0.0; 3]),
         };
-        let factor = (factor * self.view.exposure / PI) as f32;
+        let factor = (factor * self.view.mesh.exposure / PI) as f32;
         let mut all =
-            vec![[factor, factor, factor, LEAST_SQUARE], self.eye(LEAST_LENGTH), [x, y, z, shininess], self.ambient()];
+            vec![[factor, factor, factor, LEAST_SQUARE], pass.eye(LEAST_LENGTH), [x, y, z, shininess], self.ambient()];
         for light in self.direct {
             let [diffuse, specular] = self.colors(light);
             all.extend([light.place, light.attenuation, diffuse, specular]);

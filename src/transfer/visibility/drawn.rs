@@ -16,8 +16,8 @@ use refsim::texture::{Region, TexelFormat};
 use super::maps::{Horizon, VisibilityMaps, VisibilitySampling};
 use super::sight::{above, set};
 use super::traced::{check, unclear};
+use crate::card::kernels::SHADE_COLOR;
 use crate::card::{KernelError, Texels};
-use crate::cpca::kernels;
 use crate::geom::vector::wide;
 use crate::sphere::{CUBE_FACES, FaceAxes};
 use crate::transfer::{Occluders, TransferError, Vertices, origins};
@@ -57,7 +57,7 @@ impl CubeCard {
         sampling: VisibilitySampling,
     ) -> Result<Self, DrawnVisibilityError> {
         let profile = profile.into();
-        let program = kernels::SHADE_COLOR.checked(&profile)?;
+        let program = SHADE_COLOR.checked(&profile)?;
         let mut machine = executor.into().machine(profile)?;
         let side = sampling.directions().side() as u32;
         let target = machine.create_target(TexelFormat::Bgra8, side, 6 * side)?;

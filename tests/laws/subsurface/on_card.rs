@@ -310,7 +310,10 @@ fn what_does_not_fit_the_card_is_named() {
     let usual = SubsurfaceCardOptions::default();
     let r300 = Profile::named("r300").expect("a card");
     let words = refused(new(r300, &links, ETA, usual));
-    assert!(words.starts_with("device `r300` runs no `!!FP1.0` and `vs_2_0` programs"), "{words}");
+    assert!(
+        words.starts_with("device `r300` refuses the passes: it runs no `!!FP1.0` and `vs_2_0` programs"),
+        "{words}"
+    );
     let mut small = nv35();
     small.limits.max_texture_size = Some(24);
     let words = refused(new(small.clone(), &links, ETA, usual));

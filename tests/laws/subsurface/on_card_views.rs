@@ -1,7 +1,7 @@
 //! Pass 3 on a card: pixels against the formulas in f64, and no face that reads another's texels.
 
 use crossbar::atlas::Atlas;
-use crossbar::card::Texels;
+use crossbar::card::{MeshView, Texels};
 use crossbar::elementary;
 use crossbar::geom::Mesh;
 use crossbar::geom::vector::wide;
@@ -84,7 +84,7 @@ struct Host<'a> {
 impl Host<'_> {
     /// The color at a point of the picture if a face is seen there.
     fn color(&self, x: f64, y: f64, face: u32) -> Option<[f64; 3]> {
-        let (eye, direction) = (wide(self.view.camera.eye()), self.view.camera.direction_at(x, y));
+        let (eye, direction) = (wide(self.view.mesh.camera.eye()), self.view.mesh.camera.direction_at(x, y));
         let [a, b, c] = self.mesh.corners(face)?.map(wide);
         let normal = (b - a).cross(c - a);
         let t = normal.dot(a - eye) / normal.dot(direction);
@@ -99,8 +99,8 @@ impl Host<'_> {
             EyeTransmittance::Mean => mean_transmittance(ETA),
             EyeTransmittance::Exact | EyeTransmittance::Table => fresnel_transmittance(ETA, normal.dot(to_eye)),
         };
-        let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.exposure);
-        let exposure = if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.exposure };
+        let scattered = self.bilinear(face, weights).map(|b| b * transmittance / PI * self.view.mesh.exposure);
+        let exposure = if self.view.kernel.combine == Combine::Modulated { 1.0 } else { self.view.mesh.exposure };
         let direct = self.direct(point, normal, to_eye).map(|value| value * exposure);
         Some([0, 1, 2].map(|c| match (self.view.kernel.direct, self.view.kernel.combine) {
             (DirectLight::None, _) => scattered[c],
@@ -203,14 +203,8 @@ fn pixels_are_those_of_the_formulas() {
             let specular = if kernel.direct == DirectLight::ByFragment { [0.5, 0.4, 0.3] } else { [0.0; 3] };
             let lights = if kernel.direct == DirectLight::ByVertex { &all[..2] } else { &all[..] };
             card.light(lights).expect("light");
-            let view = View {
-                kernel,
-                exposure: 1.5,
-                diffuse: [0.8, 0.6, 0.4],
-                specular,
-                shininess: 20.0,
-                ..View::scattered(camera)
-            };
+            let scattered = View::scattered(MeshView { exposure: 1.5, ..camera.into() });
+            let view = View { kernel, diffuse: [0.8, 0.6, 0.4], specular, shininess: 20.0, ..scattered };
             let scattered = card.read_scattered().expect("a map");
             let host = Host { atlas: &atlas, mesh: &mesh, scattered, view, lights };
             let table = if kernel.transmittance == EyeTransmittance::Table { TABLE / PI * 1.5 } else { 0.0 };
@@ -226,7 +220,7 @@ fn a_picture_of_8_bits_is_the_float_one_rounded() {
     let mut card = card(&atlas, &to_itself(), options());
     card.light(&lights()).expect("light");
     let picture = |card: &mut SubsurfaceCard, format| {
-        let view = View { format, exposure: 2.0, ..View::scattered(cameras()[0]) };
+        let view = View::scattered(MeshView { format, exposure: 2.0, camera: cameras()[0] });
         card.view(&view).expect("a picture");
         card.view_texels(&view).expect("a picture")
     };
@@ -259,7 +253,7 @@ fn more_direct_lights_than_a_program_takes_are_refused() {
             )
         );
     }
-    let bad = View { exposure: f64::NAN, ..View::scattered(cameras()[0]) };
+    let bad = View::scattered(MeshView { exposure: f64::NAN, ..cameras()[0].into() });
     let words = card.view_texels(&bad).expect_err("no exposure").to_string();
     assert_eq!(words, "expected an exposure of 0 to 1e30, found NaN");
 }

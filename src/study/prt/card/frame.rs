@@ -1,8 +1,25 @@
 //! The time of a frame as a table and in words.
 
-use crate::cpca::on_card::time::FrameTime;
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::timing::host::{HostError, HostModel};
+
+use crate::card::frame_time::{FrameTime, FrameTimeError, frame_time};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Table};
+
+/// The time of a frame; `None` on a device whose rates are not known.
+pub(super) fn modelled(
+    profile: &Profile,
+    log: &[Event],
+    host: Result<HostModel, HostError>,
+) -> Result<Option<FrameTime>, FrameTimeError> {
+    match frame_time(profile, log, &host?) {
+        Ok(time) => Ok(Some(time)),
+        Err(FrameTimeError::Timing(_)) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
 
 /// The parts of a frame.
 pub(super) fn times(time: &FrameTime) -> Table {

@@ -3,6 +3,7 @@
 //! bi-scale transfer.
 
 mod bi_scale;
+mod difference;
 mod factored;
 mod frame;
 mod picture;
@@ -12,8 +13,8 @@ mod subject;
 mod tables;
 
 pub use bi_scale::{BiScaleCardStudyError, BiScaleOnCard};
+pub use difference::PixelErrors;
 pub use factored::{
-    AllFrequencyCardError, AllFrequencyOnCard, FactoredPrecision, PixelErrors, factored_precision,
-    factored_precision_table,
+    AllFrequencyCardError, AllFrequencyOnCard, FactoredPrecision, factored_precision, factored_precision_table,
 };
 pub use subject::{CardError, OnCard};

@@ -4,7 +4,8 @@ use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
-use super::picture::{Difference, Way};
+use super::difference::held;
+use super::picture::Way;
 use super::subject::{CardError, OnCard};
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
 use crate::report::digits::{Quantity, shown};
@@ -85,7 +86,7 @@ pub(super) fn report(
     let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, CardError> {
         let profile = Profile::named(choice.device)?;
         let way = Way { profile: &profile, format: choice.format, options: choice.options, timed: false };
-        Ok(way.draw(study, transfer, exposure)?.colors)
+        Ok(held(&way.draw(study, transfer, exposure)?.colors, true))
     };
     let expected = draw(&reference())?;
     let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_%");
@@ -96,9 +97,9 @@ pub(super) fn report(
         table.push([
             choice.axis.into(),
             choice.label.clone().into(),
-            Cell::measured(difference.rms_steps()),
-            Cell::measured(difference.largest_steps()),
-            Cell::percent(100.0 * difference.visible_share()),
+            Cell::measured(STEPS * difference.rms),
+            Cell::measured(STEPS * difference.largest),
+            Cell::percent(100.0 * difference.visible as f64 / difference.pixels as f64),
         ]);
         shows.push((choice, difference));
     }
@@ -111,7 +112,7 @@ pub(super) fn report(
 /// The worst, and per axis what shows nothing.
 fn conclude(all: &[(Choice, Difference)], found: &mut Findings) {
     let quiet: Vec<String> =
-        all.iter().filter(|(_, d)| d.shows_nothing()).map(|(c, _)| format!("{} {}", c.axis, c.label)).collect();
+        all.iter().filter(|(_, d)| d.visible == 0).map(|(c, _)| format!("{} {}", c.axis, c.label)).collect();
     found.conclusion(if quiet.is_empty() {
         "Everything that was made coarse shows.".to_owned()
     } else {
@@ -122,7 +123,37 @@ fn conclude(all: &[(Choice, Difference)], found: &mut Findings) {
             "Most is to blame on {} {}: {} 255ths root mean square.",
             choice.axis,
             choice.label,
-            shown(difference.rms_steps(), Quantity::Measured)
+            shown(STEPS * difference.rms, Quantity::Measured)
         ));
+    }
+}
+
+/// Steps of a picture of 8 bits.
+const STEPS: f64 = 255.0;
+
+/// How two pictures of values from 0 to 1 differ, over all pixels.
+struct Difference {
+    rms: f64,
+    largest: f64,
+    /// Pixels of which a channel differs by more than a step of 8 bits.
+    visible: usize,
+    pixels: usize,
+}
+
+impl Difference {
+    /// By the channel of each pixel that differs most.
+    fn of(found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
+        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
+            found.iter().zip(expected).fold(0.0, |worst: f64, (found, expected)| worst.max((found - expected).abs()))
+        };
+        let of_pixel: Vec<f64> = found.iter().zip(expected).map(worst).collect();
+        let pixels = of_pixel.len().max(1);
+        let squares = of_pixel.iter().map(|value| value * value).sum::<f64>();
+        Self {
+            rms: (squares / pixels as f64).sqrt(),
+            largest: of_pixel.iter().fold(0.0, |most: f64, &value| most.max(value)),
+            visible: of_pixel.iter().filter(|&&value| value * STEPS > 1.0).count(),
+            pixels,
+        }
     }
 }

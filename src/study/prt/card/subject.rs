@@ -6,7 +6,8 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
-use crate::cpca::on_card::time::FrameTimeError;
+use crate::card::MeshError;
+use crate::card::frame_time::FrameTimeError;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardError, PrtCardOptions};
 use crate::geom::Mesh;
 use crate::picture::PictureError;
@@ -72,6 +73,10 @@ pub enum CardError {
         help("`crossbar cpca render` draws on the host what no card takes; `crossbar devices` lists cards")
     )]
     Card(#[from] PrtCardError),
+    /// What pixels show cannot be found.
+    #[error(transparent)]
+    #[diagnostic(code(crossbar::prt::card))]
+    Seen(#[from] MeshError),
     /// The functions of exit radiance are none.
     #[error(transparent)]
     #[diagnostic(code(crossbar::prt::functions))]

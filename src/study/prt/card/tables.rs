@@ -2,8 +2,8 @@
 
 use super::frame;
 use super::picture::ChunkCounts;
+use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
-use crate::cpca::on_card::time::FrameTime;
 use crate::report::{Cell, Table};
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \

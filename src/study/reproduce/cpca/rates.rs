@@ -7,9 +7,10 @@ use super::drawn::{COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
 use super::{Bound, CpcaShared, HOST, Method, PaperFigure, PaperRow, REGISTERS, ReproduceError, Standing, failed};
+use crate::card::frame_time::{FrameTime, frame_time};
 use crate::cpca::on_card::estimate::FrameCounts;
 use crate::cpca::on_card::model::TransferSize;
-use crate::cpca::on_card::time::{FrameTime, frame_time, host_of_section_7};
+use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 

@@ -16,7 +16,7 @@ use super::{
     Standing, Sweep, failed, number,
 };
 use crate::atlas::Atlas;
-use crate::card::Texels;
+use crate::card::{MeshView, Texels};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
@@ -193,7 +193,8 @@ fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, Reprodu
     let kernel =
         ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex, ..ViewKernel::default() };
     let camera = camera(mesh).map_err(|e| failed(card)(&e))?;
-    let view = View { kernel, diffuse: [0.1; 3], format: TexelFormat::Bgra8, ..View::scattered(camera) };
+    let shown = MeshView { format: TexelFormat::Bgra8, ..camera.into() };
+    let view = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
     machine.view_texels(&view).map_err(|e| failed(card)(&e))?;
     let [light, levels, _, view] = pass_times(&profile, &machine.take_log())?.map(|pass| pass.time.seconds());
     Ok(FrameCost { light, levels, view })

@@ -5,11 +5,10 @@ use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
-use crate::all_frequency::on_card::SeenPixel;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
-use crate::cpca::on_card::PrtView;
+use crate::card::{MeshView, SeenPixel};
 
 /// L~ by the card, and what it asked of it.
 pub(super) struct CardLight {
@@ -42,7 +41,7 @@ impl BiScaleOnCard {
         exposure: f64,
     ) -> Result<Drawn, BiScaleCardStudyError> {
         let mut card = BiScaleCard::new(self.profile.clone(), self.executor.clone(), self.mesh(), options)?;
-        let view = PrtView { camera: self.camera, exposure, format };
+        let view = MeshView { camera: self.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;
         let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         Ok(Drawn { pixels, counts: card.counts(), log })

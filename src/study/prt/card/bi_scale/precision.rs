@@ -4,11 +4,11 @@ use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
-use crate::all_frequency::on_card::SeenPixel;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
+use crate::card::SeenPixel;
 use crate::report::Table;
-use crate::study::prt::card::factored::PixelErrors;
+use crate::study::prt::card::difference::{PixelErrors, held};
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 const TEXELS: [TexelFormat; 3] = [TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];
@@ -71,15 +71,13 @@ pub(super) fn precision(
     let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_%");
     let mut worst = (String::new(), 0.0);
     let mut local = study.local(light, FINE.light)?.local;
-    let mut held = FINE.light;
+    let mut light_format = FINE.light;
     for (number, (axis, choice, way)) in ways().into_iter().enumerate() {
-        if way.light != held {
-            (held, local) = (way.light, study.local(light, way.light)?.local);
+        if way.light != light_format {
+            (light_format, local) = (way.light, study.local(light, way.light)?.local);
         }
         let drawn = study.draw(&local, (way.options, way.target), exposure)?;
-        let clamps = !way.target.record().is_float();
-        let held = |color: &[f64; 3]| if clamps { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
-        let expected: Vec<[f64; 3]> = expected.iter().map(held).collect();
+        let expected = held(&expected, !way.target.record().is_float());
         let errors = PixelErrors::of(seen, &drawn.pixels, &expected);
         if errors.off_255ths[0] > worst.1 {
             worst = (format!("{axis}: {choice}"), errors.off_255ths[0]);

@@ -5,14 +5,14 @@ use serde_json::json;
 use super::picture::{CardLight, Drawn, doubles};
 use super::precision::{count, precision};
 use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
-use crate::all_frequency::on_card::seen_pixels;
 use crate::all_frequency::on_card::time::host_of_table_1;
-use crate::cpca::on_card::time::{FrameTime, FrameTimeError, frame_time};
+use crate::card::frame_time::{FrameTime, FrameTimeError};
+use crate::card::seen_pixels;
 use crate::report::digits::{Quantity, shown};
-use crate::report::words::percent;
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
-use crate::study::prt::card::factored::{Blame, PixelErrors, report_blame};
-use crate::study::prt::interpolate::linear_picture;
+use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
+use crate::study::prt::card::factored::{Blame, report_blame};
+use crate::study::prt::card::frame;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
 
@@ -22,7 +22,10 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card, to w
     Local light stays on the card, as the paper's does; where the view changes alone it is used again.";
 
 /// Times of a frame: the view changed alone, and light too; `None` where the card has none.
-type Times = Option<[FrameTime; 2]>;
+type Times = Option<(FrameTime, FrameTime)>;
+
+/// What card and host compute from.
+const FROM: &str = "the same local light";
 
 impl Study for BiScaleOnCard {
     type Error = BiScaleCardStudyError;
@@ -34,35 +37,30 @@ impl Study for BiScaleOnCard {
         let exact = self.exact_local(&light);
         let local = self.local(&light, self.light_format)?;
         progress("host", 1, 3);
-        let seen = seen_pixels(&self.profile, &self.vertices, &self.camera)?;
+        let seen = seen_pixels(&self.profile, self.vertices.geometry(), &self.camera)?;
         let edges = self.options.edges;
         let linear = self.exact(&doubles(&local.local), (&seen, 1.0), edges);
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
         let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
         progress("card", 2, 3);
         let drawn = self.draw(&local.local, (self.options, self.format), exposure)?;
-        let of_card = PixelErrors::of(&seen, &drawn.pixels, &self.as_target_holds(&host));
+        let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, !self.format.record().is_float()));
         let mut found = Findings::new("Bi-scale transfer on a card");
         found.taken_from(self.camera.world_to_camera());
-        let [rms, largest] = of_card.off_255ths.map(|steps| shown(steps, Quantity::Measured));
-        found.conclusion(format!(
-            "{}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double precision \
-             from the same local light; {} of the pixels by more than one.",
-            self.profile.title,
-            percent(of_card.visible)
-        ));
+        found.conclusion(compared.sentence(&self.profile.title, FROM));
         let times = self.times(&local, &drawn)?;
-        if let Some([view, both]) = &times {
+        if let Some((view, both)) = &times {
             let [view, both] = [view, both].map(|time| shown(time.per_second(), Quantity::Measured));
             found.conclusion(format!(
                 "{}: modelled {view} frames a second when the view changes alone, {both} when light changes too.",
                 self.profile.title
             ));
         }
-        self.pictures(&mut found, (&drawn.pixels, &host), of_card)?;
+        let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
+        compared.report(&self.camera, (title, FROM), &mut found)?;
         let whole = self.exact(&exact, (&seen, exposure), edges);
         let blames = [
-            Blame { step: "the card: storage, filters, arithmetic, target", errors: of_card },
+            Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },
             Blame { step: "light times biclusters by the card", errors: PixelErrors::of(&seen, &host, &whole) },
         ];
         report_blame(&blames, &mut found);
@@ -88,11 +86,6 @@ impl Study for BiScaleOnCard {
             found.explained_table(FoundTable::from(all.table).csv("precision").field("precision"), SWEEP);
         }
         found.field("exposure", json!(exposure));
-        found.field(
-            "difference",
-            json!({ "rms_255ths": of_card.off_255ths[0], "largest_255ths": of_card.off_255ths[1],
-            "visible_share": of_card.visible }),
-        );
         Ok(found)
     }
 
@@ -104,55 +97,10 @@ impl Study for BiScaleOnCard {
 }
 
 impl BiScaleOnCard {
-    /// Fractions clamp; the host's picture is clamped alike before it is compared.
-    fn as_target_holds(&self, host: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let clamps = !self.format.record().is_float();
-        let held = |color: &[f64; 3]| if clamps { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
-        host.iter().map(held).collect()
-    }
-
-    fn times(&self, local: &CardLight, drawn: &Drawn) -> Result<Times, BiScaleCardStudyError> {
-        let host = host_of_table_1().map_err(FrameTimeError::from)?;
+    fn times(&self, local: &CardLight, drawn: &Drawn) -> Result<Times, FrameTimeError> {
         let both: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
-        match [&drawn.log, &both].map(|log| frame_time(&self.profile, log, &host)) {
-            [Ok(view), Ok(both)] => Ok(Some([view, both])),
-            [Err(FrameTimeError::Timing(_)), _] => Ok(None),
-            [Err(error), _] | [_, Err(error)] => Err(error.into()),
-        }
-    }
-
-    fn pictures(
-        &self,
-        found: &mut Findings,
-        (drawn, host): (&[[f64; 3]], &[[f64; 3]]),
-        of_card: PixelErrors,
-    ) -> Result<(), BiScaleCardStudyError> {
-        let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
-        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
-            let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
-            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
-        };
-        let difference: Vec<f64> = drawn.iter().zip(&self.as_target_holds(host)).map(worst).collect();
-        let range = (4.0 * of_card.off_255ths[0] / 255.0).max(1.0 / 255.0);
-        let scale = shown(255.0 * range, Quantity::Measured);
-        found.pictures(vec![
-            NamedPicture::new("card", linear_picture(&self.camera, drawn).display(1.0)?, title),
-            NamedPicture::new(
-                "host",
-                linear_picture(&self.camera, host).display(1.0)?,
-                "the host in double precision, from the same local light",
-            ),
-            NamedPicture::new(
-                "difference",
-                false_color::signed(self.camera.width(), &difference, range),
-                format!(
-                    "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or \
-                     more"
-                ),
-            ),
-        ]);
-        found.keep_layers("card", linear_picture(&self.camera, drawn));
-        Ok(())
+        let view = frame::modelled(&self.profile, &drawn.log, host_of_table_1())?;
+        Ok(view.zip(frame::modelled(&self.profile, &both, host_of_table_1())?))
     }
 
     fn sizes(&self, local: &CardLight, drawn: &Drawn) -> Table {
@@ -183,7 +131,7 @@ impl BiScaleOnCard {
     }
 }
 
-fn table_of([view, both]: &[FrameTime; 2]) -> Table {
+fn table_of((view, both): &(FrameTime, FrameTime)) -> Table {
     let mut table = Table::new("A frame", &["part", "ms"]);
     for (part, time) in [
         ("frame to frame, the view changed alone", view.frame),

@@ -7,13 +7,13 @@ use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
 
-use crate::all_frequency::on_card::FactoredCardError;
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
 use crate::bi_scale::product::reference;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
-use crate::cpca::on_card::time::FrameTimeError;
+use crate::card::MeshError;
+use crate::card::frame_time::FrameTimeError;
 use crate::picture::PictureError;
 use crate::scene::Camera;
 use crate::study::timeline_trace::TimelineError;
@@ -83,7 +83,7 @@ pub enum BiScaleCardStudyError {
     /// What pixels show cannot be found.
     #[error(transparent)]
     #[diagnostic(code(crossbar::prt::card))]
-    Seen(#[from] FactoredCardError),
+    Seen(#[from] MeshError),
     /// The frame has no time.
     #[error(transparent)]
     #[diagnostic(code(crossbar::prt::time))]

@@ -1,9 +1,11 @@
 //! Transferred radiance from representatives and weights in fewer bits.
 
-use super::pixels::{PixelErrors, exact_pixels};
+use super::pixels::exact_pixels;
 use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, in_double};
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
-use crate::all_frequency::on_card::{ProductOptions, ProductPlace, SeenPixel};
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace};
+use crate::card::SeenPixel;
+use crate::study::prt::card::difference::PixelErrors;
 use crate::transfer::light::HaarLight;
 
 /// Bits that are tried, as far as the file has more.

@@ -8,7 +8,6 @@ mod report;
 mod subject;
 mod tables;
 
-pub use pixels::PixelErrors;
 pub use precision::{FactoredPrecision, factored_precision, factored_precision_table};
 pub use subject::{AllFrequencyCardError, AllFrequencyOnCard};
 pub(in crate::study::prt::card) use tables::{Blame, report_blame};

@@ -4,15 +4,16 @@ use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 
-use super::pixels::{PixelErrors, exact_pixels};
+use super::pixels::exact_pixels;
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::all_frequency::on_card::{
-    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw, seen_pixels,
+    FactoredCardError, ProductOptions, ProductPlace, RadianceFormat, TransferredMesh, VertexColors, draw,
 };
 use crate::all_frequency::shade::Multiplies;
-use crate::cpca::on_card::PrtView;
+use crate::card::{MeshView, seen_pixels};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
+use crate::study::prt::card::difference::PixelErrors;
 
 /// Bits of G that are tried.
 const BITS: [u32; 5] = [8, 10, 12, 14, 16];
@@ -138,11 +139,11 @@ pub fn factored_precision(
     (camera, exposure): (Camera, f64),
     done: &mut dyn FnMut(u64),
 ) -> Result<Vec<FactoredPrecision>, FactoredCardError> {
-    let view = PrtView { camera, exposure, format: TexelFormat::Rgba32f };
+    let view = MeshView { camera, exposure, format: TexelFormat::Rgba32f };
     let mut found = Vec::new();
     for Choice { axis, label: choice, device, place } in choices(&mesh) {
-        let profile = Profile::named(device)?;
-        let seen = seen_pixels(&profile, mesh.vertices, &camera)?;
+        let profile = Profile::named(device).expect("a device of the project");
+        let seen = seen_pixels(&profile, mesh.vertices.geometry(), &camera)?;
         let drawing = draw(mesh, (profile, executor.clone()), place, &view, Multiplies::default())?;
         let expected = exact_pixels(&mesh, &seen, &place, (camera.eye(), exposure));
         let drawn: Vec<[f64; 3]> =

@@ -3,27 +3,28 @@
 use serde_json::json;
 
 use super::coding::{coarse_codes, ways_to_code};
-use super::pixels::{PixelErrors, exact_pixels};
+use super::pixels::exact_pixels;
 use super::precision::{factored_precision, factored_precision_table, push_errors, ways_of_precision};
 use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, CardSums, HostSteps, in_double};
 use super::tables::{Blame, TIME, report_blame};
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{
-    FactoredDrawing, ProductOptions, ProductPlace, SeenPixel, TransferredMesh, VertexColors, draw, seen_pixels,
+    FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
 };
-use crate::cpca::on_card::PrtView;
-use crate::cpca::on_card::time::{FrameTimeError, frame_time};
+use crate::card::{MeshView, SeenPixel, seen_pixels};
 use crate::report::digits::{Quantity, shown};
-use crate::report::words::percent;
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
+use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
 use crate::study::prt::card::frame;
-use crate::study::prt::interpolate::linear_picture;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
 
 const SWEEP: &str = "Each row is one thing made coarse and the rest without rounding to speak of, in 255ths of white. \
     Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with the file's \
     own code; all others are drawn into floats and compared with products in double precision of the same numbers.";
+
+/// What card and host compute from.
+const FROM: &str = "the same numbers";
 
 impl Study for AllFrequencyOnCard {
     type Error = AllFrequencyCardError;
@@ -32,12 +33,13 @@ impl Study for AllFrequencyOnCard {
         progress("host", 0, 2);
         let steps = self.steps()?;
         let mesh = self.mesh_of(&steps.transferred);
-        let (eye, seen) = (self.lit.camera.eye(), seen_pixels(&self.profile, &self.lit.vertices, &self.lit.camera)?);
+        let (eye, seen) =
+            (self.lit.camera.eye(), seen_pixels(&self.profile, self.lit.vertices.geometry(), &self.lit.camera)?);
         let linear = exact_pixels(&mesh, &seen, &self.place, (eye, 1.0));
         let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&linear));
         let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
         progress("card", 1, 2);
-        let view = PrtView { camera: self.lit.camera, exposure, format: self.format };
+        let view = MeshView { camera: self.lit.camera, exposure, format: self.format };
         let card = (self.profile.clone(), self.executor.clone());
         let mut drawing = draw(mesh, card, self.place, &view, steps.multiplies)?;
         if let Some(sums) = &steps.sums {
@@ -47,18 +49,17 @@ impl Study for AllFrequencyOnCard {
         found.taken_from(self.lit.camera.world_to_camera());
         let drawn = drawing.texels.texels.iter();
         let drawn: Vec<[f64; 3]> = drawn.map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
-        let of_card = PixelErrors::of(&seen, &drawn, &self.as_target_holds(&host));
-        self.conclude(&of_card, &drawing, &mut found);
-        let time = match frame_time(&self.profile, &drawing.log, &host_of_table_1().map_err(FrameTimeError::from)?) {
-            Ok(time) => Some(time),
-            Err(FrameTimeError::Timing(_)) => None,
-            Err(error) => return Err(error.into()),
-        };
+        let is_clamped = !self.format.record().is_float() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
+        let compared = ComparedPicture::new(&seen, &drawn, (&host, is_clamped));
+        found.conclusion(compared.sentence(&self.profile.title, FROM));
+        conclude(&drawing, &mut found);
+        let time = frame::modelled(&self.profile, &drawing.log, host_of_table_1())?;
         if let Some(time) = &time {
             found.conclusion(format!("{}.", frame::rate(time, &self.profile.title)));
         }
-        self.pictures(&mut found, (&drawn, &host), of_card)?;
-        let blames = self.blame(&steps, (&seen, exposure), (&mesh, of_card))?;
+        let title = format!("{} under {} on the {}", self.lit.model, self.lit.light_name, self.profile.title);
+        compared.report(&self.lit.camera, (title, FROM), &mut found)?;
+        let blames = self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?;
         report_blame(&blames, &mut found);
         found.heading("What is drawn");
         found.table(FoundTable::from(self.sizes(&steps, &drawing)).field("sizes"));
@@ -76,11 +77,6 @@ impl Study for AllFrequencyOnCard {
         found.field("exposure", json!(exposure));
         found.field("kept", json!(steps.cut.kept));
         found.field("nonzero", json!(steps.cut.nonzero));
-        found.field(
-            "difference",
-            json!({ "rms_255ths": of_card.off_255ths[0], "largest_255ths": of_card.off_255ths[1],
-            "visible_share": of_card.visible }),
-        );
         Ok(found)
     }
 
@@ -91,68 +87,21 @@ impl Study for AllFrequencyOnCard {
     }
 }
 
-impl AllFrequencyOnCard {
-    /// Fractions and colors of vertices in bytes clamp; the host's picture is clamped alike before it is compared.
-    fn as_target_holds(&self, host: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let clamps = !self.format.record().is_float() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
-        let held = |color: &[f64; 3]| if clamps { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
-        host.iter().map(held).collect()
-    }
-
-    fn conclude(&self, of_card: &PixelErrors, drawing: &FactoredDrawing, found: &mut Findings) {
-        let [rms, largest] = of_card.off_255ths.map(|steps| shown(steps, Quantity::Measured));
-        found.conclusion(format!(
-            "{}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double precision \
-             from the same numbers; {} of the pixels by more than one.",
-            self.profile.title,
-            percent(of_card.visible)
-        ));
-        let counts = &drawing.counts;
-        for (count, what) in [
-            (counts.below_zero, "pixels are below 0 in a channel before the target clamps"),
-            (counts.vertices_below_zero, "vertices are below 0 in a channel before their colors clamp"),
-            (counts.vertices_above_one, "vertices are above 1 in a channel, which bytes do not hold"),
-        ] {
-            if let Some(count) = count.filter(|&count| count > 0) {
-                found.conclusion(format!("{count} {what}."));
-            }
+/// Counts of colors that a picture cannot show.
+fn conclude(drawing: &FactoredDrawing, found: &mut Findings) {
+    let counts = &drawing.counts;
+    for (count, what) in [
+        (counts.below_zero, "pixels are below 0 in a channel before the target clamps"),
+        (counts.vertices_below_zero, "vertices are below 0 in a channel before their colors clamp"),
+        (counts.vertices_above_one, "vertices are above 1 in a channel, which bytes do not hold"),
+    ] {
+        if let Some(count) = count.filter(|&count| count > 0) {
+            found.conclusion(format!("{count} {what}."));
         }
     }
+}
 
-    fn pictures(
-        &self,
-        found: &mut Findings,
-        (drawn, host): (&[[f64; 3]], &[[f64; 3]]),
-        of_card: PixelErrors,
-    ) -> Result<(), AllFrequencyCardError> {
-        let title = format!("{} under {} on the {}", self.lit.model, self.lit.light_name, self.profile.title);
-        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
-            let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
-            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
-        };
-        let difference: Vec<f64> = drawn.iter().zip(&self.as_target_holds(host)).map(worst).collect();
-        let range = (4.0 * of_card.off_255ths[0] / 255.0).max(1.0 / 255.0);
-        let scale = shown(255.0 * range, Quantity::Measured);
-        found.pictures(vec![
-            NamedPicture::new("card", linear_picture(&self.lit.camera, drawn).display(1.0)?, title),
-            NamedPicture::new(
-                "host",
-                linear_picture(&self.lit.camera, host).display(1.0)?,
-                "the host in double precision, from the same numbers",
-            ),
-            NamedPicture::new(
-                "difference",
-                false_color::signed(self.lit.camera.width(), &difference, range),
-                format!(
-                    "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or \
-                     more"
-                ),
-            ),
-        ]);
-        found.keep_layers("card", linear_picture(&self.lit.camera, drawn));
-        Ok(())
-    }
-
+impl AllFrequencyOnCard {
     /// Step by step from light to picture.
     fn blame(
         &self,

@@ -2,7 +2,7 @@
 
 use glam::DMat3;
 use miette::Diagnostic;
-use refsim::device::{DeviceError, Profile};
+use refsim::device::Profile;
 use refsim::machine::Executor;
 use refsim::texture::TexelFormat;
 use thiserror::Error;
@@ -11,7 +11,8 @@ use crate::all_frequency::code::{CodeOptionsError, CodedTransfer};
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
 use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
-use crate::cpca::on_card::time::FrameTimeError;
+use crate::card::MeshError;
+use crate::card::frame_time::FrameTimeError;
 use crate::picture::PictureError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
@@ -73,10 +74,10 @@ pub enum AllFrequencyCardError {
         )
     )]
     Card(#[from] FactoredCardError),
-    /// A device is not known.
+    /// What pixels show cannot be found.
     #[error(transparent)]
-    #[diagnostic(transparent)]
-    Device(#[from] DeviceError),
+    #[diagnostic(code(crossbar::prt::card))]
+    Seen(#[from] MeshError),
     /// The frame has no time.
     #[error(transparent)]
     #[diagnostic(code(crossbar::prt::time))]

@@ -1,8 +1,8 @@
 //! The tables of the study.
 
-use super::pixels::PixelErrors;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, Table};
+use crate::study::prt::card::difference::PixelErrors;
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and adds as \
     fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";

@@ -16,7 +16,7 @@ use crate::all_frequency::factor::Lobe;
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
 use crate::all_frequency::on_card::{ProductPlace, VertexColors};
 use crate::all_frequency::shade::Multiplies;
-use crate::cpca::on_card::time::frame_time;
+use crate::card::frame_time::frame_time;
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::ground::GROUND_SIDE;

@@ -1,0 +1,140 @@
+//! How long a frame takes: the host's work, data and constants on their way, vertices and pixels; and frames whose log
+//! follows from sizes and counts alone.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use refsim::device::Profile;
+use refsim::event::{DrawEvents, DrawRecord, Event, HostWork, PrimitiveCounts, ProgramWork};
+use refsim::timing::host::{HostError, HostModel, HostOperation};
+use refsim::timing::replay::{Options, ReplayError, replay};
+use refsim::timing::timeline::Unit;
+use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
+use thiserror::Error;
+
+/// Frames that are put on the time axis: enough for card and host to find their pace.
+const FRAMES: usize = 4;
+
+/// Why a frame has no time.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the messages of the errors below say what is wrong")]
+pub enum FrameTimeError {
+    #[error(transparent)]
+    Timing(#[from] TimingError),
+    #[error(transparent)]
+    Replay(#[from] ReplayError),
+    #[error(transparent)]
+    Host(#[from] HostError),
+}
+
+/// The modelled time of a frame and of its parts, of which host and card work side by side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrameTime {
+    /// From one frame to the next, when frame follows frame.
+    pub frame: Picoseconds,
+    /// Of it the host is at work: products, and commands handed to the driver.
+    pub host: Picoseconds,
+    /// The host's products alone.
+    pub products: Picoseconds,
+    /// Data on their way to the card beside constants.
+    pub uploads: Picoseconds,
+    /// State that changes, constants among it.
+    pub state: Picoseconds,
+    /// Draws one after the other, into the depth buffer and of chunks.
+    pub draws: Picoseconds,
+    /// Constant registers that are sent.
+    pub constants: u64,
+    /// Vertices that are run.
+    pub vertices_run: u64,
+    /// Triangles that are set up.
+    pub triangles: u64,
+    /// Draws.
+    pub calls: usize,
+    /// What the draws that take longest together wait for; `None` without draws.
+    pub bottleneck: Option<Bottleneck>,
+}
+
+impl FrameTime {
+    /// Frames a second.
+    pub fn per_second(&self) -> f64 {
+        1.0 / self.frame.seconds()
+    }
+}
+
+/// The time of a frame from its log.
+///
+/// # Errors
+/// [`FrameTimeError`] if the device's rates are not known.
+pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<FrameTime, FrameTimeError> {
+    let model = Model::new(Level::Pipeline, profile)?;
+    let options = Options { host: Some(host), ..Options::of(Level::Pipeline) };
+    let span = |frames: usize| -> Result<_, ReplayError> {
+        let frames: Vec<Event> = std::iter::repeat_n(log, frames).flatten().cloned().collect();
+        Ok(replay(&frames, &model, &options)?.timeline)
+    };
+    let (fewer, more) = (span(FRAMES - 1)?, span(FRAMES)?);
+    let mut time = FrameTime {
+        frame: fewer.makespan().until(more.makespan()),
+        host: fewer.busy(Unit::Host).until(more.busy(Unit::Host)),
+        ..FrameTime::default()
+    };
+    let mut longest = BTreeMap::<Bottleneck, Picoseconds>::new();
+    for event in log {
+        match event {
+            Event::Host(work) => {
+                let operation = HostOperation::named(&work.kind)?;
+                time.products += host.time_of(operation, work.operations);
+            }
+            Event::Upload { bytes, .. } => time.uploads += model.upload(*bytes),
+            Event::StateChange { changes, constants } => {
+                time.state += model.state_change(*changes, *constants);
+                time.constants += u64::from(*constants);
+            }
+            Event::Draw(draw) => {
+                let cost = model.draw(draw);
+                time.draws += cost.total;
+                time.calls += 1;
+                time.vertices_run += draw.vertices_run[1];
+                time.triangles += draw.counts.primitives.assembled;
+                *longest.entry(cost.bottleneck).or_default() += cost.total;
+            }
+            _ => {}
+        }
+    }
+    time.bottleneck = longest.into_iter().max_by_key(|&(_, sum)| sum).map(|(bottleneck, _)| bottleneck);
+    Ok(time)
+}
+
+/// Bytes of an attribute.
+const ATTRIBUTE_BYTES: u64 = 16;
+
+/// Work of the host as an event of a log.
+pub fn host_work(operation: HostOperation, operations: u64) -> Event {
+    Event::Host(HostWork { kind: operation.name().into(), operations })
+}
+
+/// A draw of triangles of which no pixel is seen: triangles and vertices run, slots and attributes of a vertex.
+pub fn unseen_draw([triangles, run]: [u64; 2], (slots, attributes): (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
+    let mut counts = DrawEvents {
+        draws: 1,
+        instances: 1,
+        vertices: run,
+        vertex_instructions: slots * run,
+        primitives: PrimitiveCounts { assembled: triangles, ..PrimitiveCounts::default() },
+        ..DrawEvents::default()
+    };
+    counts.bytes.vertices = ATTRIBUTE_BYTES * attributes * run;
+    Event::Draw(Box::new(DrawRecord {
+        counts,
+        vertices_run: [run; 3],
+        quads: 0,
+        pixel: pixel.clone(),
+        vertex: None,
+        samplers: Vec::new(),
+        targets: Vec::new(),
+        depth: None,
+        alpha_test: false,
+        blend: true,
+    }))
+}

@@ -1,0 +1,66 @@
+//! What each pixel shows, by the raster of a device: for comparisons in which only arithmetic differs.
+
+use refsim::device::Profile;
+use refsim::machine::{Executor, ExecutorKind};
+use refsim::output::WriteMask;
+
+use super::kernels::{FLOAT_COLOR, SHADE};
+use super::{Attribute, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshView, attribute};
+use crate::scene::Camera;
+
+/// A triangle's vertices with weights that sum to 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenPixel {
+    /// The triangle's number.
+    pub triangle: u32,
+    /// The corners.
+    pub corners: [u32; 3],
+    /// Their weights, correct in perspective.
+    pub weights: [f64; 3],
+}
+
+/// What each pixel of a camera shows of a mesh's front faces, row by row: a draw in single precision with the
+/// fractions of a pixel that a device puts vertices at. `None`: nothing.
+///
+/// # Errors
+/// [`MeshError::Machine`] for pictures that are too large.
+///
+/// # Panics
+/// If a triangle names a vertex that there is not.
+pub fn seen_pixels(
+    profile: &Profile,
+    (positions, triangles): (&[[f32; 3]], &[[u32; 3]]),
+    camera: &Camera,
+) -> Result<Vec<Option<SeenPixel>>, MeshError> {
+    let mut ideal = Profile::named("ideal-fp32").expect("a device of the project");
+    ideal.rules.subpixel_bits = profile.rules.subpixel_bits;
+    let program =
+        |kernel: super::KernelText| kernel.checked(&ideal).expect("the ideal device runs the project's programs");
+    let (vertex, pixel) = (program(FLOAT_COLOR), program(SHADE));
+    let mut machine = Executor::from(ExecutorKind::Batch).machine(ideal)?;
+    let mut mesh = MeshOnCard::new(triangles.as_flattened().iter().map(|&vertex| positions[vertex as usize]));
+    let weights = |triangle: usize| {
+        let mark = |first, second| attribute([first, second, triangle as f64], 1.0);
+        [mark(1.0, 0.0), mark(0.0, 1.0), mark(0.0, 0.0)]
+    };
+    let marks: Attribute = (0..triangles.len()).flat_map(weights).collect();
+    let (texels, _) = mesh.show(&mut machine, (&MeshView::from(*camera), false), |pass| {
+        pass.draw(MeshDraw {
+            vertex: (&vertex, pass.rows().to_vec()),
+            attributes: vec![pass.positions(), &marks],
+            indices: None,
+            pixel: (&pixel, Vec::new()),
+            textures: Vec::new(),
+            fragments: KeptFragments::Nearest,
+            mask: WriteMask::ALL,
+        })
+        .map_err(MeshError::from)
+    })?;
+    let seen = |&[first, second, triangle, alpha]: &[f32; 4]| {
+        let triangle = triangle.round() as u32;
+        let corners = *triangles.get(triangle as usize).filter(|_| alpha != 0.0)?;
+        let [first, second] = [first, second].map(f64::from);
+        Some(SeenPixel { triangle, corners, weights: [first, second, 1.0 - first - second] })
+    };
+    Ok(texels.texels.iter().map(seen).collect())
+}

@@ -1,0 +1,114 @@
+//! How a card's picture differs from that of the host, pixel by pixel of the card's raster.
+
+use serde_json::json;
+
+use crate::card::SeenPixel;
+use crate::picture::PictureError;
+use crate::report::digits::{Quantity, shown};
+use crate::report::words::percent;
+use crate::report::{Cell, Findings, NamedPicture, false_color};
+use crate::scene::Camera;
+use crate::study::prt::interpolate::linear_picture;
+
+/// Steps of a picture of 8 bits.
+const STEPS: f64 = 255.0;
+
+/// How far pixels that show the mesh are off.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PixelErrors {
+    /// Root mean square and largest difference of a channel, in 255ths of white.
+    pub off_255ths: [f64; 2],
+    /// Share of the pixels of which a channel is off by more than one 255th.
+    pub visible: f64,
+}
+
+impl PixelErrors {
+    /// Of pixels, row by row, against others; those that show nothing do not count.
+    pub(super) fn of(seen: &[Option<SeenPixel>], found: &[[f64; 3]], expected: &[[f64; 3]]) -> Self {
+        let shown = seen.iter().zip(found.iter().zip(expected)).filter(|(seen, _)| seen.is_some());
+        let off: Vec<[f64; 3]> =
+            shown.map(|(_, (a, b))| [0, 1, 2].map(|channel| STEPS * (a[channel] - b[channel]))).collect();
+        let (pixels, all) = (off.len().max(1) as f64, off.as_flattened());
+        let largest = all.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let rms = (all.iter().map(|value| value * value).sum::<f64>() / (3.0 * pixels)).sqrt();
+        let visible = off.iter().filter(|pixel| pixel.iter().any(|value| value.abs() > 1.0)).count() as f64 / pixels;
+        Self { off_255ths: [rms, largest], visible }
+    }
+
+    /// Cells of a table: root mean square, largest, percent of the pixels.
+    pub(super) fn cells(&self) -> [Cell; 3] {
+        let [rms, largest] = self.off_255ths.map(Cell::measured);
+        [rms, largest, Cell::percent(100.0 * self.visible)]
+    }
+}
+
+/// Pixels as a target of fractions holds them, if it is one.
+pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
+    let held = |color: &[f64; 3]| if is_clamped { color.map(|value| value.clamp(0.0, 1.0)) } else { *color };
+    pixels.iter().map(held).collect()
+}
+
+/// A card's picture beside the host's, both exposed.
+pub(super) struct ComparedPicture<'a> {
+    /// What the target holds.
+    pub(super) drawn: &'a [[f64; 3]],
+    /// In double precision, neither clamped nor quantised.
+    pub(super) host: &'a [[f64; 3]],
+    pub(super) is_clamped: bool,
+    pub(super) errors: PixelErrors,
+}
+
+impl<'a> ComparedPicture<'a> {
+    /// Compares pictures of what pixels show. Where the target or the vertices hold fractions, the host's is clamped
+    /// alike.
+    pub(super) fn new(
+        seen: &[Option<SeenPixel>],
+        drawn: &'a [[f64; 3]],
+        (host, is_clamped): (&'a [[f64; 3]], bool),
+    ) -> Self {
+        Self { drawn, host, is_clamped, errors: PixelErrors::of(seen, drawn, &held(host, is_clamped)) }
+    }
+
+    /// How far the card is off what the host computes `from` the same numbers.
+    pub(super) fn sentence(&self, card: &str, from: &str) -> String {
+        let [rms, largest] = self.errors.off_255ths.map(|steps| shown(steps, Quantity::Measured));
+        format!(
+            "{card}: off by {rms} 255ths (root mean square; largest {largest}) of what the host computes in double \
+             precision from {from}; {} of the pixels by more than one.",
+            percent(self.errors.visible)
+        )
+    }
+
+    /// Adds both pictures and their difference.
+    pub(super) fn report(
+        &self,
+        camera: &Camera,
+        (title, from): (String, &str),
+        found: &mut Findings,
+    ) -> Result<(), PictureError> {
+        let worst = |(found, expected): (&[f64; 3], &[f64; 3])| {
+            let channels = found.iter().zip(expected).map(|(found, expected)| found - expected);
+            channels.fold(0.0, |worst: f64, value| if value.abs() > worst.abs() { value } else { worst })
+        };
+        let difference: Vec<f64> = self.drawn.iter().zip(&held(self.host, self.is_clamped)).map(worst).collect();
+        let [rms, largest] = self.errors.off_255ths;
+        let range = (4.0 * rms / STEPS).max(1.0 / STEPS);
+        let scale = shown(STEPS * range, Quantity::Measured);
+        let host = format!("the host in double precision, from {from}");
+        let caption = format!(
+            "card less host, the channel that differs most: blue -{scale} or less, white 0, red +{scale} 255ths or more"
+        );
+        found.pictures(vec![
+            NamedPicture::new("card", linear_picture(camera, self.drawn).display(1.0)?, title),
+            NamedPicture::new("host", linear_picture(camera, self.host).display(1.0)?, host),
+            NamedPicture::new("difference", false_color::signed(camera.width(), &difference, range), caption),
+        ]);
+        found.keep_layers("card", linear_picture(camera, self.drawn));
+        let visible_share = self.errors.visible;
+        found.field(
+            "difference",
+            json!({ "rms_255ths": rms, "largest_255ths": largest, "visible_share": visible_share }),
+        );
+        Ok(())
+    }
+}

@@ -1,0 +1,328 @@
+//! What cards show of open models: front faces alone, as rays of the host meet them, on the card of each kind of
+//! transfer. An ideal card differs from values interpolated in f64 by less than putting vertices at fractions of a
+//! pixel explains.
+
+use crossbar::all_frequency::Reflectance;
+use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
+use crossbar::all_frequency::kernels::{MapFilter, ViewNumbers};
+use crossbar::all_frequency::on_card::reference::pixel_of_products;
+use crossbar::all_frequency::on_card::{FactoredCard, ProductOptions, ProductPlace, TransferredMesh};
+use crossbar::all_frequency::shade::TransferredRadiance;
+use crossbar::bi_scale::directions::LocalDirections;
+use crossbar::bi_scale::kernels::BlockEdges;
+use crossbar::bi_scale::on_card::reference::pixel;
+use crossbar::bi_scale::on_card::{BiScaleCard, DisplayOptions, LocalFormat, TexturedMesh};
+use crossbar::bi_scale::texture::BidirectionalTexture;
+use crossbar::card::{MeshView, SeenPixel, Texels, seen_pixels};
+use crossbar::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
+use crossbar::elementary::sin_cos;
+use crossbar::geom::{Mesh, random::CounterRng};
+use crossbar::io::load_mesh;
+use crossbar::report::Provenance;
+use crossbar::scene::Camera;
+use crossbar::sphere::HarmonicLight;
+use crossbar::study::Study;
+use crossbar::study::prt::OnCard;
+use crossbar::transfer::brdf::ExitBasis;
+use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
+use crossbar::transfer::file::PrtMeaning;
+use crossbar::transfer::synthetic::signal_at;
+use crossbar::transfer::{Tangents, Vertices};
+use glam::DVec3;
+use refsim::device::Profile;
+use refsim::machine::ExecutorKind;
+use refsim::texture::TexelFormat;
+
+const SIZE: [u32; 2] = [60, 50];
+const FLOATS: TexelFormat = TexelFormat::Rgba32f;
+/// Rays beside a pixel's center, in pixels: where all meet one triangle, the raster decides as they do.
+const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [0.05, 0.05], [0.05, -0.05], [-0.05, 0.05], [-0.05, -0.05]];
+
+/// What a pixel shows in f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shown {
+    Nothing,
+    /// The triangle's values at the center, and a step to the right and down.
+    Triangle([SeenPixel; 3]),
+    /// Triangles meet near the center: the raster may decide otherwise.
+    Edge,
+}
+
+struct Scene {
+    name: &'static str,
+    mesh: Mesh,
+    vertices: Vertices,
+    camera: Camera,
+    shown: Vec<Shown>,
+}
+
+impl Scene {
+    fn new(name: &'static str, mesh: Mesh, camera: Camera) -> Self {
+        let vertices = Vertices::new(&mesh, Tangents::Along(DVec3::new(0.3, 0.5, 0.7))).expect("vertices");
+        let mut scene = Self { name, mesh, vertices, camera, shown: Vec::new() };
+        scene.shown = (0..SIZE[0] * SIZE[1]).map(|pixel| scene.pixel(pixel % SIZE[0], pixel / SIZE[0])).collect();
+        let count = |is: fn(&Shown) -> bool| scene.shown.iter().filter(|shown| is(shown)).count();
+        let counts = [count(|s| *s == Shown::Nothing), count(|s| matches!(s, Shown::Triangle(_)))];
+        assert!(counts.iter().all(|&count| count > 500), "{name}: {counts:?}");
+        scene
+    }
+
+    /// A box without a lid from above and aside: there is nothing to see where inner faces would be.
+    fn open_box() -> Self {
+        let corner = |at: usize| {
+            let [x, y] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][at % 4];
+            [x, y, if at < 4 { -0.6 } else { 0.6 }]
+        };
+        let walls = (0..4_u32).flat_map(|at| {
+            let next = (at + 1) % 4;
+            [[at, next, next + 4], [at, next + 4, at + 4]]
+        });
+        let faces = walls.chain([[0, 3, 2], [0, 2, 1]]).collect();
+        let mesh = Mesh::new((0..8).map(corner).collect(), faces).expect("a box");
+        let camera = Camera::new([2.4, -3.1, 2.6], [0.0; 3], [0.0, 0.0, 1.0], 0.3, SIZE[0], SIZE[1]);
+        Self::new("an open box", mesh, camera.expect("a camera"))
+    }
+
+    /// Between lid and body of the example's teapot there is a gap, and its bottom is open.
+    fn teapot() -> Self {
+        let mesh = load_mesh("docs/examples/teapot.obj".as_ref()).expect("the teapot");
+        let camera = Camera::new([2.4, -5.2, -2.0], [0.6, 0.0, 1.3], [0.0, 0.0, 1.0], 0.5, SIZE[0], SIZE[1]);
+        Self::new("the teapot", mesh, camera.expect("a camera"))
+    }
+
+    fn place(&self, vertex: u32) -> DVec3 {
+        DVec3::from(self.vertices.positions()[vertex as usize].map(f64::from))
+    }
+
+    /// Distance, and the corners' weights, of the point of a triangle's plane at a place of the picture; `None` from
+    /// behind.
+    fn meet(&self, triangle: usize, [x, y]: [f64; 2]) -> Option<(f64, SeenPixel)> {
+        let (eye, direction) = (DVec3::from(self.camera.eye().map(f64::from)), self.camera.direction_at(x, y));
+        let corners = self.vertices.triangles()[triangle];
+        let [a, b, c] = corners.map(|corner| self.place(corner));
+        let normal = (b - a).cross(c - a);
+        let t = normal.dot(a - eye) / normal.dot(direction);
+        let point = eye + t * direction;
+        let weight = |from: DVec3, to: DVec3| (to - from).cross(point - from).dot(normal) / normal.dot(normal);
+        let weights = [weight(b, c), weight(c, a), weight(a, b)];
+        (normal.dot(direction) < 0.0 && t > 0.0)
+            .then_some((t, SeenPixel { triangle: triangle as u32, corners, weights }))
+    }
+
+    /// Made-up transfer to light of order 3: 64 clusters of 6 vectors where there are vertices enough.
+    fn clusters(&self, basis: &ExitBasis) -> Clustering {
+        let place = |at: usize| self.place(at as u32).to_array();
+        let signal = signal_at(self.vertices.len(), basis.len() * 9, 3, place);
+        let options = CpcaOptions {
+            clusters: 64.min(self.vertices.len() / 4),
+            vectors: 6,
+            iterations: 2,
+            method: CpcaMethod::Iterative,
+            form: CpcaForm::Affine,
+            start: StartPoints::Seed(4),
+        };
+        compress(&signal, &options, |_| ()).expect("compressed").clustering
+    }
+
+    fn nearest(&self, at: [f64; 2]) -> Option<u32> {
+        let met = (0..self.vertices.triangles().len()).filter_map(|triangle| self.meet(triangle, at));
+        let inside = met.filter(|(_, seen)| seen.weights.iter().all(|&weight| weight >= 0.0));
+        inside.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, seen)| seen.triangle)
+    }
+
+    fn pixel(&self, x: u32, y: u32) -> Shown {
+        let at = |[right, down]: [f64; 2]| [f64::from(x) + 0.5 + right, f64::from(y) + 0.5 + down];
+        let nearest = self.nearest(at([0.0; 2]));
+        if AROUND.iter().any(|&beside| self.nearest(at(beside)) != nearest) {
+            return Shown::Edge;
+        }
+        let Some(triangle) = nearest else { return Shown::Nothing };
+        // Twice what vertices are moved by, half a fraction of a pixel each.
+        let step = 1.0 / f64::from(1_u32 << ideal().rules.subpixel_bits);
+        let met = [[0.0; 2], [step, 0.0], [0.0, step]].map(|beside| self.meet(triangle as usize, at(beside)));
+        match met {
+            [Some(center), Some(right), Some(down)] => Shown::Triangle([center.1, right.1, down.1]),
+            _ => Shown::Edge,
+        }
+    }
+
+    /// Holds a picture against values in f64: nothing where nothing is, and elsewhere within what a step explains plus
+    /// a share of the largest value. `None` of a value: it is not compared.
+    fn check(&self, kind: &str, texels: &Texels, share: f64, value: &dyn Fn(&SeenPixel) -> Option<[f64; 3]>) {
+        let name = format!("{}, {kind}", self.name);
+        let values = |shown: &Shown| {
+            let Shown::Triangle(around) = shown else { return None };
+            let [center, right, down] = around.each_ref().map(value);
+            Some([center?, right?, down?])
+        };
+        let all: Vec<Option<[[f64; 3]; 3]>> = self.shown.iter().map(values).collect();
+        let largest = all.iter().flatten().flat_map(|[center, ..]| center).fold(0.0_f64, |most, v| most.max(v.abs()));
+        let mut compared = 0;
+        for (pixel, ((shown, texel), values)) in self.shown.iter().zip(&texels.texels).zip(&all).enumerate() {
+            if *shown == Shown::Nothing {
+                assert_eq!(*texel, [0.0; 4], "{name}, pixel {pixel} shows nothing");
+            }
+            let Some([center, right, down]) = values else { continue };
+            compared += 1;
+            for channel in 0..3 {
+                let explained = (right[channel] - center[channel]).abs() + (down[channel] - center[channel]).abs();
+                let off = (f64::from(texel[channel]) - center[channel]).abs();
+                let bound = explained + share * largest;
+                assert!(off <= bound, "{name}, pixel {pixel}: off by {off}, {bound} explained of {largest}");
+            }
+        }
+        assert!(compared > 300, "{name}: {compared} pixels compared");
+    }
+}
+
+fn ideal() -> Profile {
+    Profile::named("ideal-fp32").expect("a device")
+}
+
+fn scenes() -> [Scene; 2] {
+    [Scene::open_box(), Scene::teapot()]
+}
+
+/// The one place that says what pixels show for comparisons shows front faces too.
+#[test]
+fn seen_pixels_are_those_of_rays() {
+    for scene in scenes() {
+        let seen = seen_pixels(&ideal(), scene.vertices.geometry(), &scene.camera).expect("pixels");
+        for (pixel, (seen, shown)) in seen.iter().zip(&scene.shown).enumerate() {
+            match shown {
+                Shown::Nothing => assert_eq!(*seen, None, "{}, pixel {pixel}", scene.name),
+                Shown::Triangle([center, ..]) => {
+                    let found = seen.map(|seen| seen.triangle);
+                    assert_eq!(found, Some(center.triangle), "{}, pixel {pixel}", scene.name);
+                }
+                Shown::Edge => {}
+            }
+        }
+    }
+}
+
+#[test]
+fn compressed_transfer_shows_front_faces() {
+    for scene in scenes() {
+        // What is left of glossy transfer is the linear filter between 256 texels of a map.
+        for (basis, share) in [(ExitBasis::Radiance, 1e-5), (ExitBasis::of_order(4), 3e-3)] {
+            let clustering = scene.clusters(&basis);
+            let light = HarmonicLight::red_and_blue(3);
+            let vectors = clustering.subspaces().iter().map(|subspace| subspace.len()).max().expect("a cluster");
+            let (vertices, clustering, basis) = (&scene.vertices, &clustering, &basis);
+            let transfer = CompressedTransfer { vertices, clustering, basis, channels: 1, vectors };
+            let options = PrtCardOptions { map_side: 256, map_format: FLOATS, ..PrtCardOptions::default() };
+            let mut card = PrtCard::new(ideal(), ExecutorKind::Batch, transfer, &options).expect("a card");
+            let view = MeshView { camera: scene.camera, exposure: 0.5, format: FLOATS };
+            let texels = card.view_texels(&light, &view).expect("a picture");
+            let exits: Vec<[Vec<f64>; 3]> = (0..vertices.len())
+                .map(|vertex| {
+                    let mut matrix = vec![0.0; clustering.dimension()];
+                    clustering.approximation(vertex, &mut matrix);
+                    let product = |row: &[f64], light: &[f64]| row.iter().zip(light).map(|(m, l)| m * l).sum::<f64>();
+                    let rows = |light: &Vec<f64>| matrix.chunks(9).map(|row| 0.5 * product(row, light)).collect();
+                    light.channels().each_ref().map(rows)
+                })
+                .collect();
+            let eye = DVec3::from(scene.camera.eye().map(f64::from));
+            let value = |seen: &SeenPixel| {
+                let parts = || seen.corners.into_iter().zip(seen.weights);
+                let local = |v: u32| vertices.frames()[v as usize].to_local(eye - scene.place(v));
+                let view = parts().map(|(v, weight)| weight * local(v)).sum::<DVec3>().normalize();
+                // Maps end at the horizon.
+                if transfer.is_glossy() && view.z < 0.05 {
+                    return None;
+                }
+                let mut y = vec![0.0; basis.len()];
+                basis.values(view, &mut y);
+                let mix =
+                    |c: usize, row: usize| parts().map(|(v, weight)| weight * exits[v as usize][c][row]).sum::<f64>();
+                Some([0, 1, 2].map(|c| y.iter().enumerate().map(|(row, y)| y * mix(c, row)).sum()))
+            };
+            scene.check(if transfer.is_glossy() { "glossy" } else { "diffuse" }, &texels, share, &value);
+        }
+    }
+}
+
+#[test]
+fn all_frequency_transfer_shows_front_faces() {
+    let sampling = FactorSampling { side: 16, supersamples: Supersamples::NONE, ..FactorSampling::default() };
+    let table = sampling.table(&Lobe::cook_torrance(0.4, 0.5), &mut |_, _| ()).expect("a table");
+    let reflectance = Reflectance::Factored(Factorization::new(&table, 6).expect("terms").factors(6));
+    let fine = ProductOptions { map_format: FLOATS, filter: MapFilter::Program, ..ProductOptions::default() };
+    for scene in scenes() {
+        let signal = signal_at(scene.vertices.len(), 18, 5, |at| scene.place(at as u32).to_array());
+        let transferred = TransferredRadiance::new(6, signal.values().as_chunks().0.to_vec());
+        let (vertices, colors) = (&scene.vertices, &[[0.8, 0.7, 0.6]][..]);
+        let mesh = TransferredMesh { vertices, reflectance: &reflectance, colors, transferred: &transferred };
+        let place = ProductPlace::Pixels(fine);
+        let mut card = FactoredCard::new(ideal(), ExecutorKind::Batch, mesh, place).expect("a card");
+        let view = MeshView { camera: scene.camera, exposure: 1.5, format: FLOATS };
+        let texels = card.view_texels(&view).expect("a picture");
+        let view = (ViewNumbers::Coordinates, scene.camera.eye());
+        let value = |seen: &SeenPixel| {
+            Some(pixel_of_products(&mesh, view, seen.corners, seen.weights).map(|value| 1.5 * value))
+        };
+        scene.check("products per pixel", &texels, 1e-5, &value);
+    }
+}
+
+#[test]
+fn bi_scale_transfer_shows_front_faces() {
+    let (random, views, lights) = (CounterRng::new(7), 5, 3);
+    let directions = |side| LocalDirections::new(side).expect("directions");
+    // Of one color throughout a patch, so that the few bits of a sampler's weights do not show.
+    let sample = |at: u64| [0, 1, 2].map(|channel| random.unit(at / 16, channel, 0) as f32);
+    let samples = (0..16 * (views * lights) as u64 * (views * lights) as u64).map(sample).collect();
+    let textures = [BidirectionalTexture::new(4, directions(views), directions(lights), samples).expect("a texture")];
+    let options = DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 };
+    for scene in scenes() {
+        let (vertices, triangles) = (&scene.vertices, scene.vertices.triangles());
+        let coordinates = vec![[[0.3, 0.2], [0.7, 0.3], [0.4, 0.8]]; triangles.len()];
+        let texture_of = vec![0; triangles.len()];
+        let wave = |vertex: usize, number: usize| {
+            1.0 + sin_cos(1.3 * scene.place(vertex as u32).dot(DVec3::new(1.0, 0.7, 0.4)) + number as f64).0
+        };
+        let numbers = (0..vertices.len()).flat_map(|vertex| (0..lights * lights).map(move |light| (vertex, light)));
+        let local: Vec<[f32; 3]> =
+            numbers.map(|(vertex, light)| [0, 1, 2].map(|channel| wave(vertex, 3 * light + channel) as f32)).collect();
+        let mesh = TexturedMesh { vertices, coordinates: &coordinates, textures: &textures, texture_of: &texture_of };
+        let mut card = BiScaleCard::new(ideal(), ExecutorKind::Batch, mesh, options).expect("a card");
+        let view = MeshView { camera: scene.camera, exposure: 0.7, format: FLOATS };
+        let texels = card.view_texels(&local, &view).expect("a picture");
+        let local: Vec<[f64; 3]> = local.iter().map(|rgb| rgb.map(f64::from)).collect();
+        let value = |seen: &SeenPixel| {
+            Some(pixel(&mesh, &local, (scene.camera.eye(), BlockEdges::Wrapped), seen).map(|value| 0.7 * value))
+        };
+        scene.check("bi-scale", &texels, 1e-5, &value);
+    }
+}
+
+/// What a study says of an ideal card that interpolates shades is the rounding of single precision.
+#[test]
+fn a_study_blames_no_back_face() {
+    let scene = Scene::open_box();
+    let basis = ExitBasis::Radiance;
+    let meaning = PrtMeaning::Transfer { channels: 1, exit_functions: vec![0], light_order: 3, includes_albedo: true };
+    let study = OnCard {
+        model: scene.name.to_owned(),
+        clustering: scene.clusters(&basis),
+        mesh: scene.mesh,
+        vertices: scene.vertices,
+        meaning,
+        light_name: "red and blue".to_owned(),
+        light: HarmonicLight::red_and_blue(3),
+        camera: scene.camera,
+        exposure: None,
+        profile: ideal(),
+        switches: Vec::new(),
+        executor: ExecutorKind::Batch.into(),
+        format: FLOATS,
+        options: PrtCardOptions::default(),
+        sweep: false,
+    };
+    let found = study.findings(&mut |_, _, _| ()).expect("a picture");
+    let document = found.document(&Provenance::new("crossbar cpca card"));
+    let largest = document["difference"]["largest_255ths"].as_f64().expect("a number");
+    assert!(largest > 0.0 && largest < 0.01, "{largest}: {:?}", found.conclusions());
+}
