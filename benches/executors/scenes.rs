@@ -1,7 +1,7 @@
 //! Draws that are bound by one thing each.
 //!
 //! `texture reads: 8 dependent, linear` and `triangles: 2 pixels each, blended` stand for a glossy frame of 512 x 512
-//! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar prt card` on two threads.
+//! pixels on a mesh of 50,000 vertices. To beat: 1 s elapsed of `crossbar cpca card` on two threads.
 
 use std::fmt::Write as _;
 

@@ -13,14 +13,13 @@ use crate::all_frequency::code::{BLOCK_ROWS, CodeOptions, CodedSegment, CodedTra
 use crate::all_frequency::factor::ProductFactors;
 use crate::io::{WriteError, write_file};
 use crate::sphere::ParabolicMap;
-use crate::transfer::file::read::{Reader, bytes_of, has_conventions};
+use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
-use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, VERSION};
+use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, PrtKind, VERSION};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::hats::HatWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
 
-const CONVENTIONS: u32 = 2;
 const FACTORS: &[u8; 4] = b"FACT";
 const VISIBILITY: &[u8; 4] = b"VISI";
 const CODE: &[u8; 4] = b"CODE";
@@ -44,11 +43,6 @@ pub struct AllFrequencyFile {
     pub coded: Option<CodedTransfer>,
 }
 
-/// Whether bytes begin as such a file.
-pub fn is_all_frequency(bytes: &[u8]) -> bool {
-    has_conventions(bytes, CONVENTIONS)
-}
-
 /// Reads a file; of `mesh`, if one is given.
 ///
 /// # Errors
@@ -66,7 +60,7 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
     reader.version()?;
-    reader.conventions(CONVENTIONS)?;
+    reader.conventions(PrtKind::AllFrequency)?;
     let mut fields = [0; FIELDS];
     for field in &mut fields {
         *field = reader.integer("header")?;
@@ -249,7 +243,7 @@ pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::
     let hats = if file.hats == HatWidth::OneTexel { 1 } else { 2 };
     let (tangents, axis) = tangent_fields(file.mesh.tangents);
     let mut header = MAGIC.to_vec();
-    let first = [VERSION, CONVENTIONS, terms as u32, hats, sections.map(u32::from).iter().sum()];
+    let first = [VERSION, PrtKind::AllFrequency as u32, terms as u32, hats, sections.map(u32::from).iter().sum()];
     let fields = first.into_iter().chain(digest_fields(file.mesh)).chain([tangents]);
     header.extend(fields.flat_map(u32::to_le_bytes));
     header.extend(axis.into_iter().flat_map(f64::to_le_bytes));

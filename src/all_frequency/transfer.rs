@@ -15,7 +15,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Reflectance;
-use crate::transfer::grid::{FineDirections, Segmentation};
+use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
 use crate::transfer::haar::Haar;
 use crate::transfer::hats::Hats;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
@@ -125,6 +125,23 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         );
         let vertices = maps.into_iter().map(|map| self.maps.vertices()[map]).collect();
         Ok(Some(TransferSegment { segment, vertices, signal: Signal::new(dimension, values)? }))
+    }
+
+    /// The average response to every coefficient of a light in 24 segments, 0 where no vertex has transfer:
+    /// [`TransferSegment::mean_response`] of all of them, which [`TruncationPriority::Transfer`] takes.
+    ///
+    /// # Errors
+    /// As [`Self::segment`].
+    ///
+    /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
+    pub fn mean_responses(&self) -> Result<Vec<f64>, TransferError> {
+        let mut responses = vec![0.0; LIGHT_TEXELS];
+        for segment in self.segments() {
+            let segment = segment?;
+            let mean = segment.mean_response(self.vertices.len());
+            responses[segment.segment * LEN..][..LEN].copy_from_slice(&mean);
+        }
+        Ok(responses)
     }
 
     /// The raw transfer of a map's vertex for a segment (equation 10): row i and light texel j of the segment are

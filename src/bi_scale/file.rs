@@ -9,13 +9,12 @@ use crate::bi_scale::bicluster::{Bicluster, Biclustering};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::io::{WriteError, write_file};
-use crate::transfer::file::read::{Reader, bytes_of, has_conventions};
+use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
-use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, VERSION};
+use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, PrtKind, VERSION};
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::Horizon;
 
-const CONVENTIONS: u32 = 3;
 const MATRIX: &[u8; 4] = b"MATR";
 const BICLUSTERS: &[u8; 4] = b"BICL";
 /// Fields of 32 bits between the conventions and the axis of tangents.
@@ -43,11 +42,6 @@ pub struct BiScaleFile {
     pub biclusters: Option<Biclustering>,
 }
 
-/// Whether bytes begin as such a file.
-pub fn is_bi_scale(bytes: &[u8]) -> bool {
-    has_conventions(bytes, CONVENTIONS)
-}
-
 /// Reads a file.
 ///
 /// # Errors
@@ -63,7 +57,7 @@ pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, PrtFileError> {
 pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
     reader.version()?;
-    reader.conventions(CONVENTIONS)?;
+    reader.conventions(PrtKind::BiScale)?;
     let mut fields = [0; FIELDS];
     for field in &mut fields {
         *field = reader.integer("header")?;
@@ -268,8 +262,16 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
         None => (0, 0, [0; 4], (0, [0.0; 3])),
     };
     let mut header = MAGIC.to_vec();
-    let first =
-        [VERSION, CONVENTIONS, side, horizon, shape.rows as u32, shape.columns as u32, shape.fraction_bits, sections];
+    let first = [
+        VERSION,
+        PrtKind::BiScale as u32,
+        side,
+        horizon,
+        shape.rows as u32,
+        shape.columns as u32,
+        shape.fraction_bits,
+        sections,
+    ];
     header.extend(first.into_iter().chain(digest).chain([tangents]).flat_map(u32::to_le_bytes));
     header.extend(axis.into_iter().flat_map(f64::to_le_bytes));
     header.extend(crc32fast::hash(&header).to_le_bytes());

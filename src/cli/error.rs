@@ -158,7 +158,11 @@ fn usage_problem(error: &clap::Error) -> Problem {
 
 /// Writes what is wrong with the arguments, or the help that was asked for; as JSON if `--json` is among them. `parse`
 /// parses other arguments: a message that quotes what is not safe to show is made again.
-pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString], parse: fn(Vec<String>) -> Option<clap::Error>) {
+pub(super) fn print_usage(
+    error: &clap::Error,
+    arguments: &[OsString],
+    parse: fn(Vec<OsString>) -> Option<clap::Error>,
+) {
     let safe: Vec<String> =
         arguments.iter().map(|argument| visible_line(&argument.to_string_lossy()).into_owned()).collect();
     if error.use_stderr() && arguments.iter().any(|argument| argument == "--json") {
@@ -169,7 +173,7 @@ pub(super) fn print_usage(error: &clap::Error, arguments: &[OsString], parse: fn
         error.print().ok();
         return;
     }
-    match parse(safe) {
+    match parse(safe.into_iter().map(OsString::from).collect()) {
         Some(same) => same.print().ok(),
         // The safe arguments are fine: the message is shown plain.
         None => writeln!(io::stderr().lock(), "{}", visible(&error.render().to_string()).trim_end()).ok(),

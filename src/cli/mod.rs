@@ -4,17 +4,21 @@
 //! back as a [`miette::Report`]. Studies share one runner, `study`. This file turns the two into exit codes: 0 done, 1
 //! the check failed, 2 bad input or usage. A reader that goes away (`| head`) ends the program quietly.
 
+mod all_frequency;
 mod alu;
 mod atlas;
+mod bi_scale;
 mod card;
 mod caster;
 mod check;
 mod compare;
 mod completions;
+mod cpca;
 mod devices;
 mod diff;
 mod error;
 mod executor;
+mod given;
 mod interrupt;
 mod intersect;
 mod leaky_teapot;
@@ -23,12 +27,12 @@ mod materials;
 mod memory;
 mod model_file;
 mod model_name;
+mod moved;
 mod number;
 mod out;
 mod outputs;
 mod pixel;
 mod progress;
-mod prt;
 mod radiosity;
 mod render;
 mod reproduce;
@@ -42,6 +46,7 @@ mod study;
 mod subsurface;
 mod switch;
 mod timeline;
+mod transfer;
 mod version;
 mod view;
 mod words;
@@ -106,18 +111,20 @@ A command that is interrupted leaves nothing half-written; it does not resume.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    AllFrequency(all_frequency::Args),
     Alu(alu::Args),
     Atlas(atlas::Args),
+    BiScale(bi_scale::Args),
     Check(check::Args),
     Compare(compare::Args),
     Completions(completions::Args),
+    Cpca(cpca::Args),
     Devices(devices::Args),
     Diff(diff::Args),
     Intersect(intersect::Args),
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
     Materials(materials::Args),
-    Prt(prt::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -127,25 +134,30 @@ enum Command {
     Timeline(timeline::Args),
 }
 
-/// The program with all its options.
-fn program() -> clap::Command {
+/// The program with all its options: a tree of commands, verbs and arguments.
+pub fn program() -> clap::Command {
     outputs::with_negative_numbers(model_file::with_options(Cli::command()))
+}
+
+/// What a command line asks for, itself with its defaults, and whether its options go together.
+type Parsed = (Cli, String, Result<(), Problem>);
+
+fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
+    let mut program = moved::with_old_name(program());
+    let matches = program.try_get_matches_from_mut(arguments)?;
+    moved::refuse(&mut program, &matches)?;
+    let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
+    let fits = model_file::choose(&matches).and_then(|()| outputs::require_different(&program, &matches));
+    Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
-    let mut program = program();
-    let parsed = program.try_get_matches_from_mut(&arguments).and_then(|matches| {
-        let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-        model_file::choose(&matches);
-        let two_of_one = outputs::require_different(&program, &matches);
-        Ok((cli, resolved::command_line(&program, &matches), two_of_one))
-    });
-    let (cli, command_line, two_of_one) = match parsed {
+    let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
-            error::print_usage(&error, &arguments, |safe| self::program().try_get_matches_from(safe).err());
+            error::print_usage(&error, &arguments, |safe| parse(&safe).err());
             // Help and `--version` come this way too, with code 0.
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(BAD_INPUT));
         }
@@ -162,7 +174,7 @@ pub fn main() -> ExitCode {
             return ExitCode::from(BAD_INPUT);
         }
     }
-    if let Err(problem) = two_of_one {
+    if let Err(problem) = fits {
         error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }
@@ -187,18 +199,20 @@ pub fn main() -> ExitCode {
 
 fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     match command {
+        Command::AllFrequency(args) => all_frequency::run(&args, command_line, out),
         Command::Alu(args) => alu::run(&args, out),
         Command::Atlas(args) => study::run(&args, command_line, out),
+        Command::BiScale(args) => bi_scale::run(&args, command_line, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
         Command::Completions(args) => completions::run(&args, program(), out),
+        Command::Cpca(args) => cpca::run(&args, command_line, out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Diff(args) => diff::run(&args, command_line, out),
         Command::Intersect(args) => intersect::run(&args, out),
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
-        Command::Prt(args) => prt::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

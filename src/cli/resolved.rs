@@ -85,17 +85,17 @@ mod tests {
             "crossbar reproduce figure-7 equation-11"
         );
         assert_eq!(
-            resolved(&["crossbar", "prt", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
-            "crossbar prt error a.prt b.prt --csv c.csv"
+            resolved(&["crossbar", "cpca", "error", "a.prt", "b.prt", "--json", "--csv", "c.csv"]),
+            "crossbar cpca error a.prt b.prt --csv c.csv"
         );
     }
 
     /// A default that the subject has no use for is not written.
     #[test]
     fn what_is_foreign_to_the_subject_is_left_out() {
-        let line = "crossbar prt factor --table q.csv --terms 3";
+        let line = "crossbar all-frequency factor --table q.csv --terms 3";
         assert_eq!(resolved(&line.split(' ').collect::<Vec<_>>()), line);
-        let merl = resolved(&["crossbar", "prt", "factor", "--merl", "m.binary"]);
+        let merl = resolved(&["crossbar", "all-frequency", "factor", "--merl", "m.binary"]);
         assert!(merl.contains("--clamp 3") && !merl.contains("--isotropy"), "{merl}");
     }
 
@@ -105,9 +105,9 @@ mod tests {
         for line in [
             "crossbar leaky-teapot --all-pairs --device r200 --device nv20",
             "crossbar radiosity cornell-room --per-side 3 --frames 1,2 --solver card --solver direct --switch rounding=rtz",
-            "crossbar prt factor --table q.csv",
-            "crossbar prt factor --merl m.binary --channel red",
-            "crossbar prt factor --brdf phong --exponent 9",
+            "crossbar all-frequency factor --table q.csv",
+            "crossbar all-frequency factor --merl m.binary --channel red",
+            "crossbar all-frequency factor --brdf phong --exponent 9",
             "crossbar render cornell-box",
             "crossbar radiosity room.obj --emit light=1,0,0 --eye -1,0,2",
         ] {

@@ -1,7 +1,8 @@
 //! Cube maps as a comma-separated table: the header `face,row,column,r,g,b`, then a line per texel, in any order.
 //!
 //! Faces are Direct3D's, 0 to 5 or +x, -x, +y, -y, +z, -z, as they look from inside the cube; rows count from the top,
-//! columns from the left, from 0. Radiances are finite and at least 0.
+//! columns from the left, from 0. Radiances are finite; those of truncated
+//! light may lie below 0.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -42,7 +43,7 @@ pub enum CubeTableError {
     #[diagnostic(code(crossbar::cube_map::place), help("the map has six faces of {side} x {side} texels"))]
     Place { path: PathBuf, line: u64, what: &'static str, side: usize, found: String },
     /// A radiance that is none.
-    #[error("{}:{line}: expected a finite number of at least 0 for `{channel}`, found {found}", path.display())]
+    #[error("{}:{line}: expected a finite number for `{channel}`, found {found}", path.display())]
     #[diagnostic(code(crossbar::cube_map::radiance))]
     Radiance { path: PathBuf, line: u64, channel: &'static str, found: String },
     /// A texel that stood on a line before.
@@ -154,7 +155,7 @@ impl TexelLine<'_> {
         };
         let (row, column): (usize, usize) = (place("row", row)?, place("column", column)?);
         let radiance = |channel, field: &[u8]| {
-            let value = text(field).parse().ok().filter(|value: &f64| value.is_finite() && *value >= 0.0);
+            let value = text(field).parse().ok().filter(|value: &f64| value.is_finite());
             value.ok_or_else(|| CubeTableError::Radiance { path: path(), line, channel, found: quoted(field) })
         };
         let at = (face * self.side + row) * self.side + column;
@@ -182,7 +183,9 @@ mod tests {
         let texels = parse(&format!("face,row,column,r,g,b\n{TAIL}+x,0,0, 0.25 ,1e3,0\n")).expect("a map");
         assert_eq!(texels[0], [0.25, 1000.0, 0.0]);
         assert_eq!(texels[4..], [[4.0, 0.0, 0.5], [5.0, 0.0, 0.0]]);
-        assert_eq!(parse(&write_cube_table(&texels, 1)), Ok(texels));
+        assert_eq!(parse(&write_cube_table(&texels, 1)), Ok(texels.clone()));
+        let signed: Vec<[f64; 3]> = texels.iter().map(|rgb| rgb.map(|value| -value)).collect();
+        assert_eq!(parse(&write_cube_table(&signed, 1)), Ok(signed));
     }
 
     #[test]
@@ -195,9 +198,9 @@ mod tests {
         assert_eq!(error("up,0,0,1,1,1"), format!("{faces} `up`"));
         assert_eq!(error("0,1,0,1,1,1"), "l.csv:7: expected a row from 0 to 0, found `1`");
         assert_eq!(error("0,0,-1,1,1,1"), "l.csv:7: expected a column from 0 to 0, found `-1`");
-        let radiance = "l.csv:7: expected a finite number of at least 0 for";
+        let radiance = "l.csv:7: expected a finite number for";
         assert_eq!(error("0,0,0,1,nan,1"), format!("{radiance} `g`, found `nan`"));
-        assert_eq!(error("0,0,0,1,1,-2"), format!("{radiance} `b`, found `-2`"));
+        assert_eq!(error("0,0,0,1,1,x"), format!("{radiance} `b`, found `x`"));
         assert_eq!(error("0,0,0,inf,1,1"), format!("{radiance} `r`, found `inf`"));
         assert_eq!(error("1,0,0,1,1,1"), "l.csv:7: the texel at face 1, row 0, column 0 stands on line 2 too");
         let missing = "l.csv: expected 6 texels, 1 of them are missing, the first at face 0, row 0, column 0";

@@ -1,4 +1,4 @@
-//! `crossbar prt` on transfer of all frequencies, from the command line.
+//! `crossbar all-frequency`, from the command line.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +7,8 @@ use approx::assert_relative_eq;
 use crossbar::io::parse_npy;
 use serde_json::Value;
 
+use crate::cpca::{number, place};
 use crate::crossbar;
-use crate::prt::{number, place};
 
 const STEP: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.prt";
@@ -26,11 +26,11 @@ fn the_examples_are_made_by_the_commands() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let out = place(folder.path(), "out.prt");
     for threads in [1, 3] {
-        let made = document(&format!("prt precompute {STEP} --kind all-frequency --out {out} --threads {threads}"));
+        let made = document(&format!("all-frequency precompute {STEP} --out {out} --threads {threads}"));
         assert_eq!(fs::read(&out).expect("written"), fs::read(SIGHT).expect("an example"), "{threads} threads");
         assert_eq!((&made["segments_below_horizon"]["least"], &made["terms"]), (&Value::from(4), &Value::from(1)));
         let options = format!("--points-per-cluster 40 --vectors 4 --out {out} --threads {threads}");
-        let made = document(&format!("prt compress {SIGHT} --model {STEP} {options}"));
+        let made = document(&format!("all-frequency compress {SIGHT} --model {STEP} {options}"));
         assert_eq!(fs::read(&out).expect("written"), fs::read(CODED).expect("an example"), "{threads} threads");
         assert_eq!(made["bytes"]["raw"], 70 * 6144 * 4);
         assert!(number(&made["bytes"]["coded"]) < number(&made["bytes"]["clustered"]));
@@ -44,7 +44,8 @@ fn the_examples_are_made_by_the_commands() {
 fn finished_segments_are_kept() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [out, kept] = ["out.prt", "kept"].map(|name| place(folder.path(), name));
-    let options = format!("prt compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
+    let options =
+        format!("all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
     let in_all = document(&format!("{options} --out {out}"));
     assert_eq!(in_all["segments_kept"], 0);
     // As if it had been stopped before segment 9: what is lost is computed, what is there is taken.
@@ -78,16 +79,17 @@ fn finished_segments_are_kept() {
 fn errors_are_those_of_compression() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [out, csv, page] = ["out.prt", "errors.csv", "page"].map(|name| place(folder.path(), name));
-    let made =
-        document(&format!("prt compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --out {out}"));
-    let error = document(&format!("prt error {SIGHT} {CODED} --model {STEP} --csv {csv}"));
+    let made = document(&format!(
+        "all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --out {out}"
+    ));
+    let error = document(&format!("all-frequency error {SIGHT} {CODED} --model {STEP} --csv {csv}"));
     assert_relative_eq!(number(&error["relative_error"]), number(&made["squared_error"]), max_relative = 1e-12);
     let text = fs::read_to_string(csv).expect("written");
     let column = |at: usize| text.lines().skip(1).map(move |line| line.split(',').nth(at).expect("fields").to_owned());
     let sum: f64 = column(1).map(|value| value.parse::<f64>().expect("a number")).sum();
     assert_relative_eq!(sum, number(&error["squared_error"]), max_relative = 1e-12);
     let options = format!("--light sky:1,-1,1 --size 32x24 --original {SIGHT} --out {page}");
-    let drawn = document(&format!("prt render {CODED} --model {STEP} {options}"));
+    let drawn = document(&format!("all-frequency render {CODED} --model {STEP} {options}"));
     let apart = number(&drawn["picture_rms_percent"]);
     assert!(apart > 0.01 && apart < 5.0, "{apart} %");
     assert_eq!(drawn["kept"], drawn["nonzero"]);
@@ -99,22 +101,24 @@ fn errors_are_those_of_compression() {
 fn factors_go_from_one_command_to_the_next() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [factors, sight, coded, page] = ["f", "sight.prt", "coded.prt", "page"].map(|name| place(folder.path(), name));
-    document(&format!("prt factor --brdf phong --side 8 --supersamples 1x1 --terms 4 --out {factors}"));
+    document(&format!("all-frequency factor --brdf phong --side 8 --supersamples 1x1 --terms 4 --out {factors}"));
     let model = "fixtures/models/square.obj";
-    let made =
-        document(&format!("prt precompute {model} --kind all-frequency --factors {factors} --hats one --out {sight}"));
+    let made = document(&format!("all-frequency precompute {model} --factors {factors} --hats one --out {sight}"));
     assert_eq!(made["terms"], 4);
     let made = document(&format!(
-        "prt compress {sight} --model {model} --bits 12 --weight-bits 14 --scale segment --out {coded}"
+        "all-frequency compress {sight} --model {model} --bits 12 --weight-bits 14 --scale segment --out {coded}"
     ));
     assert_eq!(made["code"]["columns"], 1024);
-    let shown = document(&format!("prt show {coded} --kind all-frequency"));
+    let shown = document(&format!("all-frequency show {coded}"));
     assert_eq!((&shown["terms"], &shown["hats"]), (&Value::from(4), &Value::from("one-texel")));
     assert_eq!(shown["coded"]["representative_bits"], 12);
-    let drawn = document(&format!("prt render {coded} --model {model} --light constant --size 16x16 --out {page}"));
+    let drawn =
+        document(&format!("all-frequency render {coded} --model {model} --light constant --size 16x16 --out {page}"));
     assert!(number(&drawn["multiplies"]["vertices"]) > 0.0);
     // The camera alone: light and clusters are not looked at again, and nothing else may change.
-    document(&format!("prt render {coded} --model {model} --turn camera --frames 2 --size 16x16 --out {page}"));
+    document(&format!(
+        "all-frequency render {coded} --model {model} --turn camera --frames 2 --size 16x16 --out {page}"
+    ));
 }
 
 /// A ground is precomputed, compressed and drawn with its model; each is in the other's light.
@@ -123,9 +127,9 @@ fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let [out, ground, ground_model, small, page] =
         ["on.prt", "on.ground.prt", "on.ground.obj", "small.prt", "page"].map(|name| place(folder.path(), name));
-    let alone = document(&format!("prt precompute {STEP} --kind all-frequency --out {out}"));
+    let alone = document(&format!("all-frequency precompute {STEP} --out {out}"));
     assert_eq!(alone["ground"], Value::Null);
-    let made = document(&format!("prt precompute {STEP} --kind all-frequency --ground 8 --out {out}"));
+    let made = document(&format!("all-frequency precompute {STEP} --ground 8 --out {out}"));
     assert_eq!((&made["ground"]["vertices"], &made["ground"]["terms"]), (&Value::from(64), &Value::from(1)));
     assert_eq!(
         (made["ground"]["out"].as_str(), made["ground"]["model"].as_str()),
@@ -136,10 +140,12 @@ fn a_model_stands_on_a_ground() {
     // Half of all directions, less what the model hides.
     assert!(sees(&made["ground"]) < 64.0 * 49_152.0 && sees(&made["ground"]) > 32.0 * 49_152.0);
     document(&format!(
-        "prt compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
+        "all-frequency compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
     ));
     let render = |options: &str| {
-        document(&format!("prt render {out} --model {STEP} --light constant --size 32x24 --out {page}{options}"))
+        document(&format!(
+            "all-frequency render {out} --model {STEP} --light constant --size 32x24 --out {page}{options}"
+        ))
     };
     let pictures = ["", &format!(" --ground {ground}"), &format!(" --ground {small} --ground-model {ground_model}")]
         .map(|options| {
@@ -147,7 +153,7 @@ fn a_model_stands_on_a_ground() {
             fs::read(folder.path().join("page/picture.png")).expect("a picture")
         });
     assert!(pictures[0] != pictures[1], "the ground is drawn");
-    let other = crossbar(&["prt", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
+    let other = crossbar(&["all-frequency", "render", &out, "--model", STEP, "--ground", SIGHT, "--out", &page], "");
     assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
 }
 
@@ -156,7 +162,7 @@ fn a_model_stands_on_a_ground() {
 fn a_vertex_is_shown() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let arrays = place(folder.path(), "arrays");
-    let shown = document(&format!("prt show {CODED} --vertex 12 --arrays {arrays}"));
+    let shown = document(&format!("all-frequency show {CODED} --vertex 12 --arrays {arrays}"));
     assert_eq!((&shown["vertex"]["number"], &shown["vertex"]["directions_visible"]), (&Value::from(12), &Value::Null));
     let segments = shown["vertex"]["segments"].as_array().expect("segments");
     assert!(!segments.is_empty() && segments.len() <= 24);
@@ -181,9 +187,9 @@ fn a_vertex_is_shown() {
             assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-6);
         }
     }
-    let sees = document(&format!("prt show {SIGHT} --at 0,0,5 --model {STEP}"));
+    let sees = document(&format!("all-frequency show {SIGHT} --at 0,0,5 --model {STEP}"));
     assert!(number(&sees["vertex"]["directions_visible"]) > 1000.0 && sees["vertex"]["segments"].is_null());
-    let ran = crossbar(&["prt", "show", CODED, "--vertex", "12"], "");
+    let ran = crossbar(&["all-frequency", "show", CODED, "--vertex", "12"], "");
     assert!(
         ran.code == Some(0) && ran.stdout.contains("segments  ") && ran.stdout.contains("cluster"),
         "{}",
@@ -196,43 +202,102 @@ fn a_vertex_is_shown() {
 fn light_is_taken_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let table = place(folder.path(), "light.csv");
-    let all = document(&format!("prt lighting --light disk:1,0,2:5 --frames 4 --out {table}"));
+    let all = document(&format!("all-frequency lighting --light disk:1,0,2:5 --frames 4 --out {table}"));
     assert_eq!((&all["kept"], number(&all["kept_energy"])), (&all["nonzero"], 1.0));
     assert!(number(&all["flicker"]) < 1e-14, "rounding of the transform and back");
-    let again = document(&format!("prt lighting --light {table}"));
+    let again = document(&format!("all-frequency lighting --light {table}"));
     assert_relative_eq!(number(&again["energy"]), number(&all["energy"]), max_relative = 1e-9);
-    let few = document("prt lighting --light disk:1,0,2:5 --frames 4 --keep 20 --by magnitude --segments 6");
+    let few = document("all-frequency lighting --light disk:1,0,2:5 --frames 4 --keep 20 --by magnitude --segments 6");
     let [kept, flicker] = ["kept_energy", "flicker"].map(|field| number(&few[field]));
     assert!(kept > 0.5 && kept < 1.0 && flicker > 0.01, "{kept}, {flicker}");
     assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
+}
+
+/// Light truncated in six faces has texels below 0, and is drawn: the picture is that of the light but for what was
+/// taken away, whose red is that of the table.
+#[test]
+fn truncated_light_is_drawn() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [light, page] = ["light.csv", "page"].map(|name| place(folder.path(), name));
+    let cut = document(&format!(
+        "all-frequency lighting --light disk:1,-1,2:20 --segments 6 --keep 60 --by magnitude --out {light}"
+    ));
+    assert!(number(&cut["negative_texels"]) > 0.0, "{cut}");
+    let picture = |light: &str, keep: &str| {
+        let options = format!("--light {light} {keep} --size 32x24 --exposure 0.5 --out {page}");
+        let options = options.split_whitespace().collect::<Vec<_>>().join(" ");
+        document(&format!("all-frequency render {SIGHT} --model {STEP} {options}"));
+        let bytes = fs::read(folder.path().join("page/picture.exr")).expect("written");
+        crossbar::picture::Picture::decode(&bytes).expect("a picture").linear().expect("colors")
+    };
+    let [whole, of_six] = ["disk:1,-1,2:20", &light].map(|light| picture(light, ""));
+    let squares = |values: &mut dyn Iterator<Item = f32>| values.map(|value| f64::from(value * value)).sum::<f64>();
+    let apart = squares(&mut whole.as_flattened().iter().zip(of_six.as_flattened()).map(|(a, b)| a - b));
+    let share = (apart / squares(&mut whole.as_flattened().iter().copied())).sqrt();
+    assert!(share > 1e-4 && share < 0.2, "{share}");
+    // All of its coefficients in 24 segments are the same light, turned all the way round too.
+    assert_eq!(picture(&light, "--keep 6144"), of_six);
+    let turned = document(&format!("all-frequency lighting --light {light} --rotate 90"));
+    assert!(number(&turned["negative_texels"]) > 0.0, "{turned}");
+}
+
+/// What a model answers to most is kept, which is not what is kept by area.
+#[test]
+fn light_is_truncated_by_what_a_model_answers_to() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let kept = place(folder.path(), "kept.csv");
+    let below = "all-frequency lighting --light disk:0,0,-1:10 --keep 5";
+    let responding = format!("--by transfer --transfer {SIGHT} --model {STEP} --coefficients {kept}");
+    let found = document(&format!("all-frequency lighting --light red-and-blue --keep 30 {responding}"));
+    assert_eq!(found["kept"], 30);
+    let text = fs::read_to_string(&kept).expect("written");
+    let mut lines = text.lines();
+    assert_eq!((lines.next(), lines.clone().count()), (Some("segment,coefficient,r,g,b"), 30));
+    let segments: Vec<usize> =
+        lines.map(|line| line.split(',').next().expect("a field").parse().expect("a number")).collect();
+    let by_area = document("all-frequency lighting --light red-and-blue --keep 30");
+    assert!(number(&by_area["kept_energy"]) != number(&found["kept_energy"]));
+    assert!(segments.iter().all(|segment| *segment < 24));
+    for refused in [
+        format!("{below} --by transfer"),
+        format!("{below} --transfer {SIGHT} --model {STEP}"),
+        format!("{below} --segments 6 --by transfer --transfer {SIGHT} --model {STEP}"),
+    ] {
+        let ran = crossbar(&refused.split(' ').collect::<Vec<_>>(), "");
+        assert_eq!(ran.code, Some(2), "{refused}: {}", ran.transcript());
+        assert!(ran.stderr.contains("by transfer"), "{}", ran.stderr);
+    }
 }
 
 #[test]
 fn what_does_not_go_together_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let cases = [
-        ("prt compress docs/examples/signal.csv --bits 8 --out OUT", "are for transfer of all frequencies"),
-        ("prt compress docs/examples/step_all.prt --out OUT", "`--model` is missing"),
-        ("prt error docs/examples/step_all.prt docs/examples/step_all_small.prt", "`--model` is missing"),
-        ("prt render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
+        ("all-frequency compress docs/examples/step_all.prt --out OUT", "--model <MODEL>"),
+        ("all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt", "--model <MODEL>"),
         (
-            "prt show docs/examples/step_all.prt --kind glossy",
-            "docs/examples/step_all.prt: expected transfer of low frequency, found all frequencies",
+            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --vectors 300 --out OUT",
+            "expected at most 256 `--vectors`, found 300",
         ),
+        ("all-frequency render docs/examples/step_all.prt --model white-box", "expected transfer of a mesh with"),
         (
-            "prt compress docs/examples/signal.csv --kind all-frequency --out OUT",
-            "expected transfer of all frequencies, found another file",
+            "cpca show docs/examples/step_all.prt",
+            "docs/examples/step_all.prt: expected a file of low-frequency transfer, found one of transfer of all frequencies",
         ),
-        ("prt show docs/examples/step_all.prt --vertex 70", "expected a vertex below 70 (counted from 0), found 70"),
-        ("prt show docs/examples/step.prt --arrays OUT", "`--arrays` is for transfer of all frequencies"),
-        ("prt error docs/examples/step.prt docs/examples/step_all_small.prt", "conventions: expected 1 to 1, found 2"),
-        ("prt precompute docs/examples/step.obj --ground 8 --out OUT", "`--ground` is for transfer of all frequencies"),
+        ("cpca show docs/examples/step_all.prt", "`crossbar all-frequency` takes it"),
+        ("all-frequency show docs/examples/step_biclusters.prt", "`crossbar bi-scale` takes it"),
+        ("cpca compress docs/examples/step_all.prt --out OUT", "`crossbar all-frequency` takes it"),
+        ("bi-scale bicluster docs/examples/step.prt --out OUT", "`crossbar cpca` takes it"),
+        ("bi-scale render docs/examples/step.prt --model white-box --texture mail", "`crossbar cpca` takes it"),
+        ("all-frequency compress docs/examples/signal.csv --model white-box --out OUT", "expected a .prt file"),
         (
-            "prt render docs/examples/step.prt --model docs/examples/step.obj --ground docs/examples/step_all.prt",
-            "`--ground` is for transfer of all frequencies, found low frequency",
+            "all-frequency show docs/examples/step_all.prt --vertex 70",
+            "expected a vertex below 70 (counted from 0), found 70",
         ),
+        ("cpca error docs/examples/step.prt docs/examples/step_all_small.prt", "`crossbar all-frequency` takes it"),
+        ("cpca precompute docs/examples/step.obj --ground 8 --out OUT", "unexpected argument '--ground'"),
         (
-            "prt compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out OUT",
+            "all-frequency compress docs/examples/step_all_small.prt --model docs/examples/step.obj --out OUT",
             "expected visibility",
         ),
     ];

@@ -1,12 +1,12 @@
-//! `crossbar prt card` on transfer of all frequencies, from the command line.
+//! `crossbar all-frequency card`, from the command line.
 
 use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
+use crate::cpca::{document, number, place};
 use crate::crossbar;
-use crate::prt::{document, number, place};
 
 const MODEL: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.prt";
@@ -16,16 +16,16 @@ const CODED: &str = "docs/examples/step_all_small.prt";
 fn glossy(folder: &Path) -> [String; 2] {
     let [factors, sight, coded] = ["factors", "sight.prt", "coded.prt"].map(|name| place(folder, name));
     let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--supersamples", "1x1", "--terms", "10"];
-    document(&[&["prt", "factor"], &of_factors[..], &["--out", &factors]].concat());
-    let of_sight = ["--kind", "all-frequency", "--factors", &factors, "--out", &sight];
-    document(&[&["prt", "precompute", MODEL], &of_sight[..]].concat());
+    document(&[&["all-frequency", "factor"], &of_factors[..], &["--out", &factors]].concat());
+    let of_sight = ["--factors", &factors, "--out", &sight];
+    document(&[&["all-frequency", "precompute", MODEL], &of_sight[..]].concat());
     let of_code = ["--model", MODEL, "--points-per-cluster", "20", "--vectors", "6", "--out", &coded];
-    document(&[&["prt", "compress", &sight], &of_code[..]].concat());
+    document(&[&["all-frequency", "compress", &sight], &of_code[..]].concat());
     [sight, coded]
 }
 
 fn drawn(file: &str, out: &str, options: &[&str]) -> Value {
-    let fixed = ["prt", "card", file, "--model", MODEL, "--size", "48x36", "--exposure", "0.5", "--out", out];
+    let fixed = ["all-frequency", "card", file, "--model", MODEL, "--size", "48x36", "--exposure", "0.5", "--out", out];
     document(&[&fixed[..], options].concat())
 }
 
@@ -112,12 +112,9 @@ fn what_no_card_takes_is_refused() {
     let [_, coded] = glossy(folder.path());
     let out = place(folder.path(), "out");
     for (file, options, words) in [
-        (CODED, "--weights fp16", "`--weights` is for transfer of low frequency, found all frequencies"),
-        (CODED, "--alone", "`--alone` is for transfer of low frequency"),
-        (&coded, "--way colors --partial", "`--partial` is for `--way products`, found `--way colors`"),
-        ("docs/examples/step_small.prt", "--way colors", "`--way` is for transfer of all frequencies, found low"),
-        ("docs/examples/step_small.prt", "--kind all-frequency", "expected transfer of all frequencies, found another"),
-        (CODED, "--kind diffuse", "expected transfer of low frequency, found all frequencies"),
+        (CODED, "--weights fp16", "unexpected argument '--weights'"),
+        (&coded, "--way colors --partial", "`--partial` is for `--way products` and `sums`, found `--way colors`"),
+        ("docs/examples/step_small.prt", "--way colors", "`crossbar cpca` takes it"),
         (CODED, "--original docs/examples/step_all_small.prt", "expected visibility with the same reflectance"),
         (&coded, "--original docs/examples/step_all.prt", "expected visibility with the same reflectance"),
         (&coded, "--device r200", "runs no `ps_2_0` programs"),
@@ -126,7 +123,7 @@ fn what_no_card_takes_is_refused() {
         (&coded, "--map-format rgba8", "expected maps in floats or signed fractions"),
         (CODED, "--model white-box", "expected transfer of a mesh with"),
     ] {
-        let fixed = ["prt", "card", file, "--size", "8x8", "--out", &out];
+        let fixed = ["all-frequency", "card", file, "--size", "8x8", "--out", &out];
         let model = ["--model", MODEL];
         let options: Vec<&str> = options.split(' ').collect();
         let model = if options.contains(&"--model") { &[] } else { &model[..] };

@@ -1,4 +1,4 @@
-//! `crossbar prt factor`: what it says, what it writes, and what it refuses.
+//! `crossbar all-frequency factor`: what it says, what it writes, and what it refuses.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use crate::{crossbar, crossbar_in};
 const TABLE: &str = "docs/examples/reflectance.csv";
 
 fn document(arguments: &[&str]) -> Value {
-    let ran = crossbar(&[&["prt", "factor"], arguments, &["--json"]].concat(), "");
+    let ran = crossbar(&[&["all-frequency", "factor"], arguments, &["--json"]].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
     serde_json::from_str(&ran.stdout).expect("one JSON document")
 }
@@ -66,7 +66,11 @@ fn the_tables_are_these() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     fs::copy(root.join(TABLE), folder.path().join("q.csv")).expect("a copy");
-    let ran = crossbar_in(folder.path(), &["prt", "factor", "--table", "q.csv", "--terms", "3", "--out", "out"], "");
+    let ran = crossbar_in(
+        folder.path(),
+        &["all-frequency", "factor", "--table", "q.csv", "--terms", "3", "--out", "out"],
+        "",
+    );
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     insta::assert_snapshot!("factor_tables", ran.stdout);
 }
@@ -115,7 +119,7 @@ fn bad_input_is_refused() {
         ("merl_missing", &["--merl", "nowhere.binary"]),
         ("roughness", &["--brdf", "schlick", "--roughness", "2"]),
     ] {
-        let ran = crossbar_in(folder.path(), &[&["prt", "factor"], arguments].concat(), "");
+        let ran = crossbar_in(folder.path(), &[&["all-frequency", "factor"], arguments].concat(), "");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), before, "{arguments:?}");
         insta::assert_snapshot!(format!("factor_bad_{name}"), ran.stderr);
@@ -134,7 +138,7 @@ fn options_of_another_subject_are_refused() {
         ("--table=nowhere.csv", format!("{of_model} {of_sampling} --channel=red")),
     ] {
         for option in foreign.split_whitespace() {
-            let ran = crossbar(&["prt", "factor", subject, option], "");
+            let ran = crossbar(&["all-frequency", "factor", subject, option], "");
             let name = option.split('=').next().expect("a name");
             assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{subject} {option}");
             let said = ran.stderr.contains("cannot be used with") && ran.stderr.contains(name);

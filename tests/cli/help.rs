@@ -1,26 +1,20 @@
 //! Every help text, word for word: whoever changes one sees what a user will see.
 
-use crate::crossbar;
+use crate::{crossbar, tree};
 
 /// All commands, in the order of the help.
-pub(crate) const COMMANDS: &str = "alu atlas check compare completions devices diff intersect leaky-teapot man materials \
-                        prt radiosity render reproduce run scene subsurface timeline";
+pub(crate) const COMMANDS: &str = "all-frequency alu atlas bi-scale check compare completions cpca devices diff \
+                        intersect leaky-teapot man materials radiosity render reproduce run scene subsurface timeline";
 
 /// The verbs of the commands that have some.
-pub(crate) const VERBS: &[&str] = &[
-    "prt bicluster",
-    "prt card",
-    "prt compare",
-    "prt compress",
-    "prt error",
-    "prt factor",
-    "prt lighting",
-    "prt multiply",
-    "prt precompute",
-    "prt render",
-    "prt show",
-    "prt texture",
-];
+fn verbs() -> Vec<String> {
+    tree::commands().into_iter().map(|(name, _)| name).filter(|name| name.contains(' ')).collect()
+}
+
+/// Commands and verbs.
+pub(crate) fn names() -> Vec<String> {
+    COMMANDS.split(' ').map(str::to_owned).chain(verbs()).collect()
+}
 
 #[test]
 fn program() {
@@ -35,8 +29,8 @@ fn commands() {
 }
 
 #[test]
-fn verbs() {
-    for verb in VERBS {
+fn verbs_of_commands() {
+    for verb in verbs() {
         let arguments: Vec<&str> = verb.split(' ').chain(["--help"]).collect();
         insta::assert_snapshot!(verb.replace(' ', "_"), crossbar(&arguments, "").transcript());
     }
@@ -60,7 +54,7 @@ fn every_command_is_listed_here() {
 
 #[test]
 fn every_command_has_an_example_and_speaks_json() {
-    for command in COMMANDS.split(' ').chain(VERBS.iter().copied()) {
+    for command in names() {
         let help = crossbar(&command.split(' ').chain(["--help"]).collect::<Vec<_>>(), "").stdout;
         assert!(help.contains("Example"), "{command} shows an example");
         assert!(help.contains(&format!("crossbar {command}")), "{command}'s example can be copied");
@@ -118,8 +112,7 @@ fn every_command_has_a_manual_page() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crate::crossbar_in(folder.path(), &["man", "--out", "pages"], "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
-    let commands =
-        COMMANDS.split(' ').chain(VERBS.iter().copied()).map(|c| format!("crossbar-{}", c.replace(' ', "-")));
+    let commands = names().into_iter().map(|c| format!("crossbar-{}", c.replace(' ', "-")));
     for command in std::iter::once("crossbar".to_owned()).chain(commands) {
         let path = folder.path().join(format!("pages/{command}.1"));
         let page = std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{command}: {e}"));

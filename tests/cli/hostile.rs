@@ -7,6 +7,8 @@ use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
 
+use crate::tree;
+
 /// Values that somebody may give to any option.
 const HOSTILE: &[&str] = &[
     "", " ", "nan", "inf", "-inf", "1e39", "-1e39", "1e400", "-1", "0", "-0", "1,nan,2", "-1,-1", "0x0", "1e9x1e9",
@@ -22,101 +24,55 @@ const LONG: &[&str] = &[
     "\u{1b}[2J",
 ];
 
-/// Each subcommand with arguments with which it fails before any work whatever its options say, and the options that
-/// take values: the test is of what it says, and of what it leaves.
-const COMMANDS: &[(&str, &str)] = &[
-    ("alu add --format fp99", "--format --to --tininess"),
-    ("atlas nowhere.obj", "--side --size --eye --target --up --tan-half-height --out --model-up"),
-    ("check nowhere.psa", "--device --switch"),
-    (
-        "compare nowhere.toml",
-        "--left --right --adapter --left-device --right-device --left-format --right-format --left-switch \
-         --right-switch --step-budget --pixel",
-    ),
-    ("devices nowhere", "--probe"),
-    (
-        "diff nowhere.png nowhere.exr",
-        "--channel --exposure --ppd --scale --max-rmse --max-error --max-flip --min-ssim --out",
-    ),
-    ("intersect --mesh nowhere.obj", "--mesh --rays --sides --device --executor --adapter --caster --out --model-up"),
-    (
-        "leaky-teapot --device nowhere",
-        "--mesh --rays --size --eye --target --up --tan-half-height --tessellation --device --format --out \
-         --rays-per-edge --seed --sides --executor --adapter --model-up",
-    ),
-    ("man nowhere", "--out"),
-    ("materials nowhere", "--at --sigma-s --sigma-a --eta"),
-    ("prt bicluster nowhere.mtx", "--seed --no-deletion --drop --dump --out"),
-    (
-        "prt card nowhere.prt --model nowhere.obj",
-        "--model --kind --light --window --weights --map --map-format --way --filter --radiance --pass-per-channel \
-         --partial --keep --original --target-format --vertex --alone --sweep --device --switch --executor --adapter \
-         --texture --repeat --texture-size --texture-views --crease \
-         --texture-format --blocks --light-format --local-format --size --eye --target --up --tan-half-height --exposure \
-         --out --model-up",
-    ),
-    (
-        "prt compare nowhere.mtx",
-        "--model --light --window --rotate --clusters --vectors --linear --sample --rounds --seed --coefficients \
-         --priority --storage --order --model-up",
-    ),
-    (
-        "prt compress nowhere.prt --out y.prt",
-        "--kind --clusters --vectors --method --iterations --seed --start --out --model --points-per-cluster --bits \
-         --weight-bits --scale --resume --model-up",
-    ),
-    ("prt error nowhere.prt nowhere.prt", "--kind --model --csv --model-up"),
-    (
-        "prt factor --table nowhere.csv",
-        "--brdf --merl --table --roughness --fresnel --isotropy --exponent --albedo --denominators --fresnel-form \
-         --shadowing --tangent --channel --side --supersamples --outside --clamp --clamp-when --terms --sweep-roughness --out",
-    ),
-    (
-        "prt lighting --light nowhere.hdr",
-        "--light --window --segments --keep --by --decimation --rotate --frames --out",
-    ),
-    ("prt multiply nowhere.mtx", "--light --window --rotate --values"),
-    (
-        "prt precompute nowhere.obj --out x.prt",
-        "--kind --factors --ground --hats --order --rows --exit --incident --incident-order --brdf --material --mm-per-unit --channels --tangents \
-         --degree --bounces --bounce-tolerance --out --directions --horizon --samples --crease --matrix --model-up",
-    ),
-    (
-        "prt render nowhere.prt --model nowhere.obj",
-        "--model --kind --original --ground --ground-model --texture --repeat --texture-size --texture-views --crease --light --window --keep --frames --turn --size --eye --target --up --tan-half-height --exposure --out --model-up",
-    ),
-    ("prt show nowhere.prt", "--kind --vertex --at --model --arrays --model-up"),
-    (
-        "prt texture nowhere.png --out b.npy",
-        "--detail --relief --color --brdf --size --directions --views --samples --out --sheet --sheet-view",
-    ),
-    (
-        "radiosity nowhere.obj",
-        "--patches --per-side --factors --strata --hemicube --seed --require-closed --enforce --solver --packing \
-         --storage --device --switch --executor --adapter --tolerance --iterations --emit --paint --frames --atlas --sweep \
-         --size --view --eye --target --up --tan-half-height --exposure --out --model-up",
-    ),
-    (
-        "render nowhere.obj",
-        "--size --eye --target --up --tan-half-height --sides --device --executor --adapter --out --renderer --samples \
-         --depth --seed --view --exposure --ambient --lens --photons --gather --caster --model-up",
-    ),
-    ("reproduce nowhere", "--out"),
-    ("run nowhere.toml", "--out --executor --adapter --step-budget --trace"),
-    ("scene nowhere", "--out"),
-    (
-        "subsurface nowhere.obj --mm-per-unit 1 --material marble",
-        "--material --sigma-s --sigma-a --eta --mm-per-unit --atlas --links --choice --channels --link-format --map --tolerance --light --irradiance --pass-1 --direct \
-         --fresnel --combine --diffuse --probe --all-pairs --device --switch --executor --adapter --frames --size --eye \
-         --target --up --tan-half-height --exposure --out --model-up",
-    ),
-    ("timeline nowhere.toml", "--device --model --readback --trace --rays --mesh --model-up"),
+/// Each command with arguments with which it fails before any work whatever its options say: the test is of what it
+/// says, and of what it leaves.
+const COMMANDS: &[&str] = &[
+    "all-frequency card nowhere.prt --model nowhere.obj",
+    "all-frequency compress nowhere.prt --model nowhere.obj --out y.prt",
+    "all-frequency error nowhere.prt nowhere.prt --model nowhere.obj",
+    "all-frequency factor --table nowhere.csv",
+    "all-frequency lighting --light nowhere.hdr",
+    "all-frequency precompute nowhere.obj --out x.prt",
+    "all-frequency render nowhere.prt --model nowhere.obj",
+    "all-frequency show nowhere.prt",
+    "alu add --format fp99",
+    "atlas nowhere.obj",
+    "bi-scale bicluster nowhere.mtx",
+    "bi-scale card nowhere.prt --model nowhere.obj --texture mail",
+    "bi-scale compare nowhere.mtx",
+    "bi-scale multiply nowhere.mtx",
+    "bi-scale precompute nowhere.obj --out x.prt",
+    "bi-scale render nowhere.prt --model nowhere.obj --texture mail",
+    "bi-scale show nowhere.mtx",
+    "bi-scale texture nowhere.png --out b.npy",
+    "check nowhere.psa",
+    "compare nowhere.toml",
+    "cpca card nowhere.prt --model nowhere.obj",
+    "cpca compress nowhere.prt --out y.prt",
+    "cpca error nowhere.prt nowhere.prt",
+    "cpca precompute nowhere.obj --out x.prt",
+    "cpca render nowhere.prt --model nowhere.obj",
+    "cpca show nowhere.prt",
+    "devices nowhere",
+    "diff nowhere.png nowhere.exr",
+    "intersect --mesh nowhere.obj",
+    "leaky-teapot --device nowhere",
+    "man nowhere",
+    "materials nowhere",
+    "radiosity nowhere.obj",
+    "render nowhere.obj",
+    "reproduce nowhere",
+    "run nowhere.toml",
+    "scene nowhere",
+    "subsurface nowhere.obj --mm-per-unit 1 --material marble",
+    "timeline nowhere.toml",
 ];
+
+/// Commands whose options take no values.
+const WITHOUT_VALUES: [&str; 1] = ["completions"];
 
 /// Names and contents.
 type Files<'a> = Vec<(&'a str, &'a [u8])>;
-
-const GLOBAL: &[&str] = &["--threads", "--memory-limit"];
 
 struct Said {
     code: Option<i32>,
@@ -171,29 +127,24 @@ fn twice(stderr: &str) -> Option<String> {
     words(message).contains(&cause).then_some(cause)
 }
 
-fn all_options() -> Vec<(Vec<&'static str>, &'static str)> {
-    let own = COMMANDS.iter().flat_map(|(base, options)| options.split(' ').map(move |option| (*base, option)));
-    let global = GLOBAL.iter().map(|option| ("alu add --format fp99", *option));
+/// A command line, and an option that takes a value.
+fn all_options() -> Vec<(Vec<&'static str>, String)> {
+    let commands = tree::commands();
+    let own = COMMANDS.iter().flat_map(|base| {
+        let options = tree::options(&tree::command_of(base, &commands).1);
+        options.into_iter().filter(|(_, takes_value)| *takes_value).map(move |(option, _)| (*base, option))
+    });
+    let global = ["--threads", "--memory-limit"].map(|option| ("alu add --format fp99", option.to_owned()));
     own.chain(global).map(|(base, option)| (base.split(' ').collect(), option)).collect()
 }
 
 #[test]
-fn every_option_with_a_value_is_here() {
-    for name in crate::help::COMMANDS.split(' ').chain(crate::help::VERBS.iter().copied()) {
-        let of = |base: &str| base.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
-        let options = COMMANDS.iter().find(|(base, _)| of(base)).map_or("", |(_, options)| options);
-        let help = crate::crossbar(&name.split(' ').chain(["--help"]).collect::<Vec<_>>(), "").stdout;
-        for line in help.lines().filter(|line| line.trim_start().starts_with("--")) {
-            let mut words = line.split_whitespace();
-            let (option, value) = (words.next().expect("an option"), words.next());
-            let takes_value = value.is_some_and(|value| value.starts_with('<'));
-            let known = options.split(' ').chain(GLOBAL.iter().copied()).any(|known| known == option);
-            assert!(!takes_value || known, "{name} {option}: add it");
-        }
+fn every_command_is_here() {
+    let commands = tree::commands();
+    let of_table: Vec<&str> = COMMANDS.iter().map(|base| tree::command_of(base, &commands).0.as_str()).collect();
+    for (name, _) in &commands {
+        assert!(of_table.contains(&name.as_str()) || WITHOUT_VALUES.contains(&name.as_str()), "{name}: add it");
     }
-    let help = crate::crossbar(&["--help"], "").stdout;
-    let names = COMMANDS.iter().map(|(base, _)| base.split(' ').next().expect("a name"));
-    assert!(names.clone().all(|name| help.contains(name)), "{:?}", names.collect::<Vec<_>>());
 }
 
 #[test]
@@ -202,7 +153,7 @@ fn hostile_values() {
     // In the short form each option gets a third of the values, another third than its neighbours.
     let full = std::env::var_os("CROSSBAR_FULL").is_some();
     for (number, (base, option)) in all_options().into_iter().enumerate() {
-        let base = || base.iter().map(OsString::from).chain([OsString::from(option)]);
+        let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
         let (first, step) = if full { (0, 1) } else { (number % 3, 3) };
         runs.extend(
             HOSTILE
@@ -249,38 +200,48 @@ fn what_is_wrong_is_said() {
         ("radiosity white-box --paint red=1,2", "expected three numbers R,G,B, found `1,2`"),
         ("radiosity white-box --tolerance -1", "expected a number not below 0, found `-1`"),
         ("radiosity white-box --frames -1,2", "-1 is not in 1..=100000"),
-        ("prt precompute transfer-smoth --out x.prt", "did you mean `transfer-smooth`?"),
-        ("prt precompute white-box --rows 24 --out x.prt", "`--rows` is for glossy transfer"),
-        ("prt precompute white-box --kind glossy --rows 10 --out x.prt", "expected a square from 1 to 100"),
-        ("prt precompute white-box --brdf mirror:1 --out x.prt", "phong:ALBEDO,SPECULAR,EXPONENT"),
-        ("prt precompute white-box --brdf lambert:2 --out x.prt", "expected a number from 0 to 1 for the albedo"),
-        ("prt precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
-        ("prt precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
-        ("prt precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
-        ("prt factor", "<--brdf <MODEL> --merl <FILE> --table <FILE>>"),
-        ("prt factor --brdf phong --table q.csv", "cannot be used with"),
-        ("prt factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
-        ("prt factor --brdf schlick --isotropy 2", "expected a number from 0.001 to 1 for the isotropy, found 2"),
-        ("prt factor --brdf lambert --supersamples 0x4", "expected two numbers from 1 to 16 as in 4x4, found `0x4`"),
-        ("prt factor --brdf lambert --side 8 --terms 2", "expected 1 to 1 terms, the rank of the table, found 2"),
-        ("prt factor --brdf lambert --side 8 --albedo 0", "expected reflectance above 0 somewhere"),
-        ("prt factor --brdf lambert --side 8 --sweep-roughness 0.2", "found Lambert's law"),
-        ("prt precompute white-box --kind all-frequency --factors nowhere --out x.prt", "nowhere/view_factors.npy"),
-        ("prt precompute white-box --factors nowhere --out x.prt", "add `--kind all-frequency`"),
-        ("prt precompute white-box --directions 4 --out x.prt", "add `--kind bi-scale`"),
-        ("prt precompute white-box --kind bi-scale --directions 65 --out x.prt", "65 is not in 1..=64"),
-        ("prt compress r.csv --kind bi-scale --out x.prt", "bi-scale transfer is for `crossbar prt precompute`"),
-        ("prt lighting --keep 0", "0 is not in 1..=6144"),
-        ("prt lighting --window hann", "`--window` damps bands of harmonics"),
-        ("prt lighting --light disk:0,0,1:5 --segments 12", "[possible values: 24, 6]"),
-        ("prt render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
-        ("prt show x.prt --at 0,0,0", "--model <MODEL>"),
-        ("prt texture mail --size 0 --out b.npy", "0 is not in 1..=1024"),
-        ("prt texture mail --samples 17 --out b.npy", "17 is not in 1..=16"),
-        ("prt texture plain --brdf ward:0.1,0.3,0,0.4 --out b.npy", "for the roughness"),
-        ("prt texture mail --sheet-view 1 --out b.npy", "--sheet <S.png>"),
-        ("prt render x.prt --model white-box --texture =mail", "as in floor=tiles"),
-        ("prt render x.prt --model white-box --texture mail --repeat 0", "above 0"),
+        ("cpca precompute transfer-smoth --out x.prt", "did you mean `transfer-smooth`?"),
+        ("cpca precompute white-box --rows 24 --out x.prt", "`--rows` is for glossy transfer"),
+        ("cpca precompute white-box --kind glossy --rows 10 --out x.prt", "expected a square from 1 to 100"),
+        ("cpca precompute white-box --brdf mirror:1 --out x.prt", "phong:ALBEDO,SPECULAR,EXPONENT"),
+        ("cpca precompute white-box --brdf lambert:2 --out x.prt", "expected a number from 0 to 1 for the albedo"),
+        ("cpca precompute white-box --brdf phong:0.1,0.5,9 --out x.prt", "diffuse materials for diffuse transfer"),
+        ("cpca precompute white-box --tangents texture --out x.prt", "no texture coordinates to take tangents from"),
+        ("cpca precompute white-box --material marble --out x.prt", "--mm-per-unit <MM>"),
+        ("all-frequency factor", "<--brdf <MODEL> --merl <FILE> --table <FILE>>"),
+        ("all-frequency factor --brdf phong --table q.csv", "cannot be used with"),
+        ("all-frequency factor --brdf cook-torrance --fresnel 1", "expected a number from 0 to below 1"),
+        (
+            "all-frequency factor --brdf schlick --isotropy 2",
+            "expected a number from 0.001 to 1 for the isotropy, found 2",
+        ),
+        (
+            "all-frequency factor --brdf lambert --supersamples 0x4",
+            "expected two numbers from 1 to 16 as in 4x4, found `0x4`",
+        ),
+        (
+            "all-frequency factor --brdf lambert --side 8 --terms 2",
+            "expected 1 to 1 terms, the rank of the table, found 2",
+        ),
+        ("all-frequency factor --brdf lambert --side 8 --albedo 0", "expected reflectance above 0 somewhere"),
+        ("all-frequency factor --brdf lambert --side 8 --sweep-roughness 0.2", "found Lambert's law"),
+        ("all-frequency precompute white-box --factors nowhere --out x.prt", "nowhere/view_factors.npy"),
+        ("cpca precompute white-box --kind all-frequency --out x.prt", "[possible values: diffuse, glossy]"),
+        ("bi-scale precompute white-box --brdf lambert:0.5 --out x.prt", "unexpected argument '--brdf'"),
+        ("bi-scale precompute white-box --directions 65 --out x.prt", "65 is not in 1..=64"),
+        ("cpca precompute white-box --exit zero-hemisphere --out x.prt", "`--exit` is for glossy transfer"),
+        ("cpca precompute white-box --incident-order 3 --out x.prt", "`--incident-order` is for glossy transfer"),
+        ("all-frequency lighting --keep 0", "0 is not in 1..=6144"),
+        ("all-frequency lighting --window hann", "unexpected argument '--window'"),
+        ("all-frequency lighting --light disk:0,0,1:5 --segments 12", "[possible values: 24, 6]"),
+        ("cpca render x.prt --model white-box --light disk:0,0,1", "disk:X,Y,Z:DEGREES"),
+        ("cpca show x.prt --at 0,0,0", "--model <MODEL>"),
+        ("bi-scale texture mail --size 0 --out b.npy", "0 is not in 1..=1024"),
+        ("bi-scale texture mail --samples 17 --out b.npy", "17 is not in 1..=16"),
+        ("bi-scale texture plain --brdf ward:0.1,0.3,0,0.4 --out b.npy", "for the roughness"),
+        ("bi-scale texture mail --sheet-view 1 --out b.npy", "--sheet <S.png>"),
+        ("bi-scale render x.prt --model white-box --texture =mail", "as in floor=tiles"),
+        ("bi-scale render x.prt --model white-box --texture mail --repeat 0", "above 0"),
         ("subsurface stand-in-head --material marble", "--mm-per-unit <MM>"),
         ("subsurface stand-in-head --mm-per-unit 1", "add `--material NAME` (see `crossbar materials`)"),
         ("subsurface stand-in-head --mm-per-unit 0 --material marble", "expected a number above 0, found `0`"),
@@ -298,12 +259,12 @@ fn what_is_wrong_is_said() {
         ("run nowhere.toml --trace -1,2", "expected a pixel as `3,4`, column and row from 0; found `-1,2`"),
         ("compare nowhere.toml --pixel -1,2", "found `-1,2`"),
         ("compare nowhere.toml --adapter x", "add `--left wgpu` or `--right wgpu`, or leave it out"),
-        ("prt bicluster nowhere.mtx --drop -1", "expected a number not below 0, found `-1`"),
-        ("prt factor --brdf phong --exponent 1e9", "expected a number from 0 to below 1e9 for the exponent"),
-        ("prt precompute white-box --kind glossy --brdf phong:0.5,0.6,9 --out x.prt", "sum of albedo and specular"),
-        ("prt factor --brdf schlick --isotropy 1e300", "isotropy, found 1e300"),
+        ("bi-scale bicluster nowhere.mtx --drop -1", "expected a number not below 0, found `-1`"),
+        ("all-frequency factor --brdf phong --exponent 1e9", "expected a number from 0 to below 1e9 for the exponent"),
+        ("cpca precompute white-box --kind glossy --brdf phong:0.5,0.6,9 --out x.prt", "sum of albedo and specular"),
+        ("all-frequency factor --brdf schlick --isotropy 1e300", "isotropy, found 1e300"),
         ("alu add --format fp16 --memory-limit ", "expected a number of bytes as in 4GiB"),
-        ("prt bicluster x.mtx --out same --dump ./same", "`--dump` and `--out` that both write"),
+        ("bi-scale bicluster x.mtx --out same --dump ./same", "`--dump` and `--out` that both write"),
         ("alu add --format fp16 --threads -1", "-1 is not in 1..=1024"),
         ("alu add --format fp16 --verify", "expected at least one line to verify, found none"),
         ("alu add --format fp16 --verify --json", "expected at least one line to verify, found none"),
@@ -331,16 +292,16 @@ fn hostile_files() {
         &["render", "IN"],
         &["render", "IN", "--renderer", "eye"],
         &["radiosity", "IN"],
-        &["prt", "bicluster", "IN"],
-        &["prt", "multiply", "IN"],
-        &["prt", "compare", "IN"],
-        &["prt", "compress", "IN", "--out", "y.prt"],
-        &["prt", "error", "IN", "IN"],
-        &["prt", "factor", "--table", "IN"],
-        &["prt", "factor", "--merl", "IN"],
-        &["prt", "precompute", "IN", "--out", "x.prt"],
-        &["prt", "show", "IN"],
-        &["prt", "texture", "IN", "--out", "b.npy"],
+        &["bi-scale", "bicluster", "IN"],
+        &["bi-scale", "multiply", "IN"],
+        &["bi-scale", "compare", "IN"],
+        &["cpca", "compress", "IN", "--out", "y.prt"],
+        &["cpca", "error", "IN", "IN"],
+        &["all-frequency", "factor", "--table", "IN"],
+        &["all-frequency", "factor", "--merl", "IN"],
+        &["cpca", "precompute", "IN", "--out", "x.prt"],
+        &["cpca", "show", "IN"],
+        &["bi-scale", "texture", "IN", "--out", "b.npy"],
         &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
         &[
             "subsurface",
@@ -408,7 +369,7 @@ fn claims_of_size() {
     for (name, _) in &files {
         for verb in ["bicluster", "multiply", "compare"] {
             let start = std::time::Instant::now();
-            let arguments = ["prt", verb, name, "--memory-limit", "64MiB"].map(OsString::from);
+            let arguments = ["bi-scale", verb, name, "--memory-limit", "64MiB"].map(OsString::from);
             let stderr = assert_refused(&arguments, &files);
             assert!(stderr.contains("4294967295") || stderr.contains("4000000000") || verb != "multiply", "{stderr}");
             assert!(start.elapsed() < std::time::Duration::from_secs(10), "{verb} {name}: {:?}", start.elapsed());

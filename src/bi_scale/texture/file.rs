@@ -26,7 +26,7 @@ pub enum BidirectionalTextureFileError {
     Numbers(#[from] NumbersError),
     /// An array of another shape.
     #[error("{}: expected an array of the shape (views, lights, size, size, 3), found {found:?}", path.display())]
-    #[diagnostic(code(crossbar::bidirectional_texture::shape), help("`crossbar prt texture` writes such files"))]
+    #[diagnostic(code(crossbar::bidirectional_texture::shape), help("`crossbar bi-scale texture` writes such files"))]
     Shape { path: PathBuf, found: Vec<usize> },
     /// Directions are lacking, or too many.
     #[error("{}: expected {what} of a square of k x k cells, k from 1 to {}, found {found}", path.display(),

@@ -68,11 +68,11 @@ pub(super) struct Args {
     flags: bool,
 
     /// When a result counts as tiny, which decides the underflow flag
-    #[arg(long, value_enum, default_value = "after")]
+    #[arg(long, value_enum, default_value = "after", requires = "flags")]
     tininess: When,
 
     /// Let roundToInt raise inexact where it changes the value
-    #[arg(long)]
+    #[arg(long, requires = "flags")]
     exact: bool,
 }
 

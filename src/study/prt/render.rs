@@ -66,7 +66,7 @@ pub enum Turning {
 pub enum RenderError {
     /// A signal that is no transfer.
     #[error("expected transfer, found numbers without a meaning")]
-    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar prt precompute` wrote"))]
+    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar cpca precompute` wrote"))]
     NoTransfer,
     /// The light cannot be turned.
     #[error(transparent)]

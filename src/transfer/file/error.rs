@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{MeshDigest, VERSION};
+use super::{MeshDigest, PrtKind, VERSION};
 use crate::io::ReadError;
 use crate::transfer::SignalError;
 use crate::transfer::clustering::ClusteringError;
@@ -22,6 +22,10 @@ pub enum PrtFileError {
     #[error("{}: expected a .prt file, found another beginning", path.display())]
     #[diagnostic(code(crossbar::prt::magic), help("is it a .prt file, and copied as one?"))]
     Magic { path: PathBuf },
+    /// It belongs to another system.
+    #[error("{}: expected a file of {expected}, found one of {found}", path.display())]
+    #[diagnostic(code(crossbar::prt::kind), help("`crossbar {}` takes it", found.command()))]
+    OtherKind { path: PathBuf, expected: PrtKind, found: PrtKind },
     /// It is of a version that is not known.
     #[error("{}: expected a .prt file of version 1 to {VERSION}, found version {found}", path.display())]
     #[diagnostic(
@@ -58,7 +62,7 @@ pub enum PrtFileError {
         found.map_or_else(|| "no mesh".to_owned(), |found| found.to_string()))]
     #[diagnostic(
         code(crossbar::prt::mesh),
-        help("name the model that it was made from, or make it anew with `crossbar prt precompute`")
+        help("name the model that it was made from, or make it anew with `precompute`")
     )]
     OtherMesh { path: PathBuf, expected: MeshDigest, found: Option<MeshDigest> },
 }

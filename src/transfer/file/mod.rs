@@ -5,11 +5,13 @@
 
 mod digest;
 mod error;
+mod kind;
 pub(crate) mod read;
 pub(crate) mod write;
 
 pub use digest::MeshDigest;
 pub use error::PrtFileError;
+pub use kind::PrtKind;
 pub use read::{load_prt, parse_prt};
 pub use write::{save_prt, write_prt};
 
@@ -22,11 +24,6 @@ pub const MAGIC: &[u8; 8] = b"\x89PRT\r\n\x1a\n";
 pub const VERSION: u32 = 1;
 /// Longest file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
-
-/// Conventions 1, those of [`PrtFile`]; [`AllFrequencyFile`] has conventions 2, [`BiScaleFile`] 3. Real orthonormal
-/// harmonics, function l(l+1)+m, no Condon-Shortley sign (l = 1 is y, z, x), light in the axes of the mesh, exit
-/// radiance in those of the vertex with its normal as z.
-const CONVENTIONS: u32 = 1;
 
 /// Numbers of [`Tangents`](crate::transfer::Tangents); 0 without a mesh.
 const ANY_TANGENTS: u32 = 1;

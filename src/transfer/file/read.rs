@@ -5,8 +5,8 @@ use std::path::Path;
 use glam::DVec3;
 
 use super::{
-    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError,
-    PrtMeaning, TEXTURE_TANGENTS, TRANSFER, VERSION,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError, PrtKind, PrtMeaning,
+    TEXTURE_TANGENTS, TRANSFER, VERSION,
 };
 use crate::geom::vector::unit;
 use crate::io::{ReadError, read_limited};
@@ -25,12 +25,6 @@ pub fn load_prt(path: &Path, mesh: Option<&MeshDigest>) -> Result<PrtFile, PrtFi
     let file = parse_prt(&bytes, path)?;
     mesh.map_or(Ok(()), |expected| file.require_mesh(expected, path))?;
     Ok(file)
-}
-
-/// Whether bytes begin as a file of these conventions.
-pub(crate) fn has_conventions(bytes: &[u8], conventions: u32) -> bool {
-    let head = |at: usize| bytes.get(at..at + 4).and_then(|four| four.try_into().ok()).map(u32::from_le_bytes);
-    bytes.starts_with(MAGIC) && head(8) == Some(VERSION) && head(12) == Some(conventions)
 }
 
 /// All bytes of a file of any kind.
@@ -182,16 +176,18 @@ impl<'a> Reader<'a> {
     }
 
     /// The conventions, before the rest of the header, which depends on them.
-    pub(crate) fn conventions(&mut self, expected: u32) -> Result<(), PrtFileError> {
-        match self.integer("header")? {
-            found if found == expected => Ok(()),
-            found => Err(self.field("conventions", format!("{expected} to {expected}"), found.to_string())),
+    pub(crate) fn conventions(&mut self, expected: PrtKind) -> Result<(), PrtFileError> {
+        let number = self.integer("header")?;
+        match PrtKind::from_repr(number) {
+            Some(found) if found == expected => Ok(()),
+            Some(found) => Err(PrtFileError::OtherKind { path: self.name.into(), expected, found }),
+            None => Err(self.field("conventions", "1 to 3", number.to_string())),
         }
     }
 
     fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
         self.version()?;
-        self.conventions(CONVENTIONS)?;
+        self.conventions(PrtKind::LowFrequency)?;
         let mut fields = [0; FIELDS];
         for field in &mut fields {
             *field = self.integer("header")?;

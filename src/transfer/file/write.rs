@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{
-    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, CONVENTIONS, MAGIC, MeshDigest, PrtFile, PrtMeaning, TEXTURE_TANGENTS,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MeshDigest, PrtFile, PrtKind, PrtMeaning, TEXTURE_TANGENTS,
     TRANSFER, VERSION,
 };
 use crate::io::{WriteError, write_file};
@@ -53,7 +53,7 @@ fn header(file: &PrtFile) -> Vec<u8> {
     let digest = file.mesh.map_or([0; 4], digest_fields);
     let (tangents, axis) = file.mesh.map_or((0, [0.0; 3]), |mesh| tangent_fields(mesh.tangents));
     let fields = [
-        [VERSION, CONVENTIONS, channels, functions.len() as u32],
+        [VERSION, PrtKind::LowFrequency as u32, channels, functions.len() as u32],
         [columns, albedo, file.points() as u32, sections],
         digest,
     ];

@@ -7,7 +7,8 @@ use super::disks::{DiskSource, add_disk};
 use super::error::CubeLightError;
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight, check_rotation};
 use crate::transfer::grid::{
-    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column, light_texel,
+    FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, SUPERSAMPLES, face_row_column,
+    light_texel,
 };
 
 /// How 4 x 4 samples become a texel.
@@ -23,7 +24,8 @@ pub enum Decimation {
     Plain,
 }
 
-/// Radiance from infinitely far: red, green and blue of each light texel, finite and at least 0.
+/// Radiance from infinitely far: red, green and blue of each light texel, finite. Light that was truncated
+/// ([`Self::signed`]) has texels below 0, any other has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CubeLight {
     texels: Vec<[f64; 3]>,
@@ -38,7 +40,19 @@ impl CubeLight {
         if texels.len() != LIGHT_TEXELS {
             return Err(CubeLightError::Texels { found: texels.len() });
         }
-        check(&texels, |texel| texel)?;
+        check(&texels, |texel| texel, 0.0)?;
+        Ok(Self { texels })
+    }
+
+    /// Of radiances that may lie below 0, as those of truncated light do: what is left of it rings around 0.
+    ///
+    /// # Errors
+    /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite.
+    pub fn signed(texels: Vec<[f64; 3]>) -> Result<Self, CubeLightError> {
+        if texels.len() != LIGHT_TEXELS {
+            return Err(CubeLightError::Texels { found: texels.len() });
+        }
+        check(&texels, |texel| texel, f64::NEG_INFINITY)?;
         Ok(Self { texels })
     }
 
@@ -60,7 +74,24 @@ impl CubeLight {
         rotation: &DMat3,
         decimation: Decimation,
     ) -> Result<Self, CubeLightError> {
-        Self::decimated(&fine_samples(radiance, rotation)?, decimation)
+        Self::decimated(&fine_samples(radiance, rotation, 0.0)?, decimation)
+    }
+
+    /// The same light turned: a direction has the radiance of the texel that it falls into, below 0 too.
+    ///
+    /// # Errors
+    /// [`CubeLightError::Rotation`] if the matrix is no rotation.
+    pub fn turned(&self, rotation: &DMat3, decimation: Decimation) -> Result<Self, CubeLightError> {
+        Self::decimated(&self.fine(rotation)?, decimation)
+    }
+
+    /// The radiances in the fine directions of the light turned.
+    pub(super) fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
+        let texel = |direction: DVec3| {
+            let [face, column, row] = LIGHT_MAP.texel_of(direction);
+            (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
+        };
+        fine_samples(|direction| self.texels[texel(direction)], rotation, f64::NEG_INFINITY)
     }
 
     /// Of a picture of the whole sphere, whose radiance is constant over each pixel.
@@ -126,7 +157,7 @@ impl CubeLight {
             }
             sum.map(|sum| sum / whole)
         };
-        Self::new((0..LIGHT_TEXELS).map(texel).collect())
+        Self::signed((0..LIGHT_TEXELS).map(texel).collect())
     }
 
     /// Both lights together.
@@ -153,17 +184,19 @@ impl CubeLight {
     }
 }
 
-/// A function of unit directions in all fine directions; direction v of the function shines from `rotation` v.
+/// A function of unit directions in all fine directions, at least `least`; direction v of the function shines from
+/// `rotation` v.
 pub(super) fn fine_samples(
     radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
     rotation: &DMat3,
+    least: f64,
 ) -> Result<Vec<[f64; 3]>, CubeLightError> {
     check_rotation(rotation)?;
     let back = rotation.transpose();
     let fine: Vec<[f64; 3]> =
         FineDirections::get().directions().par_iter().map(|&direction| radiance(back * direction)).collect();
     // A sample that is none would hide in the mean of sixteen.
-    check(&fine, light_texel)?;
+    check(&fine, light_texel, least)?;
     Ok(fine)
 }
 
@@ -199,11 +232,11 @@ pub(super) fn red_and_blue_disks() -> [DiskSource; 2] {
     })
 }
 
-/// Refuses radiances that are none; `texel` gives the light texel of each.
-fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize) -> Result<(), CubeLightError> {
+/// Refuses radiances that are not finite, or lie below `least`; `texel` gives the light texel of each.
+fn check(radiances: &[[f64; 3]], texel: impl Fn(usize) -> usize, least: f64) -> Result<(), CubeLightError> {
     for (at, color) in radiances.iter().enumerate() {
         for (channel, &found) in ["red", "green", "blue"].into_iter().zip(color) {
-            if !(found.is_finite() && found >= 0.0) {
+            if !(found.is_finite() && found >= least) {
                 let [face, row, column] = face_row_column(texel(at), LIGHT_SIDE);
                 return Err(CubeLightError::Radiance { found, channel, face, row, column });
             }

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use super::cube_light::{fine_disks, fine_samples, red_and_blue_disks, sky_radiance, sun_disk};
 use super::{CubeLight, CubeLightError, Decimation, DiskSource};
 use crate::sphere::{ClearSky, EnvironmentPicture, HarmonicLight};
-use crate::transfer::grid::{FINE_DIRECTIONS, LIGHT_MAP, LIGHT_SIDE};
+use crate::transfer::grid::FINE_DIRECTIONS;
 
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ impl DistantLight {
             Self::RedAndBlue => CubeLight::red_and_blue(rotation, decimation),
             Self::Picture(picture) => CubeLight::from_picture(picture, rotation, decimation),
             Self::Texels(light) if *rotation == DMat3::IDENTITY => Ok(light.clone()),
-            Self::Texels(light) => CubeLight::sampled(|v| light.texels()[texel(v)], rotation, decimation),
+            Self::Texels(light) => light.turned(rotation, decimation),
         }
     }
 
@@ -48,18 +48,19 @@ impl DistantLight {
     /// [`CubeLightError`].
     pub fn fine(&self, rotation: &DMat3) -> Result<Vec<[f64; 3]>, CubeLightError> {
         match self {
-            Self::Constant(radiance) => fine_samples(|_| *radiance, rotation),
+            Self::Constant(radiance) => fine_samples(|_| *radiance, rotation, 0.0),
             Self::Disks(sources) => fine_disks(sources, rotation),
             Self::Sky(sky) => {
                 sky.relative(DVec3::Z)?;
-                Ok(sum(&fine_samples(|v| sky_radiance(sky, v), rotation)?, &fine_disks(&[sun_disk(sky)], rotation)?))
+                let without_sun = fine_samples(|v| sky_radiance(sky, v), rotation, 0.0)?;
+                Ok(sum(&without_sun, &fine_disks(&[sun_disk(sky)], rotation)?))
             }
             Self::RedAndBlue => {
                 let surrounding = vec![HarmonicLight::RED_AND_BLUE_SURROUNDING; FINE_DIRECTIONS];
                 Ok(sum(&fine_disks(&red_and_blue_disks(), rotation)?, &surrounding))
             }
-            Self::Picture(picture) => fine_samples(|v| picture.radiance(v), rotation),
-            Self::Texels(light) => fine_samples(|v| light.texels()[texel(v)], rotation),
+            Self::Picture(picture) => fine_samples(|v| picture.radiance(v), rotation, 0.0),
+            Self::Texels(light) => light.fine(rotation),
         }
     }
 }
@@ -68,16 +69,27 @@ fn sum(one: &[[f64; 3]], other: &[[f64; 3]]) -> Vec<[f64; 3]> {
     one.iter().zip(other).map(|(a, b)| [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).collect()
 }
 
-/// The texel that a direction falls into.
-fn texel(direction: DVec3) -> usize {
-    let [face, column, row] = LIGHT_MAP.texel_of(direction);
-    (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::transfer::grid::LIGHT_TEXELS;
+    use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS};
+
+    fn texel(direction: DVec3) -> usize {
+        let [face, column, row] = LIGHT_MAP.texel_of(direction);
+        (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
+    }
+
+    /// Truncated light has texels below 0, which stay what they are as it turns.
+    #[test]
+    fn signed_texels_turn_too() {
+        let texels: Vec<[f64; 3]> = (0..LIGHT_TEXELS).map(|at| [-(at as f64), 1.0, -0.5]).collect();
+        let light = DistantLight::Texels(CubeLight::signed(texels.clone()).expect("light"));
+        assert_eq!(light.cube(&DMat3::IDENTITY, Decimation::Plain).expect("light").texels(), &texels[..]);
+        let turn = DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z);
+        let turned = light.cube(&turn, Decimation::SolidAngle).expect("light");
+        let direction = DVec3::new(1.0, 0.3, -0.2);
+        assert!((turned.texels()[texel(turn * direction)][0] + texel(direction) as f64).abs() < 1e-9);
+    }
 
     #[test]
     fn texels_turn_with_the_cube() {

@@ -45,14 +45,17 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
     ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
     ("leaky-teapot --executor wgpu", "needs an adapter; tests/gpu runs the study on the one that there is"),
-    ("prt factor --merl", "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one"),
-    ("prt precompute transfer-smooth", "takes minutes; the other examples compute the same of a small model"),
+    (
+        "all-frequency factor --merl",
+        "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one",
+    ),
+    ("cpca precompute transfer-smooth", "takes minutes; the other examples compute the same of a small model"),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
     ("reproduce cpca-table-1 --full-size", "takes hours; tests/papers runs the entry on reduced models"),
 ];
 
 /// A copy of the folders that commands read.
-fn copy_of_the_repository() -> tempfile::TempDir {
+pub(crate) fn copy_of_the_repository() -> tempfile::TempDir {
     fn copy(from: &Path, to: &Path) {
         fs::create_dir_all(to).expect("a folder");
         for entry in fs::read_dir(from).expect("a folder").flatten() {

@@ -156,9 +156,9 @@ fn lines_of_pages() -> Vec<Line> {
 /// All commands of the program.
 pub(crate) fn of_the_program() -> Vec<Command> {
     let mut lines = lines_of_pages();
-    for name in std::iter::once("").chain(crate::help::COMMANDS.split(' ')).chain(crate::help::VERBS.iter().copied()) {
+    for name in std::iter::once(String::new()).chain(crate::help::names()) {
         let arguments: Vec<&str> = name.split(' ').filter(|name| !name.is_empty()).chain(["--help"]).collect();
-        let found = lines_of_help(name, &crossbar(&arguments, "").stdout);
+        let found = lines_of_help(&name, &crossbar(&arguments, "").stdout);
         assert!(!found.is_empty(), "{name} has examples");
         lines.extend(found);
     }

@@ -113,7 +113,7 @@ fn forged_headers_are_refused_by_name() {
     assert_eq!(forged(&whole, 12, [1, 0, 0, 0]), whole, "the header's checksum is where it is thought to be");
     let error = |at: usize, field: u32| parsed(&forged(&whole, at, field.to_le_bytes())).expect_err("refused");
     assert_eq!(error(8, 2), "a.prt: expected a .prt file of version 1 to 1, found version 2");
-    assert_eq!(error(12, 7), "a.prt: conventions: expected 1 to 1, found 7");
+    assert_eq!(error(12, 7), "a.prt: conventions: expected 1 to 3, found 7");
     assert_eq!(error(28, 2), "a.prt: albedo: expected 0 to 1, found 2");
     assert_eq!(error(36, 0), "a.prt: number of sections: expected 1 to 2, found 0");
     assert!(error(36, 1).contains("expected the end of the file"), "{}", error(36, 1));

@@ -48,7 +48,7 @@ pub enum SegmentedError {
     Transfer(#[from] TransferError),
     /// The options do not fit, or principal components cannot be found.
     #[error("segment {segment}: {reason}")]
-    #[diagnostic(code(crossbar::prt::cpca), help("see `crossbar prt compress --help`"))]
+    #[diagnostic(code(crossbar::prt::cpca), help("see `crossbar all-frequency compress --help`"))]
     Cpca {
         /// The segment, counted from 0.
         segment: usize,

@@ -18,7 +18,7 @@ pub enum BiScaleError {
     #[error("expected transfer of a mesh, found a matrix of something else")]
     #[diagnostic(
         code(crossbar::prt::meaning),
-        help("name what `crossbar prt precompute --kind bi-scale` wrote, or its biclusters")
+        help("name what `crossbar bi-scale precompute` wrote, or its biclusters")
     )]
     NoTransfer,
     /// A texture of other directions than the transfer.

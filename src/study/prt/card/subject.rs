@@ -59,7 +59,7 @@ pub struct OnCard {
 pub enum CardError {
     /// A signal that is no transfer.
     #[error("expected transfer, found numbers without a meaning")]
-    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar prt precompute` wrote"))]
+    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar cpca precompute` wrote"))]
     NoTransfer,
     /// A device of the sweep is not known.
     #[error(transparent)]
@@ -69,7 +69,7 @@ pub enum CardError {
     #[error(transparent)]
     #[diagnostic(
         code(crossbar::prt::card),
-        help("`crossbar prt render` draws on the host what no card takes; `crossbar devices` lists cards")
+        help("`crossbar cpca render` draws on the host what no card takes; `crossbar devices` lists cards")
     )]
     Card(#[from] PrtCardError),
     /// The functions of exit radiance are none.

@@ -62,13 +62,15 @@ pub enum AllFrequencyCardError {
     Code(#[from] CodeOptionsError),
     /// Nothing to sum.
     #[error("expected coded transfer, whose representatives a card sums, found visibility alone")]
-    #[diagnostic(code(crossbar::prt::card), help("`crossbar prt compress` codes it"))]
+    #[diagnostic(code(crossbar::prt::card), help("`crossbar all-frequency compress` codes it"))]
     NotCoded,
     /// The card refuses.
     #[error(transparent)]
     #[diagnostic(
         code(crossbar::prt::card),
-        help("`--way colors` runs on every card; `crossbar prt render` draws on the host what no card takes")
+        help(
+            "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host what no card takes"
+        )
     )]
     Card(#[from] FactoredCardError),
     /// A device is not known.

@@ -1,0 +1,161 @@
+//! `crossbar all-frequency card`: coded transfer on an emulated card.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use refsim::device::Profile;
+use refsim::texture::TexelFormat;
+
+use super::file::LitArgs;
+use crate::all_frequency::kernels::MapFilter;
+use crate::all_frequency::on_card::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::transfer::on_card::{OnCardArgs, VertexArg};
+use crate::cli::{Problem, given};
+use crate::study::prt::AllFrequencyOnCard;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency card docs/examples/step_all_small.prt --model docs/examples/step.obj --way colors --size 64x48
+      on the Radeon 9800, colors of vertices interpolated as its authors did
+  crossbar all-frequency card docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --sweep --size 64x48
+      bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
+
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
+docs/papers/all_frequency.md explains all of it.";
+
+/// The part of the work that the card does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WayArg {
+    /// None: the host makes colors of vertices, which are interpolated
+    Colors,
+    /// The product with factors of the view, which are in textures, for each pixel
+    Products,
+    /// That, and before it the sums over representatives, vertex by vertex in textures
+    Sums,
+}
+
+/// Who interpolates between texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FilterArg {
+    /// The sampler, whose weights have few bits
+    Sampler,
+    /// The program
+    Program,
+}
+
+/// Number format of the transferred radiance of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RadianceArg {
+    /// Single precision
+    Fp32,
+    /// Half precision
+    Fp16,
+}
+
+/// Draw a model under distant light on an emulated card, from coded transfer
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    #[command(flatten)]
+    lit: LitArgs,
+
+    /// The part of the work that the card does
+    #[arg(long, value_enum, value_name = "WAY", default_value = "products")]
+    way: WayArg,
+
+    /// Format of the maps of reflectance factors, for products [default: rgba16s or rg16s where the card has them, else
+    /// rgba8s]
+    #[arg(long, value_name = "F")]
+    map_format: Option<TexelFormat>,
+
+    /// Who interpolates between their texels, for products [default: sampler]
+    #[arg(long, value_enum, value_name = "WHO")]
+    filter: Option<FilterArg>,
+
+    /// Number format of the transferred radiance of a vertex, for products [default: fp32]
+    #[arg(long, value_enum, value_name = "F")]
+    radiance: Option<RadianceArg>,
+
+    /// Draw a channel per pass, for products
+    #[arg(long)]
+    pass_per_channel: bool,
+
+    /// Ask for the card's partial precision, for products
+    #[arg(long)]
+    partial: bool,
+
+    /// The language of the vertex program, for products [default: vs_2_0 where the card has it]
+    #[arg(long, value_enum, value_name = "V")]
+    vertex: Option<VertexArg>,
+
+    #[command(flatten)]
+    card: OnCardArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/all-frequency-card")]
+    out: PathBuf,
+}
+
+impl Args {
+    fn place(&self, profile: &Profile) -> Result<ProductPlace, Problem> {
+        if self.way == WayArg::Colors {
+            let of_products = [
+                ("--map-format", self.map_format.is_some()),
+                ("--filter", self.filter.is_some()),
+                ("--radiance", self.radiance.is_some()),
+                ("--pass-per-channel", self.pass_per_channel),
+                ("--partial", self.partial),
+                ("--vertex", self.vertex.is_some()),
+            ];
+            given::refuse(of_products, "`--way products` and `sums`, found `--way colors`", "leave it out")?;
+            return Ok(ProductPlace::Vertices(VertexColors::Bytes));
+        }
+        let has = |format: &TexelFormat| profile.limits.texture_formats.iter().any(|name| name == format.name());
+        let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
+        let is_fp16 = self.radiance == Some(RadianceArg::Fp16);
+        Ok(ProductPlace::Pixels(ProductOptions {
+            map_format: self.map_format.or(fractions).unwrap_or(TexelFormat::Rgba8Snorm),
+            filter: if self.filter == Some(FilterArg::Program) { MapFilter::Program } else { MapFilter::Sampler },
+            radiance: if is_fp16 { RadianceFormat::Fp16 } else { RadianceFormat::Fp32 },
+            is_pass_per_channel: self.pass_per_channel,
+            is_partial: self.partial,
+            vertex_version: self.vertex.map(Into::into),
+            ..ProductOptions::default()
+        }))
+    }
+}
+
+impl StudyArgs for Args {
+    type Study = AllFrequencyOnCard;
+    const COMMAND: &'static str = "all-frequency card";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        self.lit.inputs()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(Some(self.lit.picture.memory_on_card()))
+    }
+
+    fn study(&self) -> miette::Result<AllFrequencyOnCard> {
+        let OnCardArgs { target_format, sweep, card } = &self.card;
+        let profile = card.profile("r350")?;
+        let place = self.place(&profile)?;
+        Ok(AllFrequencyOnCard {
+            lit: self.lit.load()?,
+            switches: card.switches(),
+            executor: card.executor()?,
+            format: *target_format,
+            place,
+            sums_on_card: self.way == WayArg::Sums,
+            sweep: *sweep,
+            profile,
+        })
+    }
+}

@@ -1,0 +1,268 @@
+//! `crossbar all-frequency compress`: transfer by segments, clustered and coded.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde_json::json;
+
+use super::file::FileOfModel;
+use crate::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
+use crate::all_frequency::compressed::SegmentOptions;
+use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
+use crate::cli::transfer::values::MethodArg;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory, view};
+use crate::io::ReadError;
+use crate::report::{Cell, Table};
+use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
+use crate::transfer::file::MeshDigest;
+use crate::transfer::hats::Hats;
+use crate::transfer::visibility::SegmentCensus;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.prt
+      segment by segment, linear, coded in 16 bits
+  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 2 --bits 8 --weight-bits 8 --json --out small.prt
+      in fewer bits; every segment's error for machines
+
+Transfer is nowhere stored whole: that of a segment is computed, compressed and coded before the next.";
+
+/// The numbers that share a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ScaleArg {
+    /// Those of a representative, and the weights on it
+    Representative,
+    /// All of a segment
+    Segment,
+}
+
+/// Compress transfer segment by segment, and code it
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A .prt file with visibility, as `crossbar all-frequency precompute` writes it
+    #[arg(value_name = "X.prt")]
+    signal: PathBuf,
+
+    /// The model that it was made from
+    #[arg(long, value_name = "MODEL")]
+    model: PathBuf,
+
+    /// Vertices per cluster on average
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..))]
+    points_per_cluster: u32,
+
+    /// Representatives per cluster; 256 times the terms of the reflectance, as many as a vertex has numbers in a
+    /// segment, at most
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..))]
+    vectors: u32,
+
+    /// By which measure points are shared out to clusters
+    #[arg(long, value_enum, value_name = "HOW", default_value = "doubling")]
+    method: MethodArg,
+
+    /// Iterations at most for each number of vectors, and rounds of redistribution
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    iterations: u32,
+
+    /// Draws the start points
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Bits of the numbers of representatives
+    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
+    bits: u8,
+
+    /// Bits of weights
+    #[arg(long, value_name = "BITS", default_value_t = 16, value_parser = clap::value_parser!(u8).range(2..=16))]
+    weight_bits: u8,
+
+    /// The numbers that share a step
+    #[arg(long, value_enum, value_name = "OF", default_value = "representative")]
+    scale: ScaleArg,
+
+    /// Keep finished segments in this folder, and take those that it has
+    #[arg(long, value_name = "FOLDER")]
+    resume: Option<PathBuf>,
+
+    /// The file to write
+    #[arg(long, value_name = "Y.prt")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    view::require_file(&args.signal, 3, "name a smaller file")?;
+    let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
+    let Some(maps) = &file.visibility else {
+        let what = format!("{}: expected visibility, found coded transfer alone", args.signal.display());
+        return Err(Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote").into());
+    };
+    let numbers = 4 * 256 * file.reflectance.terms() as u64;
+    if u64::from(args.vectors) > numbers / 4 {
+        let what = format!("expected at most {} `--vectors`, found {}", numbers / 4, args.vectors);
+        return Err(
+            Problem::usage(what, "a vertex has no more numbers in a segment: more approximate nothing better").into()
+        );
+    }
+    // A segment of all vertices, its clusters, the vertices along axes, and inner products of clusters' vertices.
+    let bytes = maps.len() as u64 * (numbers * 3 / 2 + 6500) + (128 << 20);
+    let what = format_args!("a segment of the transfer of {} vertices, {numbers} bytes each", maps.len());
+    memory::require(what, bytes, "name a model of fewer vertices, or factors of fewer terms")?;
+    let (options, code) = (options(args), code(args));
+    let kept = args.resume.as_ref().map(|folder| kept(folder, (&args.signal, file.mesh), &options, code));
+    let compression = SegmentedCompression {
+        vertices: &vertices,
+        maps,
+        hats: file.hats,
+        reflectance: &file.reflectance,
+        options,
+        code,
+        kept: kept.transpose()?,
+    };
+    let bar = ProgressBar::new("", 1);
+    let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    drop(bar);
+    let census = SegmentCensus::new(&vertices, maps, &Hats::new(file.hats));
+    let raw = compression.raw_bytes();
+    let written = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
+    save_all_frequency(&written, &args.out).map_err(Problem::from)?;
+    let Some(coded) = &written.coded else { return Ok(()) };
+    if out.json() {
+        return Ok(out.document(&document(args, coded, &tally, &census, raw))?);
+    }
+    tell(args, coded, &tally, &census, raw, out)
+}
+
+fn options(args: &Args) -> SegmentOptions {
+    let iterations = args.iterations as usize;
+    SegmentOptions {
+        points_per_cluster: args.points_per_cluster as usize,
+        vectors: args.vectors as usize,
+        iterations,
+        method: args.method.method(iterations),
+        seed: args.seed,
+    }
+}
+
+/// The folder of finished segments, with everything that their bits depend on.
+fn kept(
+    folder: &Path,
+    (signal, mesh): (&Path, MeshDigest),
+    options: &SegmentOptions,
+    code: CodeOptions,
+) -> miette::Result<KeptSegments> {
+    let path = signal.to_owned();
+    let bytes = fs::read(signal).map_err(|source| ReadError::Unreadable { what: "transfer", path, source })?;
+    Ok(KeptSegments::open(
+        folder,
+        mesh,
+        [
+            ("checksum of the transfer", format!("{:08x}", crc32fast::hash(&bytes))),
+            ("vertices per cluster", options.points_per_cluster.to_string()),
+            ("representatives", options.vectors.to_string()),
+            ("iterations", options.iterations.to_string()),
+            ("method", format!("{:?}", options.method)),
+            ("seed", options.seed.to_string()),
+            ("bits of representatives", code.representative_bits.to_string()),
+            ("bits of weights", code.weight_bits.to_string()),
+            ("steps of one", format!("{:?}", code.scale)),
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ],
+    )?)
+}
+
+fn code(args: &Args) -> CodeOptions {
+    CodeOptions {
+        representative_bits: args.bits,
+        weight_bits: args.weight_bits,
+        scale: match args.scale {
+            ScaleArg::Representative => ScaleOf::Representative,
+            ScaleArg::Segment => ScaleOf::Segment,
+        },
+    }
+}
+
+/// Bytes of weights and representatives in single precision.
+fn clustered_bytes(coded: &CodedTransfer) -> u64 {
+    4 * (coded.nonzeros().1 + coded.segments.iter().map(|part| part.weights.len()).sum::<usize>()) as u64
+}
+
+fn document(
+    args: &Args,
+    coded: &CodedTransfer,
+    tally: &CompressionTally,
+    census: &SegmentCensus,
+    raw: u64,
+) -> serde_json::Value {
+    let squares = tally.sum(|part| part.squares);
+    let (nonzeros, all) = coded.nonzeros();
+    let size = coded.size();
+    let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
+    let segment = |part: &SegmentTally| {
+        json!({
+            "segment": part.segment, "vertices": part.vertices, "clusters": part.clusters, "squares": part.squares,
+            "squared_error": part.squared_error, "coded_squared_error": part.coded_squared_error,
+        })
+    };
+    let seconds = |step: usize| tally.sum(|part| part.seconds[step]);
+    json!({
+        "out": args.out, "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
+        "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
+        "clusters": coded.clusters(), "segments_kept": tally.kept,
+        "bytes": { "raw": raw, "clustered": clustered_bytes(coded), "coded": size.total(),
+                   "as_the_paper_counts": size.as_the_paper_counts() },
+        "code": { "blocks": blocks, "columns": coded.rows * coded.coefficients, "nonzeros": nonzeros, "numbers": all,
+                  "bytes": { "representatives": size.representatives, "columns": size.columns,
+                             "weights": size.weights, "steps": size.steps, "clusters": size.clusters } },
+        "squared_error": tally.sum(|part| part.coded_squared_error) / squares,
+        "squared_error_before_coding": tally.sum(|part| part.squared_error) / squares,
+        "seconds": { "transfer": seconds(0), "clusters": seconds(1), "code": seconds(2) },
+        "segments": tally.segments.iter().map(segment).collect::<Vec<_>>(),
+    })
+}
+
+fn tell(
+    args: &Args,
+    coded: &CodedTransfer,
+    tally: &CompressionTally,
+    census: &SegmentCensus,
+    raw: u64,
+    out: &mut Out,
+) -> miette::Result<()> {
+    let mut table = Table::new("Segments", &["segment", "vertices", "clusters", "squared error (%)", "coded (%)"]);
+    let share =
+        |error: f64, squares: f64| if squares > 0.0 { Cell::measured(100.0 * error / squares) } else { Cell::Empty };
+    for part in &tally.segments {
+        let errors = [part.squared_error, part.coded_squared_error].map(|error| share(error, part.squares));
+        let [error, coded] = errors;
+        table.push([part.segment.into(), part.vertices.into(), part.clusters.into(), error, coded]);
+    }
+    out.table(&table)?;
+    out.line("")?;
+    let (nonzeros, all) = coded.nonzeros();
+    let size = coded.size();
+    let percent = |bytes: u64| 100.0 * bytes as f64 / raw as f64;
+    out.sentence(format_args!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()))?;
+    out.line(format_args!("clusters  {}", counted(coded.clusters())))?;
+    let clustered = clustered_bytes(coded);
+    for (what, bytes) in [("raw", raw), ("clustered", clustered), ("coded", size.total())] {
+        out.line(format_args!("{what:9} {} bytes, {:.2} %", counted(bytes as usize), percent(bytes)))?;
+    }
+    let dense = 100.0 * nonzeros as f64 / all.max(1) as f64;
+    out.sentence(format_args!("nonzeros  {} of {}: {dense:.1} %", counted(nonzeros), counted(all)))?;
+    let squares = tally.sum(|part| part.squares);
+    let errors = [tally.sum(|part| part.coded_squared_error), tally.sum(|part| part.squared_error)];
+    let [after, before] = errors.map(|error| 100.0 * error / squares);
+    out.sentence(format_args!("error     {after:.4} % of the squares; {before:.4} % before coding"))?;
+    let [transfer, clusters, code] = [0, 1, 2].map(|step| tally.sum(|part| part.seconds[step]));
+    out.sentence(format_args!(
+        "time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"
+    ))?;
+    if let Some(folder) = &args.resume {
+        out.sentence(format_args!("kept      {} segments were finished before, in {}", tally.kept, folder.display()))?;
+    }
+    out.line(format_args!("written   {}", args.out.display()))?;
+    Ok(())
+}

@@ -1,0 +1,93 @@
+//! `crossbar all-frequency error`: the raw matrices again, beside what was coded.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::file::FileOfModel;
+use crate::all_frequency::file::load_all_frequency;
+use crate::cli::transfer::model::refused;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, view};
+use crate::io::write_file;
+use crate::study::prt::coded_errors;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj
+      squared error of all vertices, and the largest
+  crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj --csv errors.csv --json
+      and a line per vertex: its squared error, its squares";
+
+/// Compare coded transfer with the original, which is computed again: error of each vertex, and the largest
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The original: a .prt file with visibility
+    #[arg(value_name = "X.prt")]
+    signal: PathBuf,
+
+    /// What it was compressed to
+    #[arg(value_name = "Y.prt")]
+    compressed: PathBuf,
+
+    /// The model of both
+    #[arg(long, value_name = "MODEL")]
+    model: PathBuf,
+
+    /// Write a line per vertex to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    for path in [&args.signal, &args.compressed] {
+        view::require_file(path, 3, "name a smaller file")?;
+    }
+    let FileOfModel { file, vertices, digest, .. } = FileOfModel::load(&args.signal, &args.model)?;
+    let other = load_all_frequency(&args.compressed, Some(&digest))?;
+    let (Some(maps), Some(coded)) = (&file.visibility, &other.coded) else {
+        let what = "expected a file with visibility, then one with coded transfer, found others";
+        return Err(Problem::usage(what, "name what `crossbar all-frequency precompute` and `compress` wrote").into());
+    };
+    if (&file.reflectance, file.hats) != (&other.reflectance, other.hats) {
+        let what =
+            format!("{}: expected coded transfer of the same reflectance, found other", args.compressed.display());
+        return Err(Problem::usage(what, "name the file that it was compressed from").into());
+    }
+    let bar = ProgressBar::new("", 1);
+    let progress = &mut |what: &str, done, of| bar.show(what.to_owned(), done, of);
+    let found = coded_errors((&vertices, maps), file.hats, &file.reflectance, coded, progress).map_err(refused)?;
+    drop(bar);
+    let squared: f64 = found.squared_errors.iter().sum();
+    let squares: f64 = found.squares.iter().sum();
+    let largest =
+        (0..found.squared_errors.len()).max_by(|&a, &b| found.squared_errors[a].total_cmp(&found.squared_errors[b]));
+    let largest = largest.unwrap_or(0);
+    if let Some(path) = &args.csv {
+        write_file(path, |file| {
+            let mut file = std::io::BufWriter::new(file);
+            writeln!(file, "vertex,squared_error,squares")?;
+            for (vertex, (error, squares)) in found.squared_errors.iter().zip(&found.squares).enumerate() {
+                writeln!(file, "{vertex},{error:e},{squares:e}")?;
+            }
+            file.flush()
+        })
+        .map_err(Problem::from)?;
+    }
+    if out.json() {
+        return Ok(out.document(&json!({
+            "vertices": vertices.len(), "squared_error": squared, "squared_transfer": squares,
+            "relative_error": squared / squares,
+            "largest": { "vertex": largest, "squared_error": found.squared_errors[largest] }, "csv": args.csv,
+        }))?);
+    }
+    out.line(format_args!("vertices       {}", counted(vertices.len())))?;
+    out.sentence(format_args!("squared error  {squared:.6e}, {:.4e} of the transfer's squares", squared / squares))?;
+    out.line(format_args!("largest        {:.6e} at vertex {largest}", found.squared_errors[largest]))?;
+    if let Some(path) = &args.csv {
+        out.line(format_args!("written        {}", path.display()))?;
+    }
+    Ok(())
+}

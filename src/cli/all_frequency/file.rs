@@ -1,0 +1,104 @@
+//! The `.prt` files of `crossbar all-frequency`, the models that they were made from, and what is drawn of both.
+
+use std::path::{Path, PathBuf};
+
+use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
+use crate::cli::model_name::Model;
+use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::model::{load, vertices};
+use crate::cli::transfer::picture::PictureArgs;
+use crate::cli::{Problem, view};
+use crate::scene::{Material, Surface};
+use crate::study::prt::LitModel;
+use crate::transfer::Vertices;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::light::Decimation;
+
+/// A file with the model that it was made from.
+pub(super) struct FileOfModel {
+    pub(super) file: AllFrequencyFile,
+    pub(super) model: Model,
+    pub(super) vertices: Vertices,
+    pub(super) digest: MeshDigest,
+}
+
+impl FileOfModel {
+    pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
+        let file = load_all_frequency(path, None)?;
+        let model = load(model, file.mesh.tangents)?;
+        let vertices = vertices(&model, file.mesh.tangents)?;
+        let digest = MeshDigest::new(&vertices);
+        file.require_mesh(&digest, path)?;
+        Ok(Self { file, model, vertices, digest })
+    }
+}
+
+/// A file with visibility, of the same mesh and reflectance as another.
+fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miette::Result<AllFrequencyFile> {
+    view::require_file(path, 3, "name a smaller file")?;
+    let original = load_all_frequency(path, Some(mesh))?;
+    if original.visibility.is_none() || original.reflectance != file.reflectance || original.hats != file.hats {
+        let what = format!("{}: expected visibility with the same reflectance, found other", path.display());
+        return Err(Problem::usage(what, "name the file that was compressed").into());
+    }
+    Ok(original)
+}
+
+/// What a surface's radiance is multiplied by: its albedo, or 1 if it has none.
+pub(super) fn color(material: &Material) -> [f64; 3] {
+    match &material.surface {
+        Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
+        _ => [1.0; 3],
+    }
+}
+
+/// What `render` and `card` draw.
+#[derive(Debug, clap::Args)]
+pub(super) struct LitArgs {
+    /// Visibility or coded transfer; coded transfer is drawn where there are both
+    #[arg(value_name = "FILE.prt")]
+    file: PathBuf,
+
+    /// A file with visibility of the same model: what compression costs
+    #[arg(long, value_name = "X.prt")]
+    original: Option<PathBuf>,
+
+    #[command(flatten)]
+    light: LightArgs,
+
+    /// Light coefficients that are kept, those of largest area times magnitude [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
+    keep: Option<u32>,
+
+    #[command(flatten)]
+    pub(super) picture: PictureArgs,
+}
+
+impl LitArgs {
+    /// The files that are read.
+    pub(super) fn inputs(&self) -> Vec<&Path> {
+        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
+        files.into_iter().flatten().chain(self.picture.inputs()).collect()
+    }
+
+    /// The model under its light.
+    pub(super) fn load(&self) -> miette::Result<LitModel> {
+        view::require_file(&self.file, 3, "name a smaller file")?;
+        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.picture.model)?;
+        let original = self.original.as_deref().map(|path| original_of(&file, &digest, path)).transpose()?;
+        Ok(LitModel {
+            model: self.picture.model_name(),
+            camera: self.picture.camera(&model.mesh)?,
+            colors: model.materials.iter().map(color).collect(),
+            mesh: model.mesh,
+            vertices,
+            file,
+            original,
+            light_name: self.light.name(),
+            light: self.light.distant()?,
+            decimation: Decimation::SolidAngle,
+            keep: self.keep.map(|keep| keep as usize),
+            exposure: self.picture.exposure,
+        })
+    }
+}

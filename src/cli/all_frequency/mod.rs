@@ -1,0 +1,66 @@
+//! `crossbar all-frequency`: transfer for light of all frequencies, one file per verb.
+
+mod arrays;
+mod card;
+mod compress;
+mod error;
+mod factor;
+mod factor_values;
+mod file;
+mod lighting;
+mod precompute;
+mod render;
+mod show;
+
+use super::{Out, Verdict, study};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency factor --brdf cook-torrance
+      reflectance as a sum of products of a function of view and one of light
+  crossbar all-frequency lighting --light sky:1,-1,1 --keep 800
+      light as Haar wavelets, and what 800 of them keep
+  crossbar all-frequency precompute docs/examples/step.obj --out step.prt
+      what every vertex sees
+  crossbar all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 --vectors 4 --out small.prt
+      transfer, segment by segment, as clusters of principal components, coded
+  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+      pictures of it
+  crossbar all-frequency card docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+      the same on an emulated card
+
+docs/prt-format.md specifies the files, docs/papers/all_frequency.md what is computed.";
+
+/// Precomputed transfer for light of all frequencies, factored, compressed by segments and coded
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Verb {
+    Factor(factor::Args),
+    Lighting(lighting::Args),
+    Precompute(precompute::Args),
+    Compress(compress::Args),
+    Error(error::Args),
+    Show(show::Args),
+    Render(render::Args),
+    Card(card::Args),
+}
+
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.verb {
+        Verb::Factor(args) => return study::run(args, command_line, out),
+        Verb::Lighting(args) => lighting::run(args, out)?,
+        Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Compress(args) => compress::run(args, out)?,
+        Verb::Error(args) => error::run(args, out)?,
+        Verb::Show(args) => show::run(args, out)?,
+        Verb::Render(args) => return study::run(args, command_line, out),
+        Verb::Card(args) => return study::run(args, command_line, out),
+    }
+    Ok(Verdict::Done)
+}

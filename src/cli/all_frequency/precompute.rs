@@ -1,0 +1,227 @@
+//! `crossbar all-frequency precompute`: what the vertices of a model see.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use serde_json::{Value, json};
+
+use crate::all_frequency::Reflectance;
+use crate::all_frequency::factor::ProductFactors;
+use crate::all_frequency::file::save_all_frequency;
+use crate::cli::model_name::transfer_model_help;
+use crate::cli::transfer::model::{load, refused, vertices};
+use crate::cli::transfer::values::TangentsArg;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::geom::Mesh;
+use crate::io::{NumberTable, load_numbers, write_file, write_obj};
+use crate::scene::built::ground::{ground_of, on_ground};
+use crate::sphere::ParabolicMap;
+use crate::study::prt::{FoundSight, SightOfModel};
+use crate::transfer::hats::HatWidth;
+use crate::transfer::visibility::VISIBILITY_BYTES;
+use crate::transfer::{Tangents, Vertices};
+
+/// Longest array of factors, in bytes.
+const MAX_FACTORS: u64 = 256 << 20;
+/// Memory of rays that wait to be cast, and of the tree, in bytes.
+const RAYS: u64 = 128 << 20;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency precompute docs/examples/step.obj --out step.prt
+      what each vertex sees, for light of all frequencies on a diffuse surface
+  crossbar all-frequency precompute docs/examples/step.obj --ground 24 --out step.prt
+      the same on a ground, which `crossbar all-frequency render` draws with its `--ground`
+
+The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
+
+/// How wide the hats of the light's texels are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum HatsArg {
+    /// A texel alone
+    One,
+    /// To the centers of its neighbors
+    Two,
+}
+
+/// Compute what each vertex of a model sees, for light of all frequencies
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    // Names come from the one list of built models, `meshes`.
+    #[arg(value_name = "MODEL", help = transfer_model_help())]
+    model: PathBuf,
+
+    /// What `crossbar all-frequency factor` wrote: view_factors.npy and light_factors.npy in a folder [default: the one
+    /// term of a diffuse surface]
+    #[arg(long, value_name = "DIR")]
+    factors: Option<PathBuf>,
+
+    /// Put the model on a diffuse ground of N x N vertices; the paper has 192. Written beside --out, with the endings
+    /// ground.prt and ground.obj: the ground's own file and its model
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1024))]
+    ground: Option<u32>,
+
+    /// Width in texels of the hats of the light's texels
+    #[arg(long, value_enum, value_name = "WIDTH", default_value = "two")]
+    hats: HatsArg,
+
+    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// axis X,Y,Z
+    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
+    tangents: TangentsArg,
+
+    /// The file to write
+    #[arg(long, value_name = "X.prt")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let (tangents, path) = (args.tangents.0, args.out.as_path());
+    let reflectance =
+        args.factors.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
+    let model = load(&args.model, tangents)?;
+    let vertices = vertices(&model, tangents)?;
+    let below = u64::from(args.ground.unwrap_or(0)).pow(2);
+    let count = vertices.len() as u64 + below;
+    let what = format_args!("visibility of {count} vertices, {VISIBILITY_BYTES} bytes each");
+    let help = "name a model of fewer vertices, or a smaller ground";
+    memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
+    let hats = if args.hats == HatsArg::One { HatWidth::OneTexel } else { HatWidth::TwoTexels };
+    let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
+    let bar = ProgressBar::new("", 1);
+    let sight = SightOfModel {
+        scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
+        vertices: &vertices,
+        hats,
+        reflectance,
+        ground: ground.as_ref().map(|ground| &ground.vertices),
+    };
+    let (found, below) = sight.run(&mut |what, done, of| bar.show(what.to_owned(), done, of)).map_err(refused)?;
+    save_all_frequency(&found.file, path).map_err(Problem::from)?;
+    let [ground_path, ground_mesh] = ["ground.prt", "ground.obj"].map(|ending| path.with_extension(ending));
+    if let (Some(ground), Some(below)) = (&ground, &below) {
+        save_all_frequency(&below.file, &ground_path).map_err(Problem::from)?;
+        write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
+    }
+    drop(bar);
+    if out.json() {
+        let mut document = document(&found, path);
+        document["unused_vertices"] = json!(vertices.unused);
+        document["replaced_tangents"] = json!(vertices.replaced_tangents);
+        document["ground"] = json!(below.as_ref().map(|below| {
+            let mut ground = self::document(below, &ground_path);
+            ground["model"] = json!(ground_mesh);
+            ground
+        }));
+        return Ok(out.document(&document)?);
+    }
+    tell(&found, out)?;
+    for (count, what) in [
+        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
+        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
+    ] {
+        if count > 0 {
+            out.sentence(format_args!("note      {} {what}", counted(count)))?;
+        }
+    }
+    out.line(format_args!("written   {}", path.display()))?;
+    if let Some(below) = &below {
+        out.line("")?;
+        out.line("ground    below the model, diffuse")?;
+        tell(below, out)?;
+        out.line(format_args!("written   {}", ground_path.display()))?;
+        out.line(format_args!("written   {}, its model", ground_mesh.display()))?;
+    }
+    Ok(())
+}
+
+/// A ground below a model.
+struct Ground {
+    mesh: Mesh,
+    vertices: Vertices,
+    /// The model on it.
+    scene: Mesh,
+}
+
+impl Ground {
+    fn new(model: &Mesh, side: u32) -> miette::Result<Self> {
+        let mesh = ground_of(model, side);
+        let vertices = Vertices::new(&mesh, Tangents::Any).map_err(refused)?;
+        let help = "name a model of fewer triangles, or a smaller ground";
+        let (scene, _) = on_ground(model, side).map_err(|error| Problem::usage(error.to_string(), help))?;
+        Ok(Self { mesh, vertices, scene })
+    }
+}
+
+fn document(found: &FoundSight, path: &Path) -> Value {
+    let FoundSight { file, census } = found;
+    let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
+    json!({
+        "out": path, "vertices": file.mesh.vertices, "terms": file.reflectance.terms(), "omega": census.omega(),
+        "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
+        "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
+        "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
+        "unclear_vertices": counts.unclear,
+    })
+}
+
+fn tell(found: &FoundSight, out: &mut Out) -> miette::Result<()> {
+    let FoundSight { file, census } = found;
+    let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
+    let terms = file.reflectance.terms();
+    out.line(format_args!("vertices  {}, {terms} terms of reflectance", counted(file.mesh.vertices as usize)))?;
+    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
+    out.sentence(format_args!(
+        "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
+    ))?;
+    out.sentence(format_args!(
+        "segments  {:.1} % hold transfer; of 24, at least {} and on average {:.2} lie below the horizon",
+        100.0 * census.omega(),
+        census.least_below,
+        census.mean_below()
+    ))?;
+    if !counts.unclear.is_empty() {
+        let count = counted(counts.unclear.len());
+        out.sentence(format_args!("note      {count} vertices lie on triangles that face each other"))?;
+    }
+    Ok(())
+}
+
+/// What `crossbar all-frequency factor` wrote into a folder.
+fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
+    let [view, light] = ["view_factors.npy", "light_factors.npy"].map(|name| folder.join(name));
+    let table = |path: &Path| load_numbers(path, "array of factors", MAX_FACTORS);
+    let (view_table, light_table) = (table(&view)?, table(&light)?);
+    let terms = view_table.columns;
+    if light_table.columns != terms {
+        let what = format!(
+            "{}: expected {terms} terms as in {}, found {}",
+            light.display(),
+            view.display(),
+            light_table.columns
+        );
+        return Err(Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote").into());
+    }
+    Ok(ProductFactors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
+}
+
+fn map(path: &Path, table: NumberTable) -> Result<(ParabolicMap, Vec<f64>), Problem> {
+    let texels = table.values.len() / table.columns.max(1);
+    let wrong = |expected: &str, found: String| {
+        let what = format!("{}: expected {expected}, found {found}", path.display());
+        Problem::usage(what, "name a folder that `crossbar all-frequency factor` wrote")
+    };
+    let side = texels.isqrt();
+    if side == 0 || side * side != texels || table.columns == 0 {
+        return Err(wrong("a row for each texel of a square map", format!("{texels} rows of {}", table.columns)));
+    }
+    if table.columns > 1024 {
+        return Err(wrong("at most 1024 terms", table.columns.to_string()));
+    }
+    if let Some(value) = table.values.iter().find(|value| !value.is_finite()) {
+        return Err(wrong("finite numbers", value.to_string()));
+    }
+    Ok((ParabolicMap::new(side), table.values.into_iter().map(f64::from).collect()))
+}

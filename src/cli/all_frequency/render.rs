@@ -1,0 +1,76 @@
+//! `crossbar all-frequency render`: pictures of a model from its transfer.
+
+use std::path::{Path, PathBuf};
+
+use super::file::{FileOfModel, LitArgs, color};
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::transfer::picture::FramesArgs;
+use crate::cli::view;
+use crate::study::prt::{AllFrequencyRendering, RenderedGround};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 64x48
+      under a clear sky with a sun: picture, a page
+  crossbar all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --keep 200 --size 64x48
+      beside the uncompressed transfer, with 200 coefficients of the light
+  crossbar all-frequency render docs/examples/step_all.prt --model docs/examples/step.obj --light red-and-blue --frames 4 --size 64x48
+      uncompressed, the light turned around z in four steps
+
+Written to --out: index.html (self-contained), pictures, picture.exr. Every pixel takes its own view, on the host.";
+
+/// Draw a model under distant light from its transfer, compressed or not
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    #[command(flatten)]
+    lit: LitArgs,
+
+    /// The ground that `crossbar all-frequency precompute --ground` wrote, compressed or not
+    #[arg(long, value_name = "G.prt")]
+    ground: Option<PathBuf>,
+
+    /// Its model [default: G.obj]
+    #[arg(long, value_name = "MODEL", requires = "ground")]
+    ground_model: Option<PathBuf>,
+
+    #[command(flatten)]
+    frames: FramesArgs,
+
+    /// Where to write pictures and the page
+    #[arg(long, value_name = "DIR", default_value = "out/all-frequency")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Args {
+    type Study = AllFrequencyRendering;
+    const COMMAND: &'static str = "all-frequency render";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        let ground = [&self.ground, &self.ground_model].into_iter().flatten().map(PathBuf::as_path);
+        self.lit.inputs().into_iter().chain(ground).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(Some(self.frames.memory(&self.lit.picture)))
+    }
+
+    fn study(&self) -> miette::Result<AllFrequencyRendering> {
+        let lit = self.lit.load()?;
+        let ground = self.ground.as_ref().map(|path| {
+            let beside = path.with_extension("obj");
+            view::require_file(path, 3, "name a smaller file")?;
+            let FileOfModel { file, model, vertices, .. } =
+                FileOfModel::load(path, self.ground_model.as_ref().unwrap_or(&beside))?;
+            let colors = model.materials.iter().map(color).collect();
+            Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
+        });
+        let ground = ground.transpose()?;
+        Ok(AllFrequencyRendering { lit, ground, frames: self.frames.frames, turning: self.frames.turning() })
+    }
+}

@@ -1,0 +1,280 @@
+//! `crossbar bi-scale bicluster`: a sparse matrix as a sum of constant-column biclusters.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use serde_json::{Value, json};
+
+use super::file::load;
+use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, number};
+use crate::io::write_file;
+use crate::report::{Cell, Table};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale bicluster docs/examples/quarters.mtx
+      any sparse matrix: how many operations and bytes its product with a vector takes as biclusters
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --seed 7 --out biclusters.prt
+      other start points; what is written is for `crossbar bi-scale multiply`
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --seeds 8
+      the cheapest of eight: seeds differ by up to a fifth
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --no-deletion --dump biclusters.csv --json
+      every bicluster as a line; figures for machines
+  crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
+      with loss: what is off by a quarter stays so";
+
+/// Values that a table has room for.
+const VALUES: usize = 17;
+
+/// Make biclusters of a sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` wrote
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// Draws the elements that biclusters start at
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Try so many seeds, from --seed on, and keep the biclusters of the fewest operations
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    seeds: u32,
+
+    /// Insert rows and columns alone, and take none out again
+    #[arg(long)]
+    no_deletion: bool,
+
+    /// Leave out residuals of at most this size: what is left of the matrix is off by no more, place by place
+    #[arg(long, value_name = "ERROR", default_value_t = 0.0, value_parser = number::not_negative)]
+    drop: f64,
+
+    /// Write the biclusters as a table: cost, rows, columns and values of each
+    #[arg(long, value_name = "B.csv")]
+    dump: Option<PathBuf>,
+
+    /// Write the biclusters to a .prt file
+    #[arg(long, value_name = "X.prt")]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let BiScaleFile { meaning, matrix, .. } = load(&args.file)?;
+    let matrix = matrix.ok_or_else(|| {
+        let what = format!("{}: expected a matrix, found biclusters alone", args.file.display());
+        Problem::usage(what, "name the file that they were made from")
+    })?;
+    let start = Instant::now();
+    let (seed, biclusters) = args.best(&matrix).map_err(|error| refused(&args.file, &error))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let residual = Residual::new(&matrix, &biclusters).map_err(|error| refused(&args.file, &error))?;
+    let summary = Summary { matrix: &matrix, biclusters: &biclusters, seed, residual, seconds };
+    if let Some(path) = &args.dump {
+        dump(&biclusters, path)?;
+    }
+    let (document, tables) = (summary.document(args), [summary.table(), summary.histogram()]);
+    if let Some(path) = &args.out {
+        let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
+        save_bi_scale(&file, path).map_err(Problem::from)?;
+    }
+    if out.json() {
+        return Ok(out.document(&document)?);
+    }
+    for table in &tables {
+        out.table(table)?;
+        out.line("")?;
+    }
+    for path in args.dump.iter().chain(&args.out) {
+        out.line(format_args!("written   {}", path.display()))?;
+    }
+    Ok(())
+}
+
+impl Args {
+    /// The biclusters of the fewest operations, of equals those of the lowest seed, with their seed.
+    fn best(&self, matrix: &SparseMatrix) -> Result<(u64, Biclustering), BiclusterError> {
+        let total = matrix.nonzeros() as u64;
+        let bar = ProgressBar::new("non-zeros", total);
+        let of_seed = |seed: u64| {
+            let options = BiclusterOptions { seed, deletion: !self.no_deletion, drop: self.drop(matrix) };
+            let mut number = 0_u64;
+            let mut found = |left: u64| {
+                number += 1;
+                if number.is_multiple_of(64) {
+                    bar.show(format!("non-zeros, seed {seed}"), total.saturating_sub(left), total);
+                }
+            };
+            bicluster(matrix, options, &mut found)
+        };
+        let mut best = (self.seed, of_seed(self.seed)?);
+        for seed in (1..u64::from(self.seeds)).map(|more| self.seed.wrapping_add(more)) {
+            let biclusters = of_seed(seed)?;
+            if biclusters.cost() < best.1.cost() {
+                best = (seed, biclusters);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The largest residual that is left out, in units of the matrix.
+    fn drop(&self, matrix: &SparseMatrix) -> u32 {
+        (self.drop / matrix.unit()).min(f64::from(u32::MAX)) as u32
+    }
+}
+
+fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
+    Problem::usage(format!("{}: {error}", path.display()), "give the matrix in fewer bits")
+}
+
+/// What the sum of biclusters leaves of a matrix.
+#[derive(Clone, Copy, Debug, Default)]
+struct Residual {
+    /// Places where they differ.
+    count: usize,
+    /// By how much at most.
+    largest: f64,
+    /// The sum of squared differences.
+    squares: f64,
+}
+
+impl Residual {
+    fn new(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Self, BiclusterError> {
+        let mut residual = Self::default();
+        biclusters.sum_by_rows(&mut |row, entries| {
+            if matrix.row(row) != entries {
+                let mut differences: BTreeMap<u32, i64> = BTreeMap::new();
+                for (sign, entries) in [(1, matrix.row(row)), (-1, entries)] {
+                    for entry in entries {
+                        *differences.entry(entry.index).or_insert(0) += sign * i64::from(entry.value);
+                    }
+                }
+                differences.into_values().filter(|&units| units != 0).for_each(|units| {
+                    let difference = matrix.unit() * units.unsigned_abs() as f64;
+                    residual.count += 1;
+                    residual.largest = residual.largest.max(difference);
+                    residual.squares += difference * difference;
+                });
+            }
+        })?;
+        Ok(residual)
+    }
+}
+
+/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
+fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
+    let join = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<String>>().join(" ");
+    write_file(path, |out| {
+        writeln!(out, "bicluster,cost,rows,columns,values")?;
+        for number in 0..biclusters.len() {
+            let (rows, columns) = (biclusters.rows_of(number), biclusters.columns_of(number));
+            let cost = rows.len() + 2 * columns.len() - 1;
+            let rows = join(&mut rows.iter().map(u32::to_string));
+            let places = join(&mut columns.iter().map(|entry| entry.index.to_string()));
+            let value = |value: i32| (biclusters.unit() * f64::from(value)).to_string();
+            let values = join(&mut columns.iter().map(|entry| value(entry.value)));
+            writeln!(out, "{number},{cost},{rows},{places},{values}")?;
+        }
+        Ok(())
+    })
+    .map_err(Problem::from)
+}
+
+struct Summary<'a> {
+    matrix: &'a SparseMatrix,
+    biclusters: &'a Biclustering,
+    /// The seed that they are of.
+    seed: u64,
+    residual: Residual,
+    seconds: f64,
+}
+
+impl Summary<'_> {
+    fn flops_before(&self) -> u64 {
+        2 * self.matrix.nonzeros() as u64
+    }
+
+    /// Bytes by layout: dense in bytes and in floats; rows of columns of 2 bytes and values of 1, of 4 and 4;
+    /// biclusters of 4 bytes per row and 4 + 4 per column, as the paper's figures have it.
+    fn bytes(&self) -> [(&'static str, &'static str, u64); 5] {
+        let (rows, columns) = (self.matrix.rows() as u64, self.matrix.columns() as u64);
+        let nonzeros = self.matrix.nonzeros() as u64;
+        let begins = 4 * (rows + 1);
+        let entries = self.biclusters.row_entries() as u64 + 2 * self.biclusters.column_entries() as u64;
+        [
+            ("dense_1", "dense, a byte each", rows * columns),
+            ("dense_4", "dense, floats", 4 * rows * columns),
+            ("rows_3", "by rows, 3 bytes each", 3 * nonzeros + begins),
+            ("rows_8", "by rows, 8 bytes each", 8 * nonzeros + begins),
+            ("biclusters", "biclusters", 4 * entries),
+        ]
+    }
+
+    /// How often each value stands in the matrix.
+    fn values(&self) -> BTreeMap<i32, usize> {
+        let mut counts = BTreeMap::new();
+        for entry in (0..self.matrix.rows()).flat_map(|row| self.matrix.row(row)) {
+            *counts.entry(entry.value).or_insert(0) += 1;
+        }
+        counts
+    }
+
+    fn document(&self, args: &Args) -> Value {
+        let value = |value: i32| self.matrix.unit() * f64::from(value);
+        let values: Vec<Value> =
+            self.values().into_iter().map(|(key, count)| json!({ "value": value(key), "count": count })).collect();
+        let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
+        json!({
+            "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
+            "values": values, "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
+            "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
+            "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
+            "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
+            "seed": self.seed, "seconds": self.seconds, "out": args.out, "dump": args.dump,
+        })
+    }
+
+    fn table(&self) -> Table {
+        let (before, after) = (self.flops_before(), self.biclusters.cost());
+        let mut table = Table::new("Biclusters", &["figure", "value"]);
+        table.push(["rows".into(), self.matrix.rows().into()]);
+        table.push(["columns".into(), self.matrix.columns().into()]);
+        table.push(["values other than 0".into(), self.matrix.nonzeros().into()]);
+        table.push(["biclusters".into(), self.biclusters.len().into()]);
+        table.push(["their rows".into(), self.biclusters.row_entries().into()]);
+        table.push(["their columns".into(), self.biclusters.column_entries().into()]);
+        table.push(["operations of the matrix".into(), before.into()]);
+        table.push(["operations of biclusters".into(), after.into()]);
+        if before > 0 {
+            table.push(["share (%)".into(), Cell::measured(100.0 * after as f64 / before as f64)]);
+        }
+        for (_, what, bytes) in self.bytes() {
+            table.push([format!("bytes, {what}").into(), bytes.into()]);
+        }
+        table.push(["places where the sum differs".into(), self.residual.count.into()]);
+        if self.residual.count > 0 {
+            table.push(["largest difference".into(), Cell::measured(self.residual.largest)]);
+        }
+        table.push(["seed".into(), self.seed.into()]);
+        table.push(["seconds".into(), Cell::measured(self.seconds)]);
+        table
+    }
+
+    fn histogram(&self) -> Table {
+        let mut table = Table::new("Values", &["value", "count"]);
+        let values = self.values();
+        for (&value, &count) in values.iter().take(VALUES) {
+            table.push([Cell::measured(self.matrix.unit() * f64::from(value)), count.into()]);
+        }
+        if let Some(more) = values.len().checked_sub(VALUES).filter(|&more| more > 0) {
+            let count: usize = values.values().skip(VALUES).sum();
+            table.push([format!("{} more", counted(more)).into(), count.into()]);
+        }
+        table
+    }
+}

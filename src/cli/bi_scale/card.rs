@@ -1,0 +1,163 @@
+//! `crossbar bi-scale card`: biclusters and bidirectional textures on an emulated card.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use refsim::texture::TexelFormat;
+
+use super::texture_args::TextureArgs;
+use super::textures::TransferOfModel;
+use crate::bi_scale::kernels::BlockEdges;
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat, corner_coordinates};
+use crate::cli::Problem;
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::on_card::OnCardArgs;
+use crate::cli::transfer::picture::PictureArgs;
+use crate::study::prt::BiScaleOnCard;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --repeat 4 --size 64x48
+      on the GeForce GTX 280: light times biclusters, then a bidirectional texture pass by pass
+  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
+      light, local light, textures and targets made coarse one after the other: what shows
+
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
+docs/papers/bi_scale.md explains all of it.";
+
+/// How blocks meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum BlocksArg {
+    /// A texel around each repeats the opposite edge: the patch has no seam
+    Wrapped,
+    /// As in the paper's Figure 4, with a seam
+    Touching,
+}
+
+/// What numbers are held in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum HeldArg {
+    /// Fractions of 8 bits of the largest number
+    Bytes,
+    /// Half precision
+    Fp16,
+    /// Single precision
+    Fp32,
+}
+
+/// Draw a model under distant light on an emulated card, from biclusters and bidirectional textures
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// Biclusters, as `crossbar bi-scale bicluster` writes them
+    #[arg(value_name = "FILE.prt")]
+    file: PathBuf,
+
+    #[command(flatten)]
+    textures: TextureArgs,
+
+    /// Format of the volumes that hold textures: rgba8, of the largest sample, rgba16f or rgba32f
+    #[arg(long, value_name = "F", default_value = "rgba8")]
+    texture_format: TexelFormat,
+
+    /// How the volume's blocks meet
+    #[arg(long, value_enum, value_name = "EDGES", default_value = "wrapped")]
+    blocks: BlocksArg,
+
+    /// What the card holds light in
+    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
+    light_format: HeldArg,
+
+    /// What vertices hold local light in
+    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
+    local_format: HeldArg,
+
+    #[command(flatten)]
+    light: LightArgs,
+
+    #[command(flatten)]
+    card: OnCardArgs,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/bi-scale-card")]
+    out: PathBuf,
+}
+
+impl Args {
+    fn display(&self) -> DisplayOptions {
+        let local = match self.local_format {
+            HeldArg::Fp32 => LocalFormat::Fp32,
+            HeldArg::Fp16 => LocalFormat::Fp16,
+            HeldArg::Bytes => LocalFormat::Bytes,
+        };
+        let edges = match self.blocks {
+            BlocksArg::Wrapped => BlockEdges::Wrapped,
+            BlocksArg::Touching => BlockEdges::Touching,
+        };
+        DisplayOptions { edges, texture: self.texture_format, local }
+    }
+
+    fn light_format(&self) -> LightFormat {
+        match self.light_format {
+            HeldArg::Fp32 => LightFormat::Fp32,
+            HeldArg::Fp16 => LightFormat::Fp16,
+            HeldArg::Bytes => LightFormat::Bytes,
+        }
+    }
+}
+
+impl StudyArgs for Args {
+    type Study = BiScaleOnCard;
+    const COMMAND: &'static str = "bi-scale card";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        self.textures.inputs(&self.file, &self.picture, &self.light)
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(Some(self.textures.memory(self.picture.memory_on_card())))
+    }
+
+    fn study(&self) -> miette::Result<BiScaleOnCard> {
+        let OnCardArgs { target_format, sweep, card } = &self.card;
+        let (textures, name) = (&self.textures, &self.picture.model);
+        let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
+            textures.transfer(&self.file, name)?;
+        let Some(biclusters) = file.biclusters else {
+            let what = format!("{}: expected biclusters, found a matrix alone", self.file.display());
+            return Err(Problem::usage(what, "`crossbar bi-scale bicluster` makes them").into());
+        };
+        let repeat = textures.patches.repeat() as f32;
+        let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
+            Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
+        })?;
+        Ok(BiScaleOnCard {
+            model: self.picture.model_name(),
+            camera: self.picture.camera(&model.mesh)?,
+            vertices,
+            coordinates,
+            biclusters,
+            textures: textures.textures(&directions)?.into_iter().map(|texture| texture.samples).collect(),
+            texture_of,
+            light_name: self.light.name(),
+            light: self.light.distant()?,
+            exposure: self.picture.exposure,
+            profile: card.profile("gt200")?,
+            switches: card.switches(),
+            executor: card.executor()?,
+            format: *target_format,
+            light_format: self.light_format(),
+            options: self.display(),
+            sweep: *sweep,
+        })
+    }
+}

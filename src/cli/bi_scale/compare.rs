@@ -1,0 +1,209 @@
+//! `crossbar bi-scale compare`: biclusters beside other ways to store transfer.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde_json::{Value, json};
+
+use super::file::{load, turned, vertices_of};
+use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::rivals::{
+    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
+};
+use crate::bi_scale::transfer::light_vectors;
+use crate::cli::transfer::light::LightArgs;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
+use crate::transfer::clustering::CpcaForm;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale compare docs/examples/step_biclusters.prt --clusters 4 --vectors 2 --sample 300
+      bytes and errors of compressed rows, clusters of rows, wavelets and harmonics beside biclusters
+  crossbar bi-scale compare docs/examples/step_biclusters.prt --model docs/examples/step.obj --light disk:1,0,2:5 --clusters 4 --sample 300 --json
+      what is rotated into frames of vertices too; figures for machines
+
+Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
+docs/papers/bi_scale.md says how each way is made.";
+
+/// By what wavelet coefficients of a row are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PriorityArg {
+    /// Magnitude times the texels under the basis function
+    Area,
+    /// Magnitude
+    Magnitude,
+}
+
+/// What a wavelet coefficient is stored as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum StorageArg {
+    /// A byte, in steps of 1/127 of the largest
+    Byte,
+    /// Four bytes
+    Single,
+}
+
+/// Compare biclusters with other ways to store transfer: bytes, and the error of the light that arrives
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A matrix of 6,144 columns (.mtx or .prt), or its biclusters (.prt)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// The model that the file was made from: compares also harmonics on both sides, and reshuffled visibility
+    #[arg(long, value_name = "MODEL")]
+    model: Option<PathBuf>,
+
+    #[command(flatten)]
+    light: LightArgs,
+
+    /// Turn the light around z, in degrees
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = crate::cli::number::finite,
+          allow_hyphen_values = true)]
+    rotate: f64,
+
+    /// Clusters of rows
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=65_536))]
+    clusters: u32,
+
+    /// Vectors per cluster
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=6144))]
+    vectors: u32,
+
+    /// Clusters without means: vectors alone
+    #[arg(long)]
+    linear: bool,
+
+    /// Rows that the first clusters are found from
+    #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u32).range(1..))]
+    sample: u32,
+
+    /// Rounds in which all rows take part afterwards
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    rounds: u32,
+
+    /// Draws the sample and the first representatives, and the elements that biclusters start at
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Wavelet coefficients of a row
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=6144))]
+    coefficients: u32,
+
+    /// By what they are chosen
+    #[arg(long, value_enum, value_name = "BY", default_value_t = PriorityArg::Area)]
+    priority: PriorityArg,
+
+    /// What they are stored as, beside two bytes for their numbers
+    #[arg(long, value_enum, value_name = "AS", default_value_t = StorageArg::Byte)]
+    storage: StorageArg,
+
+    /// Order of spherical harmonics
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
+    order: u8,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let file = load(&args.file)?;
+    let vertices = match &args.model {
+        Some(model) => Some(vertices_of(model, &args.file, file.meaning.as_ref())?),
+        None => None,
+    };
+    let BiScaleFile { meaning, matrix, biclusters } = file;
+    let refused = |error: &dyn std::error::Error| {
+        Problem::usage(format!("{}: {error}", args.file.display()), "see `crossbar bi-scale compare --help`")
+    };
+    let matrix = match (matrix, &biclusters) {
+        (Some(matrix), _) => matrix,
+        (None, Some(biclusters)) => biclusters.sum().map_err(|error| refused(&error))?,
+        (None, None) => return Err(Problem::usage("no matrix", "name another file").into()),
+    };
+    // A sample in f32, and of its largest cluster, which may be all of it, two copies and their products in f64.
+    let sample = u64::from(args.sample).min(matrix.rows() as u64);
+    let bytes = sample * (20 * matrix.columns() as u64 + 8 * sample) + 40 * matrix.nonzeros() as u64;
+    let what = format_args!("comparing with clusters of {} rows", matrix.rows());
+    memory::require(what, bytes, "ask for a smaller `--sample`, or name a smaller matrix")?;
+    let bar = ProgressBar::new("biclusters", 1);
+    let biclusters = match biclusters {
+        Some(biclusters) => biclusters,
+        None => {
+            let options = BiclusterOptions { seed: args.seed, ..BiclusterOptions::default() };
+            bicluster(&matrix, options, &mut |_| ()).map_err(|error| refused(&error))?
+        }
+    };
+    let cube = turned(&args.light, args.rotate, "compare")?;
+    let channels = light_vectors(&cube);
+    let side = meaning.map_or(1, |meaning| meaning.side as usize);
+    let directions = LocalDirections::new(side).map_err(|error| refused(&error))?;
+    let transfer = vertices.as_ref().map(|vertices| LocalTransfer::new(&matrix, vertices.frames(), &directions));
+    let comparison = StoredComparison {
+        matrix: &matrix,
+        biclusters: &biclusters,
+        transfer: transfer.transpose().map_err(|error| refused(&error))?,
+        clusters: args.clusters(),
+        wavelets: args.wavelets(),
+        order: args.order.into(),
+    };
+    let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
+    let ways = comparison.ways(&[channels.to_vec()], &mut show, &mut |_, _| ()).map_err(|error| refused(&error))?;
+    drop(bar);
+    if out.json() {
+        return Ok(out.document(&json!({
+            "rows": matrix.rows(), "columns": matrix.columns(), "nonzeros": matrix.nonzeros(), "flux": cube.flux(),
+            "ways": ways.iter().map(document).collect::<Vec<Value>>(),
+        }))?);
+    }
+    out.sentence(format_args!(
+        "{} x {}, {} values other than 0, under {}",
+        counted(matrix.rows()),
+        counted(matrix.columns()),
+        counted(matrix.nonzeros()),
+        args.light.name()
+    ))?;
+    out.table(&stored_ways_table("Ways to store transfer", &ways, &["light"]))?;
+    Ok(())
+}
+
+impl Args {
+    fn clusters(&self) -> RowClusterOptions {
+        RowClusterOptions {
+            clusters: self.clusters as usize,
+            vectors: self.vectors as usize,
+            form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
+            sample: self.sample as usize,
+            rounds: self.rounds as usize,
+            seed: self.seed,
+            ..RowClusterOptions::default()
+        }
+    }
+
+    fn wavelets(&self) -> HaarRowOptions {
+        HaarRowOptions {
+            keep: self.coefficients as usize,
+            priority: match self.priority {
+                PriorityArg::Area => CoefficientPriority::Area,
+                PriorityArg::Magnitude => CoefficientPriority::Magnitude,
+            },
+            storage: match self.storage {
+                StorageArg::Byte => CoefficientStorage::Byte,
+                StorageArg::Single => CoefficientStorage::Single,
+            },
+        }
+    }
+}
+
+fn document(way: &StoredWay) -> Value {
+    let bytes: Vec<Value> =
+        way.sizes.iter().map(|size| json!({ "layout": size.layout, "bytes": size.bytes })).collect();
+    let error = way.errors.first();
+    json!({
+        "way": way.name, "bytes": bytes, "rms": error.map(|error| error.root_mean_square),
+        "largest": error.map(|error| error.largest), "relative": error.map(|error| error.relative),
+        "seconds": way.seconds,
+    })
+}

@@ -1,0 +1,101 @@
+//! What the verbs of `crossbar bi-scale` read and write: matrices, biclusters, models.
+
+use std::path::Path;
+
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::model_name::Model;
+use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::model::{load as load_model, vertices};
+use crate::cli::{MemoryError, Problem, memory, number, view};
+use crate::io::{load_matrix_market, write_file, write_matrix_market};
+use crate::sphere::turn_around_z;
+use crate::study::prt::creased;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::light::{CubeLight, Decimation};
+use crate::transfer::{Tangents, Vertices};
+
+/// An angle from 0 to 180 degrees.
+pub(super) fn angle(text: &str) -> Result<f64, String> {
+    let degrees = number::not_negative(text)?;
+    if degrees <= 180.0 {
+        return Ok(degrees);
+    }
+    Err(format!("expected an angle from 0 to 180 degrees, found `{text}`"))
+}
+
+/// A model, its normals taken anew if there is a crease angle, in degrees: smooth over edges up to it.
+pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>) -> miette::Result<Model> {
+    let model = load_model(path, tangents)?;
+    let Some(degrees) = crease else { return Ok(model) };
+    Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
+}
+
+/// The vertices of the model that a file was made from.
+pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
+    let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
+        let what = format!("{}: expected transfer of a model, found a matrix of no known one", file.display());
+        Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
+    })?;
+    let vertices = vertices(&load_model(model, mesh.tangents)?, mesh.tangents)?;
+    let found = MeshDigest::new(&vertices);
+    if found != mesh {
+        let what = format!("{}: expected transfer of {found}, found that of {mesh}", file.display());
+        return Err(Problem::usage(what, "name the model that the file was made from").into());
+    }
+    Ok(vertices)
+}
+
+/// Whether a file is a matrix as text, by its name.
+fn is_text(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
+}
+
+/// A Matrix Market file, or a `.prt` file of bi-scale transfer, by the ending of its name.
+pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
+    let is_text = is_text(path);
+    // Per byte of a file 1.3 bytes of entries, which are sorted into rows, twice as much.
+    view::require_file(path, if is_text { 4 } else { 6 }, "name a smaller matrix")?;
+    if !is_text {
+        let file = load_bi_scale(path)?;
+        let size = file.biclusters.as_ref().map_or([0; 2], Biclustering::matrix_size);
+        require_size(path, size)?;
+        return Ok(file);
+    }
+    let coordinates = load_matrix_market(path)?;
+    require_size(path, [coordinates.rows, coordinates.columns])?;
+    let matrix = SparseMatrix::from_coordinates(&coordinates).map_err(|reason| {
+        Problem::usage(
+            format!("{}: {reason}", path.display()),
+            "give values that are whole numbers of some power of two, such as quarters",
+        )
+    })?;
+    Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
+}
+
+/// Refuses a matrix of more rows and columns than there is memory for, however few of them have entries.
+fn require_size(path: &Path, [rows, columns]: [usize; 2]) -> Result<(), MemoryError> {
+    // Where a row begins, its sum, and those of its residuals.
+    const PER_LINE: u64 = 32;
+    let what = format_args!("a matrix of {rows} x {columns} (`{}`)", path.display()).to_string();
+    memory::require(what, PER_LINE.saturating_mul(rows as u64 + columns as u64), "name a smaller matrix")
+}
+
+/// The light of a verb, turned around z by some degrees.
+pub(super) fn turned(light: &LightArgs, degrees: f64, verb: &str) -> miette::Result<CubeLight> {
+    let cube = light.distant()?.cube(&turn_around_z(degrees / 360.0), Decimation::SolidAngle);
+    Ok(cube.map_err(|error| Problem::usage(error.to_string(), format!("see `crossbar bi-scale {verb} --help`")))?)
+}
+
+/// Writes a matrix as text.
+pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) -> Result<(), Problem> {
+    let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
+    let value = |value: i32| matrix.unit() * f64::from(value);
+    write_file(path, |out| {
+        let entries = (0..matrix.rows())
+            .flat_map(|row| matrix.row(row).iter().map(move |entry| (row, entry.index as usize, value(entry.value))));
+        write_matrix_market(size, comment, entries, out)
+    })
+    .map_err(Problem::from)
+}

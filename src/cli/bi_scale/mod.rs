@@ -1,0 +1,67 @@
+//! `crossbar bi-scale`: transfer in two scales, one file per verb.
+
+mod bicluster;
+mod card;
+mod compare;
+mod file;
+mod multiply;
+mod patch;
+mod precompute;
+mod render;
+mod show;
+mod texture;
+mod texture_args;
+mod textures;
+
+use super::{Out, Verdict, study};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --out court.prt
+      which light texels every vertex sees, by local direction
+  crossbar bi-scale bicluster docs/examples/quarters.mtx
+      a sparse matrix as a sum of biclusters
+  crossbar bi-scale multiply docs/examples/court_biclusters.prt --light sky:1,-1,1
+      the light that reaches each local direction of each vertex
+  crossbar bi-scale texture mail --size 8 --directions 4 --views 4 --out mail.npy
+      the response of a patch of heights by place, view and light
+  crossbar bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
+      pictures of both
+  crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --size 64x48
+      the same on an emulated card
+
+docs/prt-format.md specifies the files, docs/papers/bi_scale.md what is computed.";
+
+/// Bi-scale transfer: a sparse matrix of visibility as biclusters, times bidirectional textures
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Verb {
+    Precompute(precompute::Args),
+    Bicluster(bicluster::Args),
+    Multiply(multiply::Args),
+    Compare(compare::Args),
+    Texture(texture::Args),
+    Show(show::Args),
+    Render(render::Args),
+    Card(card::Args),
+}
+
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.verb {
+        Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Bicluster(args) => bicluster::run(args, out)?,
+        Verb::Multiply(args) => multiply::run(args, out)?,
+        Verb::Compare(args) => compare::run(args, out)?,
+        Verb::Texture(args) => texture::run(args, out)?,
+        Verb::Show(args) => show::run(args, out)?,
+        Verb::Render(args) => return study::run(args, command_line, out),
+        Verb::Card(args) => return study::run(args, command_line, out),
+    }
+    Ok(Verdict::Done)
+}

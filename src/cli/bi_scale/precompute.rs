@@ -1,0 +1,169 @@
+//! `crossbar bi-scale precompute`: the macro-scale transfer of a model's vertices.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde_json::json;
+
+use super::file::{angle, load_creased, write_matrix};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
+use crate::bi_scale::transfer::transfer_matrix;
+use crate::cli::model_name::transfer_model_help;
+use crate::cli::transfer::model::{refused, vertices};
+use crate::cli::transfer::values::TangentsArg;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::geom::Sides;
+use crate::tracer::HostTracer;
+use crate::transfer::file::MeshDigest;
+use crate::transfer::grid::LIGHT_TEXELS;
+use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
+
+/// What ends the view of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum HorizonArg {
+    /// The plane of its normal, and triangles
+    Normal,
+    /// Triangles alone
+    Geometry,
+}
+
+/// Visibility directions in a light texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SamplesArg {
+    /// Its center
+    #[value(name = "1")]
+    One,
+    /// 2 x 2: five values of visibility
+    #[value(name = "4")]
+    Four,
+    /// 4 x 4: 17 values
+    #[value(name = "16")]
+    Sixteen,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale precompute docs/examples/step.obj --directions 8 --matrix step.mtx --out step.prt
+      which light texels each vertex sees, and from which of its 64 local directions
+  crossbar bi-scale precompute docs/examples/court.obj --directions 4 --crease 40 --out court.prt
+      with normals that are smooth over edges up to 40 degrees";
+
+/// Compute which light texels each vertex of a model sees, by local direction: a sparse matrix
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    // Names come from the one list of built models, `meshes`.
+    #[arg(value_name = "MODEL", help = transfer_model_help())]
+    model: PathBuf,
+
+    /// Local directions along an edge of the square that is mapped to the hemisphere
+    #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
+    directions: u8,
+
+    /// What ends the view of a vertex
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "geometry")]
+    horizon: HorizonArg,
+
+    /// Directions in a light texel in which visibility is looked for
+    #[arg(long, value_enum, value_name = "N", default_value = "4")]
+    samples: SamplesArg,
+
+    /// Take normals anew from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
+    /// needs the same [default: the model's own normals]
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
+    crease: Option<f64>,
+
+    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// axis X,Y,Z
+    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
+    tangents: TangentsArg,
+
+    /// Write the matrix as text too, in the Matrix Market format
+    #[arg(long, value_name = "T.mtx")]
+    matrix: Option<PathBuf>,
+
+    /// The file to write
+    #[arg(long, value_name = "X.prt")]
+    out: PathBuf,
+}
+
+impl Args {
+    fn sampling(&self) -> VisibilitySampling {
+        VisibilitySampling {
+            log2_samples: match self.samples {
+                SamplesArg::One => 0,
+                SamplesArg::Four => 1,
+                SamplesArg::Sixteen => 2,
+            },
+            horizon: match self.horizon {
+                HorizonArg::Normal => Horizon::Normal,
+                HorizonArg::Geometry => Horizon::Geometry,
+            },
+        }
+    }
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
+    let directions = LocalDirections::new(side.into())
+        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
+    let model = load_creased(&args.model, tangents, args.crease)?;
+    let vertices = vertices(&model, tangents)?;
+    let sampling = args.sampling();
+    // Entries of rows, at most one per texel of a hemisphere and some below it; the maps; what is written.
+    let bytes = (8 * LIGHT_TEXELS / 2 + sampling.directions().directions().len() / 8 + 400) as u64;
+    let what = format_args!("transfer of {} vertices, about {bytes} bytes each", vertices.len());
+    memory::require(what, bytes * vertices.len() as u64, "name a model of fewer vertices")?;
+    let bar = ProgressBar::new("visibility", 1);
+    let all: Vec<u32> = (0..vertices.len() as u32).collect();
+    let mut caster = HostTracer::new(&model.mesh, Sides::Both);
+    let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);
+    let maps = VisibilityMaps::trace_sampled(&vertices, &all, sampling, &mut caster, &mut show).map_err(refused)?;
+    let matrix = transfer_matrix(&vertices, &maps, &directions).map_err(|error| {
+        Problem::usage(error.to_string(), "name a model of fewer vertices, or ask for fewer `--directions`")
+    })?;
+    let counts = maps.counts.clone();
+    drop((bar, maps));
+    if let Some(path) = &args.matrix {
+        let comment = format!(
+            "row: vertex x {} + local direction, column: face x 1024 + row x 32 + column of a cube of light texels;\n\
+             both from 0 there, from 1 in this file. Values are the visible shares of texels.",
+            directions.directions().len()
+        );
+        write_matrix(&matrix, &comment, path)?;
+    }
+    let meaning = BiScaleMeaning { mesh: MeshDigest::new(&vertices), side: side.into(), horizon: sampling.horizon };
+    let (rows, nonzeros) = (matrix.rows(), matrix.nonzeros());
+    let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: None };
+    save_bi_scale(&file, path).map_err(Problem::from)?;
+    if out.json() {
+        return Ok(out.document(&json!({
+            "out": path, "matrix": args.matrix, "vertices": vertices.len(), "unused_vertices": vertices.unused,
+            "replaced_tangents": vertices.replaced_tangents, "rows": rows, "columns": LIGHT_TEXELS,
+            "nonzeros": nonzeros, "directions_above": counts.above, "rays_traced": counts.traced,
+            "directions_visible": counts.visible, "unclear_vertices": counts.unclear,
+        }))?);
+    }
+    out.line(format_args!("vertices  {}, {} local directions each", counted(vertices.len()), u32::from(side).pow(2)))?;
+    let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
+    out.sentence(format_args!(
+        "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
+    ))?;
+    out.sentence(format_args!(
+        "transfer  {} x {}, {} values other than 0: {:.2} %",
+        counted(rows),
+        counted(LIGHT_TEXELS),
+        counted(nonzeros),
+        100.0 * nonzeros as f64 / (rows as f64 * LIGHT_TEXELS as f64)
+    ))?;
+    if !vertices.replaced_tangents.is_empty() {
+        let count = counted(vertices.replaced_tangents.len());
+        out.sentence(format_args!("note      {count} vertices had no tangent across their normal and got any"))?;
+    }
+    for path in args.matrix.iter().map(PathBuf::as_path).chain([path]) {
+        out.line(format_args!("written   {}", path.display()))?;
+    }
+    Ok(())
+}

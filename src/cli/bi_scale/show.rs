@@ -1,0 +1,242 @@
+//! `crossbar bi-scale show`: what is in a matrix or its biclusters.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::file::{load, vertices_of};
+use crate::bi_scale::bicluster::Biclustering;
+use crate::bi_scale::file::BiScaleFile;
+use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::transfer::model::nearest;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, number};
+use crate::report::{Cell, Table};
+use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
+
+/// Values that a table has room for.
+const VALUES: usize = 17;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale show docs/examples/court_biclusters.prt
+      values, and biclusters by size
+  crossbar bi-scale show docs/examples/step_biclusters.prt --vertex 12
+      one vertex: the biclusters of its rows
+  crossbar bi-scale show docs/examples/quarters.mtx --json
+      any sparse matrix, for machines";
+
+/// Show what a matrix or a .prt file of biclusters holds: values, sizes of biclusters, rows of a vertex
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` or `bicluster` wrote
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// A vertex, or a row of a matrix of something else, counted from 0
+    #[arg(long, value_name = "N")]
+    vertex: Option<u32>,
+
+    /// The vertex nearest to this place of the model
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", conflicts_with = "vertex",
+          allow_hyphen_values = true)]
+    at: Option<[f32; 3]>,
+
+    /// The model that the file was made from, for --at
+    #[arg(long, value_name = "MODEL", requires = "at")]
+    model: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let file = load(&args.file)?;
+    let rows = rows(&file);
+    let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
+    let vertex = match (args.vertex, args.at, &args.model) {
+        (Some(vertex), ..) => Some(vertex as usize),
+        (None, Some(at), Some(model)) => {
+            nearest(vertices_of(model, &args.file, file.meaning.as_ref())?.positions(), at)
+        }
+        _ => None,
+    };
+    if let Some(vertex) = vertex.filter(|&vertex| vertex >= rows / local) {
+        let what = format!("expected a vertex below {} (counted from 0), found {vertex}", rows / local);
+        return Err(Problem::usage(what, "`crossbar bi-scale show` says how many there are").into());
+    }
+    if out.json() {
+        let mut document = document(&file, rows, local);
+        document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
+        return Ok(out.document(&document)?);
+    }
+    match vertex {
+        Some(vertex) => one(&file, vertex, local, out),
+        None => all(&file, rows, local, out),
+    }
+}
+
+fn rows(file: &BiScaleFile) -> usize {
+    let of_biclusters = || file.biclusters.as_ref().map_or(0, |biclusters| biclusters.matrix_size()[0]);
+    file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
+}
+
+/// How often each value stands in a matrix, or in the columns of biclusters times their rows.
+fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
+    let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
+    let unit = match (&file.matrix, &file.biclusters) {
+        (Some(matrix), _) => {
+            for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
+                *counts.entry(entry.value).or_insert(0) += 1;
+            }
+            matrix.unit()
+        }
+        (None, Some(biclusters)) => {
+            for number in 0..biclusters.len() {
+                for entry in biclusters.columns_of(number) {
+                    *counts.entry(entry.value).or_insert(0) += biclusters.rows_of(number).len() as u64;
+                }
+            }
+            biclusters.unit()
+        }
+        (None, None) => 1.0,
+    };
+    counts.into_iter().map(|(value, count)| (unit * f64::from(value), count)).collect()
+}
+
+/// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with how many rows and columns they have
+/// together, and what they cost.
+fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
+    let mut sizes: BTreeMap<u32, [u64; 5]> = BTreeMap::new();
+    for number in 0..biclusters.len() {
+        let [rows, columns] = [biclusters.rows_of(number).len(), biclusters.columns_of(number).len()];
+        let class = (rows as u64 + 1).ilog2() + u32::from(!(rows as u64 + 1).is_power_of_two());
+        let into = sizes.entry(class).or_insert([(1_u64 << class) - 1, 0, 0, 0, 0]);
+        for (into, more) in into[1..].iter_mut().zip([1, rows, columns, rows + 2 * columns - 1]) {
+            *into += more as u64;
+        }
+    }
+    sizes.into_values().collect()
+}
+
+fn all(file: &BiScaleFile, rows: usize, local: usize, out: &mut Out) -> miette::Result<()> {
+    if let Some(meaning) = file.meaning {
+        out.line(format_args!(
+            "transfer  bi-scale, {} vertices, {local} local directions each",
+            counted(rows / local)
+        ))?;
+        out.line(format_args!("horizon   {}", meaning.horizon))?;
+        out.line(format_args!("mesh      {}", meaning.mesh))?;
+    } else {
+        out.line(format_args!("matrix    {} rows", counted(rows)))?;
+    }
+    let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
+    out.line(format_args!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")))?;
+    out.line("")?;
+    let mut table = Table::new("Values", &["value", "count"]);
+    let values = values(file);
+    for &(value, count) in values.iter().take(VALUES) {
+        table.push([Cell::measured(value), count.into()]);
+    }
+    if values.len() > VALUES {
+        let count: u64 = values[VALUES..].iter().map(|(_, count)| count).sum();
+        table.push([format!("{} more", counted(values.len() - VALUES)).into(), count.into()]);
+    }
+    out.table(&table)?;
+    if let Some(biclusters) = &file.biclusters {
+        out.line("")?;
+        let mut table =
+            Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
+        sizes(biclusters).into_iter().for_each(|size| table.push(size.map(Cell::from)));
+        out.table(&table)?;
+    }
+    Ok(())
+}
+
+fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
+    let mesh = file.meaning.map(|meaning| {
+        json!({ "vertices": meaning.mesh.vertices, "triangles": meaning.mesh.triangles,
+                "tangents": meaning.mesh.tangents.to_string(), "horizon": meaning.horizon.to_string(),
+                "local_directions": local })
+    });
+    let values: Vec<Value> =
+        values(file).into_iter().map(|(value, count)| json!({ "value": value, "count": count })).collect();
+    let biclusters = file.biclusters.as_ref().map(|biclusters| {
+        let sizes: Vec<Value> = sizes(biclusters)
+            .into_iter()
+            .map(|[most, count, rows, columns, operations]| {
+                json!({ "rows_up_to": most, "biclusters": count, "rows": rows, "columns": columns,
+                        "operations": operations })
+            })
+            .collect();
+        json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
+    });
+    json!({ "rows": rows, "mesh": mesh, "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros),
+            "values": values, "biclusters": biclusters })
+}
+
+/// Per row of a vertex: its entries, and the biclusters that it belongs to.
+struct RowOfVertex {
+    direction: usize,
+    entries: Option<Vec<(u32, f64)>>,
+    biclusters: Option<Vec<u32>>,
+}
+
+fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> {
+    let belongs = file.biclusters.as_ref().map(|biclusters| {
+        let mut belongs = vec![Vec::new(); local];
+        for number in 0..biclusters.len() {
+            for &row in biclusters.rows_of(number) {
+                if let Some(into) = (row as usize).checked_sub(vertex * local).and_then(|at| belongs.get_mut(at)) {
+                    into.push(number as u32);
+                }
+            }
+        }
+        belongs
+    });
+    let of = |direction: usize| {
+        let entries = file.matrix.as_ref().map(|matrix| {
+            let value = |value: i32| matrix.unit() * f64::from(value);
+            matrix.row(vertex * local + direction).iter().map(|entry| (entry.index, value(entry.value))).collect()
+        });
+        RowOfVertex { direction, entries, biclusters: belongs.as_ref().map(|belongs| belongs[direction].clone()) }
+    };
+    (0..local).map(of).collect()
+}
+
+fn one(file: &BiScaleFile, vertex: usize, local: usize, out: &mut Out) -> miette::Result<()> {
+    out.line(format_args!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }))?;
+    out.line("")?;
+    let mut table = Table::new(
+        "Local directions",
+        &["direction", "light texels", "sum of values", "first texel (face, row, column)", "biclusters"],
+    );
+    for row in rows_of(file, vertex, local) {
+        let first = row.entries.as_ref().and_then(|entries| entries.first()).map_or(Cell::Empty, |&(texel, _)| {
+            let [face, row, column] = face_row_column(texel as usize, LIGHT_SIDE);
+            format!("{face}, {row}, {column}").into()
+        });
+        let count = |count: Option<usize>| count.map_or(Cell::Empty, Cell::from);
+        let sum = row.entries.as_ref().map(|entries| entries.iter().map(|(_, value)| value).sum::<f64>());
+        table.push([
+            row.direction.into(),
+            count(row.entries.as_ref().map(Vec::len)),
+            sum.map_or(Cell::Empty, Cell::measured),
+            first,
+            count(row.biclusters.as_ref().map(Vec::len)),
+        ]);
+    }
+    Ok(out.table(&table)?)
+}
+
+fn vertex_document(file: &BiScaleFile, vertex: usize, local: usize) -> Value {
+    let rows: Vec<Value> = rows_of(file, vertex, local)
+        .into_iter()
+        .map(|row| {
+            let entries: Option<Vec<Value>> = row.entries.map(|entries| {
+                entries.into_iter().map(|(column, value)| json!({ "column": column, "value": value })).collect()
+            });
+            json!({ "direction": row.direction, "entries": entries, "biclusters": row.biclusters })
+        })
+        .collect();
+    json!({ "number": vertex, "rows": rows })
+}

@@ -1,0 +1,152 @@
+//! `crossbar bi-scale texture`: bidirectional textures of patches.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use serde_json::json;
+
+use super::patch::PatchArgs;
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::io::write_file;
+use crate::picture::{RgbImage, display, png, rgb8};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar bi-scale texture mail --size 16 --directions 4 --views 4 --out mail.npy --sheet mail.png
+      rings of wire, seen from 16 views and lit from 16 directions; a picture of those lit from each
+  crossbar bi-scale texture plain --brdf ward:0.1,0.3,0.1,0.4 --size 1 --directions 8 --views 12 --out brushed.npy
+      a reflectance that is the same everywhere in place of a texture
+  crossbar bi-scale texture bumps --detail normals --size 16 --directions 4 --views 4 --out bumps.npy --json
+      a normal map in place of one; figures for machines
+
+The file is an array of NumPy's of the shape (views, lights, size, size, 3): docs/papers/bi_scale.md says what its numbers are. \
+Those that others measured or computed are read by `crossbar bi-scale render --texture` if they have this shape.";
+
+/// Make a bidirectional texture of a patch of heights: its response by place, view and light
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// bumps, mail, tiles, bricks, weave, plain; or heights of a square patch that repeats: a table (.csv, .npy) in
+    /// edges of the patch, or a picture
+    #[arg(value_name = "PATCH")]
+    source: PathBuf,
+
+    #[command(flatten)]
+    patch: PatchArgs,
+
+    /// Texels along an edge; the paper has 32 and 64
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    size: u32,
+
+    /// Directions of light along an edge of the square that is mapped to the hemisphere: as for transfer
+    #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
+    directions: u8,
+
+    /// Directions of the view along an edge of such a square
+    #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u8).range(1..=64))]
+    views: u8,
+
+    /// Points per texel, N x N, of which the mean is taken
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=16))]
+    samples: u8,
+
+    /// The file to write
+    #[arg(long, value_name = "B.npy")]
+    out: PathBuf,
+
+    /// Write a picture of one view, lit from each direction: a layer of the paper's Figure 4
+    #[arg(long, value_name = "S.png")]
+    sheet: Option<PathBuf>,
+
+    /// The view of the picture [default: that nearest to the normal]
+    #[arg(long, value_name = "N", requires = "sheet")]
+    sheet_view: Option<u32>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let directions = |side: u8| {
+        LocalDirections::new(side.into())
+            .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))
+    };
+    let (view, light) = (directions(args.views)?, directions(args.directions)?);
+    let (views, lights) = (view.directions().len(), light.directions().len());
+    let (size, samples) = (args.size as usize, usize::from(args.samples));
+    let number = args.sheet_view.map_or_else(|| view.nearest(glam::DVec3::Z), |number| number as usize);
+    if number >= views {
+        let what = format!("expected a view below {views} (counted from 0), found {number}");
+        return Err(Problem::usage(what, "lower `--sheet-view`, or ask for more `--views`").into());
+    }
+    let bytes = (views * lights * size * size) as u64 * 12;
+    // The samples; points of one view; the picture.
+    let points = (size * size * samples * samples) as u64 * 200;
+    let what = format!("{views} x {lights} patches of {size} x {size} texels");
+    memory::require(what, bytes + points, "ask for fewer texels or directions")?;
+    let patch = args.patch.patch(&args.source)?;
+    let bar = ProgressBar::new("views", 1);
+    let start = Instant::now();
+    let sampling = TextureSampling { size, view, light, samples };
+    let texture = patch
+        .texture(&sampling, &mut |done, of| bar.show("views".to_owned(), done as u64, of as u64))
+        .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))?;
+    let seconds = start.elapsed().as_secs_f64();
+    drop(bar);
+    write_file(&args.out, |out| write_bidirectional_texture(&texture, out)).map_err(Problem::from)?;
+    if let Some(path) = &args.sheet {
+        let image = png(&sheet(&texture, number))?;
+        write_file(path, |out| out.write_all(&image)).map_err(Problem::from)?;
+    }
+    let (mean, largest) =
+        (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
+    if out.json() {
+        return Ok(out.document(&json!({
+            "out": args.out, "sheet": args.sheet, "views": views, "lights": lights, "size": size,
+            "samples_per_texel": samples * samples, "depth": patch.heights().depth(), "bytes": bytes,
+            "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest, "seconds": seconds,
+        }))?);
+    }
+    out.line(format_args!("patch     {size} x {size} texels, {:.3} of its edge deep", patch.heights().depth()))?;
+    out.line(format_args!(
+        "samples   {views} views x {lights} directions of light, {} texels",
+        counted(bytes as usize / 12)
+    ))?;
+    let [red, green, blue] = mean.map(|mean| format!("{mean:.3}"));
+    out.sentence(format_args!("mean      {red}, {green}, {blue} of light from everywhere, over all texels and views"))?;
+    out.sentence(format_args!(
+        "bytes     {} as written; {} with 8 bits per channel",
+        counted(bytes as usize),
+        counted(bytes as usize / 4)
+    ))?;
+    for path in std::iter::once(&args.out).chain(&args.sheet) {
+        out.line(format_args!("written   {}", path.display()))?;
+    }
+    Ok(())
+}
+
+/// The mean over texels and views of what light of radiance 1 from everywhere sends out.
+fn mean_reflectance(texture: &BidirectionalTexture) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for sample in texture.samples() {
+        (0..3).for_each(|channel| sum[channel] += f64::from(sample[channel]));
+    }
+    // Each sample stands for 2 pi / M of the hemisphere.
+    let of_texel = texture.samples().len() as f64 / std::f64::consts::TAU;
+    sum.map(|sum| sum / of_texel)
+}
+
+/// The patches of a view, by the place of their light in the square, rows from the lower edge up; each has v upwards.
+fn sheet(texture: &BidirectionalTexture, view: usize) -> RgbImage {
+    let (side, size) = (texture.light().side(), texture.size());
+    let width = side * size;
+    // A white Lambert surface, lit along its normal, is white; what lobes make brighter is clipped.
+    let scale = std::f64::consts::PI;
+    let pixel = |at: usize| {
+        let (x, y) = (at % width, width - 1 - at / width);
+        let light = y / size * side + x / size;
+        let texel = y % size * size + x % size;
+        texture.patch(view, light)[texel].map(|value| display::encode(f64::from(value) * scale))
+    };
+    rgb8(width as u32, width as u32, (0..width * width).map(pixel))
+}

@@ -1,0 +1,124 @@
+//! Options of bidirectional textures that `crossbar bi-scale render` and `card` share, and the transfer of a model,
+//! which both need.
+
+use std::path::Path;
+
+use super::file::{angle, load_creased};
+use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
+use crate::bi_scale::texture::{PatchKind, TextureSampling, load_bidirectional_texture};
+use crate::cli::model_name::Model;
+use crate::cli::transfer::model::vertices;
+use crate::cli::{Problem, given, number, view};
+use crate::names::did_you_mean;
+use crate::study::prt::SurfaceTexture;
+use crate::transfer::Vertices;
+use crate::transfer::file::{MeshDigest, PrtFileError};
+
+/// How patches are sampled, and where they lie.
+#[derive(Debug, clap::Args)]
+pub(super) struct PatchArgs {
+    /// How often a texture repeats where texture coordinates grow by 1
+    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
+    repeat: f64,
+
+    /// Texels along an edge of the textures of patches [default: 64]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    texture_size: Option<u32>,
+
+    /// Directions of the view along an edge of the square, of the textures of patches [default: 12]
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(1..=64))]
+    texture_views: Option<u8>,
+
+    /// The crease angle in degrees, as given to `crossbar bi-scale precompute`
+    #[arg(long, value_name = "DEGREES", value_parser = angle, allow_hyphen_values = true)]
+    crease: Option<f64>,
+}
+
+impl PatchArgs {
+    /// Refuses options of patches where no texture is one.
+    ///
+    /// # Errors
+    /// [`Problem`] names the option.
+    pub(super) fn require_patch(&self) -> Result<(), Problem> {
+        let of_patches =
+            [("--texture-size", self.texture_size.is_some()), ("--texture-views", self.texture_views.is_some())];
+        given::refuse(of_patches, "textures of patches, found files alone", "leave it out: a file has its own size")
+    }
+
+    pub(super) fn repeat(&self) -> f64 {
+        self.repeat
+    }
+
+    pub(super) fn crease(&self) -> Option<f64> {
+        self.crease
+    }
+
+    fn views(&self) -> u8 {
+        self.texture_views.unwrap_or(12)
+    }
+
+    fn size(&self) -> u32 {
+        self.texture_size.unwrap_or(64)
+    }
+
+    /// Bytes of the samples of a patch, and the same laid out for shading, with up to 16 x 16 directions of light.
+    pub(super) fn bytes(&self) -> u64 {
+        2 * 12 * 256 * u64::from(self.views()).pow(2) * u64::from(self.size()).pow(2)
+    }
+
+    /// A texture by its file, or that of a patch by its name, sampled in a transfer's local directions.
+    pub(super) fn texture(&self, source: &Path, light: &LocalDirections) -> miette::Result<SurfaceTexture> {
+        let name = source.display().to_string();
+        let Some(kind) = patch_kind(source) else {
+            if !source.exists() && !name.contains(['.', '/']) {
+                let names: Vec<String> = PatchKind::ALL.iter().map(PatchKind::to_string).collect();
+                let meant = did_you_mean(&name, names.iter().map(String::as_str));
+                let help = format!("{meant}there are {}; a file needs its ending", names.join(", "));
+                return Err(Problem::usage(format!("there is no patch `{name}`"), help).into());
+            }
+            view::require_file(source, 5, "name a smaller texture")?;
+            return Ok(SurfaceTexture { name, samples: load_bidirectional_texture(source)?, patch: None });
+        };
+        let refused = |error: String| Problem::usage(error, "see `--help`");
+        let view = LocalDirections::new(self.views().into()).map_err(|error| refused(error.to_string()))?;
+        let sampling = TextureSampling { size: self.size() as usize, view, light: light.clone(), samples: 1 };
+        let patch = kind.patch(1.0);
+        let samples = patch.texture(&sampling, &mut |_, _| ()).map_err(|error| refused(error.to_string()))?;
+        Ok(SurfaceTexture { name, samples, patch: Some(patch) })
+    }
+}
+
+/// The patch of a name.
+pub(super) fn patch_kind(source: &Path) -> Option<PatchKind> {
+    source.to_str().and_then(|name| name.parse().ok())
+}
+
+/// Transfer with the model that it was made from.
+pub(super) struct TransferOfModel {
+    pub(super) file: BiScaleFile,
+    pub(super) model: Model,
+    pub(super) vertices: Vertices,
+    /// The local directions of its rows.
+    pub(super) light: LocalDirections,
+}
+
+impl TransferOfModel {
+    pub(super) fn load(path: &Path, name: &Path, crease: Option<f64>) -> miette::Result<Self> {
+        view::require_file(path, 6, "name a smaller file")?;
+        let file = load_bi_scale(path)?;
+        let Some(meaning) = file.meaning else {
+            let what = format!("{}: expected transfer of a mesh, found a matrix of something else", path.display());
+            return Err(Problem::usage(what, "name what `crossbar bi-scale precompute` wrote").into());
+        };
+        let model = load_creased(name, meaning.mesh.tangents, crease)?;
+        let vertices = vertices(&model, meaning.mesh.tangents)?;
+        let (expected, found) = (MeshDigest::new(&vertices), Some(meaning.mesh));
+        if found != Some(expected) {
+            return Err(PrtFileError::OtherMesh { path: path.into(), expected, found }.into());
+        }
+        let light = LocalDirections::new(meaning.side as usize)
+            .map_err(|error| Problem::usage(error.to_string(), "name another file"))?;
+        Ok(Self { file, model, vertices, light })
+    }
+}

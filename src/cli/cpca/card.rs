@@ -1,0 +1,142 @@
+//! `crossbar cpca card`: compressed transfer on an emulated card.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use refsim::texture::TexelFormat;
+
+use super::file::{FileOfModel, clusters_of, light_order};
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::transfer::light::HarmonicLightArgs;
+use crate::cli::transfer::on_card::{OnCardArgs, VertexArg};
+use crate::cli::transfer::picture::PictureArgs;
+use crate::cpca::on_card::{PrtCardOptions, WeightFormat};
+use crate::study::prt::OnCard;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      on the Radeon 9700: picture, how far it is off the host's, modelled time of a frame
+  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --device r350 --weights unorm8 --target-format rgba16 --size 64x48
+      on the Radeon 9800, with weights of 8 bits, into 16 bits per channel
+  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --sweep --size 64x48
+      weights, maps, arithmetic and targets made coarse one after the other: what shows
+
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv. docs/papers/cpca.md explains \
+all of it.";
+
+/// What a vertex holds weights in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum WeightsArg {
+    /// Single precision
+    Fp32,
+    /// Half precision
+    Fp16,
+    /// 16 bits of the range of the cluster's weights on a vector
+    Unorm16,
+    /// 8 bits of it
+    Unorm8,
+}
+
+/// Draw a model under distant light on an emulated card, from clusters
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// Clusters of transfer, as `crossbar cpca compress` writes them
+    #[arg(value_name = "FILE.prt")]
+    file: PathBuf,
+
+    #[command(flatten)]
+    light: HarmonicLightArgs,
+
+    /// What vertices hold weights in
+    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
+    weights: WeightsArg,
+
+    /// Texels along a side of the maps of harmonics; the paper has 32
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    map: u32,
+
+    /// Format of these maps [default: rgba16s where the card has it, else rgba8s]
+    #[arg(long, value_name = "F")]
+    map_format: Option<TexelFormat>,
+
+    /// The language of the vertex program [default: vs_2_0 where the card has it]
+    #[arg(long, value_enum, value_name = "V")]
+    vertex: Option<VertexArg>,
+
+    /// Draw each cluster alone
+    #[arg(long)]
+    alone: bool,
+
+    #[command(flatten)]
+    card: OnCardArgs,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    /// Where to write pictures, tables and the page
+    #[arg(long, value_name = "DIR", default_value = "out/cpca-card")]
+    out: PathBuf,
+}
+
+impl Args {
+    fn options(&self, formats: &[String]) -> PrtCardOptions {
+        let has = formats.iter().any(|format| format == TexelFormat::Rgba16Snorm.name());
+        PrtCardOptions {
+            superclusters: !self.alone,
+            vertex_version: self.vertex.map(Into::into),
+            map_side: self.map as usize,
+            map_format: self.map_format.unwrap_or(if has { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm }),
+            weights: match self.weights {
+                WeightsArg::Fp32 => WeightFormat::Fp32,
+                WeightsArg::Fp16 => WeightFormat::Fp16,
+                WeightsArg::Unorm16 => WeightFormat::Unorm16,
+                WeightsArg::Unorm8 => WeightFormat::Unorm8,
+            },
+        }
+    }
+}
+
+impl StudyArgs for Args {
+    type Study = OnCard;
+    const COMMAND: &'static str = "cpca card";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        [Some(self.file.as_path()), self.light.file()].into_iter().flatten().chain(self.picture.inputs()).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(Some(self.picture.memory_on_card()))
+    }
+
+    fn study(&self) -> miette::Result<OnCard> {
+        let OnCardArgs { target_format, sweep, card } = &self.card;
+        let profile = card.profile("r300")?;
+        let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.picture.model)?;
+        let clustering = clusters_of(&mut file, &self.file)?;
+        let light_order = light_order(&file)?;
+        Ok(OnCard {
+            model: self.picture.model_name(),
+            camera: self.picture.camera(&model.mesh)?,
+            light: self.light.of_order(light_order)?,
+            light_name: self.light.name(),
+            exposure: self.picture.exposure,
+            options: self.options(&profile.limits.texture_formats),
+            switches: card.switches(),
+            executor: card.executor()?,
+            format: *target_format,
+            sweep: *sweep,
+            mesh: model.mesh,
+            meaning: file.meaning,
+            profile,
+            vertices,
+            clustering,
+        })
+    }
+}

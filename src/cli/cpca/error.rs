@@ -1,0 +1,105 @@
+//! `crossbar cpca error`: a compressed signal beside the original.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::file::clusters;
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem};
+use crate::io::write_file;
+use crate::study::prt::CompressionError;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::{Signal, load_signal_and_meaning};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt
+      squared error of all vertices, the largest, and how many have how much
+  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt --csv errors.csv --json
+      and a line per vertex: its cluster, its squared error, its squares";
+
+/// Compare a compressed signal with the original: error of each point, largest, histogram
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The original: a .prt file with transfer, a CSV table or an array of NumPy's
+    #[arg(value_name = "SIGNAL")]
+    signal: PathBuf,
+
+    /// What it was compressed to
+    #[arg(value_name = "Y.prt")]
+    compressed: PathBuf,
+
+    /// Write a line per point to this file
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
+    let (file, clustering) = clusters(&args.compressed)?;
+    let shapes = [(signal.points(), signal.dimension()), (clustering.points(), clustering.dimension())];
+    if shapes[0] != shapes[1] {
+        let [one, other] = shapes.map(|(points, numbers)| format!("{points} points of {numbers} numbers"));
+        return Err(other_signal(&args.compressed, &one, &other).into());
+    }
+    if let (Some(one), Some(other)) = (mesh, file.mesh)
+        && one != other
+    {
+        return Err(other_signal(&args.compressed, &format!("a mesh with {one}"), &other.to_string()).into());
+    }
+    if mesh.is_some() && meaning != file.meaning {
+        return Err(other_signal(&args.compressed, "numbers of the same meaning", "others").into());
+    }
+    let error = CompressionError::new(&signal, &clustering);
+    if let Some(path) = &args.csv {
+        write_csv(path, &signal, &clustering, &error)?;
+    }
+    let largest = error.largest();
+    let cluster = clustering.of_point()[largest];
+    if out.json() {
+        return Ok(out.document(&json!({
+            "points": signal.points(),
+            "numbers_per_point": signal.dimension(),
+            "squared_error": error.total,
+            "squared_signal": error.energy,
+            "relative_error": error.relative(),
+            "root_mean_square": error.root_mean_square(),
+            "largest": { "point": largest, "cluster": cluster, "squared_error": error.squared[largest] },
+            "histogram": error.histogram().json(),
+            "csv": args.csv,
+        }))?);
+    }
+    out.line(format_args!("points         {} of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
+    out.line(format_args!("squared error  {:.6e}, {:.4e} of the signal's squares", error.total, error.relative()))?;
+    out.line(format_args!("root mean sq.  {:.6e} over all numbers", error.root_mean_square()))?;
+    out.line(format_args!("largest        {:.6e} at point {largest}, of cluster {cluster}", error.squared[largest]))?;
+    out.line("")?;
+    out.titled_table(&error.histogram())?;
+    if let Some(path) = &args.csv {
+        out.line(format_args!("written        {}", path.display()))?;
+    }
+    Ok(())
+}
+
+fn other_signal(path: &Path, expected: &str, found: &str) -> Problem {
+    let help = "name the signal that it was compressed from, or compress it again";
+    Problem::usage(format!("{}: expected {expected}, found {found}", path.display()), help)
+}
+
+/// A line per point, shortest digits that read back to the same numbers.
+fn write_csv(path: &Path, signal: &Signal, clustering: &Clustering, error: &CompressionError) -> Result<(), Problem> {
+    let square = |&value: &f32| f64::from(value) * f64::from(value);
+    write_file(path, |file| {
+        let mut file = std::io::BufWriter::new(file);
+        writeln!(file, "point,cluster,squared_error,squares")?;
+        for (point, (cluster, squared)) in clustering.of_point().iter().zip(&error.squared).enumerate() {
+            let squares: f64 = signal.point(point).iter().map(square).sum();
+            writeln!(file, "{point},{cluster},{squared:e},{squares:e}")?;
+        }
+        file.flush()
+    })?;
+    Ok(())
+}

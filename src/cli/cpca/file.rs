@@ -1,0 +1,58 @@
+//! The `.prt` files of `crossbar cpca`, and the models that they were made from.
+
+use std::path::Path;
+
+use crate::cli::model_name::Model;
+use crate::cli::transfer::model::{load, vertices};
+use crate::cli::{Problem, view};
+use crate::transfer::Vertices;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+
+/// A `.prt` file with the model that it was made from.
+pub(super) struct FileOfModel {
+    pub(super) file: PrtFile,
+    pub(super) model: Model,
+    /// The points of the file, with tangents as the file says.
+    pub(super) vertices: Vertices,
+    pub(super) digest: MeshDigest,
+}
+
+impl FileOfModel {
+    pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
+        let file = load_prt(path, None)?;
+        let tangents = file.mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+        let model = load(model, tangents)?;
+        let vertices = vertices(&model, tangents)?;
+        let digest = MeshDigest::new(&vertices);
+        file.require_mesh(&digest, path)?;
+        Ok(Self { file, model, vertices, digest })
+    }
+}
+
+/// The order of the light that a file's transfer takes.
+pub(super) fn light_order(file: &PrtFile) -> Result<usize, Problem> {
+    match file.meaning {
+        PrtMeaning::Transfer { light_order, .. } => Ok(light_order as usize),
+        PrtMeaning::Numbers { .. } => Err(Problem::usage(
+            "expected transfer, found numbers without a meaning",
+            "compress a file that `crossbar cpca precompute` wrote",
+        )),
+    }
+}
+
+/// A `.prt` file that has clusters, and these.
+pub(super) fn clusters(path: &Path) -> miette::Result<(PrtFile, Clustering)> {
+    view::require_file(path, 2, "name a smaller file")?;
+    let mut file = load_prt(path, None)?;
+    let clustering = clusters_of(&mut file, path)?;
+    Ok((file, clustering))
+}
+
+/// The clusters of a file, taken out of it.
+pub(super) fn clusters_of(file: &mut PrtFile, path: &Path) -> miette::Result<Clustering> {
+    Ok(file.clustering.take().ok_or_else(|| {
+        let what = format!("{}: expected clusters, found transfer alone", path.display());
+        Problem::usage(what, "`crossbar cpca compress` makes them")
+    })?)
+}

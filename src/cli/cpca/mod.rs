@@ -1,0 +1,60 @@
+//! `crossbar cpca`: low-frequency transfer and its clusters, one file per verb.
+
+mod arrays;
+mod card;
+mod compress;
+mod error;
+mod file;
+mod precompute;
+mod precompute_values;
+mod render;
+mod show;
+
+use super::{Out, Verdict, study};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca precompute docs/examples/step.obj --out step.prt
+      transfer of every vertex
+  crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --out small.prt
+      the same by 8 clusters of 3 vectors
+  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt
+      what compression costs
+  crossbar cpca show docs/examples/step_small.prt --vertex 12
+      what is in a file
+  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      pictures of it
+  crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      the same on an emulated card
+
+docs/prt-format.md specifies the files, docs/papers/cpca.md what is computed.";
+
+/// Precomputed radiance transfer in harmonics, compressed by clustered principal components
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Verb {
+    Precompute(precompute::Args),
+    Compress(compress::Args),
+    Error(error::Args),
+    Show(show::Args),
+    Render(render::Args),
+    Card(card::Args),
+}
+
+pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
+    match &args.verb {
+        Verb::Precompute(args) => precompute::run(args, out)?,
+        Verb::Compress(args) => compress::run(args, out)?,
+        Verb::Error(args) => error::run(args, out)?,
+        Verb::Show(args) => show::run(args, out)?,
+        Verb::Render(args) => return study::run(args, command_line, out),
+        Verb::Card(args) => return study::run(args, command_line, out),
+    }
+    Ok(Verdict::Done)
+}

@@ -1,0 +1,246 @@
+//! `crossbar cpca precompute`: transfer at the vertices of a model.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::precompute_values::{ChannelsArg, ExitArg, IncidentArg, KindArg, RowsArg};
+use crate::cli::materials::published;
+use crate::cli::model_name::{Model, transfer_model_help};
+use crate::cli::transfer::model::{load, vertices};
+use crate::cli::transfer::values::{BrdfArg, TangentsArg};
+use crate::cli::words::counted;
+use crate::cli::{Out, Problem, ProgressBar, given, memory, number};
+use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
+use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
+use crate::subsurface::Dipole;
+use crate::transfer::Vertices;
+use crate::transfer::brdf::Brdf;
+use crate::transfer::file::save_prt;
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca precompute docs/examples/step.obj --out step.prt
+      diffuse transfer with shadows, light of order 5, the materials of the file
+  crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.prt
+      matrices of 24 x 25 with two bounces, one glossy material
+  crossbar cpca precompute transfer-smooth --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out smooth.prt
+      an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
+  crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
+      light that scatters below the surface, in three channels
+
+The file holds a matrix of 32-bit floats per vertex: `crossbar cpca compress` makes it small. It is written whole at the end: an interrupted \
+run leaves nothing, and cannot be resumed.";
+
+/// The solid angle below which vertices that scatter count as one point, in steradians.
+const SOLID_ANGLE: f64 = 0.05;
+
+/// Compute what each vertex of a model makes of distant light
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    // Names come from the one list of built models, `meshes`.
+    #[arg(value_name = "MODEL", help = transfer_model_help())]
+    model: PathBuf,
+
+    /// What a vertex makes of light
+    #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
+    kind: KindArg,
+
+    /// Order n of the light: n x n functions
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
+    order: u8,
+
+    /// Functions of exit radiance, for --kind glossy: 16, 25 and other squares; 24 and others that are one less are
+    /// without l = 1, m = 0 [default: 25]
+    #[arg(long, value_name = "COUNT")]
+    rows: Option<RowsArg>,
+
+    /// How exit radiance is projected onto them [default: least-squares]
+    #[arg(long, value_enum, value_name = "HOW")]
+    exit: Option<ExitArg>,
+
+    /// How incident radiance reaches the BRDF, for --kind glossy [default: least-squares]
+    #[arg(long, value_enum, value_name = "HOW")]
+    incident: Option<IncidentArg>,
+
+    /// Order of incident radiance, unless it is taken direction by direction, for --kind glossy [default: 5]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=10))]
+    incident_order: Option<u8>,
+
+    /// One reflectance for all of the model: lambert:A, phong:A,S,EXPONENT, cook-torrance:A,S,ROUGHNESS,F0,
+    /// schlick:A,S,ROUGHNESS,ISOTROPY,F0, ward:A,S,X,Y or ashikhmin-shirley:A,S,U,V with albedo A and specular
+    /// reflectance S [default: the model's materials]
+    #[arg(long, value_name = "BRDF")]
+    brdf: Option<BrdfArg>,
+
+    /// A published medium below the surface, whose scattered light is added: see `crossbar materials`
+    #[arg(long, value_name = "NAME", requires = "mm_per_unit")]
+    material: Option<String>,
+
+    /// Millimeters of a unit of the model, for --material
+    #[arg(long, value_name = "MM", value_parser = number::positive, requires = "material")]
+    mm_per_unit: Option<f64>,
+
+    /// Channels of transfer
+    #[arg(long, value_enum, value_name = "C", default_value = "scalar")]
+    channels: ChannelsArg,
+
+    /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
+    /// axis X,Y,Z
+    #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
+    tangents: TangentsArg,
+
+    /// Degree of the rule of directions over each hemisphere: D / 2 + 1 rings of D + 1 directions
+    #[arg(long, value_name = "D", default_value_t = 44, value_parser = clap::value_parser!(u16).range(18..=255))]
+    degree: u16,
+
+    /// How often light is reflected on its way, beyond the reflection towards the eye
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
+    bounces: u32,
+
+    /// End with the first bounce that adds less than this share of the direct transfer
+    #[arg(long, value_name = "SHARE", value_parser = number::positive, requires = "bounces")]
+    bounce_tolerance: Option<f64>,
+
+    /// The file to write
+    #[arg(long, value_name = "X.prt")]
+    out: PathBuf,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    let exit = exit(args)?;
+    let scatterer = scatterer(args)?;
+    let model = load(&args.model, args.tangents.0)?;
+    let vertices = vertices(&model, args.tangents.0)?;
+    let precomputation = Precomputation {
+        mesh: &model.mesh,
+        vertices: &vertices,
+        channels: channels(args, &model)?,
+        exit,
+        order: usize::from(args.order),
+        degree: usize::from(args.degree),
+        bounces: match args.bounce_tolerance {
+            Some(share) => Bounces::Tolerance { share, most: args.bounces },
+            None => Bounces::Count(args.bounces),
+        },
+        scatterer,
+    };
+    require_memory(args, &precomputation)?;
+    let bar = ProgressBar::new("", 1);
+    let found = precomputation.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
+    save_prt(&found.file, &args.out).map_err(Problem::from)?;
+    drop(bar);
+    tell(args, &vertices, &found, out)
+}
+
+fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
+    let order_given = ("--incident-order", args.incident_order.is_some());
+    if args.kind == KindArg::Diffuse {
+        let of_glossy = [
+            ("--rows", args.rows.is_some()),
+            ("--exit", args.exit.is_some()),
+            ("--incident", args.incident.is_some()),
+            order_given,
+        ];
+        given::refuse(of_glossy, "glossy transfer", "add `--kind glossy`, or leave it out")?;
+        return Ok(ExitRadiance::Diffuse);
+    }
+    let order = usize::from(args.incident_order.unwrap_or(5));
+    let incident = match args.incident.unwrap_or(IncidentArg::LeastSquares) {
+        IncidentArg::LeastSquares => Incident::Harmonics { order, inverse: true },
+        IncidentArg::ZeroHemisphere => Incident::Harmonics { order, inverse: false },
+        IncidentArg::Directions => {
+            given::refuse(
+                [order_given],
+                "incident radiance in harmonics, found `--incident directions`",
+                "leave it out",
+            )?;
+            Incident::Directions
+        }
+    };
+    let basis = args.rows.unwrap_or_default().basis();
+    let least_squares = args.exit != Some(ExitArg::ZeroHemisphere);
+    Ok(ExitRadiance::Glossy { basis, least_squares, incident })
+}
+
+fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
+    let (Some(name), Some(mm_per_unit)) = (&args.material, args.mm_per_unit) else { return Ok(None) };
+    let medium = published(name)?.material();
+    let dipole = |channel: usize| Dipole::new(medium.channels[channel], medium.eta);
+    let refused =
+        |error: crate::subsurface::MaterialError| Problem::usage(error.to_string(), "see `crossbar materials`");
+    let dipoles = [dipole(0).map_err(refused)?, dipole(1).map_err(refused)?, dipole(2).map_err(refused)?];
+    Ok(Some(Scatterer { dipoles, options: ScatteringOptions { mm_per_unit, solid_angle: SOLID_ANGLE } }))
+}
+
+/// Per channel a BRDF of each material.
+fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Problem> {
+    let channels: &[usize] = if args.channels == ChannelsArg::Rgb { &[0, 1, 2] } else { &[1] };
+    let of = |channel: usize| {
+        let brdfs: Result<Vec<Brdf>, Problem> = (model.materials.iter())
+            .map(|material| match args.brdf {
+                Some(BrdfArg(brdf)) => Ok(brdf),
+                None => Brdf::of_surface(&material.surface, channel).map_err(|error| {
+                    let help = "give a `--brdf` for all of the model";
+                    Problem::usage(format!("material `{}`: {error}", material.name), help)
+                }),
+            })
+            .collect();
+        brdfs.map(|brdfs| (channel, brdfs))
+    };
+    channels.iter().map(|&channel| of(channel)).collect()
+}
+
+fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<(), Problem> {
+    let rows = match &precomputation.exit {
+        ExitRadiance::Diffuse => 1,
+        ExitRadiance::Glossy { basis, .. } => basis.len(),
+    };
+    let (points, channels) = (precomputation.vertices.len() as u64, precomputation.channels.len() as u64);
+    let matrix = 4 * rows as u64 * u64::from(args.order).pow(2);
+    let directions = (u64::from(args.degree) / 2 + 1) * (u64::from(args.degree) + 1);
+    // Matrices of all channels, and once more together; of a bounce those before and after; blocked rays at 16 bytes.
+    let copies = if channels == 1 { 1 } else { 2 * channels } + if args.bounces > 0 { 3 } else { 0 };
+    let hits = if args.bounces > 0 { 16 * directions } else { directions / 8 };
+    let bytes = points * (copies * matrix + hits + 200) + (8 << 20) + 100 * precomputation.mesh.len() as u64;
+    let what = format_args!("transfer of {points} vertices, {rows} x {0} numbers each", u64::from(args.order).pow(2));
+    Ok(memory::require(what, bytes, "ask for fewer `--rows`, a lower `--order` or `--degree`, or no `--bounces`")?)
+}
+
+fn tell(args: &Args, vertices: &Vertices, found: &Precomputed, out: &mut Out) -> miette::Result<()> {
+    let dimension = found.file.meaning.dimension().unwrap_or(0);
+    let TransferCounts { rays, traced, blocked, below_horizon, from_behind, dark, buried, unclear } = &found.counts;
+    if out.json() {
+        return Ok(out.document(&json!({
+            "out": args.out, "vertices": vertices.len(), "numbers_per_vertex": dimension,
+            "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents,
+            "directions": found.directions, "rays": rays, "rays_traced": traced, "rays_blocked": blocked,
+            "rays_below_horizon": below_horizon, "rays_from_behind": from_behind, "dark_vertices": dark,
+            "buried_vertices": buried, "unclear_vertices": unclear, "bounces": found.bounces,
+        }))?);
+    }
+    out.line(format_args!("vertices  {}, {} numbers each", counted(vertices.len()), counted(dimension)))?;
+    let [rays, traced, blocked] = [rays, traced, blocked].map(|&count| counted(count as usize));
+    out.line(format_args!(
+        "rays      {rays}: {} directions per vertex; {traced} traced, {blocked} blocked",
+        found.directions
+    ))?;
+    for (channel, shares) in found.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
+        let shares: Vec<String> = shares.iter().map(|share| format!("{share:.2e}")).collect();
+        out.sentence(format_args!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")))?;
+    }
+    for (count, what) in [
+        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
+        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
+        (buried.len(), "vertices lie inside of something: all their rays are blocked, most from behind"),
+        (dark.len() - buried.len().min(dark.len()), "more vertices see no sky at all"),
+        (unclear.len(), "vertices lie on triangles that face each other"),
+    ] {
+        if count > 0 {
+            out.sentence(format_args!("note      {} {what}", counted(count)))?;
+        }
+    }
+    out.line(format_args!("written   {}", args.out.display()))?;
+    Ok(())
+}

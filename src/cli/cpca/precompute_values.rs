@@ -1,0 +1,95 @@
+//! Values of the options of `crossbar cpca precompute`.
+
+use std::str::FromStr;
+
+use clap::ValueEnum;
+
+use crate::transfer::brdf::ExitBasis;
+
+/// What a vertex makes of light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum KindArg {
+    /// A vector per vertex: the same radiance in all directions
+    Diffuse,
+    /// A matrix per vertex: radiance by direction
+    Glossy,
+}
+
+/// Channels of transfer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ChannelsArg {
+    /// One for all, with the reflectances of green
+    Scalar,
+    /// Red, green and blue
+    Rgb,
+}
+
+/// How exit radiance is projected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExitArg {
+    /// The nearest combination on the hemisphere, by the inverse of the Gram matrix
+    LeastSquares,
+    /// Integrals with the functions over the hemisphere
+    ZeroHemisphere,
+}
+
+/// How incident radiance reaches the BRDF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum IncidentArg {
+    /// In harmonics, by least squares: equation 1
+    LeastSquares,
+    /// In harmonics, by integrals over the hemisphere
+    ZeroHemisphere,
+    /// Direction by direction: the double integral of section 3.1
+    Directions,
+}
+
+/// Functions of exit radiance: all of an order, or all but (1, 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RowsArg {
+    order: usize,
+    is_whole: bool,
+}
+
+impl FromStr for RowsArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = (1..=10).flat_map(|order| [(order, true), (order, false)]).find(|&(order, is_whole)| {
+            let count = order * order - usize::from(!is_whole);
+            count > 0 && text.trim().parse() == Ok(count)
+        });
+        let found = found.map(|(order, is_whole)| Self { order, is_whole });
+        found.ok_or_else(|| {
+            format!("expected a square from 1 to 100, or from 4 on one less (without l = 1, m = 0), found `{text}`")
+        })
+    }
+}
+
+impl Default for RowsArg {
+    fn default() -> Self {
+        Self { order: 5, is_whole: true }
+    }
+}
+
+impl RowsArg {
+    /// The basis.
+    pub(super) fn basis(self) -> ExitBasis {
+        let whole = || ExitBasis::of_order(self.order);
+        if self.is_whole { whole() } else { ExitBasis::without_1_0(self.order).unwrap_or_else(|_| whole()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_squares_or_one_less() {
+        let rows = |text: &str| text.parse::<RowsArg>().map(|rows| rows.basis().len());
+        for count in [1, 3, 4, 8, 9, 15, 16, 24, 25, 99, 100] {
+            assert_eq!(rows(&count.to_string()), Ok(count));
+        }
+        assert!(["0", "2", "10", "101", "-1", ""].iter().all(|text| rows(text).is_err()));
+    }
+}

@@ -1,0 +1,97 @@
+//! `crossbar cpca render`: pictures of a model from its transfer.
+
+use std::path::{Path, PathBuf};
+
+use super::file::{FileOfModel, light_order};
+use crate::cli::Problem;
+use crate::cli::memory::MemoryNeed;
+use crate::cli::study::StudyArgs;
+use crate::cli::transfer::light::HarmonicLightArgs;
+use crate::cli::transfer::picture::{FramesArgs, PictureArgs};
+use crate::study::prt::Rendering;
+use crate::transfer::file::{PrtFile, load_prt};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --size 64x48
+      under a clear sky with a sun: picture, clusters, a page
+  crossbar cpca render docs/examples/step_small.prt --model docs/examples/step.obj --original docs/examples/step.prt --light disk:1,0,2:20 --size 64x48
+      beside the uncompressed transfer: differences, and the error of every vertex
+  crossbar cpca render docs/examples/step.prt --model docs/examples/step.obj --light red-and-blue --frames 8 --size 64x48
+      uncompressed, the light turned around z in eight steps
+
+Written to --out: index.html (self-contained), pictures, picture.exr. Vertex radiance is interpolated over triangles, on the host.";
+
+/// Draw a model under distant light from its transfer, compressed or not
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+pub(super) struct Args {
+    /// Transfer or clusters; clusters are drawn where there are both
+    #[arg(value_name = "FILE.prt")]
+    file: PathBuf,
+
+    /// Uncompressed transfer of the same model, to compare with
+    #[arg(long, value_name = "X.prt")]
+    original: Option<PathBuf>,
+
+    #[command(flatten)]
+    light: HarmonicLightArgs,
+
+    #[command(flatten)]
+    frames: FramesArgs,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    /// Where to write pictures and the page
+    #[arg(long, value_name = "DIR", default_value = "out/cpca")]
+    out: PathBuf,
+}
+
+impl StudyArgs for Args {
+    type Study = Rendering;
+    const COMMAND: &'static str = "cpca render";
+
+    fn folder(&self) -> Option<&Path> {
+        Some(&self.out)
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        let files = [Some(self.file.as_path()), self.original.as_deref(), self.light.file()];
+        files.into_iter().flatten().chain(self.picture.inputs()).collect()
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        Ok(Some(self.frames.memory(&self.picture)))
+    }
+
+    fn study(&self) -> miette::Result<Rendering> {
+        let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.picture.model)?;
+        let light_order = light_order(&file)?;
+        let original = match &self.original {
+            None => None,
+            Some(path) => {
+                let PrtFile { meaning, transfer, .. } = load_prt(path, Some(&digest))?;
+                let fits = transfer.filter(|_| meaning == file.meaning);
+                Some(fits.ok_or_else(|| {
+                    let what =
+                        format!("{}: expected uncompressed transfer of the same kind, found other", path.display());
+                    Problem::usage(what, "name the file that was compressed")
+                })?)
+            }
+        };
+        Ok(Rendering {
+            model: self.picture.model_name(),
+            camera: self.picture.camera(&model.mesh)?,
+            light: self.light.of_order(light_order)?,
+            light_name: self.light.name(),
+            exposure: self.picture.exposure,
+            frames: self.frames.frames,
+            turning: self.frames.turning(),
+            mesh: model.mesh,
+            vertices,
+            file,
+            original,
+        })
+    }
+}

@@ -1,0 +1,8 @@
+//! Shared by the commands of the three systems on transfer, `cpca`, `all-frequency` and `bi-scale`: a model and its
+//! vertices, distant light, reflectance, and what is drawn of them.
+
+pub(super) mod light;
+pub(super) mod model;
+pub(super) mod on_card;
+pub(super) mod picture;
+pub(super) mod values;

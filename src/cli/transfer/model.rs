@@ -1,0 +1,54 @@
+//! The model of a `.prt` file: its mesh, and the vertices that transfer belongs to.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use crate::cli::model_name::{self, Model};
+use crate::cli::{Problem, model_file};
+use crate::scene::Material;
+use crate::transfer::{Tangents, TransferError, Vertices};
+
+/// The model. Where tangents come from texture coordinates, a file is read as a mesh, without materials: scenes have
+/// none.
+pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Model> {
+    if tangents == Tangents::Texture && path.is_file() {
+        return Ok(Model::plain(model_file::mesh(path)?));
+    }
+    model_name::model(path)
+}
+
+/// The vertices that transfer is computed at.
+pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
+    Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
+}
+
+/// Why there is no transfer of a model.
+pub(in crate::cli) fn refused(error: TransferError) -> Problem {
+    Problem::usage(error.to_string(), "see this command's `--help`")
+}
+
+/// The materials of a model and that of each triangle: of a file that was read without them, those that it names.
+pub(in crate::cli) fn materials_of(path: &Path, model: &Model) -> miette::Result<(Vec<Material>, Vec<u32>)> {
+    if !path.is_file() {
+        return Ok((model.materials.clone(), model.material_of.clone()));
+    }
+    let with_materials = model_name::model(path)?;
+    if with_materials.material_of.len() != model.mesh.len() {
+        let what = format!(
+            "{}: expected {} triangles with materials, found {}",
+            path.display(),
+            model.mesh.len(),
+            with_materials.material_of.len()
+        );
+        return Err(Problem::usage(what, "name the model's own file, not a scene").into());
+    }
+    Ok((with_materials.materials, with_materials.material_of))
+}
+
+/// The vertex nearest to a place, of equals the first.
+pub(in crate::cli) fn nearest(positions: &[[f32; 3]], at: [f32; 3]) -> Option<usize> {
+    let wide = |place: [f32; 3]| DVec3::from(place.map(f64::from));
+    let distance = |vertex: usize| wide(positions[vertex]).distance_squared(wide(at));
+    (0..positions.len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+}

@@ -1,0 +1,100 @@
+//! The picture of a model: which one, from where, how large, how bright.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use crate::cli::memory::{self, MemoryNeed};
+use crate::cli::scene_name::EyeArgs;
+use crate::cli::size::Size;
+use crate::cli::{model_name, number};
+use crate::geom::Mesh;
+use crate::scene::Camera;
+use crate::study::prt::Turning;
+
+/// A picture of a model.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct PictureArgs {
+    /// The model that the file was made from, as it was given to `precompute`
+    #[arg(long, value_name = "MODEL")]
+    pub(in crate::cli) model: PathBuf,
+
+    /// Pixels of the pictures
+    #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
+    size: Size,
+
+    #[command(flatten)]
+    eye: EyeArgs,
+
+    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// average]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub(in crate::cli) exposure: Option<f64>,
+}
+
+impl PictureArgs {
+    /// The model as it was named.
+    pub(in crate::cli) fn model_name(&self) -> String {
+        self.model.display().to_string()
+    }
+
+    /// The model's file, unless the program builds it.
+    pub(in crate::cli) fn inputs(&self) -> Vec<&Path> {
+        model_name::named_file(&self.model)
+    }
+
+    /// The camera.
+    pub(in crate::cli) fn camera(&self, mesh: &Mesh) -> miette::Result<Camera> {
+        self.eye.framing(mesh, self.size)
+    }
+
+    /// Memory of pictures on an emulated card.
+    pub(in crate::cli) fn memory_on_card(&self) -> MemoryNeed {
+        const PER_PIXEL: u64 = 400;
+        MemoryNeed {
+            what: format!("pictures of {} pixels", self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, PER_PIXEL, 0),
+            help: "ask for a smaller `--size`",
+        }
+    }
+}
+
+/// What frames turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TurnArg {
+    /// The light, around z
+    Light,
+    /// The camera, around the model
+    Camera,
+}
+
+/// Pictures in which something turns.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct FramesArgs {
+    /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
+    pub(in crate::cli) frames: u32,
+
+    /// What --frames turns
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "light", requires = "frames")]
+    turn: TurnArg,
+}
+
+impl FramesArgs {
+    /// What frames turn.
+    pub(in crate::cli) fn turning(&self) -> Turning {
+        if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light }
+    }
+
+    /// Memory of a picture and of these.
+    pub(in crate::cli) fn memory(&self, picture: &PictureArgs) -> MemoryNeed {
+        const PER_PIXEL: u64 = 320;
+        const PER_PIXEL_AND_FRAME: u64 = 16;
+        let per_pixel = PER_PIXEL + PER_PIXEL_AND_FRAME * u64::from(self.frames);
+        MemoryNeed {
+            what: format!("{} pictures of {} pixels", 1 + self.frames, picture.size),
+            bytes: memory::of_pixels(picture.size.width, picture.size.height, per_pixel, 0),
+            help: "ask for a smaller `--size` or fewer `--frames`",
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Values of options: reflectance, tangents, how points are shared out to clusters.
+
+use std::str::FromStr;
+
+use clap::ValueEnum;
+use glam::DVec3;
+
+use crate::cli::number;
+use crate::transfer::Tangents;
+use crate::transfer::brdf::Brdf;
+use crate::transfer::clustering::CpcaMethod;
+
+const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torrance:ALBEDO,SPECULAR,ROUGHNESS,F0, \
+                    schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
+
+/// A BRDF with its figures, the same in all channels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cli) struct BrdfArg(pub(in crate::cli) Brdf);
+
+impl FromStr for BrdfArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("expected {BRDF}; found `{text}`");
+        let (name, figures) = text.split_once(':').ok_or_else(wrong)?;
+        let figures: Vec<f64> = figures.split(',').map(number::finite).collect::<Result<_, _>>()?;
+        let brdf = match (name, &figures[..]) {
+            ("lambert", &[albedo]) => Brdf::Lambert { albedo },
+            ("phong", &[albedo, specular, exponent]) => Brdf::Phong { albedo, specular, exponent },
+            ("cook-torrance", &[albedo, specular, roughness, normal_incidence]) => {
+                Brdf::CookTorrance { albedo, specular, roughness, normal_incidence }
+            }
+            ("schlick", &[albedo, specular, roughness, isotropy, normal_incidence]) => {
+                Brdf::Schlick { albedo, specular, roughness, isotropy, normal_incidence }
+            }
+            ("ward", &[albedo, specular, x, y]) => Brdf::Ward { albedo, specular, roughness: [x, y] },
+            ("ashikhmin-shirley", &[albedo, specular, u, v]) => {
+                Brdf::AshikhminShirley { albedo, specular, exponents: [u, v] }
+            }
+            _ => return Err(wrong()),
+        };
+        brdf.check().map(|()| Self(brdf)).map_err(|error| error.to_string())
+    }
+}
+
+/// Where tangents come from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::cli) struct TangentsArg(pub(in crate::cli) Tangents);
+
+impl FromStr for TangentsArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "any" => Ok(Self(Tangents::Any)),
+            "texture" => Ok(Self(Tangents::Texture)),
+            _ => {
+                let axis = DVec3::from(number::three(text, "X,Y,Z, or `any` or `texture`")?.map(f64::from));
+                if axis == DVec3::ZERO {
+                    return Err(format!("expected an axis with a length above 0, found `{text}`"));
+                }
+                Ok(Self(Tangents::Along(axis)))
+            }
+        }
+    }
+}
+
+/// How points are shared out to clusters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum MethodArg {
+    /// By distance from the means, then principal components once
+    Static,
+    /// By the error of their approximation, while vectors are added one by one
+    Iterative,
+    /// The same, while the number of vectors is doubled
+    Doubling,
+    /// As iterative; then vectors are redistributed among the clusters
+    Adaptive,
+}
+
+impl MethodArg {
+    /// The method, with at most so many rounds of redistribution.
+    pub(in crate::cli) const fn method(self, rounds: usize) -> CpcaMethod {
+        match self {
+            Self::Static => CpcaMethod::Static,
+            Self::Iterative => CpcaMethod::Iterative,
+            Self::Doubling => CpcaMethod::Doubling,
+            Self::Adaptive => CpcaMethod::Adaptive { rounds },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn brdfs_and_tangents_are_read_and_bad_ones_refused() {
+        let phong = Brdf::Phong { albedo: 0.1, specular: 0.5, exponent: 20.0 };
+        assert_eq!("phong:0.1,0.5,20".parse(), Ok(BrdfArg(phong)));
+        for text in ["lambert", "lambert:2", "lambert:0.1,0.2", "phong:0.1,0.5,nan", "ward:0,1,0,0.1", "mirror:1"] {
+            assert!(text.parse::<BrdfArg>().is_err(), "{text}");
+        }
+        assert_eq!("0,0,2".parse(), Ok(TangentsArg(Tangents::Along(DVec3::new(0.0, 0.0, 2.0)))));
+        assert!("0,0,0".parse::<TangentsArg>().is_err() && "some".parse::<TangentsArg>().is_err());
+    }
+}

@@ -1,0 +1,335 @@
+//! `crossbar cpca`: transfer, compression, errors and pictures from the command line.
+
+use std::fs;
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use crossbar::io::{NumberTable, parse_npy, write_npy};
+use crossbar::picture::{Picture, exr, png};
+use serde_json::Value;
+
+use crate::{crossbar, crossbar_in};
+
+const STEP: [&str; 3] = ["docs/examples/step.obj", "docs/examples/step.prt", "docs/examples/step_small.prt"];
+
+pub(crate) fn document(arguments: &[&str]) -> Value {
+    let ran = crossbar(&[arguments, &["--json"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{arguments:?}");
+    serde_json::from_str(&ran.stdout).expect("one JSON document")
+}
+
+pub(crate) fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
+}
+
+/// A place for a file in a folder, as an argument.
+pub(crate) fn place(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("a name in UTF-8").to_owned()
+}
+
+/// The files of the examples are what the commands write, whatever the number of threads.
+#[test]
+fn the_examples_are_made_by_the_commands() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, small] = STEP;
+    for threads in ["1", "3"] {
+        let out = place(folder.path(), "out.prt");
+        document(&["cpca", "precompute", model, "--order", "3", "--out", &out, "--threads", threads]);
+        assert_eq!(fs::read(&out).expect("written"), fs::read(transfer).expect("an example"), "{threads} threads");
+        let options = ["--clusters", "8", "--vectors", "3", "--out", &out, "--threads", threads];
+        document(&[&["cpca", "compress", transfer][..], &options].concat());
+        assert_eq!(fs::read(&out).expect("written"), fs::read(small).expect("an example"), "{threads} threads");
+    }
+}
+
+/// Closed forms: a white wall under the whole sky, and under light that grows with z.
+#[test]
+fn a_square_sees_the_whole_sky() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let out = place(folder.path(), "out.prt");
+    let brdf = ["--brdf", "lambert:0.5", "--out", &out];
+    let made = document(&[&["cpca", "precompute", "fixtures/models/square.obj"][..], &brdf].concat());
+    assert_eq!((&made["rays_blocked"], &made["numbers_per_vertex"]), (&Value::from(0), &Value::from(25)));
+    let shown = document(&["cpca", "show", &out, "--vertex", "0"]);
+    let transfer = &shown["vertex"]["transfer"];
+    let pi = std::f64::consts::PI;
+    assert_relative_eq!(number(&transfer[0]), 0.5 / (4.0 * pi).sqrt(), max_relative = 1e-6);
+    assert_relative_eq!(number(&transfer[2]).abs(), 0.5 * 2.0 / 3.0 * (3.0 / (4.0 * pi)).sqrt(), max_relative = 1e-6);
+    let page = place(folder.path(), "page");
+    let options = ["--light", "constant:2,2,2", "--size", "16x16", "--out", &page];
+    let drawn = document(&[&["cpca", "render", &out, "--model", "fixtures/models/square.obj"][..], &options].concat());
+    // Every lit pixel has radiance 0.5 x 2, which the exposure takes to 18 % grey.
+    assert_relative_eq!(number(&drawn["exposure"]), 0.18, max_relative = 1e-6);
+    assert!(folder.path().join("page/index.html").is_file() && folder.path().join("page/picture.png").is_file());
+}
+
+/// While the number of vectors stays the error does not grow, and `error` finds what `compress` says.
+#[test]
+fn errors_fall_and_are_found_again() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let (out, [_, transfer, _]) = (place(folder.path(), "out.prt"), STEP);
+    for method in ["static", "iterative", "adaptive"] {
+        let options = ["--clusters", "6", "--vectors", "2", "--method", method, "--out", &out];
+        let made = document(&[&["cpca", "compress", transfer][..], &options].concat());
+        let steps = made["steps"].as_array().expect("steps");
+        assert!(steps.len() > 3, "{method}");
+        for pair in steps.windows(2).filter(|pair| pair[0]["vectors"] == pair[1]["vectors"]) {
+            let [before, after] = [0, 1].map(|i| number(&pair[i]["squared_error"]));
+            let is_fixed = method != "adaptive" || pair[1]["step"] != "redistributed";
+            assert!(!is_fixed || after <= before * (1.0 + 1e-12), "{method}: {pair:?}");
+        }
+        let found = document(&["cpca", "error", transfer, &out]);
+        assert_eq!(found["squared_error"], made["squared_error"], "{method}");
+        let points: u64 = (found["histogram"].as_array().expect("bins").iter())
+            .map(|bin| bin["points"].as_u64().expect("a count"))
+            .sum();
+        assert_eq!(points, made["points"].as_u64().expect("a count"), "{method}: every point is in one bin");
+    }
+    let options = ["--clusters", "1", "--vectors", "9", "--out", &out];
+    let whole = document(&[&["cpca", "compress", transfer][..], &options].concat());
+    assert!(number(&whole["relative_error"]) < 1e-20, "as many vectors as numbers lose nothing: {whole}");
+}
+
+/// Arrays hold what a file does: a point is its cluster's mean and its weights times vectors.
+#[test]
+fn files_are_written_as_arrays() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [_, transfer, small] = STEP;
+    let read = |arrays: &str, name: &str| {
+        let bytes = fs::read(Path::new(arrays).join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        parse_npy(&bytes, Path::new(name)).expect("an array")
+    };
+    let [whole, clusters] = ["whole", "clusters"].map(|name| place(folder.path(), name));
+    document(&["cpca", "show", transfer, "--arrays", &whole]);
+    let found = read(&whole, "transfer.npy");
+    let shown = document(&["cpca", "show", transfer, "--vertex", "12"]);
+    let given = shown["vertex"]["transfer"].as_array().expect("numbers");
+    assert_eq!((found.columns, found.values.len() % 9), (9, 0));
+    for (found, given) in found.values[12 * 9..13 * 9].iter().zip(given) {
+        assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-6);
+    }
+    let shown = document(&["cpca", "show", small, "--vertex", "12", "--arrays", &clusters]);
+    let [means, vectors, weights, of_point] =
+        ["means.npy", "vectors.npy", "weights.npy", "clusters.npy"].map(|name| read(&clusters, name));
+    let cluster = of_point.values[12];
+    let mut point: Vec<f32> = means.values[9 * cluster as usize..][..9].to_vec();
+    let own = vectors.values.chunks_exact(10).filter(|row| row[0] == cluster);
+    for (weight, row) in weights.values[12 * weights.columns..].iter().zip(own) {
+        point.iter_mut().zip(&row[1..]).for_each(|(into, value)| *into += weight * value);
+    }
+    let given = shown["vertex"]["clustered"]["approximation"].as_array().expect("numbers");
+    for (found, given) in point.iter().zip(given) {
+        assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-4, epsilon = 1e-6);
+    }
+}
+
+#[test]
+fn what_does_not_go_together_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let root = |path: &str| place(Path::new(env!("CARGO_MANIFEST_DIR")), path);
+    let [model, transfer, small] = STEP.map(root);
+    let (square, signal) = (root("fixtures/models/square.obj"), root("docs/examples/signal.csv"));
+    for (arguments, words) in [
+        (&["render", &transfer, "--model", &square][..], "expected transfer of a mesh with"),
+        (&["compress", &small, "--out", "y.prt"], "expected transfer, found clusters alone"),
+        (&["compress", &transfer, "--clusters", "1000", "--out", "y.prt"], "expected 1 to"),
+        (
+            &["compress", &transfer, "--vectors", "10", "--clusters", "2", "--out", "y.prt"],
+            "expected at most 9 `--vectors`",
+        ),
+        (&["compress", &transfer, "--start", &signal, "--out", "y.prt"], "expected the number of a point in line 1"),
+        (&["error", &transfer, &transfer], "expected clusters, found transfer alone"),
+        (&["error", &signal, &small], "expected 24 points of 3 numbers"),
+        (&["show", &small, "--vertex", "1000"], "expected a vertex below"),
+        (&["show", &model], "expected a .prt file, found another beginning"),
+    ] {
+        let ran = crossbar_in(folder.path(), &[&["cpca"], arguments].concat(), "");
+        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(flat.contains(words), "{arguments:?}: {}", ran.stderr);
+        assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0, "{arguments:?}");
+    }
+}
+
+/// The card's picture is the host's but for its rounding: next to nothing without it, more on real cards.
+#[test]
+fn a_card_draws_what_the_host_draws() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, ..] = STEP;
+    let [transfer, small, out] = ["x.prt", "y.prt", "out"].map(|name| place(folder.path(), name));
+    let glossy = ["--kind", "glossy", "--order", "3", "--brdf", "phong:0.4,0.4,8", "--out", &transfer];
+    document(&[&["cpca", "precompute", model][..], &glossy].concat());
+    document(&["cpca", "compress", &transfer, "--clusters", "6", "--vectors", "3", "--out", &small]);
+    let card = |options: &[&str]| {
+        let fixed = ["cpca", "card", &small, "--model", model, "--size", "48x36", "--out", &out];
+        document(&[&fixed[..], options].concat())
+    };
+    let rms = |found: &Value| number(&found["difference"]["rms_255ths"]);
+    let ideal =
+        card(&["--device", "ideal-fp32", "--target-format", "rgba32f", "--map-format", "rgba32f", "--map", "256"]);
+    let radeon = card(&[]);
+    assert!(ideal["time"].is_null() && rms(&ideal) < 0.1 * rms(&radeon), "{} {}", rms(&ideal), rms(&radeon));
+    let time = radeon["time"].as_array().expect("times");
+    assert_eq!(time.len(), 6);
+    let sweep = card(&["--sweep"]);
+    let rows = sweep["precision"].as_array().expect("a sweep");
+    assert_eq!(rows.len(), 18);
+    let of = |what: &str, choice: &str| {
+        let row = rows.iter().find(|row| row["what"] == what && row["choice"] == choice);
+        number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
+    };
+    assert!(of("weights", "unorm16") < of("weights", "unorm8"));
+    assert!(of("map texels", "64 x 64") < of("map texels", "16 x 16"));
+    assert!(of("target", "16 bits, alone") < of("target", "8 bits, alone"));
+    assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
+}
+
+/// What a card does not take is refused with what to do, and nothing is written.
+#[test]
+fn cards_refuse_what_they_have_no_programs_for() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, whole, small] = STEP;
+    let refused = |arguments: &[&str]| {
+        let out = place(folder.path(), "out");
+        let ran = crossbar(&[&["cpca", "card"], arguments, &["--size", "8x8", "--out", &out]].concat(), "");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{arguments:?}");
+        ran.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let adaptive = place(folder.path(), "adaptive.prt");
+    let options = ["--method", "adaptive", "--clusters", "8", "--vectors", "3", "--out", &adaptive];
+    document(&[&["cpca", "compress", whole][..], &options].concat());
+    assert!(refused(&[whole, "--model", model]).contains("expected clusters, found transfer alone"));
+    assert!(refused(&[small, "--model", "white-box"]).contains("mesh"));
+    let floats = refused(&[small, "--model", model, "--target-format", "rgba32f"]);
+    assert!(floats.contains("rgba32f") && floats.contains("r300"), "{floats}");
+}
+
+/// A Radiance HDR file of 8 x 4 pixels, all (1, 1, 1), in packed scanlines or plain pixels.
+fn white_hdr(first_line: &str, packed: bool) -> Vec<u8> {
+    // Mantissas of 128 / 256 with the exponent 1.
+    let pixel = [128, 128, 128, 129];
+    let row = match packed {
+        // Per channel a run of eight.
+        true => [vec![2, 2, 0, 8], pixel.iter().flat_map(|&value| [128 + 8, value]).collect()].concat(),
+        false => pixel.repeat(8),
+    };
+    [format!("{first_line}\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n").into_bytes(), row.repeat(4)].concat()
+}
+
+/// Pictures of light are known by what is in them, whatever they are called.
+#[test]
+fn pictures_are_lights() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP;
+    let page = place(folder.path(), "page");
+    let options = ["--model", model, "--size", "16x16", "--out", &page];
+    let exposure = |light: &str| {
+        let drawn = document(&[&["cpca", "render", transfer, "--light", light][..], &options].concat());
+        number(&drawn["exposure"])
+    };
+    let expected = exposure("constant:1,1,1");
+    let white = Picture::rgb(8, 4, &[[1.0; 3]; 32]);
+    let shown = png(&white.display(1.0).expect("a picture")).expect("a file");
+    for (name, bytes) in [
+        ("flat.hdr", white_hdr("#?RADIANCE", false)),
+        ("packed.hdr", white_hdr("#?RADIANCE", true)),
+        ("other_line.hdr", white_hdr("#?RGBE", true)),
+        ("other_flat.pic", white_hdr("#?RGBE", false)),
+        ("light.exr", exr(&white).expect("a file")),
+        ("png.hdr", shown),
+    ] {
+        let light = place(folder.path(), name);
+        fs::write(&light, bytes).expect("written");
+        assert_relative_eq!(exposure(&light), expected, max_relative = 1e-6);
+    }
+}
+
+#[test]
+fn pictures_that_are_no_lights_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP.map(|path| place(Path::new(env!("CARGO_MANIFEST_DIR")), path));
+    let mut pixels = [[1.0; 3]; 32];
+    pixels[19] = [1.0, f32::NAN, 1.0];
+    let broken = [&white_hdr("#?RGBE", true)[..60], b"\0"].concat();
+    for (name, bytes, words) in [
+        (
+            "nan.exr",
+            exr(&Picture::rgb(8, 4, &pixels)).expect("a file"),
+            "expected finite radiance, found NaN in channel green of the pixel in column 3, row 2",
+        ),
+        ("tall.exr", exr(&Picture::rgb(4, 8, &pixels)).expect("a file"), "found 4x8"),
+        ("cut.hdr", broken, "expected Radiance HDR data, found something else"),
+        ("words.hdr", b"no picture".to_vec(), "6e 6f 20 70"),
+        ("empty.hdr", Vec::new(), "begins with nothing"),
+    ] {
+        let light = place(folder.path(), name);
+        fs::write(&light, bytes).expect("written");
+        let arguments = ["cpca", "render", &transfer, "--model", &model, "--light", &light, "--size", "8x8"];
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{name}: {}", ran.stderr);
+        assert!(flat.contains(words) && flat.contains(name), "{name}: {}", ran.stderr);
+        assert!(!folder.path().join("out").exists(), "{name}");
+    }
+}
+
+/// A square whose first texture coordinate grows with y: the anisotropic material runs along it, the file says so, and
+/// commands that read the file need not be told.
+#[test]
+fn tangents_come_from_the_texture_and_stay_with_the_file() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let (model, page) = (place(folder.path(), "textured.obj"), place(folder.path(), "page"));
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\nf 1/1 2/2 3/3 4/4\n";
+    fs::write(&model, text).expect("written");
+    let made = |name: &str, tangents: &str| {
+        let out = place(folder.path(), name);
+        let options = ["--kind", "glossy", "--rows", "16", "--brdf", "ward:0.1,0.4,0.1,0.4", "--order", "4"];
+        let command = ["cpca", "precompute", &model, "--tangents", tangents, "--out", &out];
+        document(&[&command[..], &options].concat());
+        let shown = document(&["cpca", "show", &out, "--at", "1,1,0", "--model", &model]);
+        assert_eq!(shown["mesh"]["tangents"], tangents);
+        (out, shown["vertex"]["transfer"].as_array().expect("numbers").clone())
+    };
+    let (texture, along_texture) = made("texture.prt", "texture");
+    let (axis, along_y) = made("axis.prt", "0,1,0");
+    let (_, along_x) = made("other.prt", "1,0,0");
+    assert_eq!(along_texture, along_y);
+    assert_ne!(along_texture, along_x);
+    let render = ["cpca", "render", &texture, "--model", &model, "--size", "8x8", "--out", &page];
+    document(&[&render[..], &["--original", &texture]].concat());
+    let refused = crossbar(&[&render[..], &["--original", &axis]].concat(), "");
+    let flat = refused.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(refused.code, Some(2), "{flat}");
+    for words in ["expected transfer of a mesh with 4 vertices", "tangents from texture coordinates", "along 0,1,0"] {
+        assert!(flat.contains(words), "{words}: {flat}");
+    }
+    // The same square without texture coordinates is another mesh.
+    let square = ["cpca", "render", &texture, "--model", "fixtures/models/square.obj", "--size", "8x8", "--out", &page];
+    assert_eq!(crossbar(&square, "").code, Some(2));
+}
+
+/// An array of NumPy's and a table of the same numbers are one signal.
+#[test]
+fn arrays_of_numpy_are_compressed() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [array, fortran, table] = ["signal.npy", "fortran.npy", "signal.csv"].map(|name| place(folder.path(), name));
+    let numbers: Vec<f32> = (0..120_u16).map(|i| f32::from(i * 37 % 101) / 8.0).collect();
+    let mut bytes = Vec::new();
+    write_npy(&NumberTable { columns: 4, values: numbers.clone() }, &mut bytes).expect("written");
+    fs::write(&array, &bytes).expect("written");
+    let lines = numbers.chunks(4).map(|row| row.iter().map(f32::to_string).collect::<Vec<_>>().join(",") + "\n");
+    fs::write(&table, lines.collect::<String>()).expect("written");
+    let compressed = |signal: &str, out: &str| {
+        let out = place(folder.path(), out);
+        document(&["cpca", "compress", signal, "--clusters", "3", "--vectors", "2", "--out", &out]);
+        fs::read(&out).expect("written")
+    };
+    assert_eq!(compressed(&array, "one.prt"), compressed(&table, "other.prt"));
+    let at = bytes.windows(5).position(|word| word == b"False").expect("the order of the array");
+    bytes[at..at + 5].copy_from_slice(b"True ");
+    fs::write(&fortran, &bytes).expect("written");
+    let ran = crossbar(&["cpca", "compress", &fortran, "--out", &place(folder.path(), "none.prt")], "");
+    assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
+    assert!(ran.stderr.to_lowercase().contains("fortran"), "{}", ran.stderr);
+}

@@ -1,0 +1,360 @@
+//! What every option of every command is tried with.
+
+/// A command: lines to which its options are added, and its options with values.
+pub(super) struct Tried {
+    /// Command lines without the program's name; what follows ` < ` is standard input, `;` ends a line.
+    pub(super) bases: &'static [&'static str],
+    /// Options as `--name=value` or `--name`, each tried on every base that succeeds; `@0,2` restricts it to these
+    /// bases, where the others rightly do not heed it. Behind `same:` the result must be the same: who computes, not what.
+    pub(super) options: &'static str,
+}
+
+/// The camera's options.
+macro_rules! eye {
+    () => {
+        " --size=9x7 --eye=3,-4,2 --target=0.2,0.1,0.3 --up=1,0,1 --tan-half-height=0.2"
+    };
+}
+
+/// The options of a picture under distant light.
+macro_rules! picture {
+    ($model:literal) => {
+        concat!(eye!(), " --exposure=0.3 --model=white-box --model-up=y --strict@", $model, " --light=red-and-blue")
+    };
+}
+
+/// The options of a card.
+macro_rules! card {
+    ($device:literal) => {
+        concat!(
+            " --target-format=rgba16 --sweep --device=",
+            $device,
+            " --switch=rounding=rtz same:--executor=scalar --adapter=x"
+        )
+    };
+}
+
+/// Every command.
+pub(super) const TABLE: &[Tried] = &[
+    Tried {
+        bases: &[
+            "alu mul --format fp16 < 3C01 03FF;3C00 4000",
+            "alu mul --format fp16 --flags < 3C01 03FF;3C00 4000",
+            "alu mul --format fp16 --verify --flags < 3C01 03FF 0400 03;3C00 4000 4000 00",
+            "alu roundToInt --format fp16 --flags < 3E00",
+            "alu convert --format fp16 --to fp32 < 3E01",
+            "alu sqrt --format s1.3 < 18",
+        ],
+        options: "--format=bf16 --to=fp24 --verify --exhaustive@5 --flags --tininess=before@0,1,4,5 --exact",
+    },
+    Tried {
+        bases: &["atlas square.obj --side 8 --size 8x8 --out OUT", "atlas odd.obj --side 8 --size 8x8 --out OUT"],
+        options: concat!("--side=16 --out=other --model-up=y --strict@1", eye!()),
+    },
+    Tried {
+        bases: &["check docs/examples/intersect.psa --device r200"],
+        options: "--device=nv20 --switch=rounding=nowhere",
+    },
+    Tried {
+        bases: &["compare docs/examples/product.toml", "compare docs/examples/product.toml --left-format fp16"],
+        options: "--left=batch --right=scalar@0 --adapter=x --left-device=ideal-fp16 --right-device=ideal-fp16 \
+                  --left-format=s3.12 --right-format=s3.12 --left-switch=rounding=rtz --right-switch=rounding=rtz \
+                  --step-budget=1 --pixel=1,1 --registers",
+    },
+    Tried { bases: &["completions bash"], options: "" },
+    Tried { bases: &["devices", "devices r200"], options: "--adapters --probe=x" },
+    Tried {
+        bases: &["diff docs/examples/exact.png docs/examples/leaky.png --out OUT"],
+        options: "--channel=G --exposure=2 --ppd=30 --scale=0.5 --max-rmse=0 --max-error=0 --max-flip=0 --min-ssim=1 \
+                  --out=other",
+    },
+    Tried {
+        bases: &[
+            "intersect --mesh odd.obj --rays rays.csv --out OUT",
+            "intersect --mesh odd.obj --rays rays.csv --device r200 --out OUT",
+            "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
+            "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
+        ],
+        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 --adapter=x \
+                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
+    },
+    Tried {
+        bases: &[
+            "leaky-teapot --size 8x8 --tessellation 1 --rays-per-edge 1 --format fp16 --out OUT",
+            "leaky-teapot --mesh odd.obj --size 8x8 --rays-per-edge 0 --format fp16 --out OUT",
+            "leaky-teapot --mesh odd.obj --rays rays.csv --rays-per-edge 0 --format fp16 --out OUT",
+        ],
+        options: concat!(
+            "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --out=other \
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --all-pairs same:--executor=scalar --adapter=x --model-up=y \
+             --strict",
+            eye!()
+        ),
+    },
+    Tried { bases: &["man --out OUT"], options: "--out=other" },
+    Tried {
+        bases: &["materials", "materials marble", "materials --sigma-s 1 --sigma-a 0.1"],
+        options: "--at=1,2 --sigma-s=2 --sigma-a=0.2 --eta=1.4",
+    },
+    Tried {
+        bases: &[
+            "radiosity docs/examples/room.toml --patches 30 --size 8x8 --iterations 3 --out OUT",
+            "radiosity odd.obj --emit m=1,1,1 --patches 8 --size 8x8 --iterations 3 --factors hemicube --out OUT",
+            "radiosity docs/examples/room.toml --patches 30 --size 8x8 --factors unoccluded --solver jacobi --out OUT",
+        ],
+        options: concat!(
+            "--patches=12 --per-side=1 --factors=unoccluded --strata=2 --hemicube=16 --seed=2 --require-closed=1e-6 \
+             --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv35 \
+             --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
+             --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --frames=1,2 --atlas=32 --sweep=12,30 --view=front \
+             --exposure=0.3 --out=other --model-up=y --strict@1",
+            eye!()
+        ),
+    },
+    Tried {
+        bases: &[
+            "render docs/examples/room.obj --size 8x8 --renderer eye --eye 0.2,-1,0.2 --out OUT",
+            "render cornell-box --size 8x8 --renderer whitted --samples 1 --out OUT",
+            "render cornell-box --size 8x8 --renderer distributed --samples 2 --out OUT",
+            "render cornell-box --size 8x8 --renderer path --samples 2 --out OUT",
+            "render cornell-box --size 8x8 --renderer photon --samples 1 --photons 200 --gather 2 --out OUT",
+            "render docs/examples/teapot.obj --size 8x8 --out OUT",
+            "render odd.obj --size 8x8 --out OUT",
+        ],
+        options: concat!(
+            "--sides=front --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
+             --depth=1 --seed=2 --view=front --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
+             --caster=engine --time --model-up=y --strict@6",
+            eye!()
+        ),
+    },
+    Tried { bases: &["reproduce equation-11 --out OUT"], options: "--list --full-size --out=other" },
+    Tried {
+        bases: &["run docs/examples/product.toml --out OUT"],
+        options: "--out=other same:--executor=batch --adapter=x --step-budget=1 --trace=0,0",
+    },
+    Tried { bases: &["scene white-box", "scene white-box --out OUT"], options: "--out=other" },
+    Tried {
+        bases: &[
+            "subsurface square.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --size 8x8 --out OUT",
+            "subsurface odd.obj --mm-per-unit 10 --sigma-s 1 --sigma-a 0.1 --atlas 8 --links 4 --size 8x8 --out OUT",
+        ],
+        options: concat!(
+            "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
+             --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --half --tolerance=0.5 \
+             --light=sky:1,1,1 --irradiance=faces.csv --pass-1=fragment --direct=vertex --fresnel=mean \
+             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --roundings --device=nv35 \
+             --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --out=other \
+             --model-up=y --strict@1",
+            eye!()
+        ),
+    },
+    Tried {
+        bases: &["timeline docs/examples/product.toml", "timeline --rays 4x4 --mesh odd.obj", "timeline --rays 4x4"],
+        options: "--rays=5x4 --mesh=square.obj --device=nv20 --model=rates --readback=async --double-buffer --cache \
+                  --sensitivity --trace=trace.json --model-up=y@0,1 --strict@0,1",
+    },
+    Tried {
+        bases: &[
+            "cpca precompute docs/examples/room.obj --order 2 --degree 18 --out OUT.prt",
+            "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.prt",
+            "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --incident directions --out OUT.prt",
+            "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.prt",
+            "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.prt",
+        ],
+        options: "--kind=glossy@0 --order=3 --rows=9 --exit=zero-hemisphere --incident=zero-hemisphere \
+                  --incident-order=2 --brdf=lambert:0.3 --material=marble@4 --mm-per-unit=2@4 --channels=rgb \
+                  --tangents=1,2,3@1,2,3 --degree=20 --bounces=2 --bounce-tolerance=0.9 --out=other.prt --model-up=y \
+                  --strict@3",
+    },
+    Tried {
+        bases: &["cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --out OUT.prt"],
+        options: "--clusters=5 --vectors=1 --method=adaptive --linear --iterations=1 --seed=2 --start=starts.txt \
+                  --out=other.prt",
+    },
+    Tried { bases: &["cpca error docs/examples/step.prt docs/examples/step_small.prt"], options: "--csv=other.csv" },
+    Tried {
+        bases: &[
+            "cpca show docs/examples/step_small.prt",
+            "cpca show docs/examples/step.prt --at 0,0,0 --model docs/examples/step.obj",
+            "cpca show docs/examples/step.prt --at 0,0,0 --model odd.obj",
+        ],
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
+    },
+    Tried {
+        bases: &[
+            "cpca render docs/examples/step.prt --model docs/examples/step.obj --size 8x6 --out OUT",
+            "cpca render docs/examples/step.prt --model odd.obj --size 8x6 --out OUT",
+            "cpca render docs/examples/step_small.prt --model docs/examples/step.obj --frames 2 --size 8x6 --out OUT",
+        ],
+        options: concat!(
+            "--original=docs/examples/step.prt@0,2 --window=hann@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+            picture!("1")
+        ),
+    },
+    Tried {
+        bases: &[
+            "cpca card docs/examples/step_small.prt --model docs/examples/step.obj --size 8x6 --out OUT",
+            "cpca card docs/examples/step_small.prt --model odd.obj --size 8x6 --out OUT",
+        ],
+        options: concat!(
+            "--window=hann@0 --weights=unorm8@0 --map=8@0 --map-format=rgba8s@0 --vertex=vs_1_1@0 --alone@0 --out=other@0",
+            card!("r350"),
+            picture!("1")
+        ),
+    },
+    Tried {
+        bases: &[
+            "all-frequency factor --brdf cook-torrance --side 4 --supersamples 2x2 --clamp 0.1 --terms 2 --out OUT",
+            "all-frequency factor --brdf schlick --side 4 --supersamples 2x2 --terms 2 --out OUT",
+            "all-frequency factor --brdf phong --side 4 --supersamples 2x2 --terms 2 --out OUT",
+            "all-frequency factor --brdf lambert --side 4 --supersamples 2x2 --terms 1 --out OUT",
+            "all-frequency factor --table docs/examples/reflectance.csv --terms 2 --out OUT",
+        ],
+        options: "--brdf=phong@0,1,3,4 --merl=nowhere.binary --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
+                  --fresnel=0.3 --isotropy=0.5 --exponent=9 --albedo=0.2 --denominators=product \
+                  --fresnel-form=constant --shadowing=none --tangent=half-vector --channel=red --side=5 \
+                  --supersamples=3x3 --outside=rim --clamp=0.05 --clamp-when=before@0,4 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
+                  --out=other",
+    },
+    Tried {
+        bases: &[
+            "all-frequency lighting --light disk:1,0,2:5",
+            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --frames 2 --out OUT.csv",
+            "all-frequency lighting --light disk:1,0,2:20 --keep 60 --by transfer --transfer docs/examples/step_all.prt \
+             --model docs/examples/step.obj",
+            "all-frequency lighting --keep 60 --by transfer --transfer docs/examples/step_all.prt --model odd.obj",
+        ],
+        options: "--light=red-and-blue --segments=6 --keep=9 --by=magnitude@1 --decimation=plain --rotate=20 --frames=3 \
+                  --transfer=docs/examples/step_all_small.prt --model=white-box --coefficients=other.csv \
+                  --out=other.csv --model-up=y --strict@3",
+    },
+    Tried {
+        bases: &[
+            "all-frequency precompute docs/examples/room.obj --out OUT.prt",
+            "all-frequency precompute odd.obj --out OUT.prt",
+        ],
+        options: "--factors=factors --ground=3 --hats=one --tangents=1,2,3 --out=other.prt --model-up=y --strict@1",
+    },
+    Tried {
+        bases: &[
+            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 15 \
+             --vectors 2 --iterations 2 --out OUT.prt",
+            "all-frequency compress docs/examples/step_all.prt --model odd.obj --out OUT.prt",
+        ],
+        options: "--model=white-box --points-per-cluster=30@0 --vectors=3@0 --method=static@0 --iterations=1@0 --seed=2@0 \
+                  --bits=8@0 --weight-bits=8@0 --scale=segment@0 --resume=kept@0 --out=other.prt@0 --model-up=y \
+                  --strict@1",
+    },
+    Tried {
+        bases: &[
+            "all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj",
+            "all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model odd.obj",
+        ],
+        options: "--model=white-box --csv=other.csv@0 --model-up=y --strict@1",
+    },
+    Tried {
+        bases: &[
+            "all-frequency show docs/examples/step_all_small.prt",
+            "all-frequency show docs/examples/step_all.prt --at 0,0,0 --model docs/examples/step.obj",
+            "all-frequency show docs/examples/step_all.prt --at 0,0,0 --model odd.obj",
+        ],
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --arrays=other@0,1 --model-up=y --strict@2",
+    },
+    Tried {
+        bases: &[
+            "all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 8x6 --out OUT",
+            "all-frequency render docs/examples/step_all_small.prt --model odd.obj --size 8x6 --out OUT",
+            "all-frequency render docs/examples/step_all_small.prt --model docs/examples/step.obj --size 8x6 --frames 2 \
+             --ground on.ground.prt --out OUT",
+        ],
+        options: concat!(
+            "--original=docs/examples/step_all.prt@0,2 --keep=9@0,2 --ground=on.ground.prt@0 --ground-model=white-box@0,2 \
+             --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+            picture!("1")
+        ),
+    },
+    Tried {
+        bases: &[
+            "all-frequency card glossy.prt --model square.obj --size 8x6 --out OUT",
+            "all-frequency card docs/examples/step_all_small.prt --model odd.obj --size 8x6 --out OUT",
+            "all-frequency card glossy.prt --model square.obj --way colors --size 8x6 --out OUT",
+        ],
+        options: concat!(
+            "--original=glossy_sight.prt@0,2 --keep=9@0,2 --way=sums@0,2 --map-format=rgba8s@0,2 --filter=program@0,2 \
+             --radiance=fp16@0,2 --pass-per-channel@0,2 --partial@0,2 --vertex=vs_1_1@0,2 --out=other@0,2",
+            card!("nv35"),
+            picture!("1")
+        ),
+    },
+    Tried {
+        bases: &[
+            "bi-scale precompute docs/examples/court.obj --directions 2 --out OUT.prt",
+            "bi-scale precompute odd.obj --directions 2 --out OUT.prt",
+        ],
+        options: "--directions=3 --horizon=normal@0 --samples=1@0 --crease=10@0 --tangents=1,2,3@0 --matrix=other.mtx \
+                  --out=other.prt --model-up=y --strict@1",
+    },
+    Tried {
+        bases: &["bi-scale bicluster docs/examples/quarters.mtx --out OUT.prt"],
+        options: "--seed=2 --seeds=3 --no-deletion --drop=0.25 --dump=other.csv --out=other.prt",
+    },
+    Tried {
+        bases: &["bi-scale multiply docs/examples/court_biclusters.prt"],
+        options: "--light=red-and-blue --rotate=20 --values=other.csv",
+    },
+    Tried {
+        bases: &[
+            "bi-scale compare court.prt --clusters 2 --vectors 2 --sample 60 --rounds 1",
+            "bi-scale compare court.prt --model docs/examples/court.obj --clusters 2 --vectors 2 --sample 60 --rounds 1",
+            "bi-scale compare court.prt --model odd.obj",
+        ],
+        options: "--model=white-box --light=red-and-blue@0,1 --rotate=20@0,1 --clusters=3@0,1 --vectors=1@0,1 \
+                  --linear@0,1 --sample=40@0,1 --rounds=2@0,1 --seed=2@0,1 --coefficients=5@0,1 --priority=magnitude@0,1 \
+                  --storage=single@0,1 --order=2@0,1 --model-up=y --strict@2",
+    },
+    Tried {
+        bases: &[
+            "bi-scale texture bumps --size 4 --directions 2 --views 2 --out OUT.npy",
+            "bi-scale texture heights.csv --size 4 --directions 2 --views 2 --sheet OUT.png --out OUT.npy",
+            "bi-scale texture plain --size 4 --directions 2 --views 2 --out OUT.npy",
+        ],
+        options: "--detail=normals --relief=0.5 --color=0.1,0.2,0.3 --brdf=phong:0.2,0.3,4 --size=5 --directions=3 \
+                  --views=3 --samples=2 --out=other.npy --sheet=other.png --sheet-view=3",
+    },
+    Tried {
+        bases: &[
+            "bi-scale show docs/examples/court_biclusters.prt",
+            "bi-scale show court.prt --at 0,0,0 --model docs/examples/court.obj",
+            "bi-scale show court.prt --at 0,0,0 --model odd.obj",
+        ],
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
+    },
+    Tried {
+        bases: &[
+            "bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture bumps \
+             --texture-size 4 --texture-views 2 --size 8x6 --out OUT",
+            "bi-scale render docs/examples/court_biclusters.prt --model odd.obj --texture bumps --size 8x6 --out OUT",
+            "bi-scale render docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture plain.npy \
+             --frames 2 --size 8x6 --out OUT",
+        ],
+        options: concat!(
+            "--texture=wall=tiles@0,2 --repeat=3@0 --texture-size=5@0,2 --texture-views=3@0,2 --crease=10 --reference@0,2 \
+             --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+            picture!("1")
+        ),
+    },
+    Tried {
+        bases: &[
+            "bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture bumps \
+             --texture-size 4 --texture-views 2 --size 8x6 --out OUT",
+            "bi-scale card docs/examples/court_biclusters.prt --model odd.obj --texture bumps --size 8x6 --out OUT",
+        ],
+        options: concat!(
+            "--texture=wall=tiles@0 --repeat=3@0 --texture-size=5@0 --texture-views=3@0 --crease=10 \
+             --texture-format=rgba16f@0 --blocks=touching@0 --light-format=fp16@0 --local-format=fp16@0 --out=other@0",
+            card!("ideal-fp32"),
+            picture!("1")
+        ),
+    },
+];
