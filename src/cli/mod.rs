@@ -139,7 +139,7 @@ pub fn program() -> clap::Command {
     outputs::with_negative_numbers(model_file::with_options(Cli::command()))
 }
 
-/// What a command line asks for, itself with its defaults, and whether its outputs are different files.
+/// What a command line asks for, itself with its defaults, and whether its options go together.
 type Parsed = (Cli, String, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
@@ -147,15 +147,14 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
     let matches = program.try_get_matches_from_mut(arguments)?;
     moved::refuse(&mut program, &matches)?;
     let cli = Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut program))?;
-    model_file::choose(&matches);
-    let two_of_one = outputs::require_different(&program, &matches);
-    Ok((cli, resolved::command_line(&program, &matches), two_of_one))
+    let fits = model_file::choose(&matches).and_then(|()| outputs::require_different(&program, &matches));
+    Ok((cli, resolved::command_line(&program, &matches), fits))
 }
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
     let arguments: Vec<_> = std::env::args_os().collect();
-    let (cli, command_line, two_of_one) = match parse(&arguments) {
+    let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
             error::print_usage(&error, &arguments, |safe| parse(&safe).err());
@@ -175,7 +174,7 @@ pub fn main() -> ExitCode {
             return ExitCode::from(BAD_INPUT);
         }
     }
-    if let Err(problem) = two_of_one {
+    if let Err(problem) = fits {
         error::print(problem.into(), cli.json, false);
         return ExitCode::from(BAD_INPUT);
     }

@@ -7,7 +7,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 
-use super::{Problem, view};
+use super::{Problem, given, view};
 use crate::geom::Mesh;
 use crate::io::{ModelNote, ModelOptions, UpAxis, load_mesh_with, scene_file};
 use crate::report::visible::visible_line;
@@ -46,7 +46,10 @@ pub(super) fn with_options(program: Command) -> Command {
 }
 
 /// Takes the options from a command line.
-pub(super) fn choose(matches: &ArgMatches) {
+///
+/// # Errors
+/// [`Problem::Usage`] if no model is named. The parser does not see that where a model excludes what was named instead.
+pub(super) fn choose(matches: &ArgMatches) -> Result<(), Problem> {
     let mut command = matches;
     while let Some((_, inner)) = command.subcommand() {
         command = inner;
@@ -54,8 +57,14 @@ pub(super) fn choose(matches: &ArgMatches) {
     let up = command.try_get_one::<String>(UP).ok().flatten();
     let up = up.map(|axis| if axis == "y" { UpAxis::Y } else { UpAxis::Z });
     let strict = command.try_get_one::<bool>(STRICT).ok().flatten().copied().unwrap_or(false);
+    let named_by = NAMED_BY.iter().find(|name| command.try_contains_id(name).is_ok());
+    if named_by.is_some_and(|name| !command.contains_id(name)) {
+        let options = [("--model-up", up.is_some()), ("--strict", strict)];
+        given::refuse(options, "a model's file, found none", "name a model, or leave it out")?;
+    }
     // Set once: there is one command line.
     OPTIONS.set(ModelOptions { up, strict }).ok();
+    Ok(())
 }
 
 fn options() -> ModelOptions {

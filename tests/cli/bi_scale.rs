@@ -126,6 +126,8 @@ fn what_cannot_be_done_is_said() {
         (format!("bi-scale bicluster {tenths}"), "expected multiples of 2^-30 in row 0, column 0"),
         ("bi-scale bicluster docs/examples/step.prt".to_owned(), "`crossbar cpca` takes it"),
         ("bi-scale compare docs/examples/quarters.mtx".to_owned(), "found 32"),
+        (format!("bi-scale show {BICLUSTERS} --at 0,0,0 --model cornell-box"), "expected transfer of"),
+        ("bi-scale texture plain --relief 2 --out x.npy".to_owned(), "`--relief` is for patches with heights"),
         (format!("bi-scale compare {BICLUSTERS} --model cornell-box"), "expected transfer of"),
         (
             "bi-scale compare docs/examples/quarters.mtx --model cornell-box".to_owned(),

@@ -1,26 +1,23 @@
 //! `crossbar bi-scale compare`: biclusters beside other ways to store transfer.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde_json::{Value, json};
 
-use super::file::{load, turned};
+use super::file::{load, turned, vertices_of};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
-use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
+use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::rivals::{
     CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
 };
 use crate::bi_scale::transfer::light_vectors;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::model;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory};
 use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
-use crate::transfer::Vertices;
 use crate::transfer::clustering::CpcaForm;
-use crate::transfer::file::MeshDigest;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -114,7 +111,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let file = load(&args.file)?;
     let vertices = match &args.model {
-        Some(model) => Some(model_of(model, &args.file, file.meaning.as_ref())?),
+        Some(model) => Some(vertices_of(model, &args.file, file.meaning.as_ref())?),
         None => None,
     };
     let BiScaleFile { meaning, matrix, biclusters } = file;
@@ -198,21 +195,6 @@ impl Args {
             },
         }
     }
-}
-
-/// The vertices of the model that a file was made from.
-fn model_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
-    let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
-        let what = format!("{}: expected transfer of a model, found a matrix of no known one", file.display());
-        Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
-    })?;
-    let vertices = model::vertices(&model::load(model, mesh.tangents)?, mesh.tangents)?;
-    let found = MeshDigest::new(&vertices);
-    if found != mesh {
-        let what = format!("{}: expected transfer of {found}, found that of {mesh}", file.display());
-        return Err(Problem::usage(what, "name the model that the file was made from").into());
-    }
-    Ok(vertices)
 }
 
 fn document(way: &StoredWay) -> Value {

@@ -3,17 +3,18 @@
 use std::path::Path;
 
 use crate::bi_scale::bicluster::Biclustering;
-use crate::bi_scale::file::{BiScaleFile, load_bi_scale};
+use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, load_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::model_name::Model;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::model::load as load_model;
+use crate::cli::transfer::model::{load as load_model, vertices};
 use crate::cli::{MemoryError, Problem, memory, number, view};
 use crate::io::{load_matrix_market, write_file, write_matrix_market};
 use crate::sphere::turn_around_z;
 use crate::study::prt::creased;
-use crate::transfer::Tangents;
+use crate::transfer::file::MeshDigest;
 use crate::transfer::light::{CubeLight, Decimation};
+use crate::transfer::{Tangents, Vertices};
 
 /// An angle from 0 to 180 degrees.
 pub(super) fn angle(text: &str) -> Result<f64, String> {
@@ -29,6 +30,21 @@ pub(super) fn load_creased(path: &Path, tangents: Tangents, crease: Option<f64>)
     let model = load_model(path, tangents)?;
     let Some(degrees) = crease else { return Ok(model) };
     Ok(Model { mesh: creased(&model.mesh, degrees), ..model })
+}
+
+/// The vertices of the model that a file was made from.
+pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMeaning>) -> miette::Result<Vertices> {
+    let mesh = meaning.map(|meaning| meaning.mesh).ok_or_else(|| {
+        let what = format!("{}: expected transfer of a model, found a matrix of no known one", file.display());
+        Problem::usage(what, "leave `--model` out, or name what `crossbar bi-scale precompute` wrote")
+    })?;
+    let vertices = vertices(&load_model(model, mesh.tangents)?, mesh.tangents)?;
+    let found = MeshDigest::new(&vertices);
+    if found != mesh {
+        let what = format!("{}: expected transfer of {found}, found that of {mesh}", file.display());
+        return Err(Problem::usage(what, "name the model that the file was made from").into());
+    }
+    Ok(vertices)
 }
 
 /// Whether a file is a matrix as text, by its name.

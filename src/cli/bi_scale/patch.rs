@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use crate::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
 use crate::cli::transfer::values::BrdfArg;
-use crate::cli::{Problem, number, view};
+use crate::cli::{Problem, given, number, view};
 use crate::io::{load_numbers, load_picture};
 use crate::names::did_you_mean;
 
@@ -43,13 +43,14 @@ impl From<DetailArg> for MesoDetail {
 /// How a patch is made.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
-    /// What of the heights is drawn
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "relief")]
-    detail: DetailArg,
+    /// What of the heights is drawn, but for `plain`, which has none [default: relief]
+    #[arg(long, value_enum, value_name = "WHAT")]
+    detail: Option<DetailArg>,
 
-    /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::not_negative)]
-    relief: f64,
+    /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black [default:
+    /// 1]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    relief: Option<f64>,
 
     /// Color of `plain` and of heights from a file: R,G,B from 0 to 1 [default: 0.5,0.5,0.5, or 1,1,1 with --brdf]
     #[arg(long, value_name = "R,G,B", value_parser = color, allow_hyphen_values = true)]
@@ -75,14 +76,20 @@ impl PatchArgs {
                 return Err(Problem::usage(what, "leave them out").into());
             }
             self.check_relief(kind.patch(1.0).heights().depth())?;
-            kind.patch(self.relief)
+            kind.patch(self.relief())
         } else if name == PLAIN {
+            let of_heights = [("--detail", self.detail.is_some()), ("--relief", self.relief.is_some())];
+            given::refuse(of_heights, "patches with heights, found `plain`", "leave it out")?;
             MesoPatch::plain(self.material()?).map_err(refused)?
         } else {
             self.of_file(source)?
         };
-        patch.detail = self.detail.into();
+        patch.detail = self.detail.unwrap_or(DetailArg::Relief).into();
         Ok(patch)
+    }
+
+    fn relief(&self) -> f64 {
+        self.relief.unwrap_or(1.0)
     }
 
     fn material(&self) -> Result<MesoMaterial, Problem> {
@@ -110,12 +117,12 @@ impl PatchArgs {
         let (columns, heights) = if is_table {
             view::require_file(path, 8, "name a smaller table")?;
             let table = load_numbers(path, "table of heights", MAX_BYTES)?;
-            (table.columns, table.values.iter().map(|&height| f64::from(height) * self.relief).collect())
+            (table.columns, table.values.iter().map(|&height| f64::from(height) * self.relief()).collect())
         } else {
             let picture = load_picture(path)?;
             let linear = picture.linear().map_err(|error| no_heights(path, &error))?;
             let mean = |rgb: &[f32; 3]| rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / 3.0;
-            let heights: Vec<f64> = linear.iter().map(|rgb| PICTURE_DEPTH * self.relief * mean(rgb)).collect();
+            let heights: Vec<f64> = linear.iter().map(|rgb| PICTURE_DEPTH * self.relief() * mean(rgb)).collect();
             (picture.width() as usize, heights)
         };
         let rows = heights.len() / columns.max(1);
@@ -129,11 +136,11 @@ impl PatchArgs {
     }
 
     fn check_relief(&self, depth: f64) -> Result<(), Problem> {
-        if self.relief * depth <= HeightField::DEEPEST {
+        if self.relief() * depth <= HeightField::DEEPEST {
             return Ok(());
         }
         let what =
-            format!("expected a patch at most {} edges deep, found {}", HeightField::DEEPEST, self.relief * depth);
+            format!("expected a patch at most {} edges deep, found {}", HeightField::DEEPEST, self.relief() * depth);
         Err(Problem::usage(what, "lower `--relief`"))
     }
 }

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::file::load;
+use super::file::{load, vertices_of};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::cli::transfer::model::{self, nearest, vertices};
+use crate::cli::transfer::model::nearest;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number};
 use crate::report::{Cell, Table};
@@ -55,10 +55,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
     let vertex = match (args.vertex, args.at, &args.model) {
         (Some(vertex), ..) => Some(vertex as usize),
-        (None, Some(at), Some(name)) => {
-            let tangents = file.meaning.map(|meaning| meaning.mesh.tangents).unwrap_or_default();
-            let model = model::load(name, tangents)?;
-            nearest(vertices(&model, tangents)?.positions(), at)
+        (None, Some(at), Some(model)) => {
+            nearest(vertices_of(model, &args.file, file.meaning.as_ref())?.positions(), at)
         }
         _ => None,
     };

@@ -6,10 +6,10 @@ use clap::ValueEnum;
 
 use crate::cli::caster::CasterArg;
 use crate::cli::executor::{Decider, GpuArgs};
-use crate::cli::number;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::view::SidesArg;
+use crate::cli::{Problem, given, number};
 use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
@@ -110,31 +110,32 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub(super) samples: Option<u32>,
 
-    /// The most surfaces that light meets between lamp and eye
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(0..=1024))]
-    pub(super) depth: u32,
+    /// The most surfaces that light meets between lamp and eye, but for eye rays [default: 8]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1024))]
+    pub(super) depth: Option<u32>,
 
-    /// Random seed
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub(super) seed: u64,
+    /// Random seed [default: 1]
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
 
     /// A view of the scene, by its name [default: its first]
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// What radiance is multiplied by for picture.png; 1 is white
-    #[arg(long, value_name = "X", default_value_t = 1.0, value_parser = number::positive)]
-    pub(super) exposure: f64,
+    /// What radiance is multiplied by for picture.png; 1 is white [default: 1]
+    #[arg(long, value_name = "X", value_parser = number::positive)]
+    pub(super) exposure: Option<f64>,
 
     /// Radiance that Whitted's model adds to what diffuse surfaces show, times their albedo; 0 leaves shadows black
-    #[arg(long, value_name = "X", default_value_t = 0.08, value_parser = number::not_negative_single)]
-    pub(super) ambient: f64,
+    /// [default: 0.08]
+    #[arg(long, value_name = "X", value_parser = number::not_negative_single)]
+    pub(super) ambient: Option<f64>,
 
     /// A lens: its radius, and the distance at which all is sharp
     #[arg(long, value_name = "RADIUS,FOCUS", value_parser = parse_lens, allow_hyphen_values = true)]
     pub(super) lens: Option<Lens>,
 
-    /// Photons for each map [default: 100000]
+    /// Photons for each map of photon mapping [default: 100000]
     #[arg(long, value_name = "N")]
     pub(super) photons: Option<u32>,
 
@@ -155,6 +156,27 @@ impl LightArgs {
     /// Whether anything was said that only makes sense of a lit scene.
     pub(super) fn asked(&self) -> bool {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
+    }
+
+    /// Refuses what a renderer has no use for; `None` is a mesh that is shaded without light.
+    pub(super) fn refuse_others(&self, renderer: Option<Renderer>) -> Result<(), Problem> {
+        let is_photon = renderer == Some(Renderer::Photon);
+        let of_photons = [("--photons", self.photons.is_some()), ("--gather", self.gather.is_some())];
+        let of_photons = of_photons.map(|(option, given)| (option, given && !is_photon));
+        given::refuse(of_photons, "photon mapping", "add `--renderer photon`, or leave it out")?;
+        let ambient = [("--ambient", self.ambient.is_some() && renderer != Some(Renderer::Whitted))];
+        given::refuse(ambient, "Whitted's model", "add `--renderer whitted`, or leave it out")?;
+        let is_eye = renderer.is_none_or(|renderer| renderer == Renderer::Eye);
+        let depth = [("--depth", self.depth.is_some() && is_eye)];
+        given::refuse(depth, "light that meets several surfaces", "choose another `--renderer`, or leave it out")?;
+        let of_light = [
+            ("--seed", self.seed.is_some()),
+            ("--exposure", self.exposure.is_some()),
+            ("--lens", self.lens.is_some()),
+            ("--time", self.time),
+        ];
+        let of_light = of_light.map(|(option, given)| (option, given && renderer.is_none()));
+        given::refuse(of_light, "scenes with light", "add a `--renderer`, or leave it out")
     }
 }
 

@@ -23,8 +23,12 @@ use crate::report::{FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
+/// The random seed where none is given.
+const SEED: u64 = 1;
+
 pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     let renderer = args.light.renderer.unwrap_or(if asked.lit { Renderer::Whitted } else { Renderer::Eye });
+    args.light.refuse_others(Some(renderer))?;
     check_lights(renderer, &asked.scene)?;
     let caster = args.light.caster.unwrap_or(CasterArg::Host);
     let device =
@@ -38,11 +42,12 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut O
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
     let numbers = layers(&picture, &asked.scene, &camera)?;
-    let caption = format!("{}, times {}, with the sRGB curve", renderer.title(), args.light.exposure);
-    let mut findings = page(args, &camera, picture.display(args.light.exposure), numbers, &caption);
+    let exposure = args.light.exposure.unwrap_or(1.0);
+    let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
+    let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
     findings.table(FoundTable::from(rays(&picture)).field("rays"));
     let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
-    provenance.seed = Some(args.light.seed);
+    provenance.seed = Some(args.light.seed.unwrap_or(SEED));
     provenance.profiles.extend(device);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
     tell(args, &picture, engine.as_ref(), out)?;
@@ -121,11 +126,11 @@ fn trace(
     };
     let settings = Settings {
         samples: light.samples.unwrap_or(usual),
-        depth: light.depth,
-        seed: light.seed,
+        depth: light.depth.unwrap_or(8),
+        seed: light.seed.unwrap_or(SEED),
         rounding,
         lens: light.lens,
-        ambient: [light.ambient as f32; 3],
+        ambient: [light.ambient.unwrap_or(0.08) as f32; 3],
         ..Settings::default()
     };
     let mut photons = Photons::for_scene(scene);

@@ -32,6 +32,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     if let Some(asked) = scene::lit(args)? {
         return light::run(args, &asked, command_line, out);
     }
+    args.light.refuse_others(None)?;
     let profile = Profile::named(args.device.as_deref().unwrap_or(view::DEFAULT_DEVICE))?;
     let mesh = model_file::mesh(&args.scene)?;
     let camera = camera(args, &mesh)?;

@@ -9,10 +9,12 @@ mod table;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use crossbar::picture::Picture;
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -21,8 +23,10 @@ use crate::crossbar_in;
 use crate::tree::{self, command_of};
 use table::{TABLE, Tried};
 
-/// Options whose value here is refused everywhere: it names what this test cannot have.
-const NEVER_ACCEPTED: [&str; 3] = ["--adapter", "--probe", "--merl"];
+/// Options whose value here may be refused everywhere: it names what this test cannot have, or another model than the
+/// one that a file was made from.
+const NEVER_ACCEPTED: [&str; 8] =
+    ["--adapter", "--probe", "--merl", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
 /// An option of the table.
 #[derive(Clone, Debug)]
@@ -191,7 +195,7 @@ fn leaves(key: String, value: &Value, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// Files by name and checksum; of pages and lists of files, which name the options, their names alone.
+/// Files by name and digest; of pages and lists of files, which name the options, their names alone.
 fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let name = format!("{under}/{}", entry.file_name().to_string_lossy());
@@ -200,8 +204,15 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
             continue;
         }
         let is_page = ["index.html", "study.json", ".crossbar_files"].iter().any(|page| name.ends_with(page));
-        let digest = if is_page { 0 } else { crc32fast::hash(&fs::read(entry.path()).expect("a file")) };
-        put(format!("file {name}"), &format!("{digest:08x}"));
+        let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
+        // A checksum would be the same for all files that end with their own. Of pictures, which name the options too,
+        // the channels count.
+        let mut digest = DefaultHasher::new();
+        match Picture::decode(&bytes) {
+            Ok(picture) => format!("{:?}", picture.channels()).hash(&mut digest),
+            Err(_) => bytes.hash(&mut digest),
+        }
+        put(format!("file {name}"), &format!("{:016x}", digest.finish()));
     }
 }
 

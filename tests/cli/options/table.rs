@@ -53,13 +53,13 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &["check docs/examples/intersect.psa --device r200"],
-        options: "--device=nv20 --switch=rounding=rtz",
+        options: "--device=nv20 --switch=rounding=nowhere",
     },
     Tried {
         bases: &["compare docs/examples/product.toml", "compare docs/examples/product.toml --left-format fp16"],
-        options: "--left=batch --right=scalar --adapter=x --left-device=ideal-fp16 --right-device=ideal-fp16 \
+        options: "--left=batch --right=scalar@0 --adapter=x --left-device=ideal-fp16 --right-device=ideal-fp16 \
                   --left-format=s3.12 --right-format=s3.12 --left-switch=rounding=rtz --right-switch=rounding=rtz \
-                  --step-budget=1 --pixel=0,0 --registers",
+                  --step-budget=1 --pixel=1,1 --registers",
     },
     Tried { bases: &["completions bash"], options: "" },
     Tried { bases: &["devices", "devices r200"], options: "--adapters --probe=x" },
@@ -75,8 +75,8 @@ pub(super) const TABLE: &[Tried] = &[
             "intersect --mesh odd.obj --rays rays.csv --caster engine --out OUT",
             "intersect --mesh odd.obj --rays rays.csv --caster host --out OUT",
         ],
-        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=ideal-fp16 --executor=exact --adapter=x \
-                  --caster=host --time --out=other.csv --model-up=y --strict",
+        options: "--mesh=square.obj --rays=rays_2.csv --sides=both --device=r200@0,2,3 --device=ideal-fp16@1 --executor=exact@1,2,3 --adapter=x \
+                  --caster=engine@0,3 --caster=host@2 --time --out=other.csv --model-up=y --strict",
     },
     Tried {
         bases: &[
@@ -86,7 +86,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--mesh=square.obj --rays=rays_2.csv --tessellation=2 --device=nv20 --format=fp24 --out=other \
-             --rays-per-edge=2 --seed=2@0 --sides=both --all-pairs same:--executor=scalar --adapter=x --model-up=y \
+             --rays-per-edge=2@0,1 --seed=2@0 --sides=both --all-pairs same:--executor=scalar --adapter=x --model-up=y \
              --strict",
             eye!()
         ),
@@ -152,7 +152,7 @@ pub(super) const TABLE: &[Tried] = &[
     Tried {
         bases: &["timeline docs/examples/product.toml", "timeline --rays 4x4 --mesh odd.obj", "timeline --rays 4x4"],
         options: "--rays=5x4 --mesh=square.obj --device=nv20 --model=rates --readback=async --double-buffer --cache \
-                  --sensitivity --trace=trace.json --model-up=y --strict",
+                  --sensitivity --trace=trace.json --model-up=y@0,1 --strict@0,1",
     },
     Tried {
         bases: &[
@@ -160,9 +160,10 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --brdf phong:0.2,0.3,4 --out OUT.prt",
             "cpca precompute square.obj --kind glossy --order 2 --rows 4 --degree 18 --incident directions --out OUT.prt",
             "cpca precompute odd.obj --kind glossy --order 2 --rows 4 --degree 18 --bounces 1 --out OUT.prt",
+            "cpca precompute square.obj --order 2 --degree 18 --material marble --mm-per-unit 10 --out OUT.prt",
         ],
-        options: "--kind=diffuse --order=3 --rows=9 --exit=zero-hemisphere --incident=zero-hemisphere \
-                  --incident-order=2 --brdf=lambert:0.3 --material=marble --mm-per-unit=2 --channels=rgb \
+        options: "--kind=glossy@0 --order=3 --rows=9 --exit=zero-hemisphere --incident=zero-hemisphere \
+                  --incident-order=2 --brdf=lambert:0.3 --material=marble@4 --mm-per-unit=2@4 --channels=rgb \
                   --tangents=1,2,3@1,2,3 --degree=20 --bounces=2 --bounce-tolerance=0.9 --out=other.prt --model-up=y \
                   --strict@3",
     },
@@ -204,16 +205,16 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "all-frequency factor --brdf cook-torrance --side 4 --supersamples 2x2 --terms 2 --out OUT",
+            "all-frequency factor --brdf cook-torrance --side 4 --supersamples 2x2 --clamp 0.1 --terms 2 --out OUT",
             "all-frequency factor --brdf schlick --side 4 --supersamples 2x2 --terms 2 --out OUT",
             "all-frequency factor --brdf phong --side 4 --supersamples 2x2 --terms 2 --out OUT",
             "all-frequency factor --brdf lambert --side 4 --supersamples 2x2 --terms 1 --out OUT",
             "all-frequency factor --table docs/examples/reflectance.csv --terms 2 --out OUT",
         ],
-        options: "--brdf=phong --merl=nowhere.binary --table=docs/examples/reflectance.csv --roughness=0.3 \
+        options: "--brdf=phong@0,1,3,4 --merl=nowhere.binary --table=docs/examples/reflectance.csv@0,1,2,3 --roughness=0.3 \
                   --fresnel=0.3 --isotropy=0.5 --exponent=9 --albedo=0.2 --denominators=product \
                   --fresnel-form=constant --shadowing=none --tangent=half-vector --channel=red --side=5 \
-                  --supersamples=3x3 --outside=rim --clamp=0.1 --clamp-when=before --terms=1 --sweep-roughness=0.2,0.5 \
+                  --supersamples=3x3 --outside=rim --clamp=0.05 --clamp-when=before@0,4 --terms=1@0,1,2,4 --sweep-roughness=0.2,0.5 \
                   --out=other",
     },
     Tried {
@@ -237,7 +238,7 @@ pub(super) const TABLE: &[Tried] = &[
     },
     Tried {
         bases: &[
-            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 40 \
+            "all-frequency compress docs/examples/step_all.prt --model docs/examples/step.obj --points-per-cluster 15 \
              --vectors 2 --iterations 2 --out OUT.prt",
             "all-frequency compress docs/examples/step_all.prt --model odd.obj --out OUT.prt",
         ],
