@@ -38,4 +38,4 @@ pub use place::FacePlace;
 pub use quality::{AtlasQuality, LevelQuality};
 pub use texel::{Cluster, Texel};
 pub use tree::{ClusterNode, ClusterTree};
-pub use whole::{Atlas, MAX_SIDE};
+pub use whole::{Atlas, MAX_SIDE, require_side};

@@ -221,11 +221,18 @@ impl Atlas {
     }
 }
 
+/// Whether an atlas can have this side, whatever is in it.
+///
+/// # Errors
+/// [`AtlasError::Side`].
+pub fn require_side(side: u32) -> Result<(), AtlasError> {
+    let fits = side.is_power_of_two() && side <= MAX_SIDE;
+    if fits { Ok(()) } else { Err(AtlasError::Side { side, most: MAX_SIDE }) }
+}
+
 /// Whether so many faces have an atlas of this side.
 fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
-    if !side.is_power_of_two() || side > MAX_SIDE {
-        return Err(AtlasError::Side { side, most: MAX_SIDE });
-    }
+    require_side(side)?;
     let texels = |side: u32| u64::from(side) * u64::from(side);
     if faces == 0 {
         return Err(AtlasError::NoFaces);
