@@ -222,11 +222,18 @@ impl Atlas {
     }
 }
 
+/// Checks the side of an atlas, whatever its content.
+///
+/// # Errors
+/// [`AtlasError::Side`].
+pub fn require_side(side: u32) -> Result<(), AtlasError> {
+    let fits = side.is_power_of_two() && side <= MAX_SIDE;
+    if fits { Ok(()) } else { Err(AtlasError::Side { side, most: MAX_SIDE }) }
+}
+
 /// Checks that `faces` faces fit into an atlas of this side.
 fn check(faces: usize, side: u32) -> Result<(), AtlasError> {
-    if !side.is_power_of_two() || side > MAX_SIDE {
-        return Err(AtlasError::Side { side, most: MAX_SIDE });
-    }
+    require_side(side)?;
     let texels = |side: u32| u64::from(side) * u64::from(side);
     if faces == 0 {
         return Err(AtlasError::NoFaces);

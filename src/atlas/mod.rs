@@ -33,7 +33,7 @@ pub mod tree;
 pub use census::Census;
 pub use drawn::{DrawnFace, DrawnVertex, WholeFace, WholeVertex};
 pub use error::AtlasError;
-pub use meshed::{Atlas, MAX_SIDE};
+pub use meshed::{Atlas, MAX_SIDE, require_side};
 pub use part::TexelPart;
 pub use place::FacePlace;
 pub use quality::{AtlasQuality, LevelQuality};

@@ -1,8 +1,5 @@
 //! Textures of a case: inline texels or PNG files, with their sampler state.
 
-use std::io::Cursor;
-
-use image::{ImageFormat, ImageReader};
 use refsim::{
     event::SAMPLERS,
     num::{self, Format},
@@ -20,6 +17,7 @@ use super::{
 
 use crate::io::{picture::MAX_BYTES, read_limited};
 use crate::names::did_you_mean;
+use crate::picture::png_codes;
 
 /// Texture of a case.
 #[derive(Clone, Debug)]
@@ -205,13 +203,10 @@ fn from_file(
     let bytes = read_limited(&path, MAX_BYTES)
         .map_err(|source| binder.place.unreadable(file.span(), path.clone(), source))?
         .ok_or_else(|| wrong(format!("expected a picture file of at most {MAX_BYTES} bytes"), "use a smaller one"))?;
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    reader.limits(crate::picture::limits());
-    let decoded = reader.decode().map_err(|error| {
-        let message = format!("expected a PNG picture, found something else in `{}`: {error}", path.display());
-        wrong(message, "save the picture as PNG, 8 or 16 bits a channel")
+    let picture = png_codes(&bytes).map_err(|error| {
+        let help = "save the picture as PNG, 8 or 16 bits a channel, small enough to be read";
+        wrong(format!("`{}`: {error}", path.display()), help)
     })?;
-    let picture = decoded.into_rgba16();
     if let Some(size) = &written.size {
         let found = [picture.width(), picture.height()];
         if extents(written.kind, size.get_ref()) != Some([found[0], found[1], 1]) {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::memory::{self, MemoryNeed};
 use super::number;
 use super::study::{self, StudyArgs};
-use super::{Out, Problem};
-use crate::io::load_picture;
+use super::{Out, Problem, view};
+use crate::io::PictureFile;
 use crate::picture::metrics::{DEFAULT_PPD, MAX_PPD, MIN_PPD};
 use crate::report::Verdict;
 use crate::study::picture_difference::{DifferenceBounds, PictureDifference, PictureInput};
@@ -109,11 +109,12 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<PictureDifference> {
-        let read = |path: &Path| -> miette::Result<PictureInput> {
-            Ok(PictureInput { name: path.display().to_string(), picture: load_picture(path)? })
+        let files = [PictureFile::open(&self.first)?, PictureFile::open(&self.second)?];
+        require_memory(&files)?;
+        let read = |path: &Path, file: &PictureFile| -> miette::Result<PictureInput> {
+            Ok(PictureInput { name: path.display().to_string(), picture: file.decode()? })
         };
-        let pictures = [read(&self.first)?, read(&self.second)?];
-        require_memory(&pictures)?;
+        let pictures = [read(&self.first, &files[0])?, read(&self.second, &files[1])?];
         let bounds =
             DifferenceBounds { rmse: self.max_rmse, maximum: self.max_error, flip: self.max_flip, ssim: self.min_ssim };
         let ppd = self.ppd.unwrap_or(DEFAULT_PPD);
@@ -130,15 +131,16 @@ impl StudyArgs for Args {
     }
 }
 
-/// What comparing takes, beyond the pictures that are there already.
-fn require_memory(pictures: &[PictureInput; 2]) -> Result<(), Problem> {
+/// What the pictures and comparing them take, by their headers.
+fn require_memory(files: &[PictureFile; 2]) -> Result<(), Problem> {
     /// Colors, what the eye makes of them, and the maps.
     const PER_PIXEL: u64 = 400;
     const PER_SAMPLE: u64 = 16;
-    let picture = &pictures[0].picture;
-    let (width, height) = (picture.width(), picture.height());
-    let per_pixel = PER_PIXEL + PER_SAMPLE * picture.channels().len() as u64;
-    let need = memory::of_pixels(width, height, per_pixel, 0);
+    let size = files[0].size();
+    let (width, height) = (size.width, size.height);
+    let per_pixel = PER_PIXEL + PER_SAMPLE * size.channels as u64;
+    let pictures = files.iter().map(view::decoded_bytes).sum();
+    let need = memory::of_pixels(width, height, per_pixel, pictures);
     let what = format_args!("comparing pictures of {width}x{height} pixels");
     Ok(memory::require(what, need, "compare smaller pictures")?)
 }

@@ -1,17 +1,10 @@
 //! Numbers on the command line.
 
-use crate::io::{NumberError, parse_f32, to_f32};
+use crate::io::{NumberError, parse_f32, parse_f64, to_f32};
 
 /// A finite number.
 pub(super) fn finite(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        Ok(_) if text.contains(|c: char| c.is_ascii_digit()) => {
-            Err(format!("expected a number that is not too large for a 64-bit float, found `{text}`"))
-        }
-        Ok(_) => Err(wrong(NumberError::NotFinite, text)),
-        Err(_) => Err(wrong(NumberError::NoNumber, text)),
-    }
+    parse_f64(text.trim()).map_err(|error| wrong(error, text))
 }
 
 /// A finite number above 0.

@@ -33,6 +33,11 @@ pub(super) trait StudyArgs {
 
     /// The study, with everything looked up and read.
     fn study(&self) -> miette::Result<Self::Study>;
+
+    /// The memory that the study takes at most, where the options alone do not say it.
+    fn memory_of(&self, _: &Self::Study) -> Option<MemoryNeed> {
+        None
+    }
 }
 
 /// Runs a study; `command_line` is what its findings come from.
@@ -41,6 +46,9 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
         need.require()?;
     }
     let study = args.study()?;
+    if let Some(need) = args.memory_of(&study) {
+        need.require()?;
+    }
     // Before the long work, so that a folder that cannot be written is found out at once.
     let folder = args.folder().map(|folder| FileSet::by(A::COMMAND, folder)).transpose().map_err(Problem::from)?;
     let bar = ProgressBar::new("", 1);

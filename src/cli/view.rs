@@ -10,7 +10,9 @@ use super::size::Size;
 use super::{MemoryError, Problem, memory};
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Mesh, Ray};
+use crate::io::PictureFile;
 use crate::io::atomic::FileSet;
+use crate::picture::Picture;
 use crate::scene::Camera;
 
 /// Which faces can be hit.
@@ -102,6 +104,34 @@ pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(),
     // What is no file takes what it takes: it cannot be asked for its size.
     let length = std::fs::metadata(path).map_or(0, |file| file.len());
     memory::require(format_args!("reading `{}`", path.display()), length.saturating_mul(per_byte), help)
+}
+
+/// What a picture takes while it is decoded, in bytes: codes of 16 bits or floats, then the samples of each channel.
+pub(super) fn decoded_bytes(file: &PictureFile) -> u64 {
+    const PER_PIXEL: u64 = 24;
+    const PER_SAMPLE: u64 = 8;
+    let size = file.size();
+    memory::of_pixels(size.width, size.height, PER_PIXEL, PER_SAMPLE * size.samples())
+}
+
+/// Reads a picture, unless decoding it takes more memory than there is.
+///
+/// # Errors
+/// [`MemoryError`] before a pixel is decoded; what is wrong with the file.
+pub(super) fn picture(path: &Path) -> miette::Result<Picture> {
+    let file = PictureFile::open(path)?;
+    require_picture(path, &file)?;
+    Ok(file.decode()?)
+}
+
+/// Refuses a picture that takes more memory than there is.
+///
+/// # Errors
+/// [`MemoryError`].
+pub(super) fn require_picture(path: &Path, file: &PictureFile) -> Result<(), MemoryError> {
+    let (size, bytes) = (file.size(), decoded_bytes(file));
+    let what = format_args!("the picture `{}` of {}x{} pixels", path.display(), size.width, size.height);
+    memory::require(what, bytes, "name a smaller picture")
 }
 
 /// Writes all files of a result together, and says where they are.

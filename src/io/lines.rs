@@ -1,6 +1,6 @@
 //! Lines, words and numbers of text formats.
 
-use super::{NumberError, parse_f32};
+use super::{NumberError, parse_f32, parse_f64};
 
 /// Lines with their numbers, without comments; a line that ends in `\` goes on in the next.
 pub(super) fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Vec<u8>)> + '_ {
@@ -34,4 +34,9 @@ pub(super) fn words(text: &[u8]) -> Vec<&[u8]> {
 /// A number of single precision in a line of a file.
 pub(super) fn single(word: &[u8]) -> Result<f32, NumberError> {
     std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f32)
+}
+
+/// The same in double precision.
+pub(super) fn double(word: &[u8]) -> Result<f64, NumberError> {
+    std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f64)
 }

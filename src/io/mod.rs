@@ -33,12 +33,12 @@ pub use matrix_market::{
 };
 pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
 pub use model_note::ModelNote;
-pub use npy::{NpyError, NumberArray, parse_npy, parse_npy_array, write_npy, write_npy_array};
-pub use number::{NumberError, parse_f32, to_f32};
-pub use number_table::{NumberTable, NumberTableError, parse_number_table};
-pub use numbers::{NumbersError, load_npy_array, load_numbers, parse_numbers};
+pub use npy::{NpyError, NumberArray, parse_npy, parse_npy_array, parse_single_npy, write_npy, write_npy_array};
+pub use number::{NumberError, parse_f32, parse_f64, to_f32};
+pub use number_table::{NumberTable, NumberTableError, parse_number_table, parse_single_table};
+pub use numbers::{NumbersError, load_npy_array, load_numbers, parse_numbers, parse_single_numbers};
 pub use obj::{load_obj, parse_obj, write_obj};
-pub use picture::{PictureFileError, load_picture};
+pub use picture::{PictureFile, PictureFileError, load_picture};
 pub use ply::{load_ply, parse_ply};
 pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};

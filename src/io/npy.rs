@@ -1,5 +1,5 @@
 //! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. As a table, the
-//! first axis counts rows; the others together are its columns. f8 is rounded to the nearest f32.
+//! first axis counts rows; the others together are its columns. Where f32 is read, f8 is rounded to the nearest.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::number_table::NumberTable;
-use super::{quoted, to_f32};
+use super::{NumberError, quoted, to_f32};
 
 /// How such a file begins.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
@@ -46,27 +46,49 @@ pub enum NpyError {
 
 /// Numbers along any number of axes, the last one fastest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NumberArray {
+pub struct NumberArray<T = f32> {
     /// How many there are along each axis: at least one axis, each at least 1.
     pub shape: Vec<usize>,
     /// All numbers: the product of the shape.
-    pub values: Vec<f32>,
+    pub values: Vec<T>,
 }
 
-/// Reads an array from bytes as a table; `name` stands for the file in messages.
+impl<T> From<NumberArray<T>> for NumberTable<T> {
+    fn from(NumberArray { shape, values }: NumberArray<T>) -> Self {
+        Self { columns: shape.iter().skip(1).product(), values }
+    }
+}
+
+/// Reads an array from bytes as a table of f64; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`NpyError`].
-pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
-    let NumberArray { shape, values } = parse_npy_array(bytes, name)?;
-    Ok(NumberTable { columns: shape.iter().skip(1).product(), values })
+pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NpyError> {
+    array(bytes, name, f64::from, Ok).map(NumberTable::from)
 }
 
-/// Reads an array from bytes; `name` stands for the file in messages.
+/// The same as a table of f32.
+///
+/// # Errors
+/// [`NpyError`].
+pub fn parse_single_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyError> {
+    parse_npy_array(bytes, name).map(NumberTable::from)
+}
+
+/// Reads an array of f32 from bytes; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`NpyError`].
 pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, NpyError> {
+    array(bytes, name, |number| number, to_f32)
+}
+
+fn array<T>(
+    bytes: &[u8],
+    name: &Path,
+    of_single: fn(f32) -> T,
+    of_double: fn(f64) -> Result<T, NumberError>,
+) -> Result<NumberArray<T>, NpyError> {
     let (text, data) = split(bytes, name)?;
     let header = Header::parse(text).map_err(|(what, expected)| NpyError::Header {
         path: name.into(),
@@ -99,17 +121,21 @@ pub fn parse_npy_array(bytes: &[u8], name: &Path) -> Result<NumberArray, NpyErro
             .as_chunks()
             .0
             .iter()
-            .map(|&b| if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) })
+            .map(|&b| of_single(if is_big { f32::from_be_bytes(b) } else { f32::from_le_bytes(b) }))
             .collect(),
-        _ => singles(data, is_big).map_err(|(index, bits)| NpyError::TooLarge { path: name.into(), index, bits })?,
+        _ => doubles(data, is_big, of_double).map_err(|(index, bits)| NpyError::TooLarge {
+            path: name.into(),
+            index,
+            bits,
+        })?,
     };
     Ok(NumberArray { shape: header.shape, values })
 }
 
-fn singles(data: &[u8], is_big: bool) -> Result<Vec<f32>, (usize, u64)> {
+fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>) -> Result<Vec<T>, (usize, u64)> {
     let bytes = data.as_chunks().0.iter().enumerate();
     let numbers = bytes.map(|(i, &b)| (i, if is_big { f64::from_be_bytes(b) } else { f64::from_le_bytes(b) }));
-    numbers.map(|(i, number)| to_f32(number).map_err(|_| (i, number.to_bits()))).collect()
+    numbers.map(|(i, number)| read(number).map_err(|_| (i, number.to_bits()))).collect()
 }
 
 /// The text of the header, and what stands behind it.
@@ -253,7 +279,7 @@ mod tests {
     }
 
     fn parse(bytes: &[u8]) -> Result<NumberTable, String> {
-        parse_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
+        parse_single_npy(bytes, Path::new("a.npy")).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -272,7 +298,10 @@ mod tests {
             for descr in ["<f4", ">f4", "<f8", ">f8"] {
                 let header = format!(" {{\"descr\": '{descr}', 'shape': {shape}, 'fortran_order': False}}  \n");
                 let expected = NumberTable { columns, values: values.to_vec() };
-                assert_eq!(parse(&file(version, &header, &bytes(descr))), Ok(expected), "{version} {descr}");
+                let file = file(version, &header, &bytes(descr));
+                assert_eq!(parse(&file), Ok(expected), "{version} {descr}");
+                let wide = parse_npy(&file, Path::new("a.npy")).expect("a table");
+                assert_eq!(wide.values, values.map(f64::from), "{version} {descr}");
             }
         }
     }
@@ -318,6 +347,9 @@ mod tests {
         }
         let range = error(&with("'<f8'", "False", "(1,)"), &1e39_f64.to_le_bytes());
         assert_eq!(range, "a.npy: number 0 (counted from 0) is too large for a 32-bit float: 1e39");
+        let header = with("'<f8'", "False", "(1,)");
+        let wide = parse_npy(&file(1, &header, &1e39_f64.to_le_bytes()), Path::new("a.npy")).expect("a table");
+        assert_eq!(wide.values, [1e39], "f64 holds it");
         let twice = error("{'shape': (1,), 'shape': (1,)}", &[]);
         assert!(twice.contains("`shape`: expected a tuple of whole numbers, once"), "{twice}");
         for header in ["", "{", "{'descr'}", "{'x': 1}", "{'shape': (-1,)}", "[1]", "{'shape': (1,) 'descr': '<f4'}"] {

@@ -1,9 +1,10 @@
-//! Decimal numbers of files and options as single precision.
+//! Decimal numbers of files and options, in single and in double precision.
 
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// Why a piece of text is no number in single precision. What was found is quoted by those who know where it stands.
+/// Why a piece of text is no number in single or double precision. What was found is quoted by those who know where it
+/// stands.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
@@ -12,8 +13,10 @@ pub enum NumberError {
     NoNumber,
     /// A NaN or an infinity, by name.
     NotFinite,
-    /// A number that rounds to infinity.
+    /// A number that rounds to infinity in single precision.
     TooLarge,
+    /// A number that rounds to infinity in double precision.
+    TooLargeForDouble,
 }
 
 impl NumberError {
@@ -23,6 +26,7 @@ impl NumberError {
             Self::NoNumber => "a number",
             Self::NotFinite => "a finite number",
             Self::TooLarge => "a number that is not too large for a 32-bit float: at most 3.4028235e38",
+            Self::TooLargeForDouble => "a number that is not too large for a 64-bit float",
         }
     }
 }
@@ -30,11 +34,18 @@ impl NumberError {
 /// The number that a decimal text stands for, rounded to the nearest single-precision number.
 pub fn parse_f32(text: &str) -> Result<f32, NumberError> {
     let number: f32 = text.parse().map_err(|_| NumberError::NoNumber)?;
-    match number.is_finite() {
-        true => Ok(number),
-        false if text.contains(|c: char| c.is_ascii_digit()) => Err(NumberError::TooLarge),
-        false => Err(NumberError::NotFinite),
-    }
+    if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLarge)) }
+}
+
+/// The same for the nearest double-precision number.
+pub fn parse_f64(text: &str) -> Result<f64, NumberError> {
+    let number: f64 = text.parse().map_err(|_| NumberError::NoNumber)?;
+    if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLargeForDouble)) }
+}
+
+/// Infinities and NaN have names without digits.
+fn not_finite(text: &str, too_large: NumberError) -> NumberError {
+    if text.contains(|c: char| c.is_ascii_digit()) { too_large } else { NumberError::NotFinite }
 }
 
 /// A number in double precision rounded to the nearest of single precision; NaN and infinities stay what they are.
@@ -77,6 +88,9 @@ mod tests {
             assert_eq!(parse_f32(text), Err(fault), "{text}");
             assert_eq!(fault.to_string(), format!("expected {}", fault.expected()));
         }
+        assert_eq!((parse_f64("1e39"), parse_f64("1e-320")), (Ok(1e39), Ok(1e-320)));
+        assert_eq!(parse_f64("1e400"), Err(NumberError::TooLargeForDouble));
+        assert_eq!((parse_f64("x"), parse_f64("nan")), (Err(NumberError::NoNumber), Err(NumberError::NotFinite)));
         assert_eq!((to_f32(1e39), to_f32(f64::INFINITY)), (Err(NumberError::TooLarge), Ok(f32::INFINITY)));
     }
 }

@@ -1,14 +1,15 @@
 //! Tables of numbers, row by row: comma-separated values, and NumPy's arrays ([`super::npy`]).
 //!
 //! Comma-separated: a row per line, as many numbers in each; a first line without any number is a header. Numbers are
-//! rounded to the nearest f32.
+//! read as f64 where they are computed with as such, and as f32 where they are stored so: signals, as `.prt` files hold
+//! them.
 
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
 use super::error::ReadError;
-use super::lines::single;
+use super::lines::{double, single};
 use super::{NumberError, quoted};
 
 /// Longest file that is read, in bytes (2 GiB).
@@ -16,11 +17,11 @@ pub const MAX_BYTES: u64 = 1 << 31;
 
 /// Rows of as many numbers each, row by row. They may be infinite or NaN where the file can say so.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NumberTable {
+pub struct NumberTable<T = f32> {
     /// Numbers per row.
     pub columns: usize,
     /// All numbers: a multiple of `columns`.
-    pub values: Vec<f32>,
+    pub values: Vec<T>,
 }
 
 /// Why a file is no table of numbers. Lines and fields count from 1.
@@ -36,7 +37,7 @@ pub enum NumberTableError {
     #[error("{}:{line}: expected {expected} numbers as in the first row, found {found} {}", path.display(), if *found == 1 { "field" } else { "fields" })]
     #[diagnostic(code(crossbar::table::ragged), help("give every row the same number of fields"))]
     Ragged { path: PathBuf, line: u64, expected: usize, found: usize },
-    /// A field is not a number of single precision.
+    /// A field is not a number of the precision that is read.
     #[error("{}:{line}: expected {} in field {field}, found {found}", path.display(), reason.expected())]
     #[diagnostic(code(crossbar::table::number))]
     Number { path: PathBuf, line: u64, field: usize, reason: NumberError, found: String },
@@ -50,11 +51,28 @@ pub enum NumberTableError {
     Syntax { path: PathBuf, reason: String },
 }
 
-/// Reads a comma-separated table from bytes; `name` stands for the file in messages.
+/// Reads a comma-separated table from bytes, each number rounded to the nearest f64; `name` stands for the file in
+/// messages.
 ///
 /// # Errors
 /// [`NumberTableError`], with the line where there is one.
-pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable, NumberTableError> {
+pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NumberTableError> {
+    rows(bytes, name, double)
+}
+
+/// The same with each number rounded to the nearest f32.
+///
+/// # Errors
+/// [`NumberTableError`].
+pub fn parse_single_table(bytes: &[u8], name: &Path) -> Result<NumberTable, NumberTableError> {
+    rows(bytes, name, single)
+}
+
+fn rows<T>(
+    bytes: &[u8],
+    name: &Path,
+    number: fn(&[u8]) -> Result<T, NumberError>,
+) -> Result<NumberTable<T>, NumberTableError> {
     // Some programs mark UTF-8 with three bytes.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut reader =
@@ -63,7 +81,7 @@ pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable, Numb
     let (mut columns, mut values, mut record) = (0, Vec::new(), csv::ByteRecord::new());
     let mut is_first = true;
     while reader.read_byte_record(&mut record).map_err(broken)? {
-        let header = record.iter().all(|field| single(field) == Err(NumberError::NoNumber));
+        let header = record.iter().all(|field| matches!(number(field), Err(NumberError::NoNumber)));
         if std::mem::take(&mut is_first) && header {
             continue;
         }
@@ -74,14 +92,13 @@ pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable, Numb
         columns = record.len();
         for (field, text) in (1..).zip(&record) {
             let path = || name.to_path_buf();
-            let number = single(text).map_err(|reason| NumberTableError::Number {
+            values.push(number(text).map_err(|reason| NumberTableError::Number {
                 path: path(),
                 line,
                 field,
                 reason,
                 found: quoted(text),
-            });
-            values.push(number?);
+            })?);
         }
     }
     if values.is_empty() {
@@ -94,7 +111,7 @@ pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable, Numb
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> Result<NumberTable, String> {
+    fn parse(text: &str) -> Result<NumberTable<f64>, String> {
         parse_number_table(text.as_bytes(), Path::new("s.csv")).map_err(|error| error.to_string())
     }
 
@@ -103,6 +120,18 @@ mod tests {
         let table = Ok(NumberTable { columns: 2, values: vec![1.0, 0.5, -2e3, 0.0] });
         assert_eq!(parse("1, 0.5\n-2e3,0\n"), table);
         assert_eq!(parse("\u{feff}x,y\r\n1,0.5\r\n\r\n-2e3,0"), table);
+    }
+
+    #[test]
+    fn numbers_are_rounded_once_to_the_precision_asked_for() {
+        // A hair above the middle of two f32: by way of f64 it would become the lower one.
+        let text = b"1.000000059604644775390626,0.1,1e39\n";
+        let wide = parse_number_table(text, Path::new("s.csv")).expect("a table");
+        assert_eq!(wide.values, [1.000_000_059_604_644_8, 0.1, 1e39]);
+        let narrow = parse_single_table(&text[..30], Path::new("s.csv")).expect("a table");
+        assert_eq!(narrow.values, [1.000_000_1_f32, 0.1]);
+        let large = parse_single_table(text, Path::new("s.csv")).expect_err("too large for f32").to_string();
+        assert!(large.contains("too large for a 32-bit float"), "{large}");
     }
 
     #[test]

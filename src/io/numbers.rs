@@ -5,8 +5,8 @@ use std::path::Path;
 use thiserror::Error;
 
 use super::error::{ReadError, read};
-use super::npy::{self, NpyError, NumberArray, parse_npy, parse_npy_array};
-use super::number_table::{NumberTable, NumberTableError, parse_number_table};
+use super::npy::{self, NpyError, NumberArray, parse_npy, parse_npy_array, parse_single_npy};
+use super::number_table::{NumberTable, NumberTableError, parse_number_table, parse_single_table};
 
 /// Why a file has no numbers.
 #[non_exhaustive]
@@ -26,23 +26,34 @@ pub enum NumbersError {
     Table(#[from] NumberTableError),
 }
 
-/// The numbers of an array of NumPy's or of comma-separated values, rounded to the nearest f32; `name` stands for the
+/// The numbers of an array of NumPy's or of comma-separated values, rounded to the nearest f64; `name` stands for the
 /// file in messages.
 ///
 /// # Errors
 /// [`NumbersError::Npy`] and [`NumbersError::Table`].
-pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, NumbersError> {
+pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NumbersError> {
     if bytes.starts_with(npy::MAGIC) {
         return Ok(parse_npy(bytes, name)?);
     }
     Ok(parse_number_table(bytes, name)?)
 }
 
-/// The same from a file of at most `limit` bytes, which is a `what`.
+/// The same rounded to the nearest f32.
+///
+/// # Errors
+/// [`NumbersError::Npy`] and [`NumbersError::Table`].
+pub fn parse_single_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable, NumbersError> {
+    if bytes.starts_with(npy::MAGIC) {
+        return Ok(parse_single_npy(bytes, name)?);
+    }
+    Ok(parse_single_table(bytes, name)?)
+}
+
+/// [`parse_numbers`] from a file of at most `limit` bytes, which is a `what`.
 ///
 /// # Errors
 /// [`NumbersError`].
-pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable, NumbersError> {
+pub fn load_numbers(path: &Path, what: &'static str, limit: u64) -> Result<NumberTable<f64>, NumbersError> {
     parse_numbers(&read(path, what, limit)?, path)
 }
 
@@ -65,8 +76,11 @@ mod tests {
         let values = [1.0_f32, 2.5, -3.0, 4.0];
         let (table, mut array) = (NumberTable { columns: 2, values: values.to_vec() }, Vec::new());
         write_npy(&table, &mut array).expect("written");
-        let tables = [&array[..], b"1,2.5\n-3,4\n"].map(|bytes| parse_numbers(bytes, name).expect("numbers"));
-        assert!(tables.iter().all(|table| table.columns == 2 && table.values == values));
+        for bytes in [&array[..], b"1,2.5\n-3,4\n"] {
+            assert_eq!(parse_single_numbers(bytes, name).expect("numbers"), table);
+            let wide = NumberTable { columns: 2, values: values.map(f64::from).to_vec() };
+            assert_eq!(parse_numbers(bytes, name).expect("numbers"), wide);
+        }
         let error = parse_numbers(b"1,2\n3\n", name).expect_err("ragged");
         assert!(matches!(error, NumbersError::Table(_)), "{error}");
         let cut = parse_numbers(&array[..array.len() - 1], name).expect_err("cut");

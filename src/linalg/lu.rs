@@ -1,13 +1,30 @@
 //! The direct solver: Gaussian elimination with partial pivoting.
+//!
+//! Panels of columns are eliminated from all rows behind them at once, rows in parallel. Each element has its products
+//! subtracted one after the other in the order of the pivots, so that panels, tiles and threads change no bit: it is
+//! what elimination column by column, as nalgebra's, gives.
 
-use nalgebra::{DVector, Dyn};
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::Matrix;
 
+/// Number of columns of a panel.
+const PANEL: usize = 64;
+/// Number of columns that are updated at once, so that those of a panel's rows stay in a core's cache.
+const TILE: usize = 256;
+/// Number of rows per parallel task.
+const ROWS: usize = 16;
+
 /// LU factorisation of a square matrix with row exchanges.
 #[derive(Clone, Debug)]
-pub struct Lu(nalgebra::LU<f64, Dyn, Dyn>);
+pub struct Lu {
+    size: usize,
+    /// Row by row: U on and above the diagonal, L below it, whose diagonal is 1.
+    values: Vec<f64>,
+    /// The row of the matrix that each row comes from.
+    order: Vec<usize>,
+}
 
 /// Error: the matrix is singular to f64 precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -27,11 +44,70 @@ impl Lu {
     /// If the matrix is not square.
     pub fn new(matrix: &Matrix) -> Result<Self, Singular> {
         assert!(matrix.is_square(), "a square matrix");
-        let lu = matrix.to_nalgebra().lu();
-        let pivots = lu.lu_internal().diagonal();
-        match pivots.iter().position(|&pivot| pivot == 0.0 || !pivot.is_finite()) {
-            Some(column) => Err(Singular { column }),
-            None => Ok(Self(lu)),
+        let size = matrix.row_count();
+        let values = matrix.rows().flatten().copied().collect();
+        let mut lu = Self { size, values, order: (0..size).collect() };
+        for first in (0..size).step_by(PANEL) {
+            let end = size.min(first + PANEL);
+            lu.factor_panel(first, end)?;
+            lu.eliminate_panel(first, end);
+        }
+        Ok(lu)
+    }
+
+    /// Factors the columns from `first` to `end`, and exchanges whole rows.
+    fn factor_panel(&mut self, first: usize, end: usize) -> Result<(), Singular> {
+        let size = self.size;
+        for column in first..end {
+            let magnitude = |row: usize| self.values[row * size + column].abs();
+            let largest = |best, row| if magnitude(row) > magnitude(best) { row } else { best };
+            self.exchange_rows(column, (column + 1..size).fold(column, largest));
+            let (above, below) = self.values.split_at_mut((column + 1) * size);
+            let pivot_row = &above[column * size..];
+            let pivot = pivot_row[column];
+            if pivot == 0.0 || !pivot.is_finite() {
+                return Err(Singular { column });
+            }
+            let inverse = 1.0 / pivot;
+            for row in below.chunks_exact_mut(size) {
+                row[column] *= inverse;
+                let factor = row[column];
+                subtract(&mut row[column + 1..end], factor, &pivot_row[column + 1..end]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Subtracts the multiples of a factored panel's rows from what stands right of it.
+    fn eliminate_panel(&mut self, first: usize, end: usize) {
+        let size = self.size;
+        let (above, below) = self.values.split_at_mut(end * size);
+        let panel = &mut above[first * size..];
+        for place in 1..end - first {
+            let (done, rest) = panel.split_at_mut(place * size);
+            let (factors, right) = rest[..size].split_at_mut(end);
+            for (factor, row) in factors[first..].iter().zip(done.chunks_exact(size)) {
+                subtract(right, *factor, &row[end..]);
+            }
+        }
+        let panel = &above[first * size..];
+        below.par_chunks_mut(ROWS * size).for_each(|rows| {
+            for from in (end..size).step_by(TILE) {
+                let tile = from..size.min(from + TILE);
+                for row in rows.chunks_exact_mut(size) {
+                    let (factors, right) = row.split_at_mut(end);
+                    let into = &mut right[tile.start - end..tile.end - end];
+                    subtract_all(into, &factors[first..], |k| &panel[k * size..][tile.clone()]);
+                }
+            }
+        });
+    }
+
+    fn exchange_rows(&mut self, one: usize, other: usize) {
+        if one < other {
+            let (before, from) = self.values.split_at_mut(other * self.size);
+            before[one * self.size..][..self.size].swap_with_slice(&mut from[..self.size]);
+            self.order.swap(one, other);
         }
     }
 
@@ -40,10 +116,36 @@ impl Lu {
     /// # Panics
     /// If `right` does not have one element per row.
     pub fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let mut x = DVector::from_column_slice(right);
-        let solved = self.0.solve_mut(&mut x);
-        assert!(solved, "no pivot is 0");
-        x.as_slice().to_vec()
+        assert_eq!(right.len(), self.size, "one element per row");
+        let mut x: Vec<f64> = self.order.iter().map(|&row| right[row]).collect();
+        let row = |i: usize| &self.values[i * self.size..][..self.size];
+        for i in 0..self.size {
+            x[i] = (0..i).fold(x[i], |left, k| left - x[k] * row(i)[k]);
+        }
+        for i in (0..self.size).rev() {
+            x[i] = (i + 1..self.size).rev().fold(x[i], |left, k| left - x[k] * row(i)[k]) / row(i)[i];
+        }
+        x
+    }
+}
+
+/// `into` less `factor` times `row`.
+fn subtract(into: &mut [f64], factor: f64, row: &[f64]) {
+    into.iter_mut().zip(row).for_each(|(value, other)| *value -= factor * other);
+}
+
+/// `into` less all factors times their rows, in their order: four at a time, so that `into` is read and written less.
+fn subtract_all<'a>(into: &mut [f64], factors: &[f64], row: impl Fn(usize) -> &'a [f64]) {
+    let (fours, rest) = factors.as_chunks::<4>();
+    for (at, &[f, g, h, i]) in fours.iter().enumerate() {
+        let [p, q, r, s] = [0, 1, 2, 3].map(|k| row(4 * at + k));
+        let rows = p.iter().zip(q).zip(r).zip(s);
+        for (value, (((p, q), r), s)) in into.iter_mut().zip(rows) {
+            *value = (((*value - f * p) - g * q) - h * r) - i * s;
+        }
+    }
+    for (at, &factor) in rest.iter().enumerate() {
+        subtract(into, factor, row(4 * fours.len() + at));
     }
 }
 
@@ -64,5 +166,22 @@ mod tests {
         assert_eq!(Lu::new(&m).err(), Some(Singular { column: 1 }));
         let nan = Matrix::new([1, 1], vec![f64::NAN]).expect("a matrix");
         assert_eq!(Lu::new(&nan).err(), Some(Singular { column: 0 }));
+    }
+
+    /// Sizes on both sides of a panel's, a tile's and a piece's.
+    #[test]
+    fn panels_change_no_bit_of_elimination_column_by_column() {
+        for size in [1_usize, 2, 5, 63, 64, 65, 100, 129, 333] {
+            let number = |i: usize| (i * 7919 % 10_007) as f64 / 4096.0 - 1.0;
+            let matrix = Matrix::new([size, size], (0..size * size).map(number).collect()).expect("a matrix");
+            let right: Vec<f64> = (0..size).map(|i| number(3 * i + 1)).collect();
+            let ours = Lu::new(&matrix).map(|lu| lu.solve(&right));
+            let theirs = matrix.to_nalgebra().lu().solve(&nalgebra::DVector::from_column_slice(&right));
+            let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            match (ours, theirs) {
+                (Ok(ours), Some(theirs)) => assert_eq!(bits(&ours), bits(theirs.as_slice()), "{size}"),
+                (ours, theirs) => assert!(ours.is_err() && theirs.is_none(), "{size}: {ours:?} {theirs:?}"),
+            }
+        }
     }
 }

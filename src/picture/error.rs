@@ -43,6 +43,13 @@ pub enum PictureError {
     )]
     #[diagnostic(code(crossbar::picture::size))]
     TooLarge { width: u64, height: u64, channels: usize },
+    /// The header claims more pixels than the file's bytes can hold.
+    #[error(
+        "expected at least {least} bytes of a {format} file for the {width}x{height} pixels that its header says, found \
+         {found}: is it cut?"
+    )]
+    #[diagnostic(code(crossbar::picture::claim))]
+    Claim { format: PictureFormat, width: u64, height: u64, least: u64, found: u64 },
     /// The file is damaged, or a variant of its format that is not supported.
     #[error("expected {format} data, found something else: {reason}")]
     #[diagnostic(code(crossbar::picture::decode))]

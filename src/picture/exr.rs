@@ -10,7 +10,7 @@ use exr::prelude::{
 
 use super::channels::{ChannelUnit, Picture, PictureChannel, Samples};
 use super::error::{PictureError, PictureFormat};
-use super::limits::require_size;
+use super::limits::{PictureSize, require_length, require_size};
 use super::notes::PictureNotes;
 
 /// Encodes a picture as an EXR file with its named channels, losslessly compressed. The same picture gives the same
@@ -65,16 +65,33 @@ fn text(text: &str) -> Option<Text> {
     Text::new_or_none(text.chars().map(escaped).collect::<String>()).filter(|_| !text.is_empty())
 }
 
-/// Decodes the first layer of an EXR file, in its largest resolution. Half floats become singles.
-pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
-    let broken =
-        |error: exr::error::Error| PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() };
-    // The size is checked first: the reader allocates the size in the header.
+fn broken(error: exr::error::Error) -> PictureError {
+    PictureError::Decode { format: PictureFormat::Exr, reason: error.to_string() }
+}
+
+/// Returns the size of the layer that takes the most memory, from the headers.
+pub(super) fn size(bytes: &[u8]) -> Result<PictureSize, PictureError> {
+    /// Bytes of a chunk besides its data: entry in the offset table, coordinate and length.
+    const PER_CHUNK: u64 = 16;
     let meta = MetaData::read_from_buffered(bytes, true).map_err(broken)?;
+    let mut largest = PictureSize { width: 0, height: 0, channels: 0 };
     for header in &meta.headers {
-        let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
-        require_size(width, height, header.channels.list.len(), 4)?;
+        let [width, height] = [header.layer_size.width(), header.layer_size.height()].map(|side| side as u64);
+        let channels = header.channels.list.len();
+        require_size(width, height, channels, 4)?;
+        require_length(PictureFormat::Exr, [width, height], header.chunk_count as u64 * PER_CHUNK, bytes.len())?;
+        // Within the limit, which is below 2^32.
+        let found = PictureSize { width: width as u32, height: height as u32, channels };
+        if found.samples() > largest.samples() {
+            largest = found;
+        }
     }
+    Ok(largest)
+}
+
+/// The first layer of an EXR file whose [`size`] is right, in its largest resolution: the reader takes memory for what
+/// the header says. Halves become singles.
+pub(super) fn decode(bytes: &[u8]) -> Result<Picture, PictureError> {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()

@@ -2,10 +2,28 @@
 
 use image::Limits;
 
-use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError};
+use super::error::{MAX_DECODED_BYTES, MAX_SIDE, PictureError, PictureFormat};
+
+/// The size of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureSize {
+    /// Pixels in a row, up to [`MAX_SIDE`].
+    pub width: u32,
+    /// Rows, up to [`MAX_SIDE`].
+    pub height: u32,
+    /// Samples per pixel.
+    pub channels: usize,
+}
+
+impl PictureSize {
+    /// Samples of all pixels.
+    pub fn samples(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height) * self.channels as u64
+    }
+}
 
 /// Limits for decoders of the `image` library.
-pub fn limits() -> Limits {
+pub(super) fn limits() -> Limits {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
@@ -20,4 +38,16 @@ pub(super) fn require_size(width: u64, height: u64, channels: usize, sample_byte
         return Err(PictureError::TooLarge { width, height, channels });
     }
     Ok(())
+}
+
+/// Refuses a size for which a file is too short: memory is taken for it before the pixels are read. `least` is the
+/// length of the shortest file of this size.
+pub(super) fn require_length(
+    format: PictureFormat,
+    [width, height]: [u64; 2],
+    least: u64,
+    found: usize,
+) -> Result<(), PictureError> {
+    let found = found as u64;
+    if found < least { Err(PictureError::Claim { format, width, height, least, found }) } else { Ok(()) }
 }

@@ -1,14 +1,15 @@
 //! Decoding of picture files, by their first bytes.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 
 use image::codecs::hdr::HdrDecoder;
-use image::{DynamicImage, ImageDecoder as _, ImageFormat, ImageReader};
+use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader, Rgba};
 
 use super::channels::{ChannelUnit, Picture, Samples};
 use super::error::{PictureError, PictureFormat};
 use super::exr;
-use super::limits::{limits, require_size};
+use super::limits::{PictureSize, limits, require_length, require_size};
 
 /// First bytes of Radiance HDR files, and the variant that other programs write.
 const RADIANCE: &[u8] = b"#?RADIANCE";
@@ -27,24 +28,18 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
     SIGNATURES.iter().find(|(signature, _)| bytes.starts_with(signature)).map(|(_, format)| *format)
 }
 
-impl Picture {
-    /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives sRGB values `R`, `G`, `B` (and
-    /// `A`, which is linear), Radiance HDR linear ones, divided by the factors of its EXPOSURE and COLORCORR lines; of
-    /// an EXR file the first layer is read.
-    pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
+impl PictureSize {
+    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it is
+    /// that of the largest layer.
+    ///
+    /// # Errors
+    /// [`PictureError`] for a header that is broken, for more than the limits, and for more pixels than so many bytes
+    /// can stand for.
+    pub fn of(bytes: &[u8]) -> Result<Self, PictureError> {
         match format_of(bytes) {
-            Some(PictureFormat::Exr) => exr::decode(bytes),
-            Some(PictureFormat::Png) => from_png(&decoded(bytes, PictureFormat::Png, ImageFormat::Png)?),
-            Some(PictureFormat::Hdr) => {
-                // The decoder accepts only one of the two first lines.
-                let renamed = bytes.strip_prefix(RGBE).map(|rest| [RADIANCE, rest].concat());
-                let bytes = renamed.as_deref().unwrap_or(bytes);
-                let image = decoded(bytes, PictureFormat::Hdr, ImageFormat::Hdr)?.into_rgb32f();
-                let scale = hdr_scale(bytes)?;
-                let radiance = |pixel: [f32; 3]| [0, 1, 2].map(|channel| pixel[channel] / scale[channel]);
-                let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| radiance(pixel.0)).collect();
-                Ok(Self::rgb(image.width(), image.height(), &pixels))
-            }
+            Some(PictureFormat::Exr) => exr::size(bytes),
+            Some(PictureFormat::Png) => size_of(bytes, PictureFormat::Png),
+            Some(PictureFormat::Hdr) => size_of(&with_known_beginning(bytes), PictureFormat::Hdr),
             None => {
                 let hex: Vec<String> = bytes.iter().take(8).map(|byte| format!("{byte:02x}")).collect();
                 let found = if hex.is_empty() { "nothing".to_owned() } else { hex.join(" ") };
@@ -52,6 +47,44 @@ impl Picture {
             }
         }
     }
+}
+
+impl Picture {
+    /// Decodes a PNG, Radiance HDR or EXR file, detected by its first bytes. PNG gives sRGB values `R`, `G`, `B` (and
+    /// `A`, which is linear), Radiance HDR linear ones, divided by the factors of its EXPOSURE and COLORCORR lines; of
+    /// an EXR file the first layer is read.
+    ///
+    /// # Errors
+    /// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
+    pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
+        PictureSize::of(bytes)?;
+        match format_of(bytes) {
+            Some(PictureFormat::Exr) => exr::decode(bytes),
+            Some(PictureFormat::Hdr) => {
+                let bytes = &with_known_beginning(bytes);
+                let image = decoded(bytes, PictureFormat::Hdr)?.into_rgb32f();
+                let scale = hdr_scale(bytes)?;
+                let radiance = |pixel: [f32; 3]| [0, 1, 2].map(|channel| pixel[channel] / scale[channel]);
+                let pixels: Vec<[f32; 3]> = image.pixels().map(|pixel| radiance(pixel.0)).collect();
+                Ok(Self::rgb(image.width(), image.height(), &pixels))
+            }
+            Some(PictureFormat::Png) | None => from_png(&decoded(bytes, PictureFormat::Png)?),
+        }
+    }
+}
+
+/// Decodes a PNG file to 16-bit codes: red, green, blue and alpha of each pixel.
+///
+/// # Errors
+/// [`PictureError`], those of [`PictureSize::of`] before any pixel is decoded.
+pub fn png_codes(bytes: &[u8]) -> Result<ImageBuffer<Rgba<u16>, Vec<u16>>, PictureError> {
+    size_of(bytes, PictureFormat::Png)?;
+    Ok(decoded(bytes, PictureFormat::Png)?.into_rgba16())
+}
+
+/// Replaces the first line of a Radiance HDR file by the one of two that the decoder accepts.
+fn with_known_beginning(bytes: &[u8]) -> Cow<'_, [u8]> {
+    bytes.strip_prefix(RGBE).map_or(Cow::Borrowed(bytes), |rest| Cow::Owned([RADIANCE, rest].concat()))
 }
 
 /// Factors by which radiance was multiplied, per channel, before it was written: the products of all EXPOSURE and
@@ -67,15 +100,36 @@ fn hdr_scale(bytes: &[u8]) -> Result<[f32; 3], PictureError> {
     }
 }
 
-fn decoded(bytes: &[u8], format: PictureFormat, decoder: ImageFormat) -> Result<DynamicImage, PictureError> {
-    let refused = |error: image::ImageError| PictureError::Decode { format, reason: error.to_string() };
-    // The header is checked first: a decoder may work long before it fails, and does not report the size.
-    let header = ImageReader::with_format(Cursor::new(bytes), decoder).into_decoder().map_err(refused)?;
-    let ((width, height), color) = (header.dimensions(), header.color_type());
-    require_size(width.into(), height.into(), color.channel_count().into(), SAMPLE_BYTES)?;
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), decoder);
+fn refused(format: PictureFormat) -> impl Fn(image::ImageError) -> PictureError {
+    move |error| PictureError::Decode { format, reason: error.to_string() }
+}
+
+fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {
+    let decoder = if format == PictureFormat::Hdr { ImageFormat::Hdr } else { ImageFormat::Png };
+    ImageReader::with_format(Cursor::new(bytes), decoder)
+}
+
+/// Reads and checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the size.
+fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, PictureError> {
+    /// Maximum expansion of Deflate, in bytes per byte.
+    const DEFLATE: u64 = 1032;
+    /// Bytes of the shortest row of a Radiance HDR file: one repeated pixel.
+    const HDR_ROW: u64 = 4;
+    let header = reader(bytes, format).into_decoder().map_err(refused(format))?;
+    let ((width, height), channels) = (header.dimensions(), usize::from(header.color_type().channel_count()));
+    let [columns, rows] = [width, height].map(u64::from);
+    require_size(columns, rows, channels, SAMPLE_BYTES)?;
+    let row_bits = columns * u64::from(header.original_color_type().bits_per_pixel());
+    let least = if format == PictureFormat::Hdr { HDR_ROW * rows } else { rows * row_bits.div_ceil(8) / DEFLATE };
+    require_length(format, [columns, rows], least, bytes.len())?;
+    Ok(PictureSize { width, height, channels })
+}
+
+/// Decodes a file whose size has been checked.
+fn decoded(bytes: &[u8], format: PictureFormat) -> Result<DynamicImage, PictureError> {
+    let mut reader = reader(bytes, format);
     reader.limits(limits());
-    reader.decode().map_err(refused)
+    reader.decode().map_err(refused(format))
 }
 
 /// Converts codes k of n bits to k / (2^n - 1).

@@ -36,20 +36,15 @@ pub struct Patches {
 impl Patches {
     /// Cuts a scene's faces. A face is a triangle, or two in a row of one material that make a flat convex
     /// quadrilateral.
+    ///
+    /// # Errors
+    /// [`PatchError`].
     pub fn new(scene: &Scene, subdivision: Subdivision) -> Result<Self, PatchError> {
         let mesh = scene.mesh();
         let Some(bounds) = mesh.bounds() else { return Err(PatchError::Empty) };
         let materials = scene.materials().iter().map(diffuse).collect::<Result<Vec<_>, _>>();
         let (faces, face_of) = faces_of(scene)?;
-        let steps: Vec<[u32; 2]> = match subdivision {
-            Subdivision::PerSide(0) => return Err(PatchError::NoParts),
-            Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
-            Subdivision::AtMost(most) => steps_for_at_most(&faces, most),
-        };
-        let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
-        if found > MAX_PATCHES {
-            return Err(PatchError::TooMany { found });
-        }
+        let (steps, found) = steps(&faces, subdivision)?;
         let mut list = Vec::with_capacity(found);
         for (id, (face, &steps)) in (0_u32..).zip(faces.iter().zip(&steps)) {
             face.cut(id, steps, &mut list).ok_or(PatchError::ZeroArea { triangle: face.triangle })?;
@@ -58,6 +53,14 @@ impl Patches {
         let (materials, extent) = (materials?, (high - low).length());
         let open = open_parts(&list, mesh, &face_of, extent);
         Ok(Self { list, open, mesh: mesh.clone(), face_of, extent, materials })
+    }
+
+    /// How many patches a scene would be cut into, without the work that their open parts take.
+    ///
+    /// # Errors
+    /// [`PatchError`].
+    pub fn count(scene: &Scene, subdivision: Subdivision) -> Result<usize, PatchError> {
+        Ok(steps(&faces_of(scene)?.0, subdivision)?.1)
     }
 
     /// All patches, in the order of the matrix's rows.
@@ -144,6 +147,17 @@ impl Patches {
         let emittance = |patch: &Patch| self.materials[patch.material as usize].1.map(|l| std::f64::consts::PI * l);
         self.list.iter().map(emittance).collect()
     }
+}
+
+/// Parts of the sides of each face, and the number of all patches.
+fn steps(faces: &[Face], subdivision: Subdivision) -> Result<(Vec<[u32; 2]>, usize), PatchError> {
+    let steps = match subdivision {
+        Subdivision::PerSide(0) => return Err(PatchError::NoParts),
+        Subdivision::PerSide(n) => vec![[n, n]; faces.len()],
+        Subdivision::AtMost(most) => steps_for_at_most(faces, most),
+    };
+    let found = faces.iter().zip(&steps).map(|(face, &steps)| face.count(steps)).sum();
+    if found > MAX_PATCHES { Err(PatchError::TooMany { found }) } else { Ok((steps, found)) }
 }
 
 /// Reflectance and radiance of a material.

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::file::{self, MeshDigest, PrtFile, PrtFileError, PrtMeaning, parse_prt};
 use super::{Signal, SignalError};
-use crate::io::{NumbersError, ReadError, number_table, parse_numbers, read_limited};
+use crate::io::{NumbersError, ReadError, number_table, parse_single_numbers, read_limited};
 
 /// Why a file is no signal.
 #[non_exhaustive]
@@ -36,7 +36,7 @@ pub enum SignalFileError {
 }
 
 /// Reads a signal from a file: the transfer of a `.prt` file, an array of NumPy's, or comma-separated values, told
-/// apart by how they begin.
+/// apart by how they begin. Its numbers are f32, as in `.prt` files.
 ///
 /// # Errors
 /// [`SignalFileError`].
@@ -58,7 +58,7 @@ pub fn load_signal_and_meaning(path: &Path) -> Result<(PrtMeaning, Option<MeshDi
         let signal = transfer.ok_or_else(|| SignalFileError::NoTransfer { path: path.into() })?;
         return Ok((meaning, mesh, signal));
     }
-    let table = parse_numbers(&bytes, path)?;
+    let table = parse_single_numbers(&bytes, path)?;
     let meaning = PrtMeaning::Numbers { dimension: u32::try_from(table.columns).unwrap_or(u32::MAX) };
     let signal = Signal::new(table.columns, table.values);
     let signal = signal.map_err(|reason| SignalFileError::Signal { path: path.into(), reason })?;

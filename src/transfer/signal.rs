@@ -7,6 +7,9 @@ use thiserror::Error;
 const CHUNK: usize = 1024;
 
 /// Points of n finite numbers each, point by point. There is at least one point, of at least one number.
+///
+/// They are f32, as `.prt` files hold them: transfer is known to few digits, and is the largest thing in memory. What
+/// is computed from them is f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
     points: usize,

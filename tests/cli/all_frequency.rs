@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use approx::assert_relative_eq;
-use crossbar::io::parse_npy;
+use crossbar::io::parse_single_npy;
 use serde_json::Value;
 
 use crate::cpca::{number, place};
@@ -135,6 +135,15 @@ fn a_model_stands_on_a_ground() {
         (made["ground"]["out"].as_str(), made["ground"]["model"].as_str()),
         (Some(ground.as_str()), Some(ground_model.as_str()))
     );
+    // The example's base is flat, at 0, and 2 wide: in its plane the ground would show in stripes.
+    let ground_text = fs::read_to_string(&ground_model).expect("a model");
+    let heights =
+        ground_text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f32>().ok());
+    assert!(
+        heights.clone().count() == 64 && heights.clone().all(|z| z == -2.0 / 1024.0),
+        "{:?}",
+        heights.min_by(f32::total_cmp)
+    );
     let sees = |found: &Value| number(&found["directions_visible"]);
     assert!(sees(&made) <= sees(&alone), "a ground hides light");
     // Half of all directions, less what the model hides.
@@ -168,7 +177,7 @@ fn a_vertex_is_shown() {
     assert!(!segments.is_empty() && segments.len() <= 24);
     let read = |name: &str| {
         let bytes = fs::read(folder.path().join("arrays").join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-        parse_npy(&bytes, Path::new(name)).expect("an array")
+        parse_single_npy(&bytes, Path::new(name)).expect("an array")
     };
     let transfer = read("vertex_12_transfer.npy");
     assert_eq!((transfer.columns, transfer.values.len()), (6144, 6144));

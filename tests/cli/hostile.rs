@@ -11,8 +11,8 @@ use crate::tree;
 
 /// Values that somebody may give to any option.
 const HOSTILE: &[&str] = &[
-    "", " ", "nan", "inf", "-inf", "1e39", "-1e39", "1e400", "-1", "0", "-0", "1,nan,2", "-1,-1", "0x0", "1e9x1e9",
-    ",", "=", "a=", "=1,1,1", "--", "-", ".", "..", "/", "a\nb", "🫖",
+    "", " ", "nan", "inf", "-inf", "1e39", "-1e39", "1e400", "1e300", "-1", "0", "-0", "1,nan,2", "-1,-1", "0x0",
+    "1e9x1e9", ",", "=", "a=", "=1,1,1", "--", "-", ".", "..", "/", "a\nb", "🫖",
 ];
 const LONG: &[&str] = &[
     "4294967296",
@@ -103,6 +103,8 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
     assert!(!stderr.contains(|c| c != '\n' && crossbar::report::visible::is_hidden(c)), "{arguments:?}: {stderr:?}");
     assert_eq!(twice(&stderr), None, "{arguments:?}: {stderr}");
+    let digits = stderr.split(|c: char| !c.is_ascii_digit()).map(str::len).max();
+    assert!(digits < Some(30), "{arguments:?}: a number that nobody reads: {stderr}");
     let left: Vec<_> =
         fs::read_dir(folder.path()).expect("a folder").flatten().map(|entry| entry.file_name()).collect();
     assert_eq!(left.len(), files.len(), "{arguments:?} left {left:?}");
@@ -252,6 +254,11 @@ fn what_is_wrong_is_said() {
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --links 15", "has 15 clusters"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 100 --choice adaptive", "power of two"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 64 --links 4 --all-pairs no", "128"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --atlas 4097", "power of two"),
+        ("atlas stand-in-head --side 4097", "power of two"),
+        ("radiosity white-box --atlas 4097", "power of two"),
+        ("subsurface stand-in-head --mm-per-unit 1 --material marble --diffuse 1e300", "from 0 to 1, found 1e300"),
+        ("prt render x.prt --model white-box --light disk:0,0,1:1e300", "at most 180 degrees, found `1e300`"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sun:1,1,1", "directional:X,Y,Z:R,G,B"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sky:0,0,0", "expected light on the model"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --device r200", "r200"),
@@ -393,22 +400,37 @@ fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
     [ended(header.concat()), ended(section)].concat()
 }
 
-/// A picture of too many pixels is refused by its header: what follows may be anything.
-#[test]
-fn large_pictures_are_refused_by_their_headers() {
-    let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
-    // 16 bits per sample of red, green, blue and alpha, of 9000 x 9000 pixels.
-    let header = [&b"IHDR"[..], &9000_u32.to_be_bytes(), &9000_u32.to_be_bytes(), &[16, 6, 0, 0, 0]].concat();
+/// A PNG file of so many pixels along a side, of red, green, blue and alpha, with so many bytes that are no pixels.
+fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
+    let header = [&b"IHDR"[..], &side.to_be_bytes(), &side.to_be_bytes(), &[sample_bits, 6, 0, 0, 0]].concat();
     let chunk = |body: &[u8]| {
         let length = (body.len() as u32 - 4).to_be_bytes();
         [&length[..], body, &crc32fast::hash(body).to_be_bytes()].concat()
     };
-    bytes.extend(chunk(&header));
-    bytes.extend(chunk(b"IDATnothing"));
-    bytes.extend(chunk(b"IEND"));
-    let stderr = assert_refused(&["diff", "p.png", "p.png"].map(OsString::from), &[("p.png", &bytes)]);
-    let flat = stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(flat.contains("found 9000x9000 with 4 channels") && flat.contains("16384 pixels a side"), "{stderr}");
+    let noise = [&b"IDAT"[..], &b"nothing ".repeat(length / 8)].concat();
+    [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
+}
+
+/// A picture of too many pixels, for the program, for what is asked of it, for the memory that it may take or for its
+/// file, is refused by its header: what follows may be anything.
+#[test]
+fn large_pictures_are_refused_by_their_headers() {
+    let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
+    let lit = ["prt", "lighting", "--light", "large.png", "--memory-limit", "64MiB"];
+    for (arguments, words) in [
+        (&["diff", "huge.png", "huge.png"][..], "found 9000x9000 with 4 channels"),
+        (&["diff", "huge.png", "huge.png"], "16384 pixels a side"),
+        (&["diff", "large.png", "large.png", "--memory-limit", "1GiB"], "comparing pictures of 7000x7000 pixels"),
+        (&lit, "the picture `large.png` of 7000x7000 pixels takes up to"),
+        (&["prt", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
+        (&["diff", "cut.png", "cut.png"], "for the 7000x7000 pixels that its header says"),
+    ] {
+        let files: [(&str, &[u8]); 3] = [("huge.png", &huge), ("large.png", &large), ("cut.png", &cut)];
+        let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
+        let stderr = assert_refused(&arguments, &files);
+        let flat = stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(words), "{arguments:?}: {stderr}");
+    }
 }
 
 /// That nothing shines is said before the work, which would take minutes here.
@@ -426,6 +448,12 @@ fn a_dark_scene_is_refused_before_the_work() {
     let start = std::time::Instant::now();
     let stderr = assert_refused(&["radiosity", "m.obj"].map(OsString::from), &[("m.obj", model.as_bytes())]);
     assert!(stderr.contains("radiosity::dark"), "{stderr}");
+    // As many patches as faces, whatever was asked for: what they take is known once they are counted.
+    let shining = format!("mtllib m.mtl\nusemtl shining\n{model}");
+    let files = [("m.obj", shining.as_bytes()), ("m.mtl", b"newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n")];
+    let few = ["radiosity", "m.obj", "--patches", "10", "--memory-limit", "256MiB"];
+    let stderr = assert_refused(&few.map(OsString::from), &files);
+    assert!(stderr.contains("crossbar::memory") && !stderr.contains("of 10 patches"), "{stderr}");
     assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 

@@ -8,6 +8,7 @@ mod bad_input;
 mod bi_scale;
 mod case;
 mod check;
+mod claims;
 mod commands;
 mod compare;
 mod cpca;

@@ -38,6 +38,46 @@ fn what_it_says_and_writes() {
     );
 }
 
+/// Radiosities between patches: the corners of the model by their numbers, each value a mean of its patches'.
+#[test]
+fn vertices_have_radiosities() {
+    let (ran, folder) = radiosity(&["white-box", "--per-side", "2", "--size", "8x8", "--solver", "direct"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let rows = |name: &str| -> Vec<Vec<String>> {
+        let text = std::fs::read_to_string(folder.path().join("out/radiosity").join(name)).expect("a table");
+        text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+    };
+    let (vertices, patches) = (rows("vertices.csv"), rows("patches.csv"));
+    let names = ["vertex", "x", "y", "z", "of_model", "material", "patches", "direct_r", "direct_g", "direct_b"];
+    assert_eq!(vertices[0], names);
+    // 9 per side of a box whose edges are sharp.
+    assert_eq!(vertices.len() - 1, 6 * 9);
+    let of_model: BTreeSet<&str> =
+        vertices[1..].iter().map(|row| row[4].as_str()).filter(|row| !row.is_empty()).collect();
+    assert_eq!(of_model.len(), 8, "the corners of the box");
+    let number = |text: &String| text.parse::<f64>().expect("a number");
+    let reds = || patches[1..].iter().map(|row| number(&row[8]));
+    let [least, most] = [reds().fold(f64::INFINITY, f64::min), reds().fold(0.0, f64::max)];
+    let within = |row: &Vec<String>| (least * (1.0 - 1e-12)..=most * (1.0 + 1e-12)).contains(&number(&row[7]));
+    assert!(vertices[1..].iter().all(within), "{least} to {most}");
+    assert!(vertices[1..].iter().any(|row| row[6] == "4") && vertices[1..].iter().any(|row| row[6] == "1"));
+}
+
+/// Where nothing sees anything, every solver is done at once, and there is no curve to draw.
+#[test]
+fn a_flat_scene_has_no_residuals_to_draw() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let model = "mtllib m.mtl\nusemtl shining\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    std::fs::write(folder.path().join("m.obj"), model).expect("written");
+    std::fs::write(folder.path().join("m.mtl"), "newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n").expect("written");
+    for solver in ["gauss-seidel", "shooting", "jacobi"] {
+        let arguments = ["radiosity", "m.obj", "--patches", "16", "--size", "8x8", "--solver", solver, "--out", solver];
+        let ran = crossbar_in(folder.path(), &arguments, "");
+        assert_eq!(ran.code, Some(0), "{solver}: {}", ran.stderr);
+        assert!(!folder.path().join(solver).join("residual.svg").exists(), "{solver}");
+    }
+}
+
 /// A second run with fewer pictures leaves none of the first one's, and all that is the user's.
 #[test]
 fn a_smaller_run_leaves_nothing_of_a_larger_one() {

@@ -44,7 +44,7 @@ pub enum ProductTableError {
         path.display()
     )]
     #[diagnostic(code(crossbar::factor::number), help("the table holds reflectance times the light's cosine"))]
-    Number { path: PathBuf, row: usize, column: usize, found: f32 },
+    Number { path: PathBuf, row: usize, column: usize, found: f64 },
 }
 
 impl ProductTable {
@@ -62,7 +62,7 @@ impl ProductTable {
     /// # Errors
     /// [`ProductTableError`] if rows or columns are not as many as a square map has texels, or a number is below 0, NaN
     /// or infinite.
-    pub fn of_numbers(table: &NumberTable, name: &Path) -> Result<Self, ProductTableError> {
+    pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, ProductTableError> {
         let columns = table.columns.max(1);
         let map = |what: &'static str, found: usize| {
             let side = found.isqrt();
@@ -75,8 +75,8 @@ impl ProductTable {
             let [row, column] = [at / columns, at % columns];
             return Err(ProductTableError::Number { path: name.into(), row, column, found: table.values[at] });
         }
-        let values = table.values.iter().map(|&value| f64::from(value)).collect();
-        let values = Matrix::new(maps.map(ParabolicMap::texels), values).expect("whole rows of a small matrix");
+        let values =
+            Matrix::new(maps.map(ParabolicMap::texels), table.values.clone()).expect("whole rows of a small matrix");
         Ok(Self::new(maps, values))
     }
 
@@ -103,8 +103,7 @@ impl ProductTable {
     }
 }
 
-/// Reads a table from a file: comma-separated values or an array of NumPy's, told apart by how they begin. Numbers are
-/// rounded to the nearest f32.
+/// Reads a table from a file: comma-separated values or an array of NumPy's, told apart by how they begin.
 ///
 /// # Errors
 /// [`ProductTableError`].
@@ -118,7 +117,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    fn table(rows: usize, columns: usize, values: &[f32]) -> Result<ProductTable, String> {
+    fn table(rows: usize, columns: usize, values: &[f64]) -> Result<ProductTable, String> {
         let values = values.iter().copied().cycle().take(rows * columns).collect();
         let found = ProductTable::of_numbers(&NumberTable { columns, values }, Path::new("q.csv"));
         found.map_err(|error| error.to_string())
@@ -135,7 +134,7 @@ mod tests {
 
     #[test]
     fn what_is_no_table_is_named() {
-        let error = |rows, columns, values: &[f32]| table(rows, columns, values).expect_err("no table");
+        let error = |rows, columns, values: &[f64]| table(rows, columns, values).expect_err("no table");
         assert_eq!(
             error(5, 4, &[1.0]),
             "q.csv: expected a square number of rows up to 2304, a texel of a square map each, found 5"
@@ -145,7 +144,7 @@ mod tests {
             error(4, 4, &[1.0, 2.0, 3.0, -0.5]),
             "q.csv: expected finite numbers of at least 0, found -0.5 in row 0, column 3 (counted from 0)"
         );
-        assert!(error(4, 4, &[f32::NAN]).contains("found NaN in row 0, column 0"));
+        assert!(error(4, 4, &[f64::NAN]).contains("found NaN in row 0, column 0"));
         assert!(error(1, 49 * 49, &[0.0]).contains("2401"));
     }
 }

@@ -207,7 +207,7 @@ fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
     Ok(ProductFactors::new(terms, map(&view, view_table)?, map(&light, light_table)?))
 }
 
-fn map(path: &Path, table: NumberTable) -> Result<(ParabolicMap, Vec<f64>), Problem> {
+fn map(path: &Path, table: NumberTable<f64>) -> Result<(ParabolicMap, Vec<f64>), Problem> {
     let texels = table.values.len() / table.columns.max(1);
     let wrong = |expected: &str, found: String| {
         let what = format!("{}: expected {expected}, found {found}", path.display());
@@ -223,5 +223,5 @@ fn map(path: &Path, table: NumberTable) -> Result<(ParabolicMap, Vec<f64>), Prob
     if let Some(value) = table.values.iter().find(|value| !value.is_finite()) {
         return Err(wrong("finite numbers", value.to_string()));
     }
-    Ok((ParabolicMap::new(side), table.values.into_iter().map(f64::from).collect()))
+    Ok((ParabolicMap::new(side), table.values))
 }

@@ -4,10 +4,12 @@ use std::path::Path;
 
 use clap::ValueEnum;
 
-use crate::bi_scale::texture::{HeightField, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind};
+use crate::bi_scale::texture::{
+    HeightField, HeightFieldError, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind,
+};
 use crate::cli::transfer::values::BrdfArg;
 use crate::cli::{Problem, given, number, view};
-use crate::io::{load_numbers, load_picture};
+use crate::io::{PictureFile, load_numbers};
 use crate::names::did_you_mean;
 
 /// The name of a patch without relief.
@@ -117,9 +119,15 @@ impl PatchArgs {
         let (columns, heights) = if is_table {
             view::require_file(path, 8, "name a smaller table")?;
             let table = load_numbers(path, "table of heights", MAX_BYTES)?;
-            (table.columns, table.values.iter().map(|&height| f64::from(height) * self.relief()).collect())
+            (table.columns, table.values.iter().map(|height| height * self.relief()).collect())
         } else {
-            let picture = load_picture(path)?;
+            let file = PictureFile::open(path)?;
+            let [side, rows] = [file.size().width, file.size().height].map(|side| side as usize);
+            if side.max(rows) > HeightField::MOST {
+                return Err(no_heights(path, &HeightFieldError::Side { found: side.max(rows) }).into());
+            }
+            view::require_picture(path, &file)?;
+            let picture = file.decode()?;
             let linear = picture.linear().map_err(|error| no_heights(path, &error))?;
             let mean = |rgb: &[f32; 3]| rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / 3.0;
             let heights: Vec<f64> = linear.iter().map(|rgb| PICTURE_DEPTH * self.relief() * mean(rgb)).collect();

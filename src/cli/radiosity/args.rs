@@ -26,7 +26,8 @@ Examples:
   crossbar radiosity cornell-room --solver card --storage fp16 --switch rounding=rtz --sweep 60,240,515,889
       half floats on a card that truncates, and how dark the room gets with more patches and under every open switch
 
-Written to --out: index.html (self-contained), rows.csv, patches.csv, study.json, residual.svg, with --sweep \
+Written to --out: index.html (self-contained), rows.csv, patches.csv and vertices.csv (radiosities per patch, and \
+between patches per vertex), study.json, residual.svg, with --sweep \
 sweep.csv and sweep.svg, pictures of every method \
 (NAME-flat.png, NAME-smooth.png; on a card, beside direct, NAME-error.png) and of --frames, with --atlas atlas.csv, \
 atlas.png and atlas-view.png; with a method on a card timeline.json, a trace for https://ui.perfetto.dev or \

@@ -9,8 +9,10 @@ use std::path::Path;
 use super::memory::{self, MemoryNeed};
 use super::scene_name::{self, Viewpoint};
 use super::study::StudyArgs;
+use crate::atlas::require_side;
+use crate::radiosity::Patches;
 use crate::radiosity::solve::Options;
-use crate::study::radiosity::Parameters;
+use crate::study::radiosity::{Parameters, RadiosityError};
 
 pub(super) use args::Args;
 
@@ -26,24 +28,17 @@ impl StudyArgs for Args {
         scene_name::named_file(&self.scene)
     }
 
-    /// What the matrices of so many patches take, and the pictures of every method.
+    /// By the number of patches that is asked for; faces and parts of sides may make more.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
-        // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
-        const PER_PAIR: u64 = 96;
-        const PER_PIXEL_AND_PICTURE: u64 = 100;
-        // What an atlas knows of a texel, its levels, colors and picture.
-        const PER_TEXEL: u64 = 320;
-        // How many patches the parts of sides make is known only when they are cut: the matrices have a limit of their
-        // own.
-        let patches = self.per_side.map_or(u64::from(self.patches), |_| 0);
-        let pictures = (ask::methods(self)?.len() + self.frames.len()) as u64;
-        let texels = self.atlas.map_or(0, |side| u64::from(side) * u64::from(side));
-        let matrices = patches * patches * PER_PAIR + texels * PER_TEXEL;
-        Ok(Some(MemoryNeed {
-            what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
-            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
-            help: "ask for fewer `--patches`, a smaller `--size` or a smaller `--atlas`",
-        }))
+        // Before memory, which what cannot be has no need of.
+        self.atlas.map_or(Ok(()), require_side).map_err(RadiosityError::from)?;
+        self.need(self.per_side.map_or(self.patches as usize, |_| 0)).map(Some)
+    }
+
+    fn memory_of(&self, study: &Parameters) -> Option<MemoryNeed> {
+        // What is wrong with the patches, the study says itself.
+        let patches = Patches::count(&study.scene, study.subdivision).ok()?;
+        self.need(patches).ok()
     }
 
     fn study(&self) -> miette::Result<Parameters> {
@@ -67,6 +62,25 @@ impl StudyArgs for Args {
             atlas: self.atlas,
             sweep: self.sweep.clone(),
             scene,
+        })
+    }
+}
+
+impl Args {
+    /// What the matrices of so many patches take, and the pictures of every method.
+    fn need(&self, patches: usize) -> miette::Result<MemoryNeed> {
+        // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
+        const PER_PAIR: u64 = 96;
+        const PER_PIXEL_AND_PICTURE: u64 = 100;
+        // What an atlas knows of a texel, its levels, colors and picture.
+        const PER_TEXEL: u64 = 320;
+        let pictures = (ask::methods(self)?.len() + self.frames.len()) as u64;
+        let texels = self.atlas.map_or(0, |side| u64::from(side) * u64::from(side));
+        let matrices = (patches as u64).saturating_mul(patches as u64 * PER_PAIR) + texels * PER_TEXEL;
+        Ok(MemoryNeed {
+            what: format!("radiosity of {patches} patches with {pictures} pictures of {} pixels", self.size),
+            bytes: memory::of_pixels(self.size.width, self.size.height, pictures * PER_PIXEL_AND_PICTURE, matrices),
+            help: "ask for fewer `--patches`, name a scene of fewer faces, or ask for a smaller `--size` or `--atlas`",
         })
     }
 }

@@ -118,7 +118,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub(super) probe: Vec<[f64; 3]>,
 
-    /// Whether to gather over all pairs of texels too [default: yes for atlases up to 64]
+    /// Whether to gather over all pairs of texels too [default: yes for atlases up to 32]
     #[arg(long, value_enum, value_name = "YES")]
     pub(super) all_pairs: Option<YesNo>,
 

@@ -14,7 +14,7 @@ use crate::subsurface::on_card::Light;
 use crate::subsurface::{Coefficients, Material};
 
 /// Texels along a side up to which all pairs are gathered unasked.
-const ALL_PAIRS: u32 = 64;
+const ALL_PAIRS: u32 = 32;
 /// The most texels along a side for all pairs.
 const MOST_ALL_PAIRS: u32 = 512;
 /// The index of refraction where coefficients come without one.

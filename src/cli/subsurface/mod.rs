@@ -10,7 +10,9 @@ use super::Problem;
 use super::memory::{self, MemoryNeed};
 use super::model_name;
 use super::study::StudyArgs;
-use crate::study::subsurface::Parameters;
+use crate::atlas::require_side;
+use crate::report::digits::{Quantity, shown};
+use crate::study::subsurface::{Parameters, SubsurfaceError};
 use crate::subsurface::kernels::ViewKernel;
 
 pub(super) use args::Args;
@@ -29,6 +31,8 @@ impl StudyArgs for Args {
 
     /// What the atlas, its links, the card's textures and the pictures of every way take.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        // Before memory, which what cannot be has no need of.
+        require_side(self.atlas).map_err(SubsurfaceError::from)?;
         const PER_TEXEL: u64 = 1000;
         const PER_LINK: u64 = 80;
         const PER_PIXEL_AND_PICTURE: u64 = 100;
@@ -50,10 +54,8 @@ impl StudyArgs for Args {
 
     fn study(&self) -> miette::Result<Parameters> {
         if self.diffuse > 1.0 {
-            let help = "a surface reflects at most all of the light";
-            return Err(
-                Problem::usage(format!("expected a `--diffuse` from 0 to 1, found {}", self.diffuse), help).into()
-            );
+            let (found, help) = (shown(self.diffuse, Quantity::Exact), "a surface reflects at most all of the light");
+            return Err(Problem::usage(format!("expected a `--diffuse` from 0 to 1, found {found}"), help).into());
         }
         let material = ask::material(self)?;
         let ways = ask::ways(self, &material)?;

@@ -6,8 +6,9 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use glam::DVec3;
 
-use crate::cli::{Problem, number};
-use crate::io::{load_cube_table, load_light_sources, load_picture};
+use crate::cli::{Problem, number, view};
+use crate::io::{load_cube_table, load_light_sources};
+use crate::report::digits::{Quantity, shown};
 use crate::sphere::{BandWindow, ClearSky, EnvironmentPicture, HarmonicLight};
 use crate::transfer::grid::LIGHT_SIDE;
 use crate::transfer::light::{CubeLight, DiskSource, DistantLight};
@@ -129,7 +130,10 @@ impl LightArg {
     fn disk(towards: DVec3, degrees: &str, radiance: [f64; 3]) -> Result<Self, String> {
         let degrees = number::positive(degrees)?;
         if degrees > 180.0 {
-            return Err(format!("expected an angular radius of at most 180 degrees, found `{degrees}`"));
+            return Err(format!(
+                "expected an angular radius of at most 180 degrees, found `{}`",
+                shown(degrees, Quantity::Exact)
+            ));
         }
         Ok(Self::Disk { towards, degrees, radiance })
     }
@@ -170,7 +174,7 @@ impl LightArg {
                 DistantLight::Texels(light.map_err(|error| no_light(path, &error))?)
             }
             Self::Picture(path) => {
-                let picture = EnvironmentPicture::new(&load_picture(path)?);
+                let picture = EnvironmentPicture::new(&view::picture(path)?);
                 DistantLight::Picture(picture.map_err(|error| no_light(path, &error))?)
             }
         })
@@ -186,7 +190,7 @@ impl LightArg {
             Self::Sky { sun } => clear_sky(*sun).light(order),
             Self::RedAndBlue => Ok(HarmonicLight::red_and_blue(order)),
             Self::Picture(path) => {
-                let read = HarmonicLight::from_picture(order, &load_picture(path)?);
+                let read = HarmonicLight::from_picture(order, &view::picture(path)?);
                 return Ok(read.map_err(|error| no_light(path, &error))?);
             }
         };

@@ -1,6 +1,6 @@
 //! Radiosities at the corners of patches, for smooth shading.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::geom::vector::narrow;
 use crate::radiosity::Patches;
@@ -53,6 +53,42 @@ impl CornerSets {
     }
 }
 
+/// Vertex of the smooth display: a position where corners of patches of one smooth surface meet. Several share a
+/// position where surfaces of different materials, or both sides of an edge, meet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SmoothVertex {
+    /// Position.
+    pub at: DVec3,
+    /// Patches over which its radiosity is the mean, in ascending order.
+    pub patches: Vec<u32>,
+}
+
+impl SmoothVertex {
+    /// Returns the vertices of a scene, in the order of the patches and their corners.
+    pub fn all(patches: &Patches) -> Vec<Self> {
+        let CornerSets { sets, of } = CornerSets::new(patches);
+        let corners = patches.list().iter().zip(of);
+        let corners = corners.flat_map(|(patch, of)| patch.corners().iter().copied().zip(of));
+        let mut seen = BTreeSet::new();
+        let first = corners.filter(|&(at, set)| seen.insert((place(at), set)));
+        first.map(|(at, set)| Self { at, patches: sets[set as usize].clone() }).collect()
+    }
+
+    /// Returns its radiosity, given one radiosity per patch.
+    ///
+    /// # Panics
+    /// If there is no radiosity of one of its patches.
+    pub fn mean(&self, radiosity: &[[f64; 3]]) -> [f64; 3] {
+        mean(&self.patches, radiosity)
+    }
+}
+
+/// The mean over the patches of a set.
+fn mean(set: &[u32], radiosity: &[[f64; 3]]) -> [f64; 3] {
+    let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
+    set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
+}
+
 /// Computes the radiosity at each corner of each patch: the mean over the patches of one material that meet there and
 /// are not across an edge (Cohen and Greenberg, 1985, without their extrapolation at the border). Covered patches do
 /// not count. Constant radiosity stays constant.
@@ -62,11 +98,7 @@ impl CornerSets {
 pub fn at_corners(patches: &Patches, radiosity: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
     assert_eq!(patches.list().len(), radiosity.len(), "one radiosity a patch");
     let CornerSets { sets, of } = CornerSets::new(patches);
-    let mean = |set: &Vec<u32>| {
-        let add = |sum: [f64; 3], &j: &u32| [0, 1, 2].map(|c| sum[c] + radiosity[j as usize][c]);
-        set.iter().fold([0.0; 3], add).map(|sum| sum / set.len() as f64)
-    };
-    let means: Vec<[f64; 3]> = sets.iter().map(mean).collect();
+    let means: Vec<[f64; 3]> = sets.iter().map(|set| mean(set, radiosity)).collect();
     let corners = patches.list().iter().map(|patch| patch.corners().len());
     corners.zip(&of).map(|(count, of)| of[..count].iter().map(|&set| means[set as usize]).collect()).collect()
 }

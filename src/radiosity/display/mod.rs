@@ -23,7 +23,7 @@ use crate::picture::Picture;
 use crate::scene::Camera;
 pub use atlas::{AtlasPower, RadiosityAtlas};
 use corners::CornerSets;
-pub use corners::at_corners;
+pub use corners::{SmoothVertex, at_corners};
 use fans::in_patch;
 use resample::Resampler;
 pub use resample::VectorTexture;

@@ -2,11 +2,15 @@
 
 use glam::DVec3;
 
-use crate::geom::vector::{narrow, wide};
+use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, MeshError};
 
 /// Vertices along an edge of the ground of the paper on all-frequency transfer (its section 7): 36,864 in all.
 pub const GROUND_SIDE: u32 = 192;
+
+/// Distance of a ground below a model's flat base, relative to the longest side of the model's box: far beyond
+/// rounding, too small to be seen. In the plane of the base, rays would hit either of the two, in stripes.
+const BELOW_A_FLAT_BASE: f64 = 1.0 / 1024.0;
 
 /// Builds a horizontal square of `side` x `side` vertices that faces up, with normals and texture coordinates, given by
 /// its centre and half its width.
@@ -30,15 +34,25 @@ pub fn ground(side: u32, middle: DVec3, half_width: f64) -> Mesh {
 }
 
 /// Builds a ground of `side` x `side` vertices that touches a model's lowest point, twice as wide as the model is along
-/// its longest side of x and y.
+/// its longest side of x and y. Where triangles of the model lie in that plane it is lowered by 1/1024 of the longest
+/// side of the model's box.
 ///
 /// # Panics
 /// As [`ground`].
 pub fn ground_of(model: &Mesh, side: u32) -> Mesh {
     let [low, high] = model.bounds().unwrap_or_default().map(wide);
-    let middle = (low / 2.0 + high / 2.0).with_z(low.z);
+    let gap = if has_flat_base(model, low.z) { BELOW_A_FLAT_BASE * (high - low).max_element() } else { 0.0 };
+    let middle = (low / 2.0 + high / 2.0).with_z(low.z - gap);
     let width = (high - low).truncate().max_element();
     ground(side, middle, if width > 0.0 { width } else { 1.0 })
+}
+
+/// Returns `true` if a triangle with an area lies at this height.
+fn has_flat_base(model: &Mesh, height: f64) -> bool {
+    model
+        .iter_corners()
+        .map(|corners| corners.map(wide))
+        .any(|[a, b, c]| [a, b, c].iter().all(|corner| corner.z == height) && unit((b - a).cross(c - a)).is_some())
 }
 
 /// Combines a model and its ground ([`ground_of`]) in one mesh, with a material per triangle: 0 for the model and 1 for
@@ -73,6 +87,15 @@ mod tests {
         assert_eq!((ground.positions().len(), ground.len()), (36_864, 2 * 191 * 191));
         assert_eq!(ground.bounds(), Some([[-3.0, -2.0, -3.0], [5.0, 6.0, -3.0]]));
         assert!(ground.vertex_normals().iter().all(|normal| *normal == DVec3::Z));
+    }
+
+    /// No triangle of a box lies in the plane of its ground, which is too near to be seen.
+    #[test]
+    fn a_flat_base_lies_above_its_ground() {
+        let model = crate::scene::built::white_box().mesh().clone();
+        let [low, high] = model.bounds().expect("bounds");
+        let [below, _] = ground_of(&model, 4).bounds().expect("bounds");
+        assert_eq!(f64::from(low[2] - below[2]), f64::from(high[0] - low[0]) / 1024.0);
     }
 
     #[test]

@@ -1,10 +1,14 @@
 //! Page, tables, charts, pictures and trace of the study.
 
+use std::collections::BTreeMap;
+
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
 use super::{
     AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow,
 };
+use crate::geom::vector::narrow;
+use crate::radiosity::display::SmoothVertex;
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};
@@ -13,6 +17,7 @@ use crate::study::timeline_trace;
 pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, RadiosityError> {
     let mut found = Findings::new("Matrix radiosity");
     found.keep_table(FoundTable::from(patches(&outcome)).csv("patches"));
+    found.keep_table(FoundTable::from(vertices(&outcome)).csv("vertices"));
     if let Some(bytes) = timeline(parameters, &outcome)? {
         found.keep_file("timeline.json", bytes);
     }
@@ -141,9 +146,7 @@ fn frame(frame: IterationPicture) -> NamedPicture {
 fn patches(outcome: &RadiosityOutcome) -> Table {
     let mut headings: Vec<String> =
         ["patch", "x", "y", "z", "area", "open_area", "face", "material"].into_iter().map(str::to_owned).collect();
-    for row in &outcome.rows {
-        headings.extend(["r", "g", "b"].map(|c| format!("{}_{c}", row.label)));
-    }
+    headings.extend(channels(outcome));
     let mut table = Table::new("Patches", &headings);
     for (i, patch) in outcome.patches.list().iter().enumerate() {
         let [x, y, z] = patch.center().to_array();
@@ -156,7 +159,48 @@ fn patches(outcome: &RadiosityOutcome) -> Table {
     table
 }
 
-/// Chart of Figure 3: the residual of each method by iteration. `None` where nothing iterates.
+/// Table of the vertices of the smooth display: position, first vertex of the model at that position, material of the
+/// patches, and radiosity by each method.
+fn vertices(outcome: &RadiosityOutcome) -> Table {
+    let of_model = first_places(outcome.patches.mesh().positions());
+    let mut headings: Vec<String> =
+        ["vertex", "x", "y", "z", "of_model", "material", "patches"].into_iter().map(str::to_owned).collect();
+    headings.extend(channels(outcome));
+    let mut table = Table::new("Vertices", &headings);
+    for (i, vertex) in SmoothVertex::all(&outcome.patches).iter().enumerate() {
+        let [x, y, z] = vertex.at.to_array();
+        let material = vertex.patches.first().map(|&patch| outcome.patches.list()[patch as usize].material);
+        let places: [Cell; 4] = [i.into(), x.into(), y.into(), z.into()];
+        let number = |number: Option<u32>| number.map_or(Cell::Empty, Cell::from);
+        let of_model = of_model.get(&place(narrow(vertex.at))).copied();
+        let parts: [Cell; 3] = [number(of_model), number(material), vertex.patches.len().into()];
+        let found = outcome.rows.iter().flat_map(|row| vertex.mean(&row.radiosity).map(Cell::from));
+        table.push(places.into_iter().chain(parts).chain(found));
+    }
+    table
+}
+
+/// First vertex at each position of a model.
+fn first_places(positions: &[[f32; 3]]) -> BTreeMap<[u32; 3], u32> {
+    let mut first = BTreeMap::new();
+    for (vertex, &at) in (0..).zip(positions) {
+        first.entry(place(at)).or_insert(vertex);
+    }
+    first
+}
+
+/// Bits of a position, with both zeros alike.
+fn place(at: [f32; 3]) -> [u32; 3] {
+    at.map(|x| (x + 0.0).to_bits())
+}
+
+/// Column names of all methods' radiosities.
+fn channels(outcome: &RadiosityOutcome) -> impl Iterator<Item = String> + '_ {
+    outcome.rows.iter().flat_map(|row| ["r", "g", "b"].map(|c| format!("{}_{c}", row.label)))
+}
+
+/// Chart of Figure 3: the residual of each method by iteration. `None` where nothing iterates, or where everything is
+/// exact after one iteration, so that there is no second point above 0.
 fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let line = |row: &MethodRow| Series {
         label: row.label.clone(),
@@ -168,7 +212,9 @@ fn residuals(outcome: &RadiosityOutcome) -> Option<NamedChart> {
     let names = ["Mean squared residual of M B - E", "iterations", "error"];
     // A method without convergence must not compress the others into a corner.
     let scale = Scale::fitting(lines.iter().filter_map(|line| line.points.last()).map(|end| end.0));
-    (!lines.is_empty()).then(|| logarithmic("residual", names, (scale, lines), caption))
+    let shown = lines.iter().flat_map(|line| &line.points).filter(|point| point.1 > 0.0);
+    let iterates = shown.map(|point| point.0).fold(0.0, f64::max) > 0.0;
+    iterates.then(|| logarithmic("residual", names, (scale, lines), caption))
 }
 
 /// Ratio of mean errors above which a setting of a switch gets a line of its own; the table has all settings.

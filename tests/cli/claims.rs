@@ -1,0 +1,158 @@
+//! Files that claim 2^32 of something: all readers refuse them, and none takes memory on their word.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+use crossbar::all_frequency::factor::parse_merl;
+use crossbar::all_frequency::file::parse_all_frequency;
+use crossbar::bi_scale::file::parse_bi_scale;
+use crossbar::io;
+use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
+use crossbar::transfer::file::parse_prt;
+
+/// Set in the process whose addresses are limited.
+const LIMITED: &str = "CROSSBAR_TEST_LIMITED";
+/// Bytes of a binary file in which every place is claimed over.
+const HEAD: usize = 320;
+/// The last number of 32 bits.
+const CLAIM: &str = "4294967295";
+
+/// A reader, and a good file for it.
+struct GoodFile {
+    name: &'static str,
+    bytes: Vec<u8>,
+    read: fn(&[u8], &Path),
+}
+
+/// 2^32 of the smallest thing are 4 GiB; the readers have 1.5 of addresses, the program's own among them.
+#[test]
+fn no_reader_takes_memory_on_the_word_of_a_file() {
+    if std::env::var_os(LIMITED).is_some() {
+        good_files().iter().for_each(read_claims);
+        return;
+    }
+    let mut command = Command::new("sh");
+    command.args(["-c", "ulimit -v 1500000; exec \"$0\" \"$@\""]).arg(std::env::current_exe().expect("this test"));
+    command.args(["--exact", "claims::no_reader_takes_memory_on_the_word_of_a_file", "--nocapture"]);
+    let output = command.env(LIMITED, "1").output().expect("a shell");
+    let said = [&output.stdout[..], &output.stderr].concat();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&said));
+}
+
+fn read_claims(good: &GoodFile) {
+    for claim in claims(&good.bytes) {
+        let start = Instant::now();
+        (good.read)(&claim, Path::new(good.name));
+        let took = start.elapsed();
+        assert!(took < Duration::from_secs(10), "{}: {took:?} for {:?}", good.name, &claim[..claim.len().min(HEAD)]);
+    }
+}
+
+/// The file with each of its numbers in turn replaced by a large one, checksums right.
+fn claims(good: &[u8]) -> Vec<Vec<u8>> {
+    let seals = seals(good);
+    if let Some(text) = std::str::from_utf8(good).ok().filter(|text| !text.contains('\0')) {
+        let is_first = |at: usize| at == 0 || !text.as_bytes()[at - 1].is_ascii_digit();
+        let numbers = (0..good.len()).filter(|&at| good[at].is_ascii_digit() && is_first(at));
+        let end = |at: usize| at + good[at..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+        return numbers.map(|at| [&good[..at], CLAIM.as_bytes(), &good[end(at)..]].concat()).collect();
+    }
+    let mut all = Vec::new();
+    for at in 0..good.len().min(HEAD).saturating_sub(3) {
+        for with in [[0xff; 4], [0xff, 0xff, 0xff, 0x7f], [0x7f, 0xff, 0xff, 0xff]] {
+            let mut bytes = good.to_vec();
+            bytes[at..at + 4].copy_from_slice(&with);
+            seals.iter().for_each(|seal| seal.put(&mut bytes));
+            all.push(bytes);
+        }
+    }
+    all
+}
+
+/// A checksum of the bytes from `first` to `end`, behind them.
+struct Seal {
+    first: usize,
+    end: usize,
+    is_big: bool,
+}
+
+impl Seal {
+    fn put(&self, bytes: &mut [u8]) {
+        let crc = crc32fast::hash(&bytes[self.first..self.end]);
+        bytes[self.end..self.end + 4].copy_from_slice(&if self.is_big { crc.to_be_bytes() } else { crc.to_le_bytes() });
+    }
+}
+
+/// The checksums of a PNG's header, or of a `.prt` file, which stand wherever one is right.
+fn seals(good: &[u8]) -> Vec<Seal> {
+    if good.starts_with(b"\x89PNG") {
+        return vec![Seal { first: 12, end: 29, is_big: true }];
+    }
+    let (mut found, mut first) = (Vec::new(), 0);
+    if !good.starts_with(b"\x89PRT") {
+        return found;
+    }
+    let mut hasher = crc32fast::Hasher::new();
+    for end in 0..good.len() - 3 {
+        if end > first && hasher.clone().finalize().to_le_bytes() == good[end..end + 4] {
+            found.push(Seal { first, end, is_big: false });
+            (first, hasher) = (end + 4, crc32fast::Hasher::new());
+        }
+        if end >= first {
+            hasher.update(&good[end..=end]);
+        }
+    }
+    assert!(found.len() > 1, "a header and sections");
+    found
+}
+
+fn good_files() -> Vec<GoodFile> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let stored = |path: &str| fs::read(root.join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let colors: Vec<[f32; 3]> = (0..64_u8).map(|i| [f32::from(i); 3]).collect();
+    let picture = Picture::rgb(8, 8, &colors).with("id", ChannelUnit::Id, Samples::Uint(vec![1; 64])).expect("ids");
+    let mut array = Vec::new();
+    io::write_npy_array(&[2, 3], &[0.5; 6], &mut array).expect("an array");
+    let mut merl = [90_i32, 90, 180].map(i32::to_le_bytes).concat();
+    merl.extend([0; 64]);
+    let decoded = |bytes: &[u8], _: &Path| drop(Picture::decode(bytes));
+    let file = |name, bytes: Vec<u8>, read| GoodFile { name, bytes, read };
+    vec![
+        file("p.png", png(&picture.display(1.0).expect("color")).expect("a file"), decoded),
+        file("p.hdr", hdr(&picture).expect("a file"), decoded),
+        file("p.exr", exr(&picture).expect("a file"), decoded),
+        file("a.npy", array, |bytes, name| {
+            drop(io::parse_npy_array(bytes, name));
+            drop(io::parse_numbers(bytes, name));
+        }),
+        file("t.csv", stored("docs/examples/reflectance.csv"), |bytes, name| {
+            drop(io::parse_numbers(bytes, name));
+            drop(io::parse_single_numbers(bytes, name));
+        }),
+        file("q.mtx", stored("docs/examples/quarters.mtx"), |bytes, name| drop(io::parse_matrix_market(bytes, name))),
+        file("m.obj", stored("fixtures/models/square.obj"), |bytes, name| drop(io::parse_obj(bytes, name))),
+        file("m.ply", stored("fixtures/models/square.ply"), |bytes, name| drop(io::parse_ply(bytes, name))),
+        file("m.stl", stored("fixtures/models/square.stl"), |bytes, name| drop(io::parse_stl(bytes, name))),
+        file("m.gltf", stored("fixtures/models/square.gltf"), |bytes, name| {
+            let mut none = |_: &Path| Err(std::io::Error::other("no file beside it"));
+            drop(io::parse_gltf(bytes, name, &mut none));
+        }),
+        file("r.csv", stored("docs/examples/rays.csv"), |bytes, name| drop(io::parse_rays(bytes, name))),
+        file("e.csv", b"r,g,b\n1,2,3\n".to_vec(), |bytes, name| drop(io::parse_irradiances(bytes, name))),
+        file("l.csv", b"face,row,column,r,g,b\n0,0,0,1,1,1\n".to_vec(), |bytes, name| {
+            drop(io::parse_cube_table(bytes, name, 4));
+        }),
+        file("l.sources.csv", b"x,y,z,degrees,r,g,b\n0,0,2,1,1,2,3\n".to_vec(), |bytes, name| {
+            drop(io::parse_light_sources(bytes, name));
+        }),
+        file("b.binary", merl, |bytes, name| drop(parse_merl(bytes, name))),
+        file("s.prt", stored("docs/examples/step_small.prt"), |bytes, name| drop(parse_prt(bytes, name))),
+        file("a.prt", stored("docs/examples/step_all_small.prt"), |bytes, name| {
+            drop(parse_all_frequency(bytes, name));
+        }),
+        file("b.prt", stored("docs/examples/step_biclusters.prt"), |bytes, name| drop(parse_bi_scale(bytes, name))),
+    ]
+}
