@@ -11,6 +11,7 @@
 //! Function y_lm has index l (l + 1) + m. There is no Condon-Shortley sign: for l = 1 the functions are y, z and x
 //! times sqrt(3 / (4 pi)). *Order* n means n bands, l = 0 to n - 1, n^2 functions.
 
+mod column;
 mod cube;
 mod environment;
 mod extremes;

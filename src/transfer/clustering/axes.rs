@@ -27,19 +27,18 @@ const SAMPLE: usize = 512;
 const COLUMNS: usize = 8;
 const NOTHING: f64 = 1.0 / (1u64 << 30) as f64;
 
-/// Axes of a signal, and its points along them.
+/// Axes of a signal.
 #[derive(Debug)]
 pub(super) struct Axes {
     dimension: usize,
     /// Orthonormal, one after another.
     axes: Vec<f64>,
-    /// Point by point, relative to the center and scaled.
-    points: Vec<f32>,
 }
 
 impl Axes {
-    /// Principal axes of some of the points, relative to a center and scaled; none where they do not pay.
-    pub(super) fn new(signal: &Signal, center: &[f64], scale: f64, level: SimdLevel) -> Option<Self> {
+    /// Principal axes of some of the points, and all points along them, relative to a center and scaled, one after
+    /// another; none where they do not pay.
+    pub(super) fn new(signal: &Signal, center: &[f64], scale: f64, level: SimdLevel) -> Option<(Self, Vec<f32>)> {
         let dimension = signal.dimension();
         if dimension < LEAST_DIMENSION {
             return None;
@@ -74,17 +73,12 @@ impl Axes {
                 }
             }
         });
-        Some(Self { dimension, axes, points })
+        Some((Self { dimension, axes }, points))
     }
 
     /// Number of axes.
     pub(super) fn count(&self) -> usize {
         self.axes.len() / self.dimension
-    }
-
-    /// A point along the axes.
-    pub(super) fn point(&self, point: usize) -> &[f32] {
-        &self.points[point * self.count()..][..self.count()]
     }
 
     /// A subspace along the axes. `offset` is its mean, relative to the center and scaled; empty if it is 0.
@@ -94,7 +88,7 @@ impl Axes {
             add_orthonormal(&mut vectors, self.along(vector, level), NOTHING);
         }
         let projected = if offset.is_empty() { Vec::new() } else { self.along(offset, level) };
-        ScaledSubspace { length: dot(offset, offset).sqrt(), offset: projected, vectors }
+        ScaledSubspace { dimension: self.count(), length: dot(offset, offset).sqrt(), offset: projected, vectors }
     }
 
     fn along(&self, vector: &[f64], level: SimdLevel) -> Vec<f64> {
@@ -115,14 +109,14 @@ mod tests {
     #[test]
     fn axes_are_orthonormal_and_hold_most_of_the_signal() {
         let signal = torus_signal(700, 200, 4);
-        let axes = Axes::new(&signal, &[0.0; 200], 0.01, SimdLevel::widest()).expect("axes");
+        let (axes, points) = Axes::new(&signal, &[0.0; 200], 0.01, SimdLevel::widest()).expect("axes");
         assert_eq!((axes.count(), axes.axes.len()), (50, 50 * 200));
         for (i, a) in axes.axes.chunks(200).enumerate() {
             for (j, b) in axes.axes.chunks(200).enumerate() {
                 assert!((dot(a, b) - f64::from(u8::from(i == j))).abs() < 1e-13);
             }
         }
-        let held: f64 = axes.points.iter().map(|&value| f64::from(value) * f64::from(value) * 1e4).sum();
+        let held: f64 = points.iter().map(|&value| f64::from(value) * f64::from(value) * 1e4).sum();
         let all = signal.sum_of_squares();
         assert!(held < all && held > 0.9 * all, "{held} of {all}");
         assert!(Axes::new(&torus_signal(9, 127, 0), &[0.0; 127], 1.0, SimdLevel::Baseline).is_none(), "few dimensions");
@@ -135,7 +129,7 @@ mod tests {
         let mut values = vec![0.0; 200 * 200];
         (0..200).for_each(|point| values[200 * point + point % 3] = 1.0);
         let signal = Signal::new(200, values).expect("a signal");
-        let axes = Axes::new(&signal, &[0.0; 200], 1.0, SimdLevel::widest()).expect("axes");
+        let (axes, _) = Axes::new(&signal, &[0.0; 200], 1.0, SimdLevel::widest()).expect("axes");
         assert_eq!(axes.count(), 3);
         let unit = |at: usize| (0..200).map(move |j| f64::from(u8::from(j == at)));
         let vectors: Vec<f64> = unit(150).chain(unit(1)).collect();

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::budget::distribute;
+use super::carried::Carried;
 use super::fit::{Fitted, fit};
 use super::gram::KeptProducts;
 use super::members::{Members, fill_empty};
@@ -83,6 +84,7 @@ pub(super) fn compress_at(
 struct Work<'a, O> {
     signal: &'a Signal,
     points: Points<'a>,
+    carried: Carried,
     form: CpcaForm,
     level: SimdLevel,
     clusters: Vec<Fitted>,
@@ -104,6 +106,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(Self {
             signal,
             points: Points::new(signal, options.form, level),
+            carried: Carried::default(),
             form: options.form,
             level,
             clusters: start.iter().map(|point| Fitted::at(at(point))).collect(),
@@ -137,11 +140,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
     /// Sends each point to its best cluster; gives the number of points that changed theirs.
     fn classify(&mut self) -> usize {
         let subspaces: Vec<_> = self.clusters.iter().map(|cluster| &cluster.subspace).collect();
-        let order = match &self.of_point[..] {
-            [] => (0..self.signal.points() as u32).collect(),
-            before => Members::new(before, self.clusters.len()).into_points(),
-        };
-        let mut nearest = self.points.nearest(&subspaces, &order);
+        let mut nearest = self.points.nearest(&subspaces, &self.of_point, &mut self.carried);
         fill_empty(&mut nearest.cluster, &mut nearest.squared_error, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, nearest.cluster);
         let mut moved = self.of_point.len() - before.len();

@@ -7,7 +7,7 @@
 //! `2 sqrt(n') D e S + n' (e S)^2` because it is at most D^2, and D^2 by e S^2. [`bound`] is their sum with the
 //! rounding of the additions. [`REST`] `(1 + M)^2` stands for what f64 rounds in the errors that are decided by.
 
-use super::products::{Packed, ROWS, add_block};
+use super::products::{ROWS, add_slices};
 use crate::linalg::dot;
 
 /// Points that are estimated side by side.
@@ -19,12 +19,14 @@ const UNIT: f32 = 1.0 / (1 << 24) as f32;
 /// More than f64 rounds in a squared error, as a share of the squared distance from the mean: some
 /// `2 sqrt(n') (n / 8 + 4) 2^-53`, and what counts as no error.
 const REST: f32 = 1.0 / (1 << 30) as f32;
+/// More than the root of what [`REST`] and the rounding of [`ScaledSubspace`] stand for.
+const ROOT_OF_REST: f32 = 1.0 / (1 << 14) as f32;
 /// Added to each bound, against products too small for f32; lengths are at most 1.
 const SMALL: f32 = 1e-30;
 
 type Lanes = [f32; LANES];
 
-/// A row of the estimates: which vector of which cluster.
+/// A row of the estimates: which vector of a cluster.
 #[derive(Clone, Copy, Debug)]
 enum RowKind {
     /// The cluster's mean, with its squared length.
@@ -34,8 +36,10 @@ enum RowKind {
 }
 
 /// A subspace relative to g and scaled, perhaps projected onto fewer dimensions.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScaledSubspace {
+    /// The numbers of a vector.
+    pub(super) dimension: usize,
     /// M, before the projection.
     pub(super) length: f64,
     /// The mean, as many numbers as points have; empty if it is 0.
@@ -47,8 +51,12 @@ pub(super) struct ScaledSubspace {
 /// Subspaces in f32.
 #[derive(Debug)]
 pub(super) struct Estimator {
-    rows: Packed<f32, ROWS>,
-    kinds: Vec<(usize, RowKind)>,
+    dimension: usize,
+    /// One after another, cluster by cluster, and one of zeros.
+    rows: Vec<f32>,
+    kinds: Vec<RowKind>,
+    /// Where each cluster's rows begin, and the last end.
+    begins: Vec<usize>,
     bounds: Vec<ClusterBound>,
     error: f32,
 }
@@ -64,92 +72,82 @@ struct ClusterBound {
     rest: f32,
 }
 
-/// Lower bounds of squared errors for a group of points, cluster by cluster.
-#[derive(Clone, Debug)]
+/// Lower bounds of squared errors for a group of points, for one of some clusters after another.
+#[derive(Clone, Debug, Default)]
 pub(super) struct LowerBounds {
+    /// Which of the clusters each row is of, and which row it is.
+    rows: Vec<(usize, usize)>,
     errors: Vec<Lanes>,
     distances: Vec<Lanes>,
     squares: Lanes,
 }
 
 impl Estimator {
-    /// Of subspaces of `dimension` numbers.
-    pub(super) fn new(dimension: usize, subspaces: &[ScaledSubspace]) -> Self {
-        let (mut kinds, mut bounds, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-        for (cluster, ScaledSubspace { length, offset, vectors }) in subspaces.iter().enumerate() {
+    /// Of subspaces, all of the same dimension.
+    pub(super) fn new(subspaces: &[ScaledSubspace]) -> Self {
+        let dimension = subspaces.first().map_or(1, |subspace| subspace.dimension);
+        let (mut kinds, mut bounds, mut rows, mut begins) = (Vec::new(), Vec::new(), Vec::new(), vec![0]);
+        for ScaledSubspace { length, offset, vectors, .. } in subspaces {
             if !offset.is_empty() {
-                kinds.push((cluster, RowKind::Mean(dot(offset, offset) as f32)));
-                rows.push(&offset[..]);
+                kinds.push(RowKind::Mean(dot(offset, offset) as f32));
             }
-            for vector in vectors.chunks_exact(dimension) {
-                kinds.push((cluster, RowKind::Vector(dot(vector, offset) as f32)));
-                rows.push(vector);
-            }
+            kinds.extend(vectors.chunks_exact(dimension).map(|vector| RowKind::Vector(dot(vector, offset) as f32)));
+            rows.extend(offset.iter().chain(vectors).map(|&value| value as f32));
+            begins.push(kinds.len());
             let (mean, vectors) = (*length as f32, (vectors.len() / dimension) as f32);
             let rest = SMALL + REST * (1.0 + mean) * (1.0 + mean);
             bounds.push(ClusterBound { mean, vectors: (vectors, vectors.sqrt()), rest });
         }
-        let rows = Packed::new(rows.len(), dimension, |at, into: &mut [f32]| {
-            into.iter_mut().zip(rows[at]).for_each(|(into, &value)| *into = value as f32);
-        });
-        Self { rows, kinds, bounds, error: (CHUNK + dimension / CHUNK + 8) as f32 * UNIT }
+        rows.resize(rows.len() + dimension, 0.0);
+        let error = (CHUNK + dimension / CHUNK + 8) as f32 * UNIT;
+        Self { dimension, rows, kinds, begins, bounds, error }
     }
 
-    /// Bounds for groups of points: no error is below its bound.
+    /// Bounds of some clusters for a group of points: no error is below its bound.
     #[inline(always)]
-    pub(super) fn estimate(&self, points: &Packed<f32, LANES>, groups: &mut [LowerBounds]) {
-        for (group, points) in groups.iter_mut().zip(points.groups()) {
-            group.square(points);
+    pub(super) fn estimate(&self, points: &[Lanes], clusters: &[u32], group: &mut LowerBounds) {
+        group.begin(points, clusters.len());
+        let mut rows = std::mem::take(&mut group.rows);
+        rows.clear();
+        for (at, &cluster) in clusters.iter().enumerate() {
+            rows.extend((self.begins[cluster as usize]..self.begins[cluster as usize + 1]).map(|row| (at, row)));
         }
-        for (tile, rows) in self.rows.groups().enumerate() {
-            let kinds = &self.kinds[tile * ROWS..];
-            for (group, points) in groups.iter_mut().zip(points.groups()) {
-                let mut sums = [[0.0; LANES]; ROWS];
-                for (rows, points) in rows.chunks(CHUNK).zip(points.chunks(CHUNK)) {
-                    add_block(rows, points, &mut sums);
-                }
-                for (&(cluster, kind), sums) in kinds.iter().zip(&sums) {
-                    group.fold(cluster, kind, sums);
-                }
+        let zeros = self.kinds.len();
+        for tile in rows.chunks(ROWS) {
+            let slices = std::array::from_fn(|i| {
+                let row = tile.get(i).map_or(zeros, |&(_, row)| row);
+                &self.rows[row * self.dimension..][..self.dimension]
+            });
+            let mut sums = [[0.0; LANES]; ROWS];
+            for (chunk, points) in points.chunks(CHUNK).enumerate() {
+                add_slices(slices.map(|row| &row[chunk * CHUNK..][..points.len()]), points, &mut sums);
+            }
+            for (&(at, row), sums) in tile.iter().zip(&sums) {
+                group.fold(at, self.kinds[row], sums);
             }
         }
-        for group in groups {
-            group.subtract_bounds(self);
-        }
+        group.rows = rows;
+        group.subtract_bounds(self, clusters);
+    }
+
+    /// At least how far a point is from a cluster's subspace, if that is `lower` for its squared error: less by what is
+    /// lost to rounding where the distance of another point follows from it.
+    #[inline(always)]
+    pub(super) fn distance(&self, cluster: u32, lower: f32) -> f32 {
+        lower.max(0.0).sqrt() - ROOT_OF_REST * (1.0 + self.bounds[cluster as usize].mean)
     }
 }
 
 impl LowerBounds {
-    pub(super) fn new(clusters: usize) -> Self {
-        let empty = vec![[0.0; LANES]; clusters];
-        Self { errors: empty.clone(), distances: empty, squares: [0.0; LANES] }
-    }
-
-    /// The bounds of a lane, cluster by cluster.
-    #[cfg(test)]
-    pub(super) fn of(&self, lane: usize) -> impl Iterator<Item = f32> {
-        self.errors.iter().map(move |errors| errors[lane])
-    }
-
-    /// The bounds of a cluster, lane by lane.
+    /// The bounds lane by lane, one of the clusters after another.
     #[inline(always)]
-    pub(super) fn of_cluster(&self, cluster: u32) -> &[f32; LANES] {
-        &self.errors[cluster as usize]
-    }
-
-    /// The cluster of a lane's least bound, the first of equals.
-    #[inline(always)]
-    pub(super) fn least(&self, lane: usize) -> u32 {
-        let mut first = 0;
-        for (cluster, errors) in self.errors.iter().enumerate() {
-            first = if errors[lane] < self.errors[first][lane] { cluster } else { first };
-        }
-        first as u32
+    pub(super) fn lanes(&self) -> &[[f32; LANES]] {
+        &self.errors
     }
 
     /// Takes the points' squared lengths, which are the distances from means that are 0.
     #[inline(always)]
-    fn square(&mut self, points: &[Lanes]) {
+    fn begin(&mut self, points: &[Lanes], clusters: usize) {
         let mut squares = [0.0_f64; LANES];
         for values in points {
             for lane in 0..LANES {
@@ -157,14 +155,16 @@ impl LowerBounds {
             }
         }
         self.squares = squares.map(|square| square as f32);
-        self.errors.fill(self.squares);
-        self.distances.fill(self.squares);
+        for values in [&mut self.errors, &mut self.distances] {
+            values.clear();
+            values.resize(clusters, self.squares);
+        }
     }
 
-    /// Takes the products with one row of a cluster. A mean's row comes before those of its vectors.
+    /// Takes the products with one row of one of the clusters. A mean's row comes before those of its vectors.
     #[inline(always)]
-    fn fold(&mut self, cluster: usize, kind: RowKind, products: &Lanes) {
-        let (errors, distances) = (&mut self.errors[cluster], &mut self.distances[cluster]);
+    fn fold(&mut self, at: usize, kind: RowKind, products: &Lanes) {
+        let (errors, distances) = (&mut self.errors[at], &mut self.distances[at]);
         match kind {
             RowKind::Mean(mean) => {
                 for lane in 0..LANES {
@@ -182,9 +182,10 @@ impl LowerBounds {
     }
 
     #[inline(always)]
-    fn subtract_bounds(&mut self, estimator: &Estimator) {
+    fn subtract_bounds(&mut self, estimator: &Estimator, clusters: &[u32]) {
         let lengths = self.squares.map(f32::sqrt);
-        for ((errors, distances), of) in self.errors.iter_mut().zip(&self.distances).zip(&estimator.bounds) {
+        for ((errors, distances), &cluster) in self.errors.iter_mut().zip(&self.distances).zip(clusters) {
+            let of = &estimator.bounds[cluster as usize];
             for lane in 0..LANES {
                 errors[lane] -= bound(estimator.error, lengths[lane] + of.mean, distances[lane], of.vectors) + of.rest;
             }

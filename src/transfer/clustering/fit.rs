@@ -59,7 +59,14 @@ pub(super) fn fit(
     kept: &mut KeptProducts,
 ) -> Result<Fitted, FactorError> {
     let linear = form == CpcaForm::Linear && count > 0;
-    let mean = if linear { vec![0.0; signal.dimension()] } else { mean(signal, points) };
+    let mean = if linear {
+        vec![0.0; signal.dimension()]
+    } else {
+        level.run(
+            #[inline(always)]
+            || mean(signal, points),
+        )
+    };
     if count == 0 || (points.len() == 1 && !linear) {
         let squared_error = points.iter().map(|&point| squared_distance(signal.point(point as usize), &mean)).sum();
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
@@ -132,6 +139,7 @@ fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(Leading
     Ok((eigen, kept))
 }
 
+#[inline(always)]
 fn mean(signal: &Signal, points: &[u32]) -> Vec<f64> {
     let mut mean = vec![0.0; signal.dimension()];
     for &point in points {
@@ -155,29 +163,25 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
-    fn residual(&self, point: u32, into: &mut [f64]) {
-        let values = self.signal.point(point as usize).iter().zip(self.mean);
+    /// The residual of a point from a component on.
+    fn part(&self, point: u32, first: usize, into: &mut [f64]) {
+        let values = self.signal.point(point as usize)[first..].iter().zip(&self.mean[first..]);
         into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
-    }
-
-    /// A component of the residuals of some points.
-    fn component(&self, points: &[u32], component: usize, into: &mut [f64]) {
-        let values = points.iter().map(|&point| self.signal.point(point as usize)[component]);
-        let mean = self.mean[component];
-        into.iter_mut().zip(values).for_each(|(into, value)| *into = f64::from(value) - mean);
     }
 
     /// C C^T.
     fn between_points(&self, kept: &KeptProducts) -> Result<Matrix, FactorError> {
-        kept.of(self.points, self.mean.len(), self.level, |point, into| self.residual(point, into))
+        kept.of(self.points, self.mean.len(), self.level, |point, into| self.part(point, 0, into))
     }
 
     /// C^T C, a chunk of points at a time.
     fn between_components(&self) -> Result<Matrix, FactorError> {
         let mut products = square(self.mean.len())?;
         for chunk in self.points.chunks(CHUNK) {
-            let component = |j: usize, into: &mut [f64]| self.component(chunk, j, into);
-            add_products(&mut products, chunk.len(), self.level, component);
+            let part = |at: usize, first: usize, into: &mut [f64]| self.part(chunk[at], first, into);
+            let (size, length) = (self.mean.len(), chunk.len());
+            let (rows, columns) = (Packed::across(size, length, part), Packed::across(size, length, part));
+            add_products(&mut products, &rows, &columns, self.level);
         }
         Ok(products)
     }
@@ -186,10 +190,8 @@ impl Residuals<'_> {
     fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
         let (length, points) = (self.mean.len(), self.points.len());
         let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));
-        let columns = Packed::<f64, COLUMNS>::across(length, points, |at, first, into| {
-            let values = self.signal.point(self.points[at] as usize)[first..].iter().zip(&self.mean[first..]);
-            into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
-        });
+        let part = |at: usize, first: usize, into: &mut [f64]| self.part(self.points[at], first, into);
+        let columns = Packed::<f64, COLUMNS>::across(length, points, part);
         let mut combined = vec![0.0; count * length];
         for (rows, into) in rows.groups().zip(combined.chunks_mut(ROWS * length)) {
             for (group, columns) in columns.groups().enumerate() {

@@ -36,7 +36,9 @@ impl KeptProducts {
         let before: Vec<Option<usize>> = points.iter().map(|point| self.points.binary_search(point).ok()).collect();
         let new: Vec<usize> = (0..size).filter(|&at| before[at].is_none()).collect();
         let Some(kept) = self.products.as_ref().filter(|_| 2 * new.len() < size) else {
-            add_products(&mut products, length, level, |at, into| vector(points[at], into));
+            let vector = |at: usize, into: &mut [f64]| vector(points[at], into);
+            let (rows, columns) = (Packed::new(size, length, vector), Packed::new(size, length, vector));
+            add_products(&mut products, &rows, &columns, level);
             return Ok(products);
         };
         for (row, &from) in before.iter().enumerate() {
@@ -74,12 +76,17 @@ impl KeptProducts {
     }
 }
 
-/// Adds the products of all pairs of vectors to the lower triangle; what stands above it is not used.
-pub(super) fn add_products(products: &mut Matrix, length: usize, level: SimdLevel, vector: impl Fn(usize, &mut [f64])) {
+/// Adds the products of all pairs of vectors, which are both `rows` and `columns`, to the lower triangle; what stands
+/// above it is not used.
+pub(super) fn add_products(
+    products: &mut Matrix,
+    rows: &Packed<f64, ROWS>,
+    columns: &Packed<f64, COLUMNS>,
+    level: SimdLevel,
+) {
     let size = products.row_count();
-    let (rows, columns) =
-        (Packed::<f64, ROWS>::new(size, length, &vector), Packed::<f64, COLUMNS>::new(size, length, &vector));
     let rows: Vec<_> = rows.groups().collect();
+    let length = rows.first().map_or(0, |row| row.len());
     let add_rows = |tile: usize, into: &mut [f64]| {
         level.run(
             #[inline(always)]

@@ -23,11 +23,6 @@ impl Members {
         Self { points, begins }
     }
 
-    /// All points, cluster by cluster.
-    pub(super) fn into_points(self) -> Vec<u32> {
-        self.points
-    }
-
     pub(super) fn of(&self, cluster: usize) -> &[u32] {
         &self.points[self.begins[cluster]..self.begins[cluster + 1]]
     }

@@ -15,11 +15,13 @@
 
 mod axes;
 mod budget;
+mod carried;
 mod clustering;
 mod compress;
 mod estimate;
 mod fit;
 mod gram;
+mod groups;
 mod least;
 mod members;
 mod nearest;

@@ -51,15 +51,34 @@ impl<T: Copy + Default, const N: usize> Packed<T, N> {
 }
 
 /// Adds the inner products of ROWS vectors with N others. Each sum runs over the components in order, from 0.
-// Each row's sums are a variable of their own: of an array of them, AVX-512 code gathers the elements one by one, which
-// took 60 times as long.
 #[inline(always)]
 pub(super) fn add_block<T, const N: usize>(rows: &[[T; ROWS]], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
 where
     T: Copy + Default + Add<Output = T> + Mul<Output = T>,
 {
+    add_rows(rows.iter().copied(), columns, into);
+}
+
+/// As [`add_block`], of vectors that stand anywhere.
+#[inline(always)]
+pub(super) fn add_slices<T, const N: usize>(rows: [&[T]; ROWS], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
+where
+    T: Copy + Default + Add<Output = T> + Mul<Output = T>,
+{
+    let [p, q, r, s, t, u] = rows;
+    let rows = p.iter().zip(q).zip(r).zip(s).zip(t).zip(u);
+    add_rows(rows.map(|(((((&a, &b), &c), &d), &e), &f)| [a, b, c, d, e, f]), columns, into);
+}
+
+// Each row's sums are a variable of their own: of an array of them, AVX-512 code gathers the elements one by one, which
+// took 60 times as long.
+#[inline(always)]
+fn add_rows<T, const N: usize>(rows: impl Iterator<Item = [T; ROWS]>, columns: &[[T; N]], into: &mut [[T; N]; ROWS])
+where
+    T: Copy + Default + Add<Output = T> + Mul<Output = T>,
+{
     let [mut a, mut b, mut c, mut d, mut e, mut f] = [[T::default(); N]; ROWS];
-    for (row, column) in rows.iter().zip(columns) {
+    for (row, column) in rows.zip(columns) {
         a = add_scaled(a, row[0], column);
         b = add_scaled(b, row[1], column);
         c = add_scaled(c, row[2], column);

@@ -64,8 +64,10 @@ impl AffineSubspace {
 
     #[inline(always)]
     pub(super) fn residual(&self, point: &[f32], into: &mut Vec<f64>) {
-        into.clear();
-        into.extend(point.iter().zip(&self.mean).map(|(&value, mean)| f64::from(value) - mean));
+        into.resize(point.len(), 0.0);
+        into.iter_mut()
+            .zip(point.iter().zip(&self.mean))
+            .for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
     }
 
     /// x_0 + w_1 x_1 + w_2 x_2 + ...

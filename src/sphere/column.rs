@@ -1,0 +1,74 @@
+//! Heights of a column of directions, anywhere between others, with weights that integrate polynomials exactly.
+
+use std::f64::consts::PI;
+
+use crate::elementary;
+use crate::linalg::{Lu, Matrix};
+
+/// Heights more than the degree plus one that a column has: with so many, every weight is more than 0.8 of that of the
+/// plain sum.
+const SPARE: usize = 2;
+
+/// Heights from 0 to 1 and their weights, which sum to 1 and integrate polynomials in z of a degree exactly.
+///
+/// With z = (1 - cos a) / 2, the angles a are equidistant from 0 to pi, the first at a share `phase` of a step. The
+/// weights are those of the plain sum over angles, `sin(a) pi / (2 count)`, times 1 and a polynomial in z: of all
+/// exact ones those that differ least. `None` if the heights are too few for that.
+pub(super) fn column(count: usize, phase: f64, degree: usize) -> Option<Vec<(f64, f64)>> {
+    if count < degree + 1 + SPARE {
+        return None;
+    }
+    let angles = (0..count).map(|i| (i as f64 + phase) * PI / count as f64);
+    // z = sin(a / 2)^2 keeps the digits of small heights.
+    let plain: Vec<(f64, f64)> = angles
+        .map(|angle| {
+            let half = elementary::sin_cos(angle / 2.0).0;
+            (half * half, elementary::sin_cos(angle).0 * PI / (2 * count) as f64)
+        })
+        .collect();
+    let values: Vec<Vec<f64>> = plain.iter().map(|&(z, _)| legendre(degree, 2.0 * z - 1.0)).collect();
+    let sum = |term: &dyn Fn(&[f64]) -> f64| -> f64 {
+        plain.iter().zip(&values).map(|(&(_, weight), values)| weight * term(values)).sum()
+    };
+    let size = degree + 1;
+    let products = (0..size * size).map(|at| sum(&|values| values[at / size] * values[at % size]));
+    let products = Matrix::new([size; 2], products.collect()).ok()?;
+    // The integral of the first polynomial is 1, of the others 0.
+    let missing: Vec<f64> = (0..size).map(|i| f64::from(u8::from(i == 0)) - sum(&|values| values[i])).collect();
+    let factors = Lu::new(&products).ok()?.solve(&missing);
+    let change = |values: &[f64]| -> f64 { values.iter().zip(&factors).map(|(value, factor)| value * factor).sum() };
+    Some(plain.iter().zip(&values).map(|(&(z, weight), values)| (z, weight * (1.0 + change(values)))).collect())
+}
+
+/// The Legendre polynomials up to a degree at x.
+fn legendre(degree: usize, x: f64) -> Vec<f64> {
+    let mut values = vec![1.0, x];
+    for l in 1..degree {
+        let l_real = l as f64;
+        values.push(((2.0 * l_real + 1.0) * x * values[l] - l_real * values[l - 1]) / (l_real + 1.0));
+    }
+    values.truncate(degree + 1);
+    values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_phase_integrates_polynomials_with_weights_above_zero() {
+        for (count, degree) in [(3, 0), (4, 1), (11, 8), (21, 18), (23, 18), (200, 18)] {
+            for phase in [1e-3, 0.1, 0.37, 0.5, 0.9, 0.999] {
+                let column = column(count, phase, degree).expect("heights enough");
+                assert!(column.iter().all(|&(z, weight)| z > 0.0 && z < 1.0 && weight > 0.0), "{count} {phase}");
+                let mut powers: Vec<f64> = vec![1.0; count];
+                for k in 0..=degree {
+                    let integral: f64 = column.iter().zip(&powers).map(|((_, weight), power)| weight * power).sum();
+                    assert!((integral - 1.0 / (k + 1) as f64).abs() < 4e-15, "{count} {phase}: {integral} of z^{k}");
+                    powers.iter_mut().zip(&column).for_each(|(power, (z, _))| *power *= z);
+                }
+            }
+        }
+        assert_eq!(column(20, 0.5, 18), None);
+    }
+}
