@@ -49,8 +49,8 @@ pub(super) struct PatchArgs {
     #[arg(long, value_enum, value_name = "WHAT")]
     detail: Option<DetailArg>,
 
-    /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black [default:
-    /// 1]
+    /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black
+    /// [default: 1]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
     relief: Option<f64>,
 

@@ -48,8 +48,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "MODEL", requires = "at")]
     model: Option<PathBuf>,
 
-    /// Write what the file holds to this folder as arrays of NumPy's: transfer.npy with a row per point, and of clusters
-    /// means.npy, vectors.npy (each with its cluster's number in front), weights.npy and clusters.npy
+    /// Write what the file holds to this folder as arrays of NumPy's: transfer.npy with a row per point, and of
+    /// clusters means.npy, vectors.npy (each with its cluster's number in front), weights.npy and clusters.npy
     #[arg(long, value_name = "DIR")]
     arrays: Option<PathBuf>,
 }

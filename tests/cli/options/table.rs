@@ -5,7 +5,8 @@ pub(super) struct Tried {
     /// Command lines without the program's name; what follows ` < ` is standard input, `;` ends a line.
     pub(super) bases: &'static [&'static str],
     /// Options as `--name=value` or `--name`, each tried on every base that succeeds; `@0,2` restricts it to these
-    /// bases, where the others rightly do not heed it. Behind `same:` the result must be the same: who computes, not what.
+    /// bases, where the others rightly do not heed it. Behind `same:` the result must be the same: who computes, not
+    /// what.
     pub(super) options: &'static str,
 }
 
