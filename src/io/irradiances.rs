@@ -1,5 +1,5 @@
 //! Irradiances of faces as a comma-separated table: the header `r,g,b`, then a line per face in the order of the mesh.
-//! Numbers are finite and at least 0.
+//! Numbers are from 0 to [`MAX_IRRADIANCE`].
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +10,9 @@ use super::{quoted, read_limited};
 
 /// Longest file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 1 << 28;
+
+/// The largest irradiance: sums of it times any throughput are still far from the range of single floats.
+pub const MAX_IRRADIANCE: f64 = 1e30;
 
 /// Why a file is no table of irradiances. Lines count from 1, the header's.
 #[non_exhaustive]
@@ -25,7 +28,7 @@ pub enum IrradiancesError {
     #[diagnostic(code(irradiances::header), help("a line `r,g,b`, then a line of three numbers per face"))]
     Header { path: PathBuf, found: String },
     /// A line is not three numbers.
-    #[error("{}:{line}: expected three finite numbers of at least 0 (r,g,b), found {found}", path.display())]
+    #[error("{}:{line}: expected three numbers from 0 to {MAX_IRRADIANCE:e} (r,g,b), found {found}", path.display())]
     #[diagnostic(code(irradiances::numbers))]
     Numbers { path: PathBuf, line: u64, found: String },
     /// The table's syntax is broken.
@@ -67,7 +70,7 @@ pub fn parse_irradiances(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Irr
         }
         let number = |field: &[u8]| -> Option<f64> {
             let value: f64 = std::str::from_utf8(field).ok()?.parse().ok()?;
-            (value.is_finite() && value >= 0.0).then_some(value)
+            (0.0..=MAX_IRRADIANCE).contains(&value).then_some(value)
         };
         let numbers: Option<Vec<f64>> = record.iter().map(number).collect();
         match numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok()) {
@@ -97,11 +100,12 @@ mod tests {
 
     #[test]
     fn bad_tables_are_named() {
-        let numbers = "expected three finite numbers of at least 0 (r,g,b), found";
+        let numbers = "expected three numbers from 0 to 1e30 (r,g,b), found";
         assert_eq!(parse("1,2,3\n"), Err("e.csv:1: expected the header `r,g,b`, found `1,2,3`".to_owned()));
         assert_eq!(parse(""), Err("e.csv:1: expected the header `r,g,b`, found ``".to_owned()));
         assert_eq!(parse("r,g,b\n1,2\n"), Err(format!("e.csv:2: {numbers} `1,2`")));
         assert_eq!(parse("r,g,b\n1,2,-3\n"), Err(format!("e.csv:2: {numbers} `1,2,-3`")));
+        assert_eq!(parse("r,g,b\n1,1e300,3\n"), Err(format!("e.csv:2: {numbers} `1,1e300,3`")));
         assert_eq!(parse("r,g,b\n1,2,nan\n"), Err(format!("e.csv:2: {numbers} `1,2,nan`")));
     }
 }

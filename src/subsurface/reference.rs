@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
 
 use super::Dipole;
-use super::factor::FactorError;
+use super::factor::{FactorError, MAX_MM_PER_UNIT, MIN_MM_PER_UNIT};
 use crate::atlas::Atlas;
 
 /// Texels nearer than this many times the sum of their radii are integrated.
@@ -55,9 +55,9 @@ impl<'a> Reference<'a> {
     /// For an atlas of a model with a scale.
     ///
     /// # Errors
-    /// [`FactorError::Scale`] if the scale is not a positive number.
+    /// [`FactorError::Scale`] if the scale is not from [`MIN_MM_PER_UNIT`] to [`MAX_MM_PER_UNIT`].
     pub fn new(atlas: &'a Atlas, mm_per_unit: f64, dipole: &Dipole) -> Result<Self, FactorError> {
-        if !(mm_per_unit > 0.0 && mm_per_unit.is_finite()) {
+        if !(MIN_MM_PER_UNIT..=MAX_MM_PER_UNIT).contains(&mm_per_unit) {
             return Err(FactorError::Scale { found: mm_per_unit });
         }
         let mut texels = PartColumns::default();

@@ -2,15 +2,15 @@
 
 use thiserror::Error;
 
-use super::{MAX_TOLERANCE, MIN_TOLERANCE};
+use super::{MAX_MM_PER_UNIT, MAX_TOLERANCE, MIN_MM_PER_UNIT, MIN_TOLERANCE};
 
 /// Why factors cannot be computed.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum FactorError {
-    /// The scale is not a positive number.
-    #[error("expected a positive number of millimeters per unit of the model, found {found}")]
+    /// The scale is out of range.
+    #[error("expected {MIN_MM_PER_UNIT:e} to {MAX_MM_PER_UNIT:e} millimeters per unit of the model, found {found:e}")]
     Scale { found: f64 },
     /// The tolerance is out of range.
     #[error("expected a tolerance of factors from {MIN_TOLERANCE} to {MAX_TOLERANCE}, found {found}")]

@@ -22,6 +22,11 @@ pub use integrate::{Factors, Receiver};
 pub(super) use surface::to_morton;
 pub use surface::{ClusterId, SurfaceMoments};
 
+/// The least number of millimeters per unit of a model.
+pub const MIN_MM_PER_UNIT: f64 = 1e-30;
+/// The largest: squares and fourth powers of lengths keep far from the range of floats.
+pub const MAX_MM_PER_UNIT: f64 = 1e30;
+
 /// The default tolerance of a factor, relative.
 pub const TOLERANCE: f64 = 0.01;
 /// The least tolerance.

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::error::FactorError;
 use super::face_map::{FaceMap, Window};
 use super::moments::{BALL, Moments, size_squared};
+use super::{MAX_MM_PER_UNIT, MIN_MM_PER_UNIT};
 use crate::atlas::Atlas;
 
 /// A cluster of an atlas: the texel in column x, row y of a level; level 0 is the finest.
@@ -34,9 +35,9 @@ impl SurfaceMoments {
     /// The moments of the clusters of an atlas.
     ///
     /// # Errors
-    /// [`FactorError::Scale`] if the scale is not a positive number.
+    /// [`FactorError::Scale`] if the scale is not from [`MIN_MM_PER_UNIT`] to [`MAX_MM_PER_UNIT`].
     pub fn new(atlas: &Atlas, mm_per_unit: f64) -> Result<Self, FactorError> {
-        if !(mm_per_unit > 0.0 && mm_per_unit.is_finite()) {
+        if !(MIN_MM_PER_UNIT..=MAX_MM_PER_UNIT).contains(&mm_per_unit) {
             return Err(FactorError::Scale { found: mm_per_unit });
         }
         let in_mm = |corner: DVec3| mm_per_unit * corner;

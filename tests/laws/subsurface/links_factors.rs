@@ -157,11 +157,11 @@ fn dense_media_return_the_planes_total() {
 #[test]
 fn bad_figures_are_refused() {
     let atlas = atlas(&sphere(1, 0.0), 8);
-    for mm_per_unit in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for mm_per_unit in [0.0, -1.0, 9e-31, 1e154, f64::NAN, f64::INFINITY] {
         let error = SurfaceMoments::new(&atlas, mm_per_unit).expect_err("no scale");
         assert_eq!(
             error.to_string(),
-            format!("expected a positive number of millimeters per unit of the model, found {mm_per_unit}")
+            format!("expected 1e-30 to 1e30 millimeters per unit of the model, found {mm_per_unit:e}")
         );
         assert!(Reference::new(&atlas, mm_per_unit, &figure_7()).is_err());
     }
