@@ -106,20 +106,20 @@ fn files_are_written_as_arrays() {
     let given = shown["vertex"]["transfer"].as_array().expect("numbers");
     assert_eq!((found.columns, found.values.len() % 9), (9, 0));
     for (found, given) in found.values[12 * 9..13 * 9].iter().zip(given) {
-        assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-6);
+        assert_relative_eq!(*found, number(given), max_relative = 1e-6);
     }
     let shown = document(&["cpca", "show", small, "--vertex", "12", "--arrays", &clusters]);
     let [means, vectors, weights, of_point] =
         ["means.npy", "vectors.npy", "weights.npy", "clusters.npy"].map(|name| read(&clusters, name));
     let cluster = of_point.values[12];
-    let mut point: Vec<f32> = means.values[9 * cluster as usize..][..9].to_vec();
+    let mut point: Vec<f64> = means.values[9 * cluster as usize..][..9].to_vec();
     let own = vectors.values.chunks_exact(10).filter(|row| row[0] == cluster);
     for (weight, row) in weights.values[12 * weights.columns..].iter().zip(own) {
         point.iter_mut().zip(&row[1..]).for_each(|(into, value)| *into += weight * value);
     }
     let given = shown["vertex"]["clustered"]["approximation"].as_array().expect("numbers");
     for (found, given) in point.iter().zip(given) {
-        assert_relative_eq!(f64::from(*found), number(given), max_relative = 1e-4, epsilon = 1e-6);
+        assert_relative_eq!(*found, number(given), max_relative = 1e-4, epsilon = 1e-6);
     }
 }
 
