@@ -16,16 +16,18 @@ const BANNED_NAMES: [&str; 22] = [
 ];
 
 /// Rooms that are still to be rewritten: the most beginnings and names that each may have.
-const PENDING: [(&str, usize, usize); 9] = [
-    ("refsim/src", 420, 1),
-    ("src/card", 3, 0),
-    ("src/cli", 129, 1),
+const PENDING: [(&str, usize, usize); 11] = [
+    ("src/all_frequency", 52, 1),
+    ("src/bi_scale", 49, 0),
+    ("src/card", 8, 0),
+    ("src/cli", 121, 0),
+    ("src/cpca", 22, 0),
     ("src/io", 22, 0),
-    ("src/prt", 177, 4),
-    ("src/study/prt", 78, 4),
+    ("src/study/prt", 83, 4),
     ("src/study/subsurface", 15, 1),
-    ("src/subsurface", 47, 0),
-    ("tests", 113, 3),
+    ("src/subsurface", 44, 0),
+    ("src/transfer", 47, 4),
+    ("tests", 119, 4),
 ];
 
 /// Returns the lines, from 1, on which a block of documentation begins with banned words.

@@ -22,7 +22,7 @@ fn device(name: &str) -> Profile {
 }
 
 /// Hills with made-up transferred radiance of as many terms as their reflectance has.
-struct Hills {
+struct FactoredHills {
     vertices: Vertices,
     reflectance: Reflectance,
     transferred: TransferredRadiance,
@@ -30,7 +30,7 @@ struct Hills {
 
 const COLORS: [[f64; 3]; 1] = [[0.9, 0.6, 0.3]];
 
-impl Hills {
+impl FactoredHills {
     fn new(reflectance: Reflectance) -> Self {
         let vertices = Vertices::new(&hills(7), Tangents::Along(DVec3::X)).expect("vertices");
         let terms = reflectance.terms();
@@ -96,7 +96,7 @@ const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 
 #[test]
 fn products_per_pixel_are_step_4_of_what_is_interpolated() {
-    let hills = Hills::glossy(10);
+    let hills = FactoredHills::glossy(10);
     for view_maker in [ViewMaker::Program, ViewMaker::Host] {
         for (view, is_pass_per_channel) in
             [(ViewNumbers::Coordinates, false), (ViewNumbers::Coordinates, true), (ViewNumbers::Vector, true)]
@@ -111,7 +111,7 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
         }
     }
     for terms in [1, 2, 3, 4, 5, 7, 8, 9] {
-        let hills = Hills::glossy(terms);
+        let hills = FactoredHills::glossy(terms);
         let place = ProductPlace::Pixels(exact());
         let (error, _) = hills.error("ideal-fp32", place, &hills.draw("ideal-fp32", place, FLOATS).texels);
         assert!(error < 4e-6, "{terms} terms: {error}");
@@ -121,7 +121,7 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
 /// What each card can do, from the best to the worst.
 #[test]
 fn cards_come_as_near_as_their_bits() {
-    let hills = Hills::glossy(10);
+    let hills = FactoredHills::glossy(10);
     let options = ProductOptions::default();
     let eight = ProductOptions { map_format: TexelFormat::Rgba8Snorm, ..options };
     for (name, options, low, high) in [
@@ -142,12 +142,12 @@ fn cards_come_as_near_as_their_bits() {
 
 #[test]
 fn colors_of_vertices_are_interpolated() {
-    let hills = Hills::glossy(10);
+    let hills = FactoredHills::glossy(10);
     let place = ProductPlace::Vertices(VertexColors::Floats);
     let drawing = hills.draw("r350", place, FLOATS);
     let (error, pixels) = hills.error("r350", place, &drawing.texels);
     assert!(error < 2e-5 && pixels > 400, "{error}");
-    let diffuse = Hills::new(Reflectance::Diffuse);
+    let diffuse = FactoredHills::new(Reflectance::Diffuse);
     let pixels = ProductPlace::Pixels(ProductOptions::default());
     let (error, _) = diffuse.error("r350", pixels, &diffuse.draw("r350", pixels, FLOATS).texels);
     assert!(error < 2e-5, "one term: {error}");
@@ -155,7 +155,7 @@ fn colors_of_vertices_are_interpolated() {
 
 #[test]
 fn what_is_clamped_is_counted() {
-    let hills = Hills::glossy(10);
+    let hills = FactoredHills::glossy(10);
     let place = ProductPlace::Pixels(exact());
     let [floats, bytes] = [FLOATS, TexelFormat::Bgra8].map(|format| hills.draw("r350", place, format));
     assert!(floats.counts.below_zero.is_some_and(|below| below > 0));
@@ -174,7 +174,7 @@ fn what_is_clamped_is_counted() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let message = |name: &str, terms: usize, options: ProductOptions| {
-        let hills = Hills::glossy(terms);
+        let hills = FactoredHills::glossy(terms);
         let card = FactoredCard::new(device(name), ExecutorKind::Batch, hills.mesh(), ProductPlace::Pixels(options));
         card.map(|_| ()).expect_err("refused").to_string()
     };
@@ -196,7 +196,7 @@ fn what_does_not_fit_is_refused() {
     assert!(message("r350", 10, two).contains("by the sampler alone"));
     let bits = ProductOptions { map_bits: Some(1), ..options };
     assert!(message("r350", 10, bits).contains("2 to 24 bits of G, found 1"));
-    let hills = Hills::glossy(3);
+    let hills = FactoredHills::glossy(3);
     let fewer = TransferredRadiance::new(2, vec![[0.0; 3]; 2 * hills.vertices.len()]);
     let mesh = TransferredMesh { transferred: &fewer, ..hills.mesh() };
     let place = ProductPlace::Pixels(options);

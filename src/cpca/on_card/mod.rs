@@ -38,7 +38,7 @@ use crate::sphere::{HarmonicLight, ParabolicMap};
 use chunks::{Chunk, chunks};
 use exit_map::{exit_maps, map_scale};
 use model::TransferSize;
-use programs::{Programs, kernel, registers};
+use programs::{ShadingPrograms, kernel, registers};
 
 #[cfg(test)]
 mod tests;
@@ -57,7 +57,7 @@ pub struct PrtCard<'a> {
     indices: Vec<u32>,
     superclusters: Superclusters,
     chunks: Vec<Chunk>,
-    programs: Programs,
+    programs: ShadingPrograms,
     /// Maps of the functions of exit radiance; none for diffuse transfer.
     maps: Vec<ReadTexture>,
     /// What the functions in the maps are divided by.
@@ -87,7 +87,7 @@ impl<'a> PrtCard<'a> {
         } else {
             Superclusters::apart(clustering, registers)?
         };
-        let programs = Programs::new(&profile, kernel)?;
+        let programs = ShadingPrograms::new(&profile, kernel)?;
         let mut machine = executor.into().machine(profile)?;
         let map = ParabolicMap::new(options.map_side);
         let (mut maps, mut scale) = (Vec::new(), 1.0);

@@ -14,7 +14,7 @@ use crate::cpca::kernels::{ExitKernel, VertexKernel, VertexShading};
 
 /// Checked programs.
 #[derive(Clone, Debug)]
-pub(super) struct Programs {
+pub(super) struct ShadingPrograms {
     pub(super) kernel: VertexKernel,
     pub(super) depth: DepthPrograms,
     pub(super) vertex: CheckedProgram,
@@ -47,7 +47,7 @@ pub(super) fn kernel(
     Ok(kernel)
 }
 
-impl Programs {
+impl ShadingPrograms {
     /// The vertex program with those that go with it, accepted by a device.
     pub(super) fn new(profile: &Profile, kernel: VertexKernel) -> Result<Self, KernelError> {
         let pixel = match kernel.shading {

@@ -19,13 +19,13 @@ fn device(name: &str) -> Profile {
 }
 
 /// Compressed transfer of hills: diffuse for light of 16 coefficients, or of so many functions for 4.
-struct Hills {
+struct CompressedHills {
     vertices: Vertices,
     clustering: Clustering,
     basis: ExitBasis,
 }
 
-impl Hills {
+impl CompressedHills {
     fn new(basis: ExitBasis, clusters: usize, vectors: usize, method: CpcaMethod) -> Self {
         let vertices = Vertices::new(&hills(9), Tangents::Any).expect("vertices");
         let columns = if matches!(basis, ExitBasis::Radiance) { 16 } else { 4 };
@@ -70,7 +70,7 @@ fn vertex_programs_give_the_hosts_sums() {
     for (basis, clusters, vectors) in
         [(ExitBasis::Radiance, 7, 5), (ExitBasis::Radiance, 3, 0), (glossy(16), 9, 6), (glossy(24), 6, 8)]
     {
-        let hills = Hills::new(basis, clusters, vectors, CpcaMethod::Iterative);
+        let hills = CompressedHills::new(basis, clusters, vectors, CpcaMethod::Iterative);
         let transfer = hills.transfer(vectors);
         let light = HarmonicLight::red_and_blue(4);
         for (name, superclusters, vertex_version, weights) in [
@@ -137,7 +137,7 @@ fn check_chunk(
 /// Each weight is as near as its format's step, of the range of its cluster; zero and ends of the range are exact.
 #[test]
 fn weights_are_as_near_as_their_format() {
-    let hills = Hills::new(glossy(16), 5, 6, CpcaMethod::Iterative);
+    let hills = CompressedHills::new(glossy(16), 5, 6, CpcaMethod::Iterative);
     let clustering = &hills.clustering;
     for (format, relative, of_range) in [
         (WeightFormat::Fp32, f64::from(f32::EPSILON) / 2.0, 0.0),
@@ -163,7 +163,7 @@ fn weights_are_as_near_as_their_format() {
 
 #[test]
 fn chunks_are_the_overdraw() {
-    let hills = Hills::new(glossy(24), 12, 8, CpcaMethod::Iterative);
+    let hills = CompressedHills::new(glossy(24), 12, 8, CpcaMethod::Iterative);
     let triangles = hills.vertices.triangles();
     for superclusters in [false, true] {
         let options = PrtCardOptions { superclusters, ..PrtCardOptions::default() };
@@ -176,12 +176,12 @@ fn chunks_are_the_overdraw() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    let message = |name: &str, hills: &Hills, vectors, options: &PrtCardOptions| {
+    let message = |name: &str, hills: &CompressedHills, vectors, options: &PrtCardOptions| {
         card(name, hills.transfer(vectors), options).map(|_| ()).expect_err("refused").to_string()
     };
     let options = PrtCardOptions::default();
     let in_vs_1_1 = PrtCardOptions { vertex_version: Some(Version::Vs1_1), ..options };
-    let twenty = Hills::new(glossy(24), 1, 20, CpcaMethod::Iterative);
+    let twenty = CompressedHills::new(glossy(24), 1, 20, CpcaMethod::Iterative);
     assert!(card("r300", twenty.transfer(20), &options).is_ok());
     let refused = message("r300", &twenty, 20, &in_vs_1_1);
     assert!(refused.contains("needs 126 constant registers, expected at most 91"), "{refused}");
@@ -190,16 +190,16 @@ fn what_does_not_fit_is_refused() {
         refused.contains("`nv25` refuses glossy transfer: it runs no `ps_2_0`") && refused.contains("r300"),
         "{refused}"
     );
-    let forty = Hills::new(glossy(24), 1, 40, CpcaMethod::Iterative);
+    let forty = CompressedHills::new(glossy(24), 1, 40, CpcaMethod::Iterative);
     let refused = message("r300", &forty, 40, &options);
     assert!(refused.contains("256") && refused.contains("258"), "constants suffice, slots do not: {refused}");
-    let wide = Hills::new(glossy(36), 2, 2, CpcaMethod::Iterative);
+    let wide = CompressedHills::new(glossy(36), 2, 2, CpcaMethod::Iterative);
     let refused = message("r300", &wide, 2, &options);
     assert!(refused.contains("at most 28 functions") && refused.ends_with("found 36"), "{refused}");
-    let adaptive = Hills::new(ExitBasis::Radiance, 6, 3, CpcaMethod::Adaptive { rounds: 3 });
+    let adaptive = CompressedHills::new(ExitBasis::Radiance, 6, 3, CpcaMethod::Adaptive { rounds: 3 });
     let refused = message("r300", &adaptive, 3, &options);
     assert!(refused.contains("expected at most 3") && refused.contains("on the host alone"), "{refused}");
-    let diffuse = Hills::new(ExitBasis::Radiance, 2, 2, CpcaMethod::Iterative);
+    let diffuse = CompressedHills::new(ExitBasis::Radiance, 2, 2, CpcaMethod::Iterative);
     let refused = message("r300", &diffuse, 57, &options);
     assert!(refused.contains("at most 56 vectors"), "{refused}");
     let three = CompressedTransfer { channels: 3, ..diffuse.transfer(2) };

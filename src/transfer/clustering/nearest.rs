@@ -75,7 +75,7 @@ impl<'a> Points<'a> {
     /// what the last search left: the better they are, the faster.
     pub(super) fn nearest(&self, subspaces: &[&AffineSubspace], before: &[u32], carried: &mut Carried) -> Nearest {
         let scaled: Vec<_> = subspaces.par_iter().map(|subspace| self.scaled(subspace)).collect();
-        let search = Search { points: self, subspaces, before, estimator: Estimator::new(&scaled) };
+        let search = NearestSearch { points: self, subspaces, before, estimator: Estimator::new(&scaled) };
         let batches: Vec<_> = self.groups.batches().collect();
         let distances = carried.follow(batches.len(), scaled);
         let batches_with = batches.par_iter().zip(distances);
@@ -120,14 +120,14 @@ struct Scratch {
 
 /// A search for the best clusters.
 #[derive(Debug)]
-struct Search<'a> {
+struct NearestSearch<'a> {
     points: &'a Points<'a>,
     subspaces: &'a [&'a AffineSubspace],
     before: &'a [u32],
     estimator: Estimator,
 }
 
-impl Search<'_> {
+impl NearestSearch<'_> {
     /// The best cluster of each point of some groups, and its error; and how many pairs were looked at. `distances` are
     /// at most those of the centers, cluster by cluster.
     #[inline(always)]

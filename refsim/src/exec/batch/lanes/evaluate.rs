@@ -58,7 +58,7 @@ fn evaluated<L: Lane>(lane: &L, operation: NumberOperation, operands: [u32; 3]) 
     Some(lane.encode(raw.map_or(value, L::load)))
 }
 
-/// Whether what a slot of a float holds is neither infinite nor NaN.
+/// Returns `true` if the float in a slot is neither infinite nor NaN.
 #[inline(always)]
 pub(crate) fn is_finite(raw: u32) -> bool {
     raw & 0x7fff_ffff < 0x7f80_0000

@@ -19,7 +19,7 @@ struct Shift {
     dropped: i64,
     more: i64,
     mask: i64,
-    /// Whether the mask is for the sign of `v`, not for its lowest bit that stays.
+    /// `true` if the mask applies to the sign of `v`, not to its lowest remaining bit.
     by_sign: bool,
 }
 
@@ -41,26 +41,26 @@ impl Shift {
 /// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
 const PIVOT: f64 = 6_755_399_441_055_744.0;
 
-/// How a double becomes an integer in each rounding: the nearest even integer of the number, or of its magnitude, and
-/// one less or more by how far the number is from it.
+/// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
+/// by one depending on the distance of the number from it.
 #[derive(Clone, Copy, Debug)]
-struct Whole {
-    /// What stays of the number: all bits, or all but the sign.
+struct IntegerRounding {
+    /// Mask of the bits that are kept: all, or all but the sign.
     sign: u64,
-    /// One less below this, one more from this on.
+    /// Distances below which one is subtracted, and from which one is added.
     lower: f64,
     upper: f64,
 }
 
-impl Whole {
-    const fn new(rounding: u8) -> Whole {
+impl IntegerRounding {
+    const fn new(rounding: u8) -> IntegerRounding {
         const SIZE: u64 = u64::MAX >> 1;
         let never = f64::INFINITY;
         match rounding {
-            EVEN => Whole { sign: u64::MAX, lower: -never, upper: never },
-            AWAY => Whole { sign: SIZE, lower: -never, upper: 0.5 },
-            ZERO => Whole { sign: SIZE, lower: 0.0, upper: never },
-            _ => Whole { sign: u64::MAX, lower: 0.0, upper: never },
+            EVEN => IntegerRounding { sign: u64::MAX, lower: -never, upper: never },
+            AWAY => IntegerRounding { sign: SIZE, lower: -never, upper: 0.5 },
+            ZERO => IntegerRounding { sign: SIZE, lower: 0.0, upper: never },
+            _ => IntegerRounding { sign: u64::MAX, lower: 0.0, upper: never },
         }
     }
 }
@@ -100,7 +100,7 @@ pub(crate) struct FixedLane<const WIDE: bool, const WRAP: bool> {
     high: i32,
     one: i32,
     product: Shift,
-    whole: Whole,
+    whole: IntegerRounding,
     beside: Beside,
 }
 
@@ -130,7 +130,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
             high,
             one,
             product: Shift::new(rounding_index(format.rounding), frac_bits.into()),
-            whole: Whole::new(rounding_index(format.rounding)),
+            whole: IntegerRounding::new(rounding_index(format.rounding)),
             beside: Beside::new(rounding_index(format.rounding)),
         }
     }
@@ -164,7 +164,7 @@ impl<const WIDE: bool, const WRAP: bool> FixedLane<WIDE, WRAP> {
         if negative { self.low } else { self.high }
     }
 
-    /// What `a / 0` gives.
+    /// Returns `a / 0`.
     #[inline(always)]
     fn by_zero(&self, a: i32) -> i32 {
         let extreme = self.extreme(a < 0);

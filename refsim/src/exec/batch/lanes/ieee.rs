@@ -36,7 +36,7 @@ pub(crate) struct IeeeLane<const PATH: u8> {
     shrink: (f32, f64),
 }
 
-/// Whether a float format is an IEEE format.
+/// Returns `true` if a float format follows IEEE 754 in rounding, overflow, denormals and special values.
 pub(crate) fn is_plain(format: &Format) -> bool {
     matches!(format.overflow, Overflow::Infinity | Overflow::Wrap)
         && format.rounding == Rounding::NearestEven

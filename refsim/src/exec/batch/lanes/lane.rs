@@ -1,4 +1,4 @@
-//! What an arithmetic has to offer so that the tile interpreter can run programs in it.
+//! Interface of the arithmetic of a number format, in which the tile interpreter runs programs.
 
 use std::fmt::Debug;
 
@@ -19,9 +19,9 @@ pub(crate) type LaneRow = [u32; LANES];
 /// Registers hold `T`: the number itself, as a host integer or a host float that holds every value of the format
 /// exactly. Bits are made only when a value leaves the executor ([`Lane::encode`]); a NaN is one value here.
 pub(crate) trait Lane: Copy + Send + Sync {
-    /// What a register component holds.
+    /// Type of a register component.
     type T: Copy + Default + Send + Sync + Debug + PartialEq;
-    /// What [`Lane::general`] gives.
+    /// Type of [`Lane::general`].
     type General: Lane;
 
     /// The number behind a bit pattern of the format.
@@ -44,7 +44,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
 
     /// True if [`Lane::is_guarded`] can say yes.
     const GUARDED: bool = false;
-    /// Whether results of this arithmetic are right only where they are finite: another must be asked for the rest.
+    /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes the
+    /// rest.
     #[inline(always)]
     fn is_guarded(&self) -> bool {
         false

@@ -101,7 +101,7 @@ macro_rules! rounder {
                 }
             }
 
-            /// What becomes of a rounded magnitude at the ends of the range, with the sign of `x`.
+            /// Applies the denormal and overflow rules to a rounded magnitude, with the sign of `x`.
             #[inline(always)]
             fn fit(&self, rounding: u8, x: $float, kept: $float) -> $float {
                 let kept = if kept < self.flush { 0.0 } else { kept };

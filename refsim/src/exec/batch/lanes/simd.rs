@@ -7,7 +7,7 @@ use multiversion::multiversion;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SimdLevel {
-    /// What every processor of the target has (SSE2 on x86-64).
+    /// Instructions of every processor of the target (SSE2 on x86-64).
     Baseline,
     /// AVX2 and FMA.
     Avx2,
