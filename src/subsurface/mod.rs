@@ -12,6 +12,7 @@
 //! - [`kernels`], [`on_card`]: the three passes as programs of an emulated card;
 //! - [`Reference`]: equation 9 over all pairs of texels;
 //! - [`point_to_polygon`], [`uniform_sphere`], [`SphereSeries`]: exact answers for polygons and spheres;
+//! - [`median_thickness`]: whether a model is thin for the dipole, which is made for a half space;
 //! - [`walk`]: photons followed through the medium, for the dipole's own error.
 
 mod dipole;
@@ -26,6 +27,7 @@ pub mod on_card;
 mod polygon;
 mod reference;
 mod sphere;
+mod thickness;
 pub mod walk;
 
 pub use dipole::{Dipole, InternalReflection};
@@ -35,3 +37,4 @@ pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Mater
 pub use polygon::point_to_polygon;
 pub use reference::Reference;
 pub use sphere::{SphereSeries, legendre_coefficients, legendre_sum, uniform_sphere};
+pub use thickness::median_thickness;

@@ -94,17 +94,19 @@ fn coarse(outcome: &SubsurfaceOutcome) -> Option<String> {
     })
 }
 
-/// The dipole is made for a half space.
+/// The dipole is made for a half space, which a model is for light that does not reach its other side.
 fn thin(outcome: &SubsurfaceOutcome) -> Option<String> {
     let lengths = &outcome.lengths;
-    let told = |thickness: f64| {
-        format!(
-            "The model is thinner ({} mm) than two diffusion lengths ({} mm): the dipole, which is made for a half \
-             space, is wrong there.",
-            shown(thickness, Quantity::Measured),
-            shown(2.0 * lengths.diffusion_length, Quantity::Measured),
-        )
+    let (thickness, reach) = (lengths.thickness?, 2.0 * lengths.diffusion_length);
+    let because = if reach.is_infinite() {
+        "A channel of the medium does not absorb, so that its light reaches through the model".to_owned()
+    } else if thickness < reach {
+        format!("Two diffusion lengths, {} mm, reach through the model", shown(reach, Quantity::Measured))
+    } else {
+        return None;
     };
-    let thickness = lengths.shortest_side.min(lengths.thickness);
-    (thickness < 2.0 * lengths.diffusion_length).then(|| told(thickness))
+    Some(format!(
+        "{because}, whose median thickness is {} mm: the dipole, which is made for a half space, is wrong there.",
+        shown(thickness, Quantity::Measured)
+    ))
 }

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::{Parameters, SubsurfaceError};
 use crate::atlas::Atlas;
-use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::Fitness;
+use crate::subsurface::{Dipole, median_thickness};
 
 /// Lengths of the model beside those of the medium, in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,23 +17,20 @@ pub struct ModelLengths {
     pub coarse: f64,
     /// The shortest mean free path of a channel.
     pub mean_free_path: f64,
-    /// The longest diffusion length of a channel.
+    /// The longest diffusion length of a channel; infinite if one does not absorb.
     pub diffusion_length: f64,
     /// The diagonal of the bounds.
     pub diagonal: f64,
     /// The shortest side of the bounds.
     pub shortest_side: f64,
-    /// Twice the standard deviation of the surface's points along the axis of coordinates where it is least: the
-    /// thickness of a slab; that of a bowl or a leaf is less than its bounds. Infinite without absorption.
-    pub thickness: f64,
+    /// Median distance to the opposite surface along the inward normal; `None` for open models.
+    pub thickness: Option<f64>,
 }
 
 impl ModelLengths {
     pub(super) fn of(atlas: &Atlas, surface: &SurfaceMoments, parameters: &Parameters, dipoles: &[Dipole; 3]) -> Self {
         let mm = parameters.mm_per_unit;
         let fitness = dipoles.each_ref().map(|dipole| Fitness::new(surface, dipole));
-        let halves = fitness.iter().zip(dipoles).filter(|(_, dipole)| dipole.sigma_tr() > 0.0);
-        let thickness = halves.map(|(of, dipole)| 2.0 * of.half_thickness_per_diffusion_length / dipole.sigma_tr());
         let extent = parameters.mesh.bounds().map_or(DVec3::ZERO, |[low, high]| {
             (DVec3::from(high.map(f64::from)) - DVec3::from(low.map(f64::from))) * mm
         });
@@ -44,7 +41,7 @@ impl ModelLengths {
             diffusion_length: dipoles.iter().map(Dipole::diffusion_length).fold(0.0, f64::max),
             diagonal: extent.length(),
             shortest_side: extent.min_element(),
-            thickness: thickness.fold(f64::INFINITY, f64::min),
+            thickness: median_thickness(&parameters.mesh).map(|thickness| thickness * mm),
         }
     }
 }

@@ -98,12 +98,6 @@ impl SurfaceMoments {
         if area > 0.0 { (self.area() / all) / (area / texels) } else { 0.0 }
     }
 
-    /// The standard deviation of the surface's points, in mm, along the axis of coordinates where it is least.
-    pub(in crate::subsurface) fn least_deviation(&self) -> f64 {
-        let [xx, yy, zz, ..] = self.root().covariance.0;
-        xx.min(yy).min(zz).sqrt()
-    }
-
     pub(super) fn level(&self, level: u32) -> &[Moments] {
         &self.levels[level as usize]
     }

@@ -1,9 +1,9 @@
-//! Whether texels and object suit a medium: figures for the warnings of a study.
+//! Texels compared with the lengths of a medium: figures for the warnings of a study.
 
 use super::super::Dipole;
 use super::super::factor::{ClusterId, SurfaceMoments};
 
-/// How a surface compares with the lengths of a dipole.
+/// Texels of a surface compared with the lengths of a dipole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fitness {
     /// The side of the mean texel (the root of its area) over the mean free path. Above 1, factors within a texel's
@@ -13,10 +13,6 @@ pub struct Fitness {
     pub largest_texel_per_mean_free_path: f64,
     /// The fraction of the surface under texels whose side exceeds the mean free path.
     pub coarse_fraction: f64,
-    /// The standard deviation of the surface's points along the axis where it is least (of a slab half its thickness),
-    /// over the diffusion length 1 / sigma_tr; 0 without absorption. Below 1 the object is thinner than about
-    /// 2 / sigma_tr, where the dipole, which is that of a half space, is off.
-    pub half_thickness_per_diffusion_length: f64,
 }
 
 impl Fitness {
@@ -35,17 +31,11 @@ impl Fitness {
             texel_per_mean_free_path: mean.sqrt() / path,
             largest_texel_per_mean_free_path: largest.sqrt() / path,
             coarse_fraction: coarse / surface.area(),
-            half_thickness_per_diffusion_length: surface.least_deviation() * dipole.sigma_tr(),
         }
     }
 
-    /// Whether some texels exceed the mean free path.
+    /// Returns `true` if some texels exceed the mean free path.
     pub fn has_coarse_texels(&self) -> bool {
         self.largest_texel_per_mean_free_path > 1.0
-    }
-
-    /// Whether the object is thinner than about 2 / sigma_tr.
-    pub fn is_thin(&self) -> bool {
-        self.half_thickness_per_diffusion_length < 1.0
     }
 }

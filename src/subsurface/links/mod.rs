@@ -3,7 +3,7 @@
 //! - [`Links`]: fixed or adaptive, with one factor per link or three;
 //! - [`IrradianceMeans`]: the mean irradiance of every cluster, by area or by number of texels;
 //! - [`EncodedLinks`]: links as texels of textures, and what fp16 loses of them;
-//! - [`Fitness`]: whether texels and object suit a medium.
+//! - [`Fitness`]: texels compared with the lengths of a medium.
 
 mod choice;
 mod encode;

@@ -11,3 +11,4 @@ mod physics;
 mod physics_bodies;
 mod physics_traced;
 mod physics_walk;
+mod thickness;
