@@ -78,7 +78,7 @@ const CROSSBAR: Law = (
             ],
         ),
         (
-            "prt",
+            "transfer",
             &[
                 "card",
                 "tracer",
@@ -88,11 +88,31 @@ const CROSSBAR: Law = (
                 "picture",
                 "sphere",
                 "geom",
-                "atlas",
                 "scene",
                 "linalg",
                 "io",
             ],
+        ),
+        (
+            "cpca",
+            &[
+                "transfer",
+                "card",
+                "tracer",
+                "elementary",
+                "quadrature",
+                "picture",
+                "sphere",
+                "geom",
+                "scene",
+                "linalg",
+                "io",
+            ],
+        ),
+        ("all_frequency", &["transfer", "card", "elementary", "picture", "sphere", "geom", "scene", "linalg", "io"]),
+        (
+            "bi_scale",
+            &["transfer", "card", "tracer", "elementary", "picture", "sphere", "geom", "scene", "linalg", "io"],
         ),
         ("ray_engine", &["card", "tracer", "geom", "scene", "linalg", "io"]),
         ("renderer", &["tracer", "elementary", "fresnel", "picture", "geom", "scene", "linalg"]),
@@ -103,7 +123,10 @@ const CROSSBAR: Law = (
                 "ray_engine",
                 "radiosity",
                 "subsurface",
-                "prt",
+                "transfer",
+                "cpca",
+                "all_frequency",
+                "bi_scale",
                 "sphere",
                 "atlas",
                 "renderer",
@@ -126,7 +149,10 @@ const CROSSBAR: Law = (
                 "ray_engine",
                 "radiosity",
                 "subsurface",
-                "prt",
+                "transfer",
+                "cpca",
+                "all_frequency",
+                "bi_scale",
                 "sphere",
                 "atlas",
                 "renderer",
@@ -170,8 +196,22 @@ const BATCH: Law = (
 );
 
 /// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
-const SPEAKS_REFSIM: &[&str] =
-    &["card", "tracer", "case", "compare", "shader", "radiosity", "subsurface", "prt", "ray_engine", "study", "cli"];
+const SPEAKS_REFSIM: &[&str] = &[
+    "card",
+    "tracer",
+    "case",
+    "compare",
+    "shader",
+    "radiosity",
+    "subsurface",
+    "transfer",
+    "cpca",
+    "all_frequency",
+    "bi_scale",
+    "ray_engine",
+    "study",
+    "cli",
+];
 
 /// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
 /// where the rooms have files in common, may name no room at all.
