@@ -61,9 +61,10 @@ impl DirectionRule {
         let Some(columns) = columns.filter(|_| 2 * pairs > degree) else { return Self::hemisphere(size) };
         let azimuths = 2 * pairs;
         let mut rule = Self { directions: Vec::new(), weights: Vec::new(), degree, azimuths };
+        let node = |ring: usize, azimuth: usize| columns[azimuth % pairs][ring];
         for ring in 0..rings {
             for azimuth in 0..azimuths {
-                let (z, weight) = columns[azimuth % pairs][ring];
+                let (z, weight) = node(ring, azimuth);
                 let [x, y] = elementary::on_circle((azimuth as f64 + 0.25) / azimuths as f64);
                 let radius = ((1.0 - z) * (1.0 + z)).sqrt();
                 rule.directions.push(DVec3::new(radius * x, radius * y, z));

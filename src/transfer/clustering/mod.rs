@@ -16,8 +16,8 @@
 mod axes;
 mod budget;
 mod carried;
-mod clustering;
 mod compress;
+mod compressed;
 mod estimate;
 mod fit;
 mod gram;
@@ -31,8 +31,8 @@ pub mod reference;
 mod refit;
 mod subspace;
 
-pub use clustering::{Clustering, ClusteringError};
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
+pub use compressed::{Clustering, ClusteringError};
 pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 pub use refit::refit;
 pub use subspace::AffineSubspace;
