@@ -307,7 +307,7 @@ fn textures_that_do_not_fit_are_refused() {
     fs::write(&cut, &bytes[..end - 12]).expect("written");
     let court = format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} --size 8x6");
     for (arguments, said) in [
-        (court.clone(), "drawn with a bidirectional texture, found none"),
+        (court.clone(), "required arguments were not provided: --texture <[MATERIAL=]B.npy>"),
         (format!("{court} --texture {file}"), "expected 16 directions of light, as the transfer has, found 9"),
         (format!("{court} --texture {damaged}"), "view 3, light 8, row 0, column 0"),
         (format!("{court} --texture {cut}"), "expected 108 x 4 bytes"),

@@ -258,7 +258,7 @@ fn what_is_wrong_is_said() {
         ("atlas stand-in-head --side 4097", "power of two"),
         ("radiosity white-box --atlas 4097", "power of two"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --diffuse 1e300", "from 0 to 1, found 1e300"),
-        ("prt render x.prt --model white-box --light disk:0,0,1:1e300", "at most 180 degrees, found `1e300`"),
+        ("cpca render x.prt --model white-box --light disk:0,0,1:1e300", "at most 180 degrees, found `1e300`"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sun:1,1,1", "directional:X,Y,Z:R,G,B"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --light sky:0,0,0", "expected light on the model"),
         ("subsurface stand-in-head --mm-per-unit 1 --material marble --device r200", "r200"),
@@ -416,13 +416,13 @@ fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
 #[test]
 fn large_pictures_are_refused_by_their_headers() {
     let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
-    let lit = ["prt", "lighting", "--light", "large.png", "--memory-limit", "64MiB"];
+    let lit = ["all-frequency", "lighting", "--light", "large.png", "--memory-limit", "64MiB"];
     for (arguments, words) in [
         (&["diff", "huge.png", "huge.png"][..], "found 9000x9000 with 4 channels"),
         (&["diff", "huge.png", "huge.png"], "16384 pixels a side"),
         (&["diff", "large.png", "large.png", "--memory-limit", "1GiB"], "comparing pictures of 7000x7000 pixels"),
         (&lit, "the picture `large.png` of 7000x7000 pixels takes up to"),
-        (&["prt", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
+        (&["bi-scale", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
         (&["diff", "cut.png", "cut.png"], "for the 7000x7000 pixels that its header says"),
     ] {
         let files: [(&str, &[u8]); 3] = [("huge.png", &huge), ("large.png", &large), ("cut.png", &cut)];

@@ -30,7 +30,7 @@ macro_rules! card {
         concat!(
             " --target-format=rgba16 --sweep --device=",
             $device,
-            " --switch=rounding=rtz same:--executor=scalar --adapter=x"
+            " --switch=target-rounding=truncate same:--executor=scalar --adapter=x"
         )
     };
 }
@@ -123,8 +123,8 @@ pub(super) const TABLE: &[Tried] = &[
             "render odd.obj --size 8x8 --out OUT",
         ],
         options: concat!(
-            "--sides=front --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
-             --depth=1 --seed=2 --view=front --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
+            "--sides=front@0,1,2,3,4,5 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
+             --depth=1@0,2,3,4,5,6 --seed=2 --view=front --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
              --caster=engine --time --model-up=y --strict@6",
             eye!()
         ),
