@@ -43,6 +43,7 @@ fn fast(signal: &Signal, options: &CpcaOptions) -> f64 {
 }
 
 /// Writes a signal and compresses it once: file, points, dimension, clusters, vectors, iterations.
+#[expect(clippy::print_stdout, reason = "the error is compared with that of by_products.py")]
 fn beside([file, numbers @ ..]: &[String; 6]) {
     let [points, dimension, clusters, vectors, iterations] =
         numbers.each_ref().map(|number| number.parse().expect("a number"));
