@@ -29,8 +29,8 @@ fn format_of(bytes: &[u8]) -> Option<PictureFormat> {
 }
 
 impl PictureSize {
-    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it is
-    /// that of the largest layer.
+    /// Reads the size of a PNG, Radiance HDR or EXR file from its header, without decoding pixels. For an EXR file it
+    /// is that of the largest layer.
     ///
     /// # Errors
     /// [`PictureError`] for a header that is broken, for more than the limits, and for more pixels than so many bytes
@@ -109,7 +109,8 @@ fn reader(bytes: &[u8], format: PictureFormat) -> ImageReader<Cursor<&[u8]>> {
     ImageReader::with_format(Cursor::new(bytes), decoder)
 }
 
-/// Reads and checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the size.
+/// Reads and checks the size of a PNG or HDR file: a decoder may work long before it fails, and does not report the
+/// size.
 fn size_of(bytes: &[u8], format: PictureFormat) -> Result<PictureSize, PictureError> {
     /// Maximum expansion of Deflate, in bytes per byte.
     const DEFLATE: u64 = 1032;

@@ -44,8 +44,8 @@ pub(crate) trait Lane: Copy + Send + Sync {
 
     /// True if [`Lane::is_guarded`] can say yes.
     const GUARDED: bool = false;
-    /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes the
-    /// rest.
+    /// Returns `true` if results of this arithmetic are right only where they are finite; [`Lane::general`] computes
+    /// the rest.
     #[inline(always)]
     fn is_guarded(&self) -> bool {
         false
