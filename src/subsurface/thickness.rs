@@ -8,7 +8,8 @@ use crate::tracer::HostTracer;
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 
 /// Returns the median thickness of a mesh by area, in the mesh's units: the distance from the centre of a face along
-/// its inward normal to the next surface. `None` if at least half of the area has no surface behind it, as on open meshes.
+/// its inward normal to the next surface. `None` if at least half of the area has no surface behind it, as on open
+/// meshes.
 pub fn median_thickness(mesh: &Mesh) -> Option<f64> {
     // Degenerate faces have no ray, and no area.
     let inward = (0..mesh.len() as u32).filter_map(|face| Some((inward_ray(mesh, face)?, mesh.area(face))));

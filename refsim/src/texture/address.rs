@@ -101,8 +101,8 @@ pub fn project(coordinates: [u32; 4]) -> [u32; 4] {
 /// The cube face that a direction (FP32 bits) selects and the coordinates on it, 0 to 1.
 ///
 /// The face is that of the component of largest magnitude; ties go to z, then y, then x. On the face
-/// `u = (s / |m| + 1) * 1/2` with s and m of the Direct3D cube map table, each step one FP32 operation. NaN and infinite
-/// components count as 0.
+/// `u = (s / |m| + 1) * 1/2` with s and m of the Direct3D cube map table, each step one FP32 operation. NaN and
+/// infinite components count as 0.
 pub fn cube_coordinates(direction: [u32; 3]) -> (CubeFace, u32, u32) {
     let (face, s, t, major) = cube_axes(direction);
     let place = |c: u32| value::mul(value::add(value::div(c, major), value::ONE), value::HALF);
