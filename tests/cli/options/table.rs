@@ -124,7 +124,8 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--sides=front@0,1,2,3,4,5 --device=ideal-fp16 --executor=batch --adapter=x --out=other --renderer=eye --samples=3 \
-             --depth=1@0,2,3,4,5,6 --seed=2 --view=front --exposure=0.3 --ambient=0.5 --lens=0.1,1 --photons=100 --gather=1 \
+             --depth=1@0,2,3,4,5,6 --seed=2@2,3,4,5,6 same:--seed=2@0,1 --view=front --exposure=0.3 --ambient=0.5 \
+             --lens=0.1,1 --photons=100 --gather=1 \
              --caster=engine --time --model-up=y --strict@6",
             eye!()
         ),
