@@ -156,17 +156,13 @@ impl NearestSearch<'_> {
             let each = found.iter().zip(group.distances).map(|(found, &distance)| reach_of(found.1 * square, distance));
             *reach = each.fold(0.0, f32::max);
         }
-        // Plain loops: iterators are not inlined where tests are optimised a little.
-        let within = |distances: &[f32; LANES]| {
-            let mut any = false;
-            for lane in 0..LANES {
-                any |= distances[lane] <= reaches[lane];
-            }
-            any
-        };
+        let within =
+            |distances: &[f32; LANES]| distances.iter().zip(&reaches).any(|(distance, reach)| distance <= reach);
         looked_at += self.measure(centers, groups.len(), within, distances, (clusters, bounds));
         for (lane, (group, found)) in groups.iter().zip(found.chunks(LANES)).enumerate() {
-            keep(clusters, distances, |of| of[lane] <= reaches[lane]);
+            clusters.clear();
+            clusters
+                .extend((0..).zip(&*distances).filter(|(_, of)| of[lane] <= reaches[lane]).map(|(cluster, _)| cluster));
             self.estimator.estimate(group.points, clusters, bounds);
             looked_at += clusters.len() * found.len();
             for (&cluster, lower) in clusters.iter().zip(bounds.lanes()) {
@@ -196,23 +192,13 @@ impl NearestSearch<'_> {
         distances: &mut [[f32; LANES]],
         (clusters, bounds): (&mut Vec<u32>, &mut LowerBounds),
     ) -> usize {
-        keep(clusters, distances, wanted);
+        clusters.clear();
+        clusters.extend((0..).zip(&*distances).filter(|(_, of)| wanted(of)).map(|(cluster, _)| cluster));
         self.estimator.estimate(centers, clusters, bounds);
         for (&cluster, lower) in clusters.iter().zip(bounds.lanes()) {
             distances[cluster as usize] = lower.map(|lower| self.estimator.distance(cluster, lower));
         }
         clusters.len() * count
-    }
-}
-
-/// Replaces `clusters` by those whose distances are `wanted`, in rising order.
-#[inline(always)]
-fn keep(clusters: &mut Vec<u32>, distances: &[[f32; LANES]], wanted: impl Fn(&[f32; LANES]) -> bool) {
-    clusters.clear();
-    for (cluster, of) in distances.iter().enumerate() {
-        if wanted(of) {
-            clusters.push(cluster as u32);
-        }
     }
 }
 
