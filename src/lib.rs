@@ -47,55 +47,17 @@
 //! their files; `cli`, the default, the studies, their reports and the program. `wgpu` lets cards run on a GPU of the
 //! host.
 
-#[cfg(feature = "systems")]
-pub mod all_frequency;
-#[cfg(feature = "systems")]
-pub mod atlas;
-#[cfg(feature = "systems")]
-pub mod bi_scale;
-#[cfg(feature = "systems")]
-pub mod card;
-#[cfg(feature = "cli")]
-pub mod case;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod compare;
+
+#[doc(inline)]
+pub use crossbar_base::{compare, elementary, geom, oracle};
 #[cfg(feature = "systems")]
-pub mod cpca;
-pub mod elementary;
-#[cfg(feature = "systems")]
-pub mod fresnel;
-pub mod geom;
-#[cfg(feature = "systems")]
-pub mod io;
-#[cfg(feature = "systems")]
-pub mod linalg;
-#[cfg(feature = "systems")]
-pub mod names;
-pub mod oracle;
-#[cfg(feature = "systems")]
-pub mod picture;
-#[cfg(feature = "systems")]
-pub mod quadrature;
-#[cfg(feature = "systems")]
-pub mod radiosity;
-#[cfg(feature = "systems")]
-pub mod ray_engine;
-#[cfg(feature = "systems")]
-pub mod renderer;
+#[doc(inline)]
+pub use crossbar_ground::{atlas, card, fresnel, io, linalg, names, picture, quadrature, scene, sphere, tracer};
 #[cfg(feature = "cli")]
-pub mod report;
+#[doc(inline)]
+pub use crossbar_studies::{case, report, shader, study};
 #[cfg(feature = "systems")]
-pub mod scene;
-#[cfg(feature = "cli")]
-pub mod shader;
-#[cfg(feature = "systems")]
-pub mod sphere;
-#[cfg(feature = "cli")]
-pub mod study;
-#[cfg(feature = "systems")]
-pub mod subsurface;
-#[cfg(feature = "systems")]
-pub mod tracer;
-#[cfg(feature = "systems")]
-pub mod transfer;
+#[doc(inline)]
+pub use crossbar_systems::{all_frequency, bi_scale, cpca, radiosity, ray_engine, renderer, subsurface, transfer};

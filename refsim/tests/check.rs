@@ -181,7 +181,7 @@ fn period_programs_are_not_turned_away_for_the_rules_of_this_house() {
     let careless = [RuleId::MisplacedDefinition, RuleId::UnwrittenRead, RuleId::CmpOrDp4];
     let mut seen = 0;
     let mut wrong = String::new();
-    for place in ["../fixtures/shaders/asm", "../src/ray_engine/kernels"] {
+    for place in ["../fixtures/shaders/asm", "../src/systems/ray_engine/kernels"] {
         let place = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(place);
         for entry in fs::read_dir(&place).unwrap() {
             let path = entry.unwrap().path();

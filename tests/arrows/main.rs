@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 
 use circles::room;
-use source::{Crate, root};
+use source::{Crate, MEMBERS, root};
 
 /// A crate's source folder, the module whose rooms it is about, and for each of them the rooms that it may name.
 type Law = (&'static str, &'static [&'static str], &'static [(&'static str, &'static [&'static str])]);
@@ -38,6 +38,7 @@ const REFSIM: Law = (
 const CROSSBAR: Law = (
     "src",
     &[],
+    // Of all members of the workspace below `src`, whose rooms name each other as those of one crate.
     &[
         ("linalg", &[]),
         ("elementary", &[]),
@@ -272,16 +273,23 @@ fn the_emulator_depends_on_nothing_heavy() {
     assert!(!dependencies.contains("default = ["), "refsim has default features");
 }
 
-/// The feature of each room in lib.rs: of the room itself, not of what it contains.
+/// The feature of each room: that under which lib.rs re-exports the member of the workspace that the room is in.
 fn features() -> BTreeMap<String, String> {
-    let text = fs::read_to_string(root().join("src/lib.rs")).expect("the library's root");
-    let (mut feature, mut found) = (String::new(), BTreeMap::new());
-    for line in text.lines() {
-        if let Some(name) = line.strip_prefix("#[cfg(feature = \"").and_then(|rest| rest.strip_suffix("\")]")) {
-            feature = name.to_owned();
-        } else if let Some(room) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(';')) {
-            found.insert(room.to_owned(), std::mem::take(&mut feature));
-        }
+    let read = |file: String| fs::read_to_string(root().join(file)).expect("a library's root");
+    let library = read("src/lib.rs".to_owned()).replace(['\r', '\n'], " ");
+    let mut found = BTreeMap::from([("cli".to_owned(), "cli".to_owned())]);
+    for (member, feature) in MEMBERS {
+        let under = if feature.is_empty() { String::new() } else { format!("#[cfg(feature = \"{feature}\")] ") };
+        let (_, after) = library
+            .split_once(&format!("{under}#[doc(inline)] pub use crossbar_{member}::{{"))
+            .unwrap_or_else(|| panic!("lib.rs re-exports `{member}` under `{feature}`"));
+        let (exported, _) = after.split_once('}').expect("a list of rooms");
+        let exported: BTreeSet<&str> = exported.split(',').map(str::trim).filter(|room| !room.is_empty()).collect();
+        let text = read(format!("src/{member}/lib.rs"));
+        let rooms = text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+        let rooms: BTreeSet<&str> = rooms.collect();
+        assert_eq!(exported, rooms, "lib.rs re-exports all rooms of `{member}`");
+        found.extend(rooms.into_iter().map(|room| (room.to_owned(), feature.to_owned())));
     }
     found
 }
@@ -290,7 +298,7 @@ fn features() -> BTreeMap<String, String> {
 fn rooms_have_the_feature_that_the_page_says_and_need_no_larger_one() {
     let features = features();
     let page = fs::read_to_string(root().join("docs/architecture.md")).expect("the page").replace('\r', "");
-    let (_, rooms) = page.split_once("## Rooms of the root package").expect("the section");
+    let (_, rooms) = page.split_once("## Rooms of the systems and the program").expect("the section");
     for (room, feature) in features.iter().filter(|(room, _)| *room != "compare") {
         let row = rooms.lines().find(|line| line.starts_with(&format!("| `{room}` |"))).expect("a row of the table");
         let last = if feature.is_empty() { "| |".to_owned() } else { format!("| `{feature}` |") };
@@ -311,11 +319,14 @@ fn only_linalg_names_nalgebra() {
     for (module, it) in source.modules.iter().filter(|(_, it)| room(&it.file) != "linalg") {
         assert!(source.after(module, "nalgebra").next().is_none(), "{}: take it from `linalg`", it.file.display());
     }
-    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
-    // What the program depends on; the profile further down names crates that only the benches compile.
-    let (dependencies, _) = manifest.split_once("[profile.").expect("a profile");
-    for comparison in ["bvh", "parry3d", "obvhs"] {
-        assert!(!dependencies.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");
+    let manifests = ["", "src/base/", "src/ground/", "src/systems/", "src/studies/"];
+    for manifest in manifests.map(|folder| root().join(folder).join("Cargo.toml")) {
+        let text = fs::read_to_string(manifest).expect("a manifest");
+        // What the program depends on; the root's profile names crates that only the benches compile.
+        let dependencies = text.split("[profile.").next().unwrap_or_default();
+        for comparison in ["bvh", "parry3d", "obvhs"] {
+            assert!(!dependencies.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");
+        }
     }
 }
 

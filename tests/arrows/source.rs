@@ -41,6 +41,11 @@ pub(crate) struct Crate {
     pub(crate) modules: BTreeMap<Names, Module>,
 }
 
+/// The members of the workspace below `src`, from the lowest: each is a folder of rooms and a crate, whose rooms the
+/// root package re-exports under a feature. Their sources count as those of one crate.
+pub(crate) const MEMBERS: [(&str, &str); 4] =
+    [("base", ""), ("ground", "systems"), ("systems", "systems"), ("studies", "cli")];
+
 pub(crate) fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
@@ -74,9 +79,12 @@ impl Crate {
 
     fn of_folder(folder: &str) -> Self {
         let folder = root().join(folder);
-        let texts = rust_files(&folder).into_iter().map(|file| {
-            let below = file.strip_prefix(&folder).expect("below the folder").to_owned();
-            (below, read(&file))
+        let texts = rust_files(&folder).into_iter().filter_map(|file| {
+            let below = file.strip_prefix(&folder).expect("below the folder");
+            let member = MEMBERS.iter().find_map(|(member, _)| below.strip_prefix(member).ok());
+            // The root of a member imports rooms of others and uses none.
+            let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
+            (!is_root).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }

@@ -313,7 +313,7 @@ fn a_folder_that_cannot_be_written() {
 #[test]
 fn the_documentation_describes_every_field() {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/cases.md")).expect("the page");
-    let schema = include_str!("../../src/case/schema.rs");
+    let schema = include_str!("../../src/studies/case/schema.rs");
     let fields = schema.lines().filter_map(|line| line.trim().strip_prefix("pub ")?.split_once(": "));
     for (field, _) in fields.filter(|(field, _)| !field.contains(' ')) {
         // The parts of a case have headings of their own.

@@ -1,0 +1,335 @@
+//! Triangle meshes with shared vertices.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::vector::{unit, wide};
+
+/// Triangles that share vertices. [`Mesh::new`] guarantees that every index is in range and every coordinate finite.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    /// One per vertex, or empty.
+    normals: Vec<[f32; 3]>,
+    /// One per vertex, or empty.
+    texcoords: Vec<[f32; 2]>,
+}
+
+/// Error of a mesh's data.
+#[non_exhaustive]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MeshError {
+    /// A corner names a vertex that does not exist.
+    #[error("triangle {triangle} uses vertex {index}, expected an index below {vertices} (counted from 0)")]
+    IndexOutOfRange { triangle: usize, index: u32, vertices: usize },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} (counted from 0) has the coordinate {value}, expected a finite number")]
+    NotFinite { vertex: usize, value: f32 },
+    /// The number of normals or texture coordinates is neither that of the vertices nor 0.
+    #[error("found {found} {what}, expected one per vertex: {vertices}")]
+    AttributeCount { what: &'static str, found: usize, vertices: usize },
+    /// A component of a normal or a texture coordinate is NaN or infinite.
+    #[error("among the {what} of vertex {vertex} (counted from 0) is {value}, expected finite numbers")]
+    AttributeNotFinite { what: &'static str, vertex: usize, value: f32 },
+    /// There are more triangles than 31 bits can number.
+    #[error("found {found} triangles, expected at most {}", i32::MAX)]
+    TooMany { found: usize },
+}
+
+/// Contact of two triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Contact {
+    /// No common corner.
+    None,
+    /// One common corner.
+    Vertex,
+    /// Two common corners, or all three.
+    Edge,
+}
+
+impl Mesh {
+    /// Creates a mesh from positions and corner indices (counted from 0). Triangles keep their order: the id of a
+    /// triangle is its index. Degenerate triangles are accepted (nothing ever hits them); count them with
+    /// [`Mesh::degenerate_count`].
+    ///
+    /// ```
+    /// use crossbar::geom::Mesh;
+    ///
+    /// # fn main() -> Result<(), crossbar::geom::MeshError> {
+    /// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    /// let square = Mesh::new(corners.clone(), vec![[0, 1, 2], [0, 2, 3]])?;
+    /// assert_eq!((square.len(), square.boundary_edge_count()), (2, 4));
+    ///
+    /// let wrong = Mesh::new(corners, vec![[0, 1, 4]]).expect_err("there are four vertices");
+    /// assert_eq!(wrong.to_string(), "triangle 0 uses vertex 4, expected an index below 4 (counted from 0)");
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`MeshError`] names the first index out of range, or the first coordinate that is not finite.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        if triangles.len() > i32::MAX as usize {
+            return Err(MeshError::TooMany { found: triangles.len() });
+        }
+        for (vertex, position) in positions.iter().enumerate() {
+            if let Some(&value) = position.iter().find(|value| !value.is_finite()) {
+                return Err(MeshError::NotFinite { vertex, value });
+            }
+        }
+        let vertices = positions.len();
+        for (triangle, corners) in triangles.iter().enumerate() {
+            if let Some(&index) = corners.iter().find(|&&index| index as usize >= vertices) {
+                return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
+            }
+        }
+        Ok(Self { positions, triangles, ..Self::default() })
+    }
+
+    /// Adds a normal per vertex, of any length; a zero vector where none is known.
+    ///
+    /// # Errors
+    /// [`MeshError`] if there is not one finite normal per vertex.
+    pub fn with_normals(mut self, normals: Vec<[f32; 3]>) -> Result<Self, MeshError> {
+        self.check_attribute("normals", &normals)?;
+        self.normals = normals;
+        Ok(self)
+    }
+
+    /// Adds texture coordinates per vertex.
+    ///
+    /// # Errors
+    /// [`MeshError`] if there is not one finite pair per vertex.
+    pub fn with_texcoords(mut self, texcoords: Vec<[f32; 2]>) -> Result<Self, MeshError> {
+        self.check_attribute("texture coordinates", &texcoords)?;
+        self.texcoords = texcoords;
+        Ok(self)
+    }
+
+    /// Rotates every position and normal.
+    #[must_use]
+    pub fn rotated(mut self, rotation: impl Fn([f32; 3]) -> [f32; 3]) -> Self {
+        self.positions.iter_mut().chain(&mut self.normals).for_each(|vector| *vector = rotation(*vector));
+        self
+    }
+
+    pub(super) fn turn_round(&mut self, triangles: &[u32]) {
+        for &triangle in triangles {
+            if let Some([_, b, c]) = self.triangles.get_mut(triangle as usize) {
+                std::mem::swap(b, c);
+            }
+        }
+    }
+
+    fn check_attribute<const N: usize>(&self, what: &'static str, values: &[[f32; N]]) -> Result<(), MeshError> {
+        let vertices = self.positions.len();
+        if values.len() != vertices {
+            return Err(MeshError::AttributeCount { what, found: values.len(), vertices });
+        }
+        for (vertex, value) in values.iter().enumerate() {
+            if let Some(&value) = value.iter().find(|value| !value.is_finite()) {
+                return Err(MeshError::AttributeNotFinite { what, vertex, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// Vertex positions.
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// Normals per vertex as they were given; `None` for a mesh without. [`Mesh::vertex_normals`] computes them.
+    pub fn normals(&self) -> Option<&[[f32; 3]]> {
+        (!self.normals.is_empty()).then_some(&self.normals)
+    }
+
+    /// Texture coordinates per vertex; `None` for a mesh without.
+    pub fn texcoords(&self) -> Option<&[[f32; 2]]> {
+        (!self.texcoords.is_empty()).then_some(&self.texcoords)
+    }
+
+    /// Corner indices of each triangle; the front is the side from which they run counter-clockwise.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Returns `true` if there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// Returns the three corners of a triangle, or `None` for an id that does not exist.
+    pub fn corners(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
+        let indices = self.triangles.get(triangle as usize)?;
+        Some(indices.map(|index| self.positions[index as usize]))
+    }
+
+    /// Iterates over the corners of all triangles, in the order of ids.
+    pub fn iter_corners(&self) -> impl ExactSizeIterator<Item = [[f32; 3]; 3]> + '_ {
+        self.triangles.iter().map(|indices| indices.map(|index| self.positions[index as usize]))
+    }
+
+    /// Smallest and largest coordinates of the vertices that triangles use; `None` without triangles.
+    pub fn bounds(&self) -> Option<[[f32; 3]; 2]> {
+        let mut corners = self.iter_corners().flatten();
+        let first = corners.next()?;
+        let mut bounds = [first, first];
+        for corner in corners {
+            for axis in 0..3 {
+                if corner[axis] < bounds[0][axis] {
+                    bounds[0][axis] = corner[axis];
+                }
+                if corner[axis] > bounds[1][axis] {
+                    bounds[1][axis] = corner[axis];
+                }
+            }
+        }
+        Some(bounds)
+    }
+
+    /// Area of a triangle; 0 for an id that does not exist.
+    pub fn area(&self, triangle: u32) -> f64 {
+        self.corners(triangle).map_or(0.0, |corners| area_vector(corners).length() / 2.0)
+    }
+
+    /// Computes normals per vertex: the mean of the adjoining triangles, weighted by area, at length 1; zero where the
+    /// mean has no direction.
+    pub fn vertex_normals(&self) -> Vec<DVec3> {
+        let mut normals = vec![DVec3::ZERO; self.positions.len()];
+        for (corners, indices) in self.iter_corners().zip(&self.triangles) {
+            let normal = area_vector(corners);
+            indices.iter().for_each(|&index| normals[index as usize] += normal);
+        }
+        normals.into_iter().map(|sum| unit(sum).unwrap_or(DVec3::ZERO)).collect()
+    }
+
+    /// Returns the same triangles without attributes, with vertices at the same position merged: files repeat vertices
+    /// where normals or texture coordinates jump, which would disconnect [`Mesh::adjacency`].
+    pub fn welded(&self) -> Self {
+        let mut welder = Welder::default();
+        let triangles = self.iter_corners().map(|corners| corners.map(|position| welder.vertex(position))).collect();
+        Self { positions: welder.into_positions(), triangles, ..Self::default() }
+    }
+
+    /// Contact of two triangles. Corners are compared by position, so that a mesh whose file repeats its vertices is
+    /// treated like one that shares them. [`Contact::None`] also for an id that does not exist.
+    pub fn contact(&self, a: u32, b: u32) -> Contact {
+        let (Some(a), Some(b)) = (self.corners(a), self.corners(b)) else {
+            return Contact::None;
+        };
+        match a.iter().filter(|corner| b.contains(corner)).count() {
+            0 => Contact::None,
+            1 => Contact::Vertex,
+            _ => Contact::Edge,
+        }
+    }
+
+    /// Returns `true` if two triangles share an edge or a vertex.
+    pub fn are_adjacent(&self, a: u32, b: u32) -> bool {
+        self.contact(a, b) != Contact::None
+    }
+}
+
+/// Normal of a triangle, with twice its area as length.
+fn area_vector(corners: [[f32; 3]; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(wide);
+    (b - a).cross(c - a)
+}
+
+/// Builder that merges vertices with bit-identical positions.
+#[derive(Debug, Default)]
+pub struct Welder {
+    positions: Vec<[f32; 3]>,
+    index: BTreeMap<[u32; 3], u32>,
+}
+
+impl Welder {
+    /// Returns the index of the vertex at a position, new or known. -0 and +0 are equal.
+    pub fn vertex(&mut self, position: [f32; 3]) -> u32 {
+        let position = position.map(|value| value + 0.0);
+        let next = self.positions.len() as u32;
+        let index = *self.index.entry(position.map(f32::to_bits)).or_insert(next);
+        if index == next {
+            self.positions.push(position);
+        }
+        index
+    }
+
+    /// Position of a vertex with an index returned by [`Welder::vertex`].
+    pub fn position(&self, index: u32) -> [f32; 3] {
+        self.positions[index as usize]
+    }
+
+    /// Vertex positions in the order of their first use.
+    pub fn into_positions(self) -> Vec<[f32; 3]> {
+        self.positions
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Mesh {
+        let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [9.0, 9.0, 9.0]];
+        Mesh::new(positions, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh")
+    }
+
+    #[test]
+    fn a_square_has_area_bounds_and_normals() {
+        let mesh = square();
+        assert_eq!((mesh.area(0), mesh.area(1), mesh.area(2)), (0.5, 0.5, 0.0));
+        assert_eq!(mesh.vertex_normals(), [DVec3::Z, DVec3::Z, DVec3::Z, DVec3::Z, DVec3::ZERO]);
+        assert_eq!(mesh.degenerate_count(), 0);
+        assert_eq!(mesh.contact(0, 1), Contact::Edge);
+        assert_eq!(mesh.bounds(), Some([[0.0; 3], [1.0, 1.0, 0.0]]), "unused vertices do not count");
+    }
+
+    #[test]
+    fn contact_is_by_place() {
+        let positions =
+            vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-0.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
+        let mesh = Mesh::new(positions, vec![[0, 1, 2], [3, 4, 5], [1, 1, 2]]).expect("a mesh");
+        assert_eq!(mesh.contact(0, 1), Contact::Vertex);
+        assert_eq!(mesh.contact(1, 2), Contact::None);
+        assert_eq!(mesh.contact(0, 99), Contact::None);
+        assert_eq!(mesh.degenerate_count(), 1);
+    }
+
+    #[test]
+    fn bad_input_is_named() {
+        let found = Mesh::new(vec![[0.0; 3]], vec![[0, 0, 1]]).unwrap_err();
+        assert_eq!(found.to_string(), "triangle 0 uses vertex 1, expected an index below 1 (counted from 0)");
+        let found = Mesh::new(vec![[0.0; 3], [0.0, f32::INFINITY, 0.0]], vec![]).unwrap_err();
+        assert_eq!(found.to_string(), "vertex 1 (counted from 0) has the coordinate inf, expected a finite number");
+    }
+
+    #[test]
+    fn attributes_are_one_per_vertex() {
+        let found = square().with_normals(vec![[0.0, 0.0, 1.0]; 4]).unwrap_err();
+        assert_eq!(found.to_string(), "found 4 normals, expected one per vertex: 5");
+        let found = square().with_texcoords(vec![[0.0, f32::NAN]; 5]).unwrap_err().to_string();
+        let expected = "among the texture coordinates of vertex 0 (counted from 0) is NaN, expected finite numbers";
+        assert_eq!(found, expected);
+        let mesh = square().with_texcoords(vec![[0.5, 1.0]; 5]).expect("a pair per vertex");
+        assert_eq!((mesh.normals(), mesh.texcoords()), (None, Some(&[[0.5, 1.0]; 5][..])));
+    }
+
+    #[test]
+    fn welding_joins_what_is_at_one_place() {
+        let [a, b, c, d] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.0, 1.0, 0.0]];
+        let torn = Mesh::new(vec![a, b, c, a, c, d], vec![[0, 1, 2], [3, 4, 5]]).expect("a mesh");
+        assert_eq!(torn.boundary_edge_count(), 6);
+        assert_eq!((torn.welded().triangles(), torn.welded().boundary_edge_count()), (&[[0, 1, 2], [0, 2, 3]][..], 4));
+    }
+}

@@ -1,0 +1,7 @@
+//! The lowest rooms of Crossbar: meshes and rays, exact hits, elementary functions with the same bits everywhere, the
+//! one place that says equal, and the oracle for other people's hits. `crossbar` re-exports them.
+
+pub mod compare;
+pub mod elementary;
+pub mod geom;
+pub mod oracle;

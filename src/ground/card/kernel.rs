@@ -1,0 +1,162 @@
+//! Programs as text, and what a device says to them.
+
+use std::fmt::Write as _;
+
+use refsim::asm::assemble;
+use refsim::check::check;
+use refsim::device::Profile;
+use refsim::exec::CheckedProgram;
+use refsim::isa::Version;
+
+/// What stands before and after the part of a kernel that is repeated.
+const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
+
+/// A program text with the name under which messages speak of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KernelText {
+    /// The file's name.
+    pub name: &'static str,
+    /// Its contents.
+    pub text: &'static str,
+}
+
+/// A device refuses a kernel.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
+#[error("device `{device}` refuses {kernel}: {problem}")]
+#[diagnostic(code(card::refused))]
+pub struct KernelError {
+    /// The kernel's file.
+    pub kernel: String,
+    /// The device.
+    pub device: String,
+    /// The first thing that is wrong.
+    pub problem: String,
+}
+
+/// Embeds the kernels of a folder as constants, and lists them.
+#[macro_export]
+macro_rules! kernels {
+    ($(#[$doc:meta])* $list:ident: $($constant:ident $file:literal)*) => {
+        $(
+            #[doc = concat!("`", $file, "`; its head says what goes in and out.")]
+            pub const $constant: $crate::card::KernelText =
+                $crate::card::KernelText { name: $file, text: include_str!($file) };
+        )*
+        $(#[$doc])*
+        pub const $list: &[$crate::card::KernelText] = &[$($constant),*];
+    };
+}
+pub use crate::kernels;
+
+impl KernelText {
+    /// The program, accepted by a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
+    pub fn checked(&self, profile: &Profile) -> Result<CheckedProgram, KernelError> {
+        checked(profile, format!("`{}`", self.name), self.text)
+    }
+
+    /// The text with its repeated part written out `texels` times, and the program.
+    ///
+    /// # Errors
+    /// As [`Self::checked`].
+    pub fn unrolled_and_checked(
+        &self,
+        profile: &Profile,
+        texels: usize,
+    ) -> Result<(String, CheckedProgram), KernelError> {
+        let text = self.unrolled(texels);
+        let program = checked(profile, format!("`{}`, written out for {texels} texels", self.name), &text)?;
+        Ok((text, program))
+    }
+
+    /// What stands before, in and after the repeated part.
+    fn parts(&self) -> [&'static str; 3] {
+        let [begin, end] = MARKS;
+        let (head, rest) = self.text.split_once(begin).unwrap_or((self.text, ""));
+        let (body, tail) = rest.split_once(end).unwrap_or((rest, ""));
+        [head, body, tail]
+    }
+
+    /// The program for a block of so many texels: there are no loops in these languages.
+    pub fn unrolled(&self, texels: usize) -> String {
+        let [head, body, tail] = self.parts();
+        let mut text = String::with_capacity(head.len() + texels * body.len() + tail.len() + 40);
+        // Notes in front of a program are `//` lines; those of the language come after its first word.
+        text.push_str(head);
+        let _ = writeln!(text, "# {texels} texels");
+        text.extend(std::iter::repeat_n(body, texels));
+        text.push_str(tail);
+        text
+    }
+
+    /// Instructions outside of the repeated part.
+    pub fn overhead(&self) -> usize {
+        let [head, _, tail] = self.parts();
+        instructions(head) + instructions(tail)
+    }
+
+    /// Instructions per texel: those of the repeated part.
+    pub fn per_texel(&self) -> usize {
+        instructions(self.parts()[1])
+    }
+
+    /// The most texels that a program of so many instructions can take.
+    pub fn block(&self, max_instructions: usize) -> usize {
+        max_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
+    }
+}
+
+/// Refuses a device that does not run all of these languages. `what` is written in them.
+///
+/// # Errors
+/// [`KernelError`] with the cards that run them.
+pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
+    let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));
+    if runs(profile) {
+        return Ok(());
+    }
+    let runs_it = |name: &&str| Profile::named(name).is_ok_and(|profile| runs(&profile));
+    let have: Vec<&str> = Profile::card_names().into_iter().filter(runs_it).collect();
+    let needed: Vec<String> = versions.iter().map(|version| format!("`{version}`")).collect();
+    let problem = format!("it runs no {} programs; expected one of {}", needed.join(" and "), have.join(", "));
+    Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
+}
+
+/// The language of vertex programs that is asked for, else vs_2_0 where the device has it, else vs_1_1.
+///
+/// # Errors
+/// [`KernelError`] if the device does not run it.
+pub fn vertex_version(profile: &Profile, asked: Option<Version>) -> Result<Version, KernelError> {
+    let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
+    let version = asked.unwrap_or(if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 });
+    require_versions(profile, &[version], "the vertex stage")?;
+    Ok(version)
+}
+
+/// Slots of a program's texture reads and of its arithmetic.
+pub fn slots(program: &CheckedProgram) -> [u32; 2] {
+    let slots = &program.facts().slots;
+    [slots.iter().map(|phase| phase.texture).sum(), slots.iter().map(|phase| phase.arithmetic).sum()]
+}
+
+/// Instructions of a text: lines that end in `;`.
+pub fn instructions(text: &str) -> usize {
+    text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
+}
+
+/// A program text, accepted by a device. `kernel` is what messages call it.
+///
+/// # Errors
+/// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
+pub fn checked(profile: &Profile, kernel: String, text: &str) -> Result<CheckedProgram, KernelError> {
+    let refused = |problem| KernelError { kernel, device: profile.name.clone(), problem };
+    let program = match assemble(text) {
+        Ok(program) => program,
+        Err(errors) => return Err(refused(errors.to_string())),
+    };
+    check(program, profile).map_err(|report| {
+        refused(report.violations.first().map_or_else(|| report.to_string(), |first| first.message.clone()))
+    })
+}

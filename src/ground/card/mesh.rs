@@ -1,0 +1,265 @@
+//! A mesh drawn from a camera, for all systems that show one: front faces alone, as rays of the host meet them.
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::exec::CheckedProgram;
+use refsim::machine::{DrawCall, Machine, MachineError, VertexSource};
+use refsim::output::{BlendFactor, BlendOp, BlendState, CompareFunction, DepthState, WriteMask};
+use refsim::raster::{Cull, Primitive};
+use refsim::texture::TexelFormat;
+use thiserror::Error;
+
+use super::kernels::{DEPTH, SHADE_COLOR};
+use super::{
+    Attribute, KernelError, NearestTarget, ReadTexture, Texels, ViewTarget, attribute, constants, vertex_streams,
+};
+use crate::geom::UnitFrame;
+use crate::geom::vector::wide;
+use crate::scene::Camera;
+
+/// How a mesh is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshView {
+    /// The camera.
+    pub camera: Camera,
+    /// What radiances are multiplied by in the picture: 0 to 1e30.
+    pub exposure: f64,
+    /// The picture's format. Fractions clamp each pass to 0 to 1; floats need a device that draws, and where passes
+    /// are added up blends, them.
+    pub format: TexelFormat,
+}
+
+impl From<Camera> for MeshView {
+    /// Radiances as they are, in single precision.
+    fn from(camera: Camera) -> Self {
+        Self { camera, exposure: 1.0, format: TexelFormat::Rgba32f }
+    }
+}
+
+impl MeshView {
+    fn check(&self) -> Result<(), MeshError> {
+        let (what, found) = ("an exposure of 0 to 1e30", self.exposure);
+        if (0.0..=1e30).contains(&found) { Ok(()) } else { Err(MeshError::Figure { what, found }) }
+    }
+}
+
+/// Why a card does not show a mesh.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum MeshError {
+    /// A size that differs from what another part says.
+    #[error("expected {expected} {what}, found {found}")]
+    Size { what: &'static str, expected: usize, found: usize },
+    /// A figure out of its range.
+    #[error("expected {what}, found {found}")]
+    Figure { what: &'static str, found: f64 },
+    /// The card refuses a resource or a draw.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+}
+
+impl MeshError {
+    /// An error unless two sizes agree.
+    pub fn check_size(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
+        if expected == found { Ok(()) } else { Err(Self::Size { what, expected, found }) }
+    }
+}
+
+/// The fragments that a draw keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeptFragments {
+    /// The nearest ones.
+    Nearest,
+    /// Those at the depths that earlier draws have left, in place of what is there.
+    Visible,
+    /// The same, added to what is there.
+    Added,
+}
+
+/// A draw of a mesh, or of a part of it.
+#[derive(Clone, Debug)]
+pub struct MeshDraw<'a> {
+    /// The vertex program and its constants.
+    pub vertex: (&'a CheckedProgram, Vec<[f32; 4]>),
+    /// Attributes from register 0 on.
+    pub attributes: Vec<&'a Attribute>,
+    /// Three vertices per triangle; `None`: all in order.
+    pub indices: Option<&'a [u32]>,
+    /// The pixel program and its constants.
+    pub pixel: (&'a CheckedProgram, Vec<[f32; 4]>),
+    /// The textures of samplers 0, 1 and so on.
+    pub textures: Vec<ReadTexture>,
+    /// The fragments that are kept.
+    pub fragments: KeptFragments,
+    /// The components that are written.
+    pub mask: WriteMask,
+}
+
+/// The programs that fill the depth buffer alone.
+#[derive(Clone, Debug)]
+pub struct DepthPrograms {
+    vertex: CheckedProgram,
+    pixel: CheckedProgram,
+}
+
+impl DepthPrograms {
+    /// The programs, accepted by a device.
+    ///
+    /// # Errors
+    /// [`KernelError`] if the device has neither vertex nor pixel programs.
+    pub fn new(profile: &Profile) -> Result<Self, KernelError> {
+        Ok(Self { vertex: DEPTH.checked(profile)?, pixel: SHADE_COLOR.checked(profile)? })
+    }
+}
+
+/// A mesh as a card gets it: in units of its own size, so that the unit of length does not matter.
+#[derive(Debug)]
+pub struct MeshOnCard {
+    frame: UnitFrame,
+    positions: Attribute,
+    target: ViewTarget,
+}
+
+impl MeshOnCard {
+    /// A mesh of vertices at these positions.
+    pub fn new(positions: impl IntoIterator<Item = [f32; 3], IntoIter: Clone>) -> Self {
+        let positions = positions.into_iter().map(wide);
+        let frame = UnitFrame::new(positions.clone());
+        let positions = positions.map(|position| attribute(frame.of_scene(position).to_array(), 1.0)).collect();
+        Self::in_frame(frame, positions)
+    }
+
+    /// A mesh of positions in a frame already, w = 1.
+    pub fn in_frame(frame: UnitFrame, positions: Attribute) -> Self {
+        Self { frame, positions, target: ViewTarget::default() }
+    }
+
+    /// The frame of positions.
+    pub fn frame(&self) -> &UnitFrame {
+        &self.frame
+    }
+
+    /// Positions in the frame, w = 1.
+    pub fn positions(&self) -> &Attribute {
+        &self.positions
+    }
+
+    /// A picture as the target holds it after `draw`: 0 where nothing is drawn. With it what the draws asked of the
+    /// card, without the read-back, where that is logged.
+    ///
+    /// # Errors
+    /// [`MeshError::Figure`] for an exposure out of range, [`MeshError::Machine`] if the card has no such target, and
+    /// what `draw` says.
+    pub fn show<E: From<MeshError>>(
+        &mut self,
+        machine: &mut Machine,
+        (view, is_logged): (&MeshView, bool),
+        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), E>,
+    ) -> Result<(Texels, Vec<Event>), E> {
+        view.check()?;
+        if is_logged {
+            machine.record(true);
+        }
+        let drawn = self.drawn(machine, view, draw);
+        let mut log = Vec::new();
+        if is_logged {
+            machine.record(false);
+            log = machine.take_log();
+        }
+        Ok((Texels::read_back(machine, drawn?.color).map_err(MeshError::from)?, log))
+    }
+
+    fn drawn<E: From<MeshError>>(
+        &mut self,
+        machine: &mut Machine,
+        view: &MeshView,
+        draw: impl FnOnce(&mut MeshPass<'_>) -> Result<(), E>,
+    ) -> Result<NearestTarget, E> {
+        let size = [view.camera.width(), view.camera.height()];
+        let target = self.target.of(machine, view.format, size).map_err(MeshError::from)?;
+        target.clear(machine).map_err(MeshError::from)?;
+        draw(&mut MeshPass { machine, frame: &self.frame, positions: &self.positions, camera: view.camera, target })?;
+        Ok(target)
+    }
+}
+
+/// A picture in the making.
+#[derive(Debug)]
+pub struct MeshPass<'a> {
+    machine: &'a mut Machine,
+    frame: &'a UnitFrame,
+    positions: &'a Attribute,
+    camera: Camera,
+    target: NearestTarget,
+}
+
+impl<'a> MeshPass<'a> {
+    /// The card.
+    pub fn machine(&mut self) -> &mut Machine {
+        self.machine
+    }
+
+    /// Positions in the mesh's frame, w = 1.
+    pub fn positions(&self) -> &'a Attribute {
+        self.positions
+    }
+
+    /// Rows of the projection from the mesh's frame.
+    pub fn rows(&self) -> [[f32; 4]; 4] {
+        self.camera.clip_rows(self.frame)
+    }
+
+    /// The eye in the mesh's frame, and a fourth number.
+    pub fn eye(&self, w: f32) -> [f32; 4] {
+        attribute(self.frame.of_scene(wide(self.camera.eye())).to_array(), w).map(f32::from_bits)
+    }
+
+    /// What constants of vertex programs begin with: rows of the projection, then the eye, w = 1.
+    pub fn head(&self) -> Vec<[f32; 4]> {
+        self.rows().into_iter().chain([self.eye(1.0)]).collect()
+    }
+
+    /// Draws the whole mesh into the depth buffer alone.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the card refuses the draw.
+    pub fn draw_depth(&mut self, programs: &DepthPrograms, indices: &[u32]) -> Result<(), MachineError> {
+        self.draw(MeshDraw {
+            vertex: (&programs.vertex, self.rows().to_vec()),
+            attributes: vec![self.positions],
+            indices: Some(indices),
+            pixel: (&programs.pixel, Vec::new()),
+            textures: Vec::new(),
+            fragments: KeptFragments::Nearest,
+            mask: WriteMask::NONE,
+        })
+    }
+
+    /// Draws front faces, those whose corners turn counter-clockwise as seen.
+    ///
+    /// # Errors
+    /// [`MachineError`] if the card refuses the draw.
+    pub fn draw(&mut self, draw: MeshDraw<'_>) -> Result<(), MachineError> {
+        let MeshDraw { vertex: (program, vertex_constants), pixel: (pixel, pixel_constants), .. } = draw;
+        let (vertex_constants, pixel_constants) = (constants(vertex_constants), constants(pixel_constants));
+        let streams = vertex_streams(draw.attributes);
+        let source = VertexSource::Program { program, constants: &vertex_constants, streams };
+        let mut call = DrawCall::new(source, Primitive::TriangleList, pixel, &pixel_constants, self.target.color);
+        self.target.keep_nearest(&mut call);
+        call.cull = Cull::Clockwise;
+        if draw.fragments != KeptFragments::Nearest {
+            call.depth = DepthState { test: Some(CompareFunction::Equal), write: false };
+        }
+        if draw.fragments == KeptFragments::Added {
+            call.blend = Some(BlendState::both(BlendFactor::One, BlendFactor::One, BlendOp::Add));
+        }
+        call.indices = draw.indices;
+        call.masks[0] = draw.mask;
+        for (sampler, (texture, state)) in draw.textures.into_iter().enumerate() {
+            call = call.with_texture(sampler, texture, state);
+        }
+        self.machine.draw(&call)?;
+        Ok(())
+    }
+}

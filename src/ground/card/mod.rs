@@ -1,0 +1,36 @@
+//! The host's side of an emulated card that computes, for all systems.
+//!
+//! - [`KernelText`]: a program with the name of its file, assembled and checked against a device;
+//! - [`Texels`]: rectangles of floats, to textures and back; [`new_target`]: an empty one to draw into;
+//! - [`FullScreenPass`]: one quad over a target; [`PingPong`]: two targets that passes write in turn;
+//! - [`Levels`]: a pyramid of targets, each filled from the one before;
+//! - [`NearestTarget`]: a color target that keeps the nearest fragment;
+//! - [`Attribute`], [`vertex_streams`]: what vertices hold;
+//! - [`MeshOnCard`]: a mesh drawn from a camera; [`seen_pixels`]: what pixels show by a device's raster;
+//! - [`frame_time`](mod@frame_time): how long a frame takes beside the host's work.
+//!
+//! Textures are rectangles, which is how the cards of 2003 had float textures: coordinates count texels, and the
+//! center of texel i is at i + 0.5.
+
+mod attributes;
+pub mod frame_time;
+mod kernel;
+pub mod kernels;
+mod levels;
+mod mesh;
+mod nearest;
+mod pass;
+mod seen;
+mod texels;
+
+pub use attributes::{Attribute, attribute, through_half, vertex_streams};
+pub use kernel::{KernelError, KernelText, require_versions, vertex_version};
+pub use kernel::{checked, instructions, kernels, slots};
+pub use levels::Levels;
+pub use mesh::{DepthPrograms, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshPass, MeshView};
+pub use nearest::NearestTarget;
+use nearest::ViewTarget;
+pub use pass::{BILINEAR, FullScreenPass, PingPong, ReadTexture, constants, nearest};
+pub use refsim::raster::full_screen_quad;
+pub use seen::{SeenPixel, seen_pixels};
+pub use texels::{Texels, new_target, new_texture};

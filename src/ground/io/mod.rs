@@ -1,0 +1,107 @@
+//! Files in and out: models, scenes, pictures, rays and hits, and the writing that never leaves half a file.
+
+pub mod atomic;
+pub mod cube_map;
+pub mod error;
+pub mod gltf;
+pub mod irradiances;
+pub mod light_sources;
+mod lines;
+pub mod matrix_market;
+pub mod model;
+pub mod model_note;
+pub mod npy;
+mod number;
+pub mod number_table;
+mod numbers;
+pub mod obj;
+pub mod picture;
+pub mod ply;
+pub mod rays;
+pub mod scene_file;
+pub mod scene_obj;
+pub mod stl;
+
+pub use atomic::{FileSet, WriteError, write_file};
+pub use cube_map::{CubeTableError, load_cube_table, parse_cube_table, write_cube_table};
+pub use error::{FilePlace, ModelError, ReadError};
+pub use gltf::parse_gltf;
+pub use irradiances::{IrradiancesError, load_irradiances, parse_irradiances};
+pub use light_sources::{LightSourceRow, LightSourcesError, load_light_sources, parse_light_sources};
+pub use matrix_market::{
+    CoordinateMatrix, MatrixMarketError, load_matrix_market, parse_matrix_market, write_matrix_market,
+};
+pub use model::{ModelOptions, UpAxis, load_mesh, load_mesh_with, load_scene, load_scene_with};
+pub use model_note::ModelNote;
+pub use npy::{NpyError, NumberArray, parse_npy, parse_npy_array, parse_single_npy, write_npy, write_npy_array};
+pub use number::{NumberError, parse_f32, parse_f64, to_f32};
+pub use number_table::{NumberTable, NumberTableError, parse_number_table, parse_single_table};
+pub use numbers::{NumbersError, load_npy_array, load_numbers, parse_numbers, parse_single_numbers};
+pub use obj::{load_obj, parse_obj, write_obj};
+pub use picture::{PictureFile, PictureFileError, load_picture};
+pub use ply::{load_ply, parse_ply};
+pub use rays::{RaysError, load_rays, parse_rays, write_hits};
+pub use scene_file::{SceneFileError, scene_files, write_scene_file};
+pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
+pub use stl::{load_stl, parse_stl};
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// What is read of a device at most, in bytes (1 MiB): it may have no end. Files and pipes have limits of their kinds.
+const MAX_DEVICE_BYTES: u64 = 1 << 20;
+
+/// The bytes of a file, as many as a byte more than `limit`, by which the reader knows that it is longer. A device that
+/// has more than [`MAX_DEVICE_BYTES`] is an error.
+pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
+    let file = File::open(path)?;
+    let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
+    let left = if is_device { MAX_DEVICE_BYTES } else { u64::MAX };
+    Ok(Bounded { file, left }.take(limit.saturating_add(1)))
+}
+
+/// A file of which so many bytes may be read.
+#[derive(Debug)]
+pub(crate) struct Bounded {
+    file: File,
+    left: u64,
+}
+
+impl Read for Bounded {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = self.file.read(into)?;
+        self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
+            let what =
+                format!("expected a file, or at most {MAX_DEVICE_BYTES} bytes of a device, found more: is it endless?");
+            io::Error::new(io::ErrorKind::FileTooLarge, what)
+        })?;
+        Ok(read)
+    }
+}
+
+#[cfg(unix)]
+fn is_device(kind: &std::fs::FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    kind.is_char_device() || kind.is_block_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_: &std::fs::FileType) -> bool {
+    false
+}
+
+/// The whole of a file of at most `limit` bytes, or `None` when it is longer.
+pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = Vec::new();
+    open_limited(path, limit)?.read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= limit).then_some(bytes))
+}
+
+/// A piece of bad input as messages quote it: escaped, and cut to 40 characters.
+fn quoted(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    let cut: String = text.chars().take(40).collect();
+    let more = if cut.len() < text.len() { "..." } else { "" };
+    format!("`{}{more}`", cut.escape_debug())
+}

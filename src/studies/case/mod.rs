@@ -1,0 +1,40 @@
+//! Cases: one shader, its inputs, its geometry, and the expected results, in one TOML file.
+//!
+//! A case passes through three stages. [`schema`] defines the file format. [`Setup`] binds it to a device: files are
+//! read, programs assembled and checked, images decoded, names and lengths checked. [`run`] draws once and evaluates
+//! the probes; [`Loaded`] is the loaded card, and [`compare`] runs a case on two sides. Every error names the file and
+//! the place in it. docs/cases.md describes the format.
+
+mod binder;
+mod constants;
+mod device;
+mod error;
+mod fixed_function;
+mod loaded;
+mod log;
+mod probe;
+mod run;
+pub mod schema;
+mod setup;
+mod sides;
+mod stages;
+mod state;
+mod texels;
+mod trace;
+mod value;
+mod vertices;
+
+pub use binder::Overrides;
+pub use device::meant;
+pub use error::{CaseError, CaseWarning};
+pub use fixed_function::StateTable;
+pub use loaded::Loaded;
+pub use log::{log, log_observed};
+pub use probe::{Found, ProbeResult};
+pub use run::{CaseOutcome, ShaderSlots, run};
+pub use setup::Setup;
+pub use sides::{Comparison, CountDifference, First, Scope, Side, compare};
+pub use texels::CaseTexture;
+pub use trace::{PixelTrace, trace};
+pub use value::{Constant, Exactly, Mipmaps, Number, OneOrMany};
+pub use vertices::Vertices;

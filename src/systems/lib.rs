@@ -1,0 +1,14 @@
+//! Six published systems of global illumination on emulated cards, what systems 4 to 6 share, and renderers on the
+//! host. No system sees another. `crossbar` re-exports these rooms.
+
+use crossbar_base::{elementary, geom};
+use crossbar_ground::{atlas, card, fresnel, io, linalg, picture, quadrature, scene, sphere, tracer};
+
+pub mod all_frequency;
+pub mod bi_scale;
+pub mod cpca;
+pub mod radiosity;
+pub mod ray_engine;
+pub mod renderer;
+pub mod subsurface;
+pub mod transfer;

@@ -1,0 +1,196 @@
+//! The cube of light texels, its segments, and the finer cube of directions that visibility is sampled in.
+//!
+//! Faces and the order of rows and columns are Direct3D's ([`CUBE_FACES`](crate::sphere::CUBE_FACES)). A light texel's
+//! number is face 1024 + row 32 + column, a fine direction's face 16384 + row 128 + column: 4 x 4 fine directions per
+//! light texel (section 4).
+
+use std::sync::OnceLock;
+
+use glam::DVec3;
+
+use crate::sphere::CubeMap;
+
+/// Light texels along an edge of the cube.
+pub const LIGHT_SIDE: usize = 32;
+/// Fine directions along an edge of a light texel.
+pub const SUPERSAMPLES: usize = 4;
+/// Fine directions along an edge of the cube.
+pub const FINE_SIDE: usize = LIGHT_SIDE * SUPERSAMPLES;
+/// Light texels: n_L.
+pub const LIGHT_TEXELS: usize = 6 * LIGHT_SIDE * LIGHT_SIDE;
+/// Fine directions.
+pub const FINE_DIRECTIONS: usize = 6 * FINE_SIDE * FINE_SIDE;
+/// The light's texels.
+pub const LIGHT_MAP: CubeMap = CubeMap::new(LIGHT_SIDE);
+/// The fine texels, whose centers are the fine directions.
+pub const FINE_MAP: CubeMap = CubeMap::new(FINE_SIDE);
+
+/// How the cube is divided into squares, each with a Haar transform of its own.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[strum(serialize_all = "kebab-case")]
+pub enum Segmentation {
+    /// 24 segments of 16 x 16 texels, four per face: the paper's. Segment face 4 + 2 (row / 16) + column / 16.
+    #[default]
+    Quarters,
+    /// The six faces, 32 x 32 texels each: \[NRH03\]'s, for comparison (Figure 6).
+    Faces,
+}
+
+impl Segmentation {
+    /// Texels along an edge of a segment.
+    pub const fn side(self) -> usize {
+        match self {
+            Self::Quarters => LIGHT_SIDE / 2,
+            Self::Faces => LIGHT_SIDE,
+        }
+    }
+
+    /// Texels of a segment.
+    pub const fn len(self) -> usize {
+        self.side() * self.side()
+    }
+
+    /// Always false.
+    pub const fn is_empty(self) -> bool {
+        false
+    }
+
+    /// The number of segments.
+    pub const fn count(self) -> usize {
+        LIGHT_TEXELS / self.len()
+    }
+
+    /// The segment of a light texel, and the texel's place in it, row by row.
+    ///
+    /// # Panics
+    /// If there is no such texel.
+    pub fn place(self, texel: usize) -> [usize; 2] {
+        assert!(texel < LIGHT_TEXELS, "a texel of the light, not {texel}");
+        let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+        let (side, across) = (self.side(), LIGHT_SIDE / self.side());
+        let segment = face * across * across + across * (row / side) + column / side;
+        [segment, row % side * side + column % side]
+    }
+
+    /// The light texel at a place of a segment.
+    ///
+    /// # Panics
+    /// If there is no such segment or place.
+    pub fn texel(self, segment: usize, place: usize) -> usize {
+        assert!(segment < self.count() && place < self.len(), "a place of a segment, not {place} of {segment}");
+        let (side, across) = (self.side(), LIGHT_SIDE / self.side());
+        let (face, quarter) = (segment / (across * across), segment % (across * across));
+        let (row, column) = (quarter / across * side + place / side, quarter % across * side + place % side);
+        (face * LIGHT_SIDE + row) * LIGHT_SIDE + column
+    }
+}
+
+/// Face, row and column of a texel of a cube of this side.
+pub const fn face_row_column(texel: usize, side: usize) -> [usize; 3] {
+    [texel / (side * side), texel / side % side, texel % side]
+}
+
+/// The direction of a light texel's center.
+pub fn texel_center(texel: usize) -> DVec3 {
+    let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+    LIGHT_MAP.direction(face, column, row)
+}
+
+/// The light texel that a fine direction lies in.
+pub const fn light_texel(fine: usize) -> usize {
+    let [face, row, column] = face_row_column(fine, FINE_SIDE);
+    (face * LIGHT_SIDE + row / SUPERSAMPLES) * LIGHT_SIDE + column / SUPERSAMPLES
+}
+
+/// Directions in the light's texels, 1, 2 x 2 or 4 x 4 in each, with their solid angles. Their numbers are face (32
+/// s)^2 + row 32 s + column, with s of them along an edge of a texel.
+#[derive(Debug)]
+pub struct FineDirections {
+    samples: usize,
+    directions: Vec<DVec3>,
+    solid_angles: Vec<f64>,
+}
+
+impl FineDirections {
+    /// The fine directions, 4 x 4 a texel. Computed once.
+    pub fn get() -> &'static Self {
+        Self::of(SUPERSAMPLES)
+    }
+
+    /// With 1, 2 or 4 directions along an edge of a texel. Computed once each.
+    ///
+    /// # Panics
+    /// If `samples` is another number.
+    pub fn of(samples: usize) -> &'static Self {
+        static ALL: [OnceLock<FineDirections>; 3] = [const { OnceLock::new() }; 3];
+        assert!([1, 2, 4].contains(&samples), "1, 2 or 4 directions along an edge of a texel, not {samples}");
+        ALL[samples.ilog2() as usize].get_or_init(|| Self::new(samples))
+    }
+
+    fn new(samples: usize) -> Self {
+        let side = LIGHT_SIDE * samples;
+        let map = CubeMap::new(side);
+        let direction = |[face, row, column]: [usize; 3]| map.direction(face, column, row);
+        let of_face: Vec<f64> = (0..side * side).map(|texel| map.solid_angle(texel % side, texel / side)).collect();
+        Self {
+            samples,
+            directions: (0..6 * side * side).map(|fine| direction(face_row_column(fine, side))).collect(),
+            solid_angles: of_face.repeat(6),
+        }
+    }
+
+    /// Directions along an edge of a texel.
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Directions along an edge of the cube.
+    pub fn side(&self) -> usize {
+        LIGHT_SIDE * self.samples
+    }
+
+    /// The directions, of length 1, by number.
+    pub fn directions(&self) -> &[DVec3] {
+        &self.directions
+    }
+
+    /// The solid angles of their texels in steradians, exact to rounding. They sum to 4 pi.
+    pub fn solid_angles(&self) -> &[f64] {
+        &self.solid_angles
+    }
+
+    /// The numbers of the directions in a light texel, row by row.
+    pub fn in_texel(&self, texel: usize) -> impl Iterator<Item = usize> + use<> {
+        let (samples, side) = (self.samples, self.side());
+        let [face, row, column] = face_row_column(texel, LIGHT_SIDE);
+        let first = (face * side + row * samples) * side + column * samples;
+        (0..samples * samples).map(move |sample| first + sample / samples * side + sample % samples)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_and_places_are_one_to_one() {
+        for (segmentation, count, side) in [(Segmentation::Quarters, 24, 16), (Segmentation::Faces, 6, 32)] {
+            assert_eq!((segmentation.count(), segmentation.side()), (count, side));
+            for texel in 0..LIGHT_TEXELS {
+                let [segment, place] = segmentation.place(texel);
+                assert_eq!(segmentation.texel(segment, place), texel);
+            }
+        }
+        // Face 2, row 17, column 3: the lower left quarter, row 1.
+        assert_eq!(Segmentation::Quarters.place(2 * 1024 + 17 * 32 + 3), [2 * 4 + 2, 16 + 3]);
+        assert_eq!(light_texel(3 * 16_384 + 5 * 128 + 127), 3 * 1024 + 32 + 31);
+    }
+
+    #[test]
+    fn fine_directions_cover_the_sphere() {
+        let fine = FineDirections::get();
+        let sum: f64 = fine.solid_angles().iter().sum();
+        assert!((sum / (4.0 * std::f64::consts::PI) - 1.0).abs() < 1e-12, "{sum}");
+        assert_eq!(fine.directions()[4 * 16_384 + 64 * 128 + 64], FINE_MAP.direction(4, 64, 64));
+    }
+}

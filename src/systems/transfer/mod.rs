@@ -1,0 +1,48 @@
+//! Shared ground of the three systems that precompute radiance transfer: clustered PCA (system 4, [`cpca`]),
+//! all-frequency transfer (system 5, [`all_frequency`]) and bi-scale transfer (system 6, [`bi_scale`]).
+//!
+//! [`cpca`]: crate::cpca
+//! [`all_frequency`]: crate::all_frequency
+//! [`bi_scale`]: crate::bi_scale
+//!
+//! - [`Vertices`]: unique positions, normals and tangents of a mesh, with a [`LocalFrame`] each;
+//! - [`brdf`]: reflectance functions, and their matrices of harmonics;
+//! - [`grid`], [`haar`], [`hats`]: the cube of light texels, its segments and their bases;
+//! - [`light`]: light as coefficients over the cube; [`visibility`]: the directions that each vertex sees;
+//! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
+//! - [`clustering`]: clustered principal components of any signal;
+//! - [`mod@file`]: the container of `.prt` files; [`load_signal`] reads a signal from one, or from NPY or CSV;
+//! - [`synthetic`]: signals made by a formula, for tests and measurements.
+
+pub mod brdf;
+pub mod clustering;
+mod error;
+pub mod file;
+mod frame;
+pub mod grid;
+pub mod haar;
+pub mod hats;
+pub mod light;
+mod load;
+mod origins;
+#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
+mod packets;
+#[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
+mod shadow_leaf;
+mod shadow_tree;
+mod shooter;
+pub mod signal;
+mod skyline;
+pub mod synthetic;
+mod vertices;
+pub mod visibility;
+
+pub use error::TransferError;
+pub use frame::LocalFrame;
+pub use load::{SignalFileError, load_signal, load_signal_and_meaning};
+pub(crate) use origins::{RayOrigin, origins};
+pub use shooter::ray_length;
+pub(crate) use shooter::{Asked, FrontHit, Shooter};
+pub use signal::{Signal, SignalError};
+pub(crate) use skyline::{Occluders, SkyPart, ones};
+pub use vertices::{Tangents, Vertices};

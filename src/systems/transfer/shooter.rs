@@ -1,0 +1,155 @@
+//! The rays of a vertex, and what their hits are.
+
+use glam::DVec3;
+
+use super::origins::RayOrigin;
+use super::packets::PacketedRule;
+use super::shadow_tree::ShadowTree;
+use super::skyline::Occluders;
+use super::vertices::Vertices;
+use crate::geom::vector::{narrow, unit, wide};
+use crate::geom::{Hit, Ray};
+use crate::sphere::DirectionRule;
+use refsim::exec::batch::SimdLevel;
+
+/// The largest length of a ray, 2^126: single precision ends at 2^128.
+const MAX_REACH: f64 = (1_u128 << 126) as f64;
+
+/// Where a blocked ray ends: on the front of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FrontHit {
+    /// The ray's direction, by its place in the rule.
+    pub(crate) direction: u32,
+    pub(crate) triangle: u32,
+    /// Barycentric weights of the second and third corner.
+    weights: [f32; 2],
+}
+
+impl FrontHit {
+    /// Barycentric weights of the corners; they sum to 1.
+    pub(crate) fn weights(&self) -> [f64; 3] {
+        let [b, c] = self.weights.map(f64::from);
+        [1.0 - b - c, b, c]
+    }
+}
+
+/// The rays of a vertex that must be traced.
+pub(crate) struct Asked {
+    pub(crate) directions: Vec<u32>,
+    pub(crate) rays: Vec<Ray>,
+    pub(crate) below_horizon: u64,
+}
+
+/// What makes the rays.
+pub(crate) struct Shooter<'a> {
+    pub(crate) vertices: &'a Vertices,
+    rule: DirectionRule,
+    origins: &'a [RayOrigin],
+    /// Length of rays.
+    reach: f64,
+    packets: PacketedRule,
+    tree: ShadowTree,
+}
+
+impl<'a> Shooter<'a> {
+    pub(crate) fn new(
+        vertices: &'a Vertices,
+        rule: &DirectionRule,
+        origins: &'a [RayOrigin],
+        occluders: &Occluders,
+    ) -> Self {
+        let reach = ray_length(vertices);
+        let (packets, tree) = (PacketedRule::new(rule.directions()), ShadowTree::new(occluders));
+        Self { vertices, rule: rule.clone(), origins, reach, packets, tree }
+    }
+
+    fn ray(&self, vertex: usize, direction: DVec3) -> Option<Ray> {
+        Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
+    }
+
+    /// The rays that must be traced; `bits` receives those that are blocked without.
+    pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> Asked {
+        // Sixteen lanes at once are no quicker than twice eight, and often slower.
+        let level = SimdLevel::widest().min(SimdLevel::Avx2);
+        level.run(
+            #[inline(always)]
+            || self.shadow_packets(vertex, waiting, bits),
+        )
+    }
+
+    #[inline(always)]
+    fn shadow_packets(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> Asked {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let at = self.tree.origin(origin.at);
+        let mut asked = Asked { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
+        let mut blocker = None;
+        for (number, places) in self.packets.places().enumerate() {
+            let packet = self.packets.packet(number, frame, origin);
+            let shadowed = self.tree.trace(at, &packet, &mut blocker, waiting);
+            for (i, &place) in places.iter().enumerate() {
+                let is_below = packet.live[i] == 0;
+                asked.below_horizon += u64::from(is_below);
+                if is_below || shadowed.blocked[i] != 0 {
+                    bits[place as usize / 64] |= 1 << (place % 64);
+                } else if shadowed.unclear[i] != 0
+                    && let Some(ray) = self.ray(vertex, frame.to_global(self.rule.directions()[place as usize]))
+                {
+                    asked.directions.push(place);
+                    asked.rays.push(ray);
+                }
+            }
+        }
+        asked
+    }
+
+    /// The rays of a vertex in some directions, without those below the horizon.
+    pub(crate) fn rays(&self, vertex: usize, directions: impl Iterator<Item = usize>) -> (Vec<u32>, Vec<Ray>) {
+        let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
+        let ray = |at: usize| {
+            let direction = frame.to_global(self.rule.directions()[at]);
+            let ray = self.ray(vertex, direction).filter(|_| !origin.is_below_horizon(direction))?;
+            Some((at as u32, ray))
+        };
+        directions.filter_map(ray).unzip()
+    }
+
+    /// The fronts that rays hit, and the number of backs.
+    pub(crate) fn front_hits(&self, directions: &[u32], rays: &[Ray], hits: &[Option<Hit>]) -> (Vec<FrontHit>, u64) {
+        let (mut front, mut behind) = (Vec::new(), 0);
+        for ((&direction, ray), hit) in directions.iter().zip(rays).zip(hits) {
+            let Some(hit) = hit else { continue };
+            let [a, b, c] = self.vertices.corners(hit.triangle);
+            let Some(normal) = unit((b - a).cross(c - a)) else { continue };
+            if normal.dot(wide(ray.direction())) >= 0.0 {
+                behind += 1;
+                continue;
+            }
+            let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
+            front.push(FrontHit { direction, triangle: hit.triangle, weights: barycentric([a, b, c], normal, at) });
+        }
+        (front, behind)
+    }
+}
+
+/// The length of rays from the vertices of a mesh that end outside of it: a power of two, which changes no bit of a
+/// direction.
+pub fn ray_length(vertices: &Vertices) -> f64 {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for &position in vertices.positions() {
+        (low, high) = (low.min(wide(position)), high.max(wide(position)));
+    }
+    let diagonal = (high - low).length();
+    let mut reach = 1.0;
+    while reach < 2.0 * diagonal && reach < MAX_REACH {
+        reach *= 2.0;
+    }
+    reach
+}
+
+/// The weights of the second and third corner at a point on or near a triangle, brought into the triangle.
+fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, at: DVec3) -> [f32; 2] {
+    let part = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
+    let parts = [part(b, c), part(c, a), part(a, b)];
+    let sum: f64 = parts.iter().sum();
+    if sum > 0.0 { [(parts[1] / sum) as f32, (parts[2] / sum) as f32] } else { [0.0; 2] }
+}

@@ -1,0 +1,116 @@
+//! What is compressed: points of n numbers each.
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// Points per chunk of a sum over all points: part of the shape of the sum.
+const CHUNK: usize = 1024;
+
+/// Points of n finite numbers each, point by point. There is at least one point, of at least one number.
+///
+/// They are f32, as `.prt` files hold them: transfer is known to few digits, and is the largest thing in memory. What
+/// is computed from them is f64.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Signal {
+    points: usize,
+    dimension: usize,
+    values: Vec<f32>,
+}
+
+/// Why numbers are no signal. Points and components count from 0.
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[expect(missing_docs, reason = "the messages say what the fields are")]
+pub enum SignalError {
+    /// No point, or points of no numbers.
+    #[error("expected at least one point of at least one number, found {values} values at {dimension} per point")]
+    Empty { values: usize, dimension: usize },
+    /// The last point is incomplete.
+    #[error("expected a multiple of {dimension} values, found {values}")]
+    Ragged { values: usize, dimension: usize },
+    /// A NaN or an infinity.
+    #[error("expected finite numbers, found {value} in component {component} of point {point} (counted from 0)")]
+    NotFinite { point: usize, component: usize, value: f32 },
+    /// More points than 32 bits can name.
+    #[error("expected at most {} points, found {points}", u32::MAX)]
+    TooMany { points: usize },
+}
+
+impl Signal {
+    /// A signal of `dimension` numbers per point.
+    ///
+    /// # Errors
+    /// [`SignalError`].
+    pub fn new(dimension: usize, values: Vec<f32>) -> Result<Self, SignalError> {
+        if values.is_empty() || dimension == 0 {
+            return Err(SignalError::Empty { values: values.len(), dimension });
+        }
+        if !values.len().is_multiple_of(dimension) {
+            return Err(SignalError::Ragged { values: values.len(), dimension });
+        }
+        let points = values.len() / dimension;
+        if points > u32::MAX as usize {
+            return Err(SignalError::TooMany { points });
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(at) => {
+                Err(SignalError::NotFinite { point: at / dimension, component: at % dimension, value: values[at] })
+            }
+            None => Ok(Self { points, dimension, values }),
+        }
+    }
+
+    /// Number of points.
+    pub fn points(&self) -> usize {
+        self.points
+    }
+
+    /// Numbers per point.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// The numbers of a point.
+    ///
+    /// # Panics
+    /// If there is no such point.
+    pub fn point(&self, point: usize) -> &[f32] {
+        &self.values[point * self.dimension..][..self.dimension]
+    }
+
+    /// All values, point by point.
+    pub fn values(&self) -> &[f32] {
+        &self.values
+    }
+
+    /// The squares of all numbers, summed.
+    pub fn sum_of_squares(&self) -> f64 {
+        self.sum(|point| self.point(point).iter().map(|&value| f64::from(value) * f64::from(value)).sum())
+    }
+
+    /// The sum of a number per point. Its bits do not depend on the number of threads.
+    pub fn sum(&self, of_point: impl Fn(usize) -> f64 + Sync) -> f64 {
+        let chunks = (0..self.points.div_ceil(CHUNK)).into_par_iter();
+        let sums: Vec<f64> = chunks
+            .map(|chunk| (chunk * CHUNK..self.points.min((chunk + 1) * CHUNK)).map(&of_point).sum::<f64>())
+            .collect();
+        sums.into_iter().sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_whole_finite_points_are_a_signal() {
+        let signal = Signal::new(2, vec![1.0, 2.0, 3.0, 4.0]).expect("a signal");
+        assert_eq!((signal.points(), signal.dimension(), signal.point(1)), (2, 2, &[3.0, 4.0][..]));
+        assert_eq!(signal.sum(|point| f64::from(signal.point(point)[0])), 4.0);
+        assert_eq!(Signal::new(2, vec![]), Err(SignalError::Empty { values: 0, dimension: 2 }));
+        assert_eq!(Signal::new(0, vec![1.0]), Err(SignalError::Empty { values: 1, dimension: 0 }));
+        assert_eq!(Signal::new(2, vec![1.0; 3]), Err(SignalError::Ragged { values: 3, dimension: 2 }));
+        let message = Signal::new(2, vec![1.0, 1.0, 1.0, f32::NEG_INFINITY]).unwrap_err().to_string();
+        assert_eq!(message, "expected finite numbers, found -inf in component 1 of point 1 (counted from 0)");
+    }
+}
