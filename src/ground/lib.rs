@@ -1,4 +1,4 @@
-//! What the systems of Crossbar stand on: linear algebra, quadrature, pictures, functions on the sphere, rays on the
+//! Shared ground of Crossbar's systems: linear algebra, quadrature, pictures, functions on the sphere, rays on the
 //! host, meshes in texels, scenes and their files, cards that compute. `crossbar` re-exports these rooms.
 
 use crossbar_base::{elementary, geom};
