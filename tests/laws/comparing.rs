@@ -46,7 +46,7 @@ proptest! {
     fn the_next_number_is_one_ulp_away(format in format(), bits in any::<u32>()) {
         let bits = bits & format.mask();
         let (a, b) = (Number { format, bits }, Number { format, bits: (bits + 1) & format.mask() });
-        // Infinities have no distance in ULPs.
+        // Excludes steps to infinity or NaN, and from the largest number of one sign to the zero of the other.
         prop_assume!(format.is_finite(a.bits) && format.is_finite(b.bits));
         prop_assume!(format.is_negative(a.bits) == format.is_negative(b.bits));
         prop_assert_eq!(ulps(&a, &b).0, Some(1.0));
