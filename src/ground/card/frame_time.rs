@@ -73,6 +73,7 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
         let frames: Vec<Event> = std::iter::repeat_n(log, frames).flatten().cloned().collect();
         Ok(replay(&frames, &model, &options)?.timeline)
     };
+    // The time that one more frame adds leaves out the start, in which card and host wait for each other.
     let (fewer, more) = (span(FRAMES - 1)?, span(FRAMES)?);
     let mut time = FrameTime {
         frame: fewer.makespan().until(more.makespan()),

@@ -96,9 +96,11 @@ impl ShadowTree {
         let [x, y, z] = &packet.direction;
         let inverse = [inverse(x), inverse(y), inverse(z)];
         let mut state = PacketState { live: packet.live, unclear: [0; LANES] };
+        // Neighboring packets are often blocked by the same leaf.
         if let Some(leaf) = *blocker {
             self.leaves[leaf as usize].test(origin, packet, &mut state);
         }
+        // The fourth entry is never read: with the mask below the index needs no bounds check.
         let forward = [packet.middle[0] >= 0.0, packet.middle[1] >= 0.0, packet.middle[2] >= 0.0, false];
         waiting.clear();
         waiting.push(0);
@@ -109,6 +111,7 @@ impl ShadowTree {
             }
             if node.axis != LEAF {
                 let (first, second) = (index + 1, node.next);
+                // The nearer child is pushed last, so that it is visited first.
                 waiting.extend(if forward[node.axis as usize & 3] { [second, first] } else { [first, second] });
             } else if self.leaves[node.next as usize].test(origin, packet, &mut state) {
                 *blocker = Some(node.next);

@@ -50,6 +50,7 @@ impl FolderLock {
                 // The previous holder may have removed the file that was opened here.
                 Ok(()) if is_at(&file, &path) => return Ok(Self { file: Some((path, file)), folders }),
                 Ok(()) => {}
+                // Locks are not supported here.
                 Err(TryLockError::Error(_)) => {
                     let _ = fs::remove_file(&path);
                     return Ok(Self { file: None, folders });

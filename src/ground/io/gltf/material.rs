@@ -54,6 +54,7 @@ impl Materials {
     pub(super) fn place(&mut self, material: Option<usize>) -> u32 {
         match material {
             Some(index) => index as u32,
+            // Added on first use, so that a file that needs no default has none.
             None => *self.grey.get_or_insert_with(|| {
                 self.list.push(Material::diffuse(DEFAULT, [GREY; 3]));
                 self.list.len() as u32 - 1

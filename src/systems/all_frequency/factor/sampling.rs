@@ -144,6 +144,7 @@ impl FactorSampling {
             let rows: Vec<Vec<f64>> = texels.par_iter().map(|&view| self.row(product, &views[view], &lights)).collect();
             texels.iter().zip(rows).for_each(|(&view, row)| values.row_mut(view).copy_from_slice(&row));
         }
+        // Rows of the other views follow from the symmetry of f: only their lights are permuted.
         for texel in 0..map.texels() {
             let (from, motion) = whole.first(texel);
             if from != texel {

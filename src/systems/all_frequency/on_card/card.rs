@@ -140,6 +140,7 @@ impl<'a> FactoredCard<'a> {
                     indices: Some(&self.indices),
                     pixel: (&programs.pixel, Vec::new()),
                     textures: textures.clone(),
+                    // The first pass fills the depth buffer; the others write their channel at the same depths.
                     fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
                     mask: if streams.passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
                 })?;

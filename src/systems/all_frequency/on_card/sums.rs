@@ -159,6 +159,7 @@ impl SumCard {
         self.machine.record(true);
         for group in 0..numbers.div_ceil(NUMBERS) {
             let summed = self.group(group, &products, &mut log);
+            // Recording ends with an error too, so that later work of the card is not logged.
             if summed.is_err() {
                 self.machine.record(false);
             }

@@ -137,6 +137,7 @@ impl SearchSide {
         let is_inside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] != OUTSIDE;
         let gain = |key: u32| 2 * i64::from(key) - cost;
         let insertion = self.insertions.highest(is_outside).map(|(key, line)| Operation { gain: gain(key), line });
+        // The last line stays, because a bicluster has at least one row and one column.
         if !deletion || self.inside.len() == 1 {
             return insertion;
         }
@@ -259,6 +260,7 @@ impl Search {
         let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
+            // Gains of rows are odd and those of columns even, so that two operations never tie.
             (Some(Operation { line, .. }), _) if gain(row) > gain(column) => {
                 if self.rows.places[line as usize] == OUTSIDE { self.insert_row(line) } else { self.delete_row(line) }
             }
@@ -282,6 +284,7 @@ impl Search {
     fn delete_row(&mut self, row: u32) {
         self.rows.delete(row);
         self.cross_columns(row, ColumnTally::remove);
+        // With one row less inside, columns may gain that were not worth queueing before.
         let [_, least] = self.least_keys();
         self.columns.queue_again(least);
     }
@@ -330,6 +333,7 @@ impl Search {
         let (drop, dropped) = (self.options.drop, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
+            // Columns come first and only look residuals up; the rows below drop the same ones and record them.
             let goes = |row, value: i32| value.unsigned_abs() <= drop && !dropped.contains(&(row, column));
             self.columns
                 .subtract(column, all, &self.rows.places, |_| t, goes)

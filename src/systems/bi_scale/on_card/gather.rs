@@ -166,6 +166,7 @@ impl GatherCard {
         self.machine.record(false);
         let log = self.machine.take_log();
         drawn?;
+        // Drawn a second time without recording, because reading the result back must not enter the log.
         Ok((self.multiply(light)?, log))
     }
 

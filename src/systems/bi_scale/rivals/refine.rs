@@ -88,6 +88,7 @@ impl ByColumn {
         }
         let (cluster, squared_error) = best;
         let weights = (self.begins[cluster] + 1..self.begins[cluster + 1]).map(along).collect();
+        // The expanded square may round below 0.
         PlacedRow { cluster: cluster as u32, weights, squared_error: squared_error.max(0.0) }
     }
 }

@@ -50,6 +50,7 @@ impl FrameCounts {
         let (passes, slots) = (self.size.passes() as u64, kernel.slots() as u64);
         let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
         for group in 0..groups {
+            // Differences of rounded shares, which sum to all drawn triangles.
             let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;
             for _ in 0..passes {
                 log.push(Event::StateChange { changes: 2, constants });

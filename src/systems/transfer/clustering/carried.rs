@@ -29,6 +29,7 @@ impl Carried {
             let moves: Vec<f64> = pairs.map(|(old, new)| moved(old, new)).collect();
             for distances in &mut self.distances {
                 for (distances, &moved) in distances.iter_mut().zip(&moves).filter(|&(_, &moved)| moved > 0.0) {
+                    // The move is rounded up and the difference down, so that distances stay lower bounds.
                     let moved = (moved as f32).next_up();
                     *distances = distances.map(|distance| (distance - moved).next_down());
                 }

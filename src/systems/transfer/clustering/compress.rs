@@ -142,6 +142,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let mut nearest = self.points.nearest(&subspaces, &self.of_point, &mut self.carried);
         fill_empty(&mut nearest.cluster, &mut nearest.squared_error, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, nearest.cluster);
+        // Before the first classification the list is empty: then every point counts as moved.
         let mut moved = self.of_point.len() - before.len();
         for (&from, &to) in before.iter().zip(&self.of_point).filter(|(from, to)| from != to) {
             moved += 1;

@@ -98,6 +98,7 @@ impl Estimator {
             let rest = SMALL + REST * (1.0 + mean) * (1.0 + mean);
             bounds.push(ClusterBound { mean, vectors: (vectors, vectors.sqrt()), rest });
         }
+        // The row of zeros pads tiles with fewer rows than a tile holds.
         rows.resize(rows.len() + dimension, 0.0);
         let error = (CHUNK + dimension / CHUNK + 8) as f32 * UNIT;
         Self { dimension, rows, kinds, begins, bounds, error }

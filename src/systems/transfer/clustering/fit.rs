@@ -73,6 +73,7 @@ pub(super) fn fit(
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
     }
     let residuals = Residuals { signal, points, mean: &mean, level };
+    // C^T C and C C^T have the same eigenvalues other than 0, so that the smaller one is decomposed.
     let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
         Principal::of_components(&residuals.between_components()?, count, level)?
     } else if linear {
