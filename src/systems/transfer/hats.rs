@@ -7,8 +7,8 @@
 //! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
 //!   texels of both faces meet one to one.
 //! - *At the eight corners* only three texels meet. The weight a b of the missing fourth goes to the three in equal
-//! parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over all three
-//! edges and have the symmetry of the cube.
+//!   parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over all
+//!   three edges and have the symmetry of the cube.
 //!
 //! For every fine direction the weights sum to 1 (up to the rounding of thirds): light with radiance 1 in every texel
 //! is 1 in every direction. The hat functions interpolate the texels' light.

@@ -53,8 +53,8 @@ impl Line {
         &self.words[variables..]
     }
 
-    /// The line as a command of the program, if it is one: perhaps behind a pipe from `echo`, perhaps run by `cargo
-    /// run`.
+    /// The line as a command of the program, if it is one: perhaps behind a pipe from `echo`, perhaps run by
+    /// `cargo run`.
     fn of_the_program(&self) -> Option<Command> {
         let words = self.command();
         let (input, words) = match words.iter().position(|word| word == "|") {

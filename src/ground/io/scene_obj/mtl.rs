@@ -1,7 +1,7 @@
 //! Material libraries (MTL).
 //!
-//! A first pass checks every used statement; tobj then reads the checked lines. Used are `newmtl Kd Ks Ke Ns Ni Tf d Tr
-//! illum`; all others (ambient colours, textures) are ignored.
+//! A first pass checks every used statement; tobj then reads the checked lines. Used are
+//! `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -9,9 +9,10 @@
 //! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
 //! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
 //!
-//! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. `d` below 1 (`Tr` above
-//! 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules: when a scene is
-//! read with notes, `Kd` and `Ks` are scaled together, materials that are no glass become opaque, and both are noted.
+//! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. Transparency (`d` below
+//! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules:
+//! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials that are no glass become opaque, and
+//! both are noted.
 
 use std::collections::BTreeSet;
 use std::path::Path;

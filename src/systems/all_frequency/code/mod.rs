@@ -3,7 +3,7 @@
 //!
 //! - [`CodedTransfer`]: coded transfer of a mesh, with its size in bytes;
 //! - [`SparseRows`]: rows of integers in blocks of 256, column by column, with a row number and a value for each
-//! non-zero number;
+//!   non-zero number;
 //! - [`CodeOptions`]: bits, and the numbers that share a scale, which the paper leaves open.
 
 mod coarser;

@@ -2,7 +2,7 @@
 //!
 //! - t0 and up: the numbers of [`SetLayout`].
 //! - s0 and up: G in parabolic maps, four or two terms per map. With two, every second map stores its terms in reverse
-//! order, so that one instruction combines it with the one before.
+//!   order, so that one instruction combines it with the one before.
 //! - Output: the product; in a pass of one channel in all components. Alpha is 1.
 
 use std::fmt::Write as _;

@@ -1,7 +1,7 @@
 //! The vertex program that section 6 proposes: it passes transferred radiance on and adds the local view.
 //!
 //! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; if the program computes the view, then
-//! the tangent and the normal follow.
+//!   the tangent and the normal follow.
 //! - c0 to c3 rows of the projection; c4 the eye.
 //! - oT0 and up: the sets.
 

@@ -6,11 +6,11 @@
 //!
 //! Choices that the paper leaves open, the same for both:
 //! - The remaining non-zeros are numbered row by row; the n-th bicluster starts at one chosen uniformly by a seeded
-//! random number.
+//!   random number.
 //! - The operation with the largest gain is applied. Gains of rows are odd numbers, those of columns even ones; among
-//! equal gains the line with the lowest number wins.
+//!   equal gains the line with the lowest number wins.
 //! - The value of a column is chosen when it is inserted, and kept: the most frequent value other than 0 in the rows,
-//! the lowest among equally frequent ones.
+//!   the lowest among equally frequent ones.
 //! - The last row and the last column are not deleted.
 
 mod draw;

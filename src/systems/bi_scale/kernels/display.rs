@@ -4,7 +4,7 @@
 //!
 //! - t0 and up: the numbers of [`LocalLayout`].
 //! - s0: the bidirectional texture in a volume ([`BlockGrid`]), filtered by the sampler within a block. Layers are read
-//! at their centers, so that a read is not interpolated between layers.
+//!   at their centers, so that a read is not interpolated between layers.
 //! - c[`FIRST_ORIGIN`] and up: the origin of each direction's block, in coordinates of the volume.
 //! - Output: the sum over the directions of the pass; alpha is 1.
 //!

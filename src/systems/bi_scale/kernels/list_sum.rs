@@ -2,13 +2,13 @@
 //! values, or of biclusters over those of a row. A fragment computes one sum for red, green and blue in parallel.
 //!
 //! - t0: coordinates in texture 0 of the first texel of the fragment's list; t1: the fragment's own, for the sum so
-//! far.
+//!   far.
 //! - c0: 1 / width and 1 / (width x height) of texture 1, which are powers of two; c1: the step between texels of a
-//! list.
+//!   list.
 //! - texture 0: lists. A texel holds four places, or two places with a value each; a place is the number of a texel of
-//! texture 1, counted row by row, plus one half.
+//!   texture 1, counted row by row, plus one half.
 //! - texture 1: the summands, repeated along its rows: both coordinates are the place times c0, which is exact while
-//! places have at most 23 bits.
+//!   places have at most 23 bits.
 //! - texture 2: the sum so far; not in the first program.
 //!
 //! Additions run one after the other, beginning with 0, as in the host's sums. Unused places of a list's last texel

@@ -7,7 +7,7 @@
 //! - [`HarmonicRows`]: transfer of spherical harmonics, on one side or on both (Figures 1 and 5);
 //! - [`ReshuffledVisibility`]: visibility of few texels and a shuffle of them in place of a rotation (section IV-A);
 //! - [`StoredTransfer`]: their common interface with biclusters: sizes, and products with light; [`LocalLightError`]:
-//! the error of local light;
+//!   the error of local light;
 //! - [`mod@reference`]: wavelets and clusters by plain loops.
 //!
 //! Products are computed in f64 from the stored numbers, so that errors are those of the storage.

@@ -1,8 +1,9 @@
 //! Heights of a small square patch that repeats in both directions.
 //!
-//! Lengths are in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n, v = (row +
-//! 1/2) / n; between four of them the surface is bilinear. Internally, positions are in texels: x = n u - 1/2, y = n v
-//! - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to (i + 1, j + 1).
+//! Lengths are in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n,
+//! v = (row + 1/2) / n; between four of them the surface is bilinear. Internally, positions are in texels:
+//! x = n u - 1/2, y = n v - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to
+//! (i + 1, j + 1).
 //!
 //! Heights are at most 0, and the highest is 0: the patch lies below the mesh's own surface, and light and view of a
 //! mesh's point are those at the top of the patch. (The paper does not say where its patches lie.)

@@ -1,9 +1,9 @@
 //! The vertex programs of section 6.2: e_p = alpha M_0 l + w_1 M_1 l + w_2 M_2 l + ..., and the local view vector.
 //!
 //! - v0: position, w = 1; v1: in x the index of the first constant of the vertex's cluster relative to
-//! [`VertexKernel::first`], in y alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.
+//!   [`VertexKernel::first`], in y alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.
 //! - c0 to c3: rows of the projection; if glossy, c4: the eye; then the products of a supercluster's clusters with the
-//! light, vector by vector.
+//!   light, vector by vector.
 //! - Output, diffuse: the shade. Glossy: e_p in oT0 and up, four numbers per set, then the local view vector.
 
 use std::fmt::Write as _;

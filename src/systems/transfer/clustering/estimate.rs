@@ -1,11 +1,12 @@
 //! Lower bounds, in f32, of the squared error of each point's approximation by each cluster.
 //!
-//! Points and subspaces are taken relative to a center g and scaled by a power of two, so that no point is longer than
-//! 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n terms in f32,
-//! summed in chunks, has an error of at most e times the lengths of its vectors, `e = (CHUNK + n / CHUNK + 8) 2^-24`. A
-//! weight then has an error of at most e S, a sum of n' squared weights `2 sqrt(n') D e S + n' (e S)^2` because it is
-//! at most D^2, and D^2 an error of e S^2. [`bound`] is their sum plus the rounding of the additions. [`REST`] `(1 +
-//! M)^2` bounds the f64 rounding of the errors by which clusters are chosen.
+//! Points and subspaces are taken relative to a center g and scaled by a power of two, so that points have at most
+//! length 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n terms in
+//! f32, summed in chunks, has an error of at most e times the lengths of its vectors,
+//! `e = (CHUNK + n / CHUNK + 8) 2^-24`. A weight then has an error of at most e S, a sum of n' squared weights
+//! `2 sqrt(n') D e S + n' (e S)^2` because it is at most D^2, and D^2 an error of e S^2. [`bound`] is their sum plus
+//! the rounding of the additions. [`REST`] `(1 + M)^2` bounds the f64 rounding of the errors by which clusters are
+//! chosen.
 
 use super::products::{ROWS, add_slices};
 use crate::linalg::dot;
@@ -16,8 +17,8 @@ pub(super) const LANES: usize = 16;
 const CHUNK: usize = 32;
 /// The relative rounding error of an operation in f32.
 const UNIT: f32 = 1.0 / (1 << 24) as f32;
-/// Bound of the rounding of a squared error in f64, relative to the squared distance from the mean: about `2 sqrt(n')
-/// (n / 8 + 4) 2^-53`, plus the threshold below which an error counts as 0.
+/// Bound of the rounding of a squared error in f64, relative to the squared distance from the mean: about
+/// `2 sqrt(n') (n / 8 + 4) 2^-53`, plus the threshold below which an error counts as 0.
 const REST: f32 = 1.0 / (1 << 30) as f32;
 /// Bound of the root of [`REST`] plus the rounding of [`ScaledSubspace`].
 const ROOT_OF_REST: f32 = 1.0 / (1 << 14) as f32;

@@ -2,10 +2,10 @@
 //! clusters.
 //!
 //! - A point's previous cluster is tried first, in f64. The best cluster is this one, or one whose lower bounds do not
-//! exceed its error.
+//!   exceed its error.
 //! - Points are in groups of near ones ([`Groups`]). The distance from a subspace changes by at most the distance
-//! between two points, so a bound for the group's center bounds all its points, for a sixteenth of the work. A few
-//! clusters in a hundred remain. Where a subspace has moved little, the previous bound is sufficient ([`Carried`]).
+//!   between two points, so a bound for the group's center bounds all its points, for a sixteenth of the work. A few
+//!   clusters in a hundred remain. Where a subspace has moved little, the previous bound is sufficient ([`Carried`]).
 //! - For these each point has a bound of its own ([`Estimator`]). The remaining clusters are compared in f64.
 //!
 //! The result is that of comparing every point with every cluster, the lower among equals; bounds along a few axes
