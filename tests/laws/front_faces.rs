@@ -21,7 +21,7 @@ use crossbar::report::Provenance;
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::study::Study;
-use crossbar::study::prt::OnCard;
+use crossbar::study::prt::{CardSetting, OnCard};
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::file::PrtMeaning;
@@ -306,19 +306,20 @@ fn a_study_blames_no_back_face() {
     let study = OnCard {
         model: scene.name.to_owned(),
         clustering: scene.clusters(&basis),
-        mesh: scene.mesh,
         vertices: scene.vertices,
         meaning,
         light_name: "red and blue".to_owned(),
         light: HarmonicLight::red_and_blue(3),
         camera: scene.camera,
         exposure: None,
-        profile: ideal(),
-        switches: Vec::new(),
-        executor: ExecutorKind::Batch.into(),
-        format: FLOATS,
+        card: CardSetting {
+            profile: ideal(),
+            switches: Vec::new(),
+            executor: ExecutorKind::Batch.into(),
+            format: FLOATS,
+            sweep: false,
+        },
         options: PrtCardOptions::default(),
-        sweep: false,
     };
     let found = study.findings(&mut |_, _, _| ()).expect("a picture");
     let document = found.document(&Provenance::new("crossbar cpca card"));
