@@ -111,14 +111,17 @@ mod tests {
     /// A cube's sides lie at 0, 90 and 180 degrees; an error on one of them is an error of its bin alone.
     #[test]
     fn errors_are_told_by_angle() {
-        let corners = (0..8_u8).map(|i| [0, 1, 2].map(|axis| f32::from(i >> axis & 1))).collect();
+        let corners: Vec<[f32; 3]> = (0..8_u8).map(|i| [0, 1, 2].map(|axis| f32::from(i >> axis & 1))).collect();
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        // A vertex per corner of a side keeps the sides flat.
-        let corners: Vec<[f32; 3]> = corners;
-        let flat: Vec<[f32; 3]> = quads.iter().flatten().map(|&corner: &usize| corners[corner]).collect();
+        let outwards =
+            [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        // A vertex with the side's normal per corner of a side keeps the sides flat.
+        let flat = quads.iter().flatten().map(|&corner: &usize| corners[corner]).collect();
+        let normals: Vec<[f32; 3]> = outwards.iter().flat_map(|&normal| [normal; 4]).collect();
         let faces = (0..6_u32)
             .flat_map(|side| [[4 * side, 4 * side + 1, 4 * side + 2], [4 * side, 4 * side + 2, 4 * side + 3]]);
-        let atlas = Atlas::new(&Mesh::new(flat, faces.collect()).expect("a cube"), 8).expect("an atlas");
+        let cube = Mesh::new(flat, faces.collect()).and_then(|cube| cube.with_normals(normals)).expect("a cube");
+        let atlas = Atlas::new(&cube, 8).expect("an atlas");
         let is_dark = |texel: &crate::atlas::Texel| texel.normal.z < -0.5;
         let truth: Vec<[f64; 3]> = atlas.texels().iter().map(|_| [1.0, 2.0, 1.0]).collect();
         let links: Vec<[f64; 3]> =

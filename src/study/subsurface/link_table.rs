@@ -1,6 +1,6 @@
 //! Links as a table: where a texel gathers from, and how much.
 
-use super::{GatherWay, Parameters, SubsurfaceError, SubsurfaceOutcome};
+use super::{GatherWay, Parameters, SubsurfaceError};
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
 use crate::subsurface::factor::ClusterId;
@@ -67,12 +67,12 @@ pub(super) fn rows(
 }
 
 /// The table of all links.
-pub(super) fn table(outcome: &SubsurfaceOutcome) -> Table {
+pub(super) fn table(links: &[LinkRow]) -> Table {
     let mut table = Table::of(
         "Links: clusters by level, 0 the finest, column and row; factors; distances between mean points",
         "links texel_x texel_y level cluster_x cluster_y factor_r factor_g factor_b distance_mm",
     );
-    for LinkRow { links, texel, cluster, factor, distance } in &outcome.links {
+    for LinkRow { links, texel, cluster, factor, distance } in links {
         let places = [texel[0], texel[1], cluster.level, cluster.x, cluster.y].map(Cell::from);
         let numbers = factor.iter().chain([distance]).map(|&value| Cell::from(value));
         table.push([Cell::from(links.as_str())].into_iter().chain(places).chain(numbers));

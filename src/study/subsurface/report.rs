@@ -11,7 +11,7 @@ pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
     let has_rows = |table: &Table| !table.rows().is_empty();
     found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));
     found.keep_table(FoundTable::from(vertices::table(parameters, outcome)).csv("vertices"));
-    let links = link_table::table(outcome);
+    let links = link_table::table(&outcome.links);
     if has_rows(&links) {
         found.keep_table(FoundTable::from(links).csv("links"));
     }
