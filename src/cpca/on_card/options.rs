@@ -9,7 +9,8 @@ use crate::card::MeshError;
 /// How compressed transfer is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// Clusters are drawn together as far as the constant registers hold; otherwise each alone.
+    /// Clusters are drawn together, in the superclusters of the transfer or as far as the constant registers hold;
+    /// otherwise each alone.
     pub superclusters: bool,
     /// The language of vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the device
     /// has it.

@@ -124,7 +124,7 @@ impl Precomputation<'_> {
         let transfer = Some(together(channels)?);
         let mesh = Some(MeshDigest::new(self.vertices));
         Ok(Precomputed {
-            file: PrtFile { meaning, mesh, transfer, clustering: None },
+            file: PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None },
             directions: rays.rule().len(),
             counts: std::mem::take(&mut rays.counts),
             bounces,

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::card::MeshError;
 use crate::card::frame_time::FrameTimeError;
+use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardError, PrtCardOptions};
 use crate::geom::Mesh;
 use crate::picture::PictureError;
@@ -32,6 +33,8 @@ pub struct OnCard {
     pub meaning: PrtMeaning,
     /// The clusters.
     pub clustering: Clustering,
+    /// Their superclusters, if the file has some.
+    pub superclusters: Option<Superclusters>,
     /// The light's name.
     pub light_name: String,
     /// The light, of the order of the transfer.
@@ -104,7 +107,8 @@ impl OnCard {
     pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardError> {
         let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardError::NoTransfer) };
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
-        let (vertices, clustering) = (&self.vertices, &self.clustering);
-        Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
+        let Self { vertices, clustering, superclusters, .. } = self;
+        let (channels, superclusters) = (*channels as usize, superclusters.as_ref());
+        Ok(CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters })
     }
 }
