@@ -104,7 +104,7 @@ fn at_the_foot_of_a_wall_half_of_the_sky_is_seen() {
 /// A wall all around, inside of radius 1, as high as `sine` of its elevation above the horizon says.
 fn bowl(sine: f64) -> Mesh {
     let mut soup = observer();
-    let corners = 256;
+    let corners = 128;
     let height = sine / ((1.0 - sine) * (1.0 + sine)).sqrt();
     let at = |corner: i32| {
         let [x, y] = on_circle(f64::from(corner) / f64::from(corners));
