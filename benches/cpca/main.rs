@@ -31,6 +31,7 @@ fn options(clusters: usize, vectors: usize) -> CpcaOptions {
     CpcaOptions {
         clusters,
         vectors,
+        vq_iterations: 3,
         iterations: 3,
         method: CpcaMethod::Iterative,
         form: CpcaForm::Affine,
@@ -51,7 +52,7 @@ fn beside([file, numbers @ ..]: &[String; 6]) {
     let mut out = File::create(file).expect("a file");
     write_npy_array(&[points, dimension], signal.values(), &mut out).expect("written");
     let start = StartPoints::Given((0..clusters).map(|cluster| (cluster * points / clusters) as u32).collect());
-    let options = CpcaOptions { iterations, start, ..options(clusters, vectors) };
+    let options = CpcaOptions { vq_iterations: iterations, iterations, start, ..options(clusters, vectors) };
     println!("error {:.12e}", fast(&signal, &options));
 }
 

@@ -18,6 +18,13 @@ pub(super) fn not_negative(text: &str) -> Result<f64, String> {
         .and_then(|x| if x >= 0.0 { Ok(x) } else { Err(format!("expected a number not below 0, found `{text}`")) })
 }
 
+/// A number above 0 and below 1.
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    let number = finite(text)?;
+    let is_share = number > 0.0 && number < 1.0;
+    if is_share { Ok(number) } else { Err(format!("expected a number above 0 and below 1, found `{text}`")) }
+}
+
 /// A number of at least 0 that single precision holds.
 pub(super) fn not_negative_single(text: &str) -> Result<f64, String> {
     let number = not_negative(text)?;
@@ -56,6 +63,7 @@ mod tests {
         assert_eq!(point("0,1"), Err("expected three numbers X,Y,Z, found `0,1`".to_owned()));
         assert_eq!(point("0,x,1"), Err("expected a number, found `x`".to_owned()));
         assert_eq!(not_negative("-1"), Err("expected a number not below 0, found `-1`".to_owned()));
+        assert_eq!(share("1"), Err("expected a number above 0 and below 1, found `1`".to_owned()));
         assert_eq!(not_negative_single("1e39"), Err(large.to_owned()));
         assert_eq!(positive("nan"), Err("expected a finite number, found `nan`".to_owned()));
         assert_eq!(

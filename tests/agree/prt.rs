@@ -29,7 +29,8 @@ impl Hills {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * 4, 7, place);
         let (method, start) = (CpcaMethod::Iterative, StartPoints::Seed(2));
-        let options = CpcaOptions { clusters, vectors, iterations: 3, method, form: CpcaForm::Affine, start };
+        let options =
+            CpcaOptions { clusters, vectors, vq_iterations: 3, iterations: 3, method, form: CpcaForm::Affine, start };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         Self { vertices, clustering, basis, vectors }
     }
@@ -38,7 +39,8 @@ impl Hills {
 /// Pictures from above and at a grazing angle, where hills hide each other and map reads leave the rim.
 fn agrees(hills: &Hills, device: &str, format: TexelFormat, options: &PrtCardOptions) {
     let Hills { vertices, clustering, basis, vectors } = hills;
-    let transfer = CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: *vectors };
+    let transfer =
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors: *vectors, superclusters: None };
     let light = HarmonicLight::red_and_blue(2);
     let cameras = [[0.5, -1.4, 2.6], [2.2, -1.9, 0.45]]
         .map(|eye| Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], 0.45, 29, 23).expect("a camera"));

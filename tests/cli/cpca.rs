@@ -333,3 +333,130 @@ fn arrays_of_numpy_are_compressed() {
     assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{}", ran.stderr);
     assert!(ran.stderr.to_lowercase().contains("fortran"), "{}", ran.stderr);
 }
+
+/// As few vectors, or clusters, as an error needs; where it cannot be met, nothing is written.
+#[test]
+fn compression_ends_where_an_error_is_met() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ([_, transfer, _], out) = (STEP, place(folder.path(), "out.prt"));
+    let compress = |options: &[&str]| document(&[&["cpca", "compress", transfer, "--out", &out], options].concat());
+    let bytes = || fs::read(&out).expect("written");
+    let met = compress(&["--clusters", "6", "--max-error", "0.01"]);
+    assert!(number(&met["relative_error"]) <= 0.01, "{met}");
+    let vectors = met["steps"].as_array().expect("steps").last().expect("a step")["vectors"].to_string();
+    let found = bytes();
+    let shown = document(&["cpca", "show", &out]);
+    assert_eq!(
+        (&shown["made"]["vectors"], &shown["made"]["max-error"]),
+        (&Value::from(&*vectors), &Value::from("0.01"))
+    );
+    let same = compress(&["--clusters", "6", "--vectors", &vectors]);
+    assert_eq!(same["squared_error"], met["squared_error"]);
+    assert_ne!(bytes(), found, "provenance says why");
+    let less = (vectors.parse::<u32>().expect("a number") - 1).to_string();
+    assert!(number(&compress(&["--clusters", "6", "--vectors", &less])["relative_error"]) > 0.01);
+    let grown = compress(&["--vectors", "1", "--max-error", "0.02", "--grow", "clusters"]);
+    let clusters = grown["clusters"].as_u64().expect("a count");
+    assert!(clusters > 1 && number(&grown["relative_error"]) <= 0.02, "{grown}");
+    let less = (clusters - 1).to_string();
+    assert!(number(&compress(&["--vectors", "1", "--clusters", &less])["relative_error"]) > 0.02);
+    fs::remove_file(&out).expect("removed");
+    let never = ["--clusters", "2", "--vectors", "1", "--max-error", "1e-9"];
+    let ran = crossbar(&[&["cpca", "compress", transfer, "--out", &out][..], &never].concat(), "");
+    assert_eq!(ran.code, Some(2), "{}", ran.stderr);
+    let flat = ran.stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(flat.contains("with 2 clusters of 1 vectors") && flat.contains("--max-error"), "{flat}");
+    assert!(!Path::new(&out).exists());
+}
+
+/// Vector quantisation has its own number of iterations; after it those of each number of vectors.
+#[test]
+fn iterations_of_quantisation_are_counted_apart() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ([_, transfer, _], out) = (STEP, place(folder.path(), "out.prt"));
+    let fits = |options: &[&str]| {
+        let fixed = ["cpca", "compress", transfer, "--clusters", "8", "--vectors", "1", "--out", &out];
+        let made = document(&[&fixed[..], options].concat());
+        let steps = made["steps"].as_array().expect("steps").clone();
+        [0, 1].map(|vectors| {
+            let of = steps.iter().filter(|step| step["vectors"] == vectors);
+            of.filter(|step| step["step"] == "classified").count()
+        })
+    };
+    assert_eq!(fits(&["--iterations", "2", "--vq-iterations", "1"]), [1, 2]);
+    assert_eq!(fits(&["--iterations", "1", "--vq-iterations", "3"]), [3, 1]);
+    assert_eq!(fits(&["--iterations", "2"]), [2, 2]);
+}
+
+/// Reclassification draws fewer triangles within its budget; superclusters cost no error; the file says both, and the
+/// card draws what it says.
+#[test]
+fn clusters_are_made_coherent_on_their_mesh() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let [model, transfer, _] = STEP;
+    let out = place(folder.path(), "out.prt");
+    let compress = |options: &[&str]| {
+        let fixed = ["cpca", "compress", transfer, "--clusters", "12", "--vectors", "2", "--out", &out];
+        document(&[&fixed[..], options].concat())
+    };
+    let plain = compress(&[]);
+    assert!(plain["coherence"].is_null());
+    let moved = compress(&["--model", model, "--reclassify", "0.1"]);
+    let drawn = |made: &Value, after: &str| made["coherence"]["triangles_drawn"][after].as_u64().expect("a count");
+    assert!(drawn(&moved, "reclassified") < drawn(&moved, "clusters"), "{}", moved["coherence"]);
+    let [before, after] = [&plain, &moved].map(|made| number(&made["squared_error"]));
+    assert!(after <= 1.1 * before);
+    let added = number(&moved["coherence"]["added_squared_error"]);
+    assert_relative_eq!(after, before + added, max_relative = 1e-9);
+    let refitted = compress(&["--model", model, "--reclassify", "0.1", "--refit"]);
+    assert!(number(&refitted["squared_error"]) < after);
+    let grouped = compress(&["--model", model, "--reclassify", "0.1", "--supercluster-size", "3"]);
+    assert_eq!(grouped["squared_error"], moved["squared_error"]);
+    assert!(drawn(&grouped, "superclusters") < drawn(&moved, "reclassified"), "{}", grouped["coherence"]);
+    let shown = document(&["cpca", "show", &out]);
+    let of: Vec<u64> = shown["superclusters"].as_array().expect("numbers").iter().filter_map(Value::as_u64).collect();
+    assert_eq!(of.len(), 12);
+    assert!((0..12).all(|group| of.iter().filter(|&&of| of == group).count() <= 3), "{of:?}");
+    assert_eq!((&shown["made"]["reclassify"], &shown["made"]["supercluster-size"]), (&"0.1".into(), &"3".into()));
+    let page = place(folder.path(), "page");
+    let card = |options: &[&str]| {
+        let fixed = ["cpca", "card", &out, "--model", model, "--size", "16x12", "--out", &page];
+        let sizes = document(&[&fixed[..], options].concat())["sizes"].clone();
+        sizes.as_array().expect("sizes").iter().find(|row| row["what"] == "superclusters").expect("a row")["number"]
+            .clone()
+    };
+    assert_eq!(card(&[]).to_string().trim_matches('"'), grouped["coherence"]["superclusters"].to_string());
+    assert_eq!(card(&["--alone"]).to_string().trim_matches('"'), "12");
+}
+
+/// Options that say nothing beside others are refused by name.
+#[test]
+fn idle_options_of_compression_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let ([model, transfer, _], out) = (STEP, place(folder.path(), "out.prt"));
+    let signal = "docs/examples/signal.csv";
+    for (from, options, words) in [
+        (transfer, "--vectors 0 --method static", "`--method` is for clusters with vectors"),
+        (transfer, "--vectors 0 --linear", "`--linear` is for clusters with vectors"),
+        (transfer, "--method static --iterations 3 --vq-iterations 3", "`--iterations` is for methods that iterate"),
+        (transfer, "--model M", "`--model` is for `--reclassify` and `--supercluster-size`"),
+        (transfer, "--clusters 1 --model M --reclassify 0.1", "`--reclassify` is for several clusters"),
+        (transfer, "--method adaptive --max-error 0.1", "choose another `--method`"),
+        (transfer, "--grow clusters", "--max-error"),
+        (transfer, "--reclassify 0.1", "--model"),
+        (transfer, "--model M --refit", "--reclassify"),
+        (transfer, "--model M --reclassify -1", "not below 0"),
+        (transfer, "--max-error 1", "above 0 and below 1"),
+        (transfer, "--model white-box --reclassify 0.1 --clusters 4", "expected transfer of a mesh with"),
+        (signal, "--model M --reclassify 0.1 --clusters 4", "found that of no mesh"),
+    ] {
+        let options = options.replace(" M", &format!(" {model}"));
+        let words_of: Vec<&str> =
+            ["cpca", "compress", from, "--out", &out].into_iter().chain(options.split(' ')).collect();
+        let ran = crossbar(&words_of, "");
+        let flat = ran.stderr.replace(['|', '\n', '│'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{options}: {}", ran.stderr);
+        assert!(flat.contains(words), "{options}: {flat}");
+        assert!(!Path::new(&out).exists(), "{options}");
+    }
+}

@@ -36,5 +36,6 @@ mod timeline;
 mod trace_format;
 mod tracing;
 mod tree;
+mod vertex_names;
 
 use program::{Ran, crossbar, crossbar_in, start};

@@ -115,6 +115,7 @@ impl Scene {
         let options = CpcaOptions {
             clusters: 64.min(self.vertices.len() / 4),
             vectors: 6,
+            vq_iterations: 2,
             iterations: 2,
             method: CpcaMethod::Iterative,
             form: CpcaForm::Affine,
@@ -209,7 +210,8 @@ fn compressed_transfer_shows_front_faces() {
             let light = HarmonicLight::red_and_blue(3);
             let vectors = clustering.subspaces().iter().map(|subspace| subspace.len()).max().expect("a cluster");
             let (vertices, clustering, basis) = (&scene.vertices, &clustering, &basis);
-            let transfer = CompressedTransfer { vertices, clustering, basis, channels: 1, vectors };
+            let transfer =
+                CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None };
             let options = PrtCardOptions { map_side: 256, map_format: FLOATS, ..PrtCardOptions::default() };
             let mut card = PrtCard::new(ideal(), ExecutorKind::Batch, transfer, &options).expect("a card");
             let view = MeshView { camera: scene.camera, exposure: 0.5, format: FLOATS };
@@ -306,6 +308,7 @@ fn a_study_blames_no_back_face() {
     let study = OnCard {
         model: scene.name.to_owned(),
         clustering: scene.clusters(&basis),
+        superclusters: None,
         vertices: scene.vertices,
         meaning,
         light_name: "red and blue".to_owned(),

@@ -36,7 +36,8 @@ impl Hills {
         let place = |at: usize| vertices.positions()[at].map(f64::from);
         let signal = signal_at(vertices.len(), basis.len() * 9, 3, place);
         let (method, start) = (CpcaMethod::Iterative, StartPoints::Seed(4));
-        let options = CpcaOptions { clusters, vectors, iterations: 5, method, form: CpcaForm::Affine, start };
+        let options =
+            CpcaOptions { clusters, vectors, vq_iterations: 5, iterations: 5, method, form: CpcaForm::Affine, start };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         let light = HarmonicLight::red_and_blue(3);
         Self { vertices, clustering, basis, light }
@@ -44,7 +45,7 @@ impl Hills {
 
     fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
         let Self { vertices, clustering, basis, .. } = self;
-        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None }
     }
 
     fn draw(&self, device: &str, format: TexelFormat, options: &PrtCardOptions) -> Texels {

@@ -96,6 +96,7 @@ fn options(clusters: usize, vectors: usize) -> CpcaOptions {
     CpcaOptions {
         clusters,
         vectors,
+        vq_iterations: 3,
         iterations: 3,
         method: CpcaMethod::Static,
         form: CpcaForm::Affine,

@@ -32,3 +32,8 @@ pub fn least_axis(direction: DVec3) -> DVec3 {
         DVec3::Z
     }
 }
+
+/// The bits of a place, by which equal ones are found: -0 and +0 are one.
+pub fn place_bits(place: [f32; 3]) -> [u32; 3] {
+    place.map(|value| (value + 0.0).to_bits())
+}

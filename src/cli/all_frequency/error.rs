@@ -8,6 +8,7 @@ use serde_json::json;
 use super::file::FileOfModel;
 use crate::all_frequency::file::load_all_frequency;
 use crate::cli::transfer::model::refused;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::write_file;
@@ -18,7 +19,7 @@ Examples:
   crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj
       squared error of all vertices, and the largest
   crossbar all-frequency error docs/examples/step_all.prt docs/examples/step_all_small.prt --model docs/examples/step.obj --csv errors.csv --json
-      and a line per vertex: its squared error, its squares";
+      and a line per vertex: its squared error, its squares, its number in the model's file, its place";
 
 /// Compare coded transfer with the original, which is computed again: error of each vertex, and the largest
 #[derive(Debug, clap::Args)]
@@ -65,12 +66,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let largest =
         (0..found.squared_errors.len()).max_by(|&a, &b| found.squared_errors[a].total_cmp(&found.squared_errors[b]));
     let largest = largest.unwrap_or(0);
+    let names = VertexNames::new(&args.model, &vertices);
     if let Some(path) = &args.csv {
         write_file(path, |file| {
             let mut file = std::io::BufWriter::new(file);
-            writeln!(file, "vertex,squared_error,squares")?;
+            writeln!(file, "vertex,squared_error,squares,{}", VertexNames::COLUMNS)?;
             for (vertex, (error, squares)) in found.squared_errors.iter().zip(&found.squares).enumerate() {
-                writeln!(file, "{vertex},{error:e},{squares:e}")?;
+                writeln!(file, "{vertex},{error:e},{squares:e},{}", names.fields(vertex))?;
             }
             file.flush()
         })
@@ -80,12 +82,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         return Ok(out.document(&json!({
             "vertices": vertices.len(), "squared_error": squared, "squared_transfer": squares,
             "relative_error": squared / squares,
-            "largest": { "vertex": largest, "squared_error": found.squared_errors[largest] }, "csv": args.csv,
+            "largest": { "vertex": largest, "squared_error": found.squared_errors[largest],
+                         "of_model": names.document(largest) },
+            "csv": args.csv,
         }))?);
     }
     out.line(format_args!("vertices       {}", counted(vertices.len())))?;
     out.sentence(format_args!("squared error  {squared:.6e}, {:.4e} of the transfer's squares", squared / squares))?;
-    out.line(format_args!("largest        {:.6e} at vertex {largest}", found.squared_errors[largest]))?;
+    let (squared, name) = (found.squared_errors[largest], names.phrase(largest));
+    out.sentence(format_args!("largest        {squared:.6e} at vertex {largest} ({name})"))?;
     if let Some(path) = &args.csv {
         out.line(format_args!("written        {}", path.display()))?;
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::file::{FileOfModel, LitArgs, color};
 use crate::cli::memory::MemoryNeed;
 use crate::cli::study::StudyArgs;
-use crate::cli::transfer::picture::FramesArgs;
+use crate::cli::transfer::picture::{FramesArgs, ValuesArgs};
 use crate::cli::view;
 use crate::study::prt::{AllFrequencyRendering, RenderedGround};
 
@@ -37,6 +37,9 @@ pub(super) struct Args {
 
     #[command(flatten)]
     frames: FramesArgs,
+
+    #[command(flatten)]
+    values: ValuesArgs,
 
     /// Where to write pictures and the page
     #[arg(long, value_name = "DIR", default_value = "out/all-frequency")]
@@ -71,6 +74,8 @@ impl StudyArgs for Args {
             Ok::<_, miette::Report>(RenderedGround { mesh: model.mesh, vertices, colors, file })
         });
         let ground = ground.transpose()?;
-        Ok(AllFrequencyRendering { lit, ground, frames: self.frames.frames, turning: self.frames.turning() })
+        let values = self.values.of(&self.lit.picture.model, &lit.vertices);
+        let (frames, turning) = (self.frames.frames, self.frames.turning());
+        Ok(AllFrequencyRendering { lit, ground, frames, turning, values })
     }
 }

@@ -10,6 +10,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::cli::transfer::model::nearest;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
 use crate::report::{Cell, Table};
@@ -33,16 +34,16 @@ pub(super) struct Args {
     file: PathBuf,
 
     /// A vertex, counted from 0
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", group = "which")]
     vertex: Option<u32>,
 
     /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", conflicts_with = "vertex",
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
           allow_hyphen_values = true)]
     at: Option<[f32; 3]>,
 
-    /// The model that the file was made from, for --at
-    #[arg(long, value_name = "MODEL", requires = "at")]
+    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
+    #[arg(long, value_name = "MODEL", requires = "which")]
     model: Option<PathBuf>,
 
     /// Write what the file holds to this folder as arrays of NumPy's: factors, each segment's representatives, weights
@@ -53,30 +54,33 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.file, 3, "name a smaller file")?;
-    let (file, nearest) = match (args.at, &args.model) {
-        (Some(at), Some(model)) => {
-            let of_model = FileOfModel::load(&args.file, model)?;
-            (of_model.file, nearest(of_model.vertices.positions(), at))
+    let (file, of_model) = match &args.model {
+        Some(model) => {
+            let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.file, model)?;
+            (file, Some(vertices))
         }
-        _ => (load_all_frequency(&args.file, None)?, None),
+        None => (load_all_frequency(&args.file, None)?, None),
     };
     let (file, folder) = (&file, args.arrays.as_deref());
-    let vertex = args.vertex.map(|vertex| vertex as usize).or(nearest);
+    let nearest = || nearest(of_model.as_ref()?.positions(), args.at?);
+    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
     let vertices = file.mesh.vertices as usize;
     if let Some(vertex) = vertex.filter(|&vertex| vertex >= vertices) {
         let what = format!("expected a vertex below {vertices} (counted from 0), found {vertex}");
         return Err(Problem::usage(what, "`crossbar all-frequency show` says how many there are").into());
     }
+    let names = args.model.as_ref().zip(of_model.as_ref());
+    let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
     let written = folder.map(|folder| arrays::write(file, vertex, folder)).transpose()?;
     if out.json() {
         let mut document = header(file);
-        document["vertex"] = json!(vertex.map(|vertex| vertex_document(file, vertex)));
+        document["vertex"] = json!(vertex.map(|vertex| vertex_document(file, vertex, names.as_ref())));
         document["arrays"] = json!(written);
         return Ok(out.document(&document)?);
     }
     match vertex {
         None => all(file, out)?,
-        Some(vertex) => one(file, vertex, out)?,
+        Some(vertex) => one(file, vertex, names.as_ref(), out)?,
     }
     if let (Some(written), Some(folder)) = (written, folder) {
         out.line(format_args!("written   {} arrays in {}", written.len(), folder.display()))?;
@@ -169,14 +173,18 @@ fn visible(file: &AllFrequencyFile, vertex: usize) -> Option<u32> {
     Some(maps.bits(vertex).iter().map(|word| word.count_ones()).sum())
 }
 
-fn vertex_document(file: &AllFrequencyFile, vertex: usize) -> Value {
+fn vertex_document(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>) -> Value {
     let segment = |part: CodedVertex| json!({ "segment": part.segment, "cluster": part.cluster, "weights": part.weights, "norm": part.norm });
     let coded = coded_vertex(file, vertex).map(|parts| parts.into_iter().map(segment).collect::<Vec<_>>());
-    json!({ "number": vertex, "directions_visible": visible(file, vertex), "segments": coded })
+    let of_model = names.map(|names| names.document(vertex));
+    json!({ "number": vertex, "of_model": of_model, "directions_visible": visible(file, vertex), "segments": coded })
 }
 
-fn one(file: &AllFrequencyFile, vertex: usize, out: &mut Out) -> miette::Result<()> {
+fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("vertex    {vertex}"))?;
+    if let Some(names) = names {
+        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+    }
     if let Some(visible) = visible(file, vertex) {
         out.line(format_args!("sees      {} of 98,304 directions", counted(visible as usize)))?;
     }

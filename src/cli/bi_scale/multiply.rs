@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::file::{load, turned};
+use super::file::{load, turned, vertices_of};
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::transfer::light::LightArgs;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
@@ -44,15 +45,23 @@ pub(super) struct Args {
     /// Write red, green and blue of every row to this table
     #[arg(long, value_name = "Y.csv")]
     values: Option<PathBuf>,
+
+    /// The model that the transfer was made from: the table of --values names its vertices, too
+    #[arg(long, value_name = "MODEL", requires = "values")]
+    model: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let file = load(&args.file)?;
     let cube = turned(&args.light, args.rotate, "multiply")?;
+    let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
+    let of_model = args.model.as_deref().map(vertices).transpose()?;
     let product = multiply(&args.file, &file, &cube)?;
     if let Some(path) = &args.values {
         let local = file.meaning.map(|meaning| meaning.side.pow(2) as usize);
-        write_values(&product.rows, local, path)?;
+        let names = args.model.as_ref().zip(of_model.as_ref());
+        let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
+        write_values(&product.rows, local, names.as_ref(), path)?;
     }
     let sums = [0, 1, 2].map(|channel| product.rows.iter().map(|row| row[channel]).sum::<f64>());
     if out.json() {
@@ -89,13 +98,23 @@ fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalL
     LocalLight::new(file, light).ok_or_else(|| Problem::usage("no matrix", "name another file"))
 }
 
-/// A line per row; with the vertex and its local direction where these are known.
-fn write_values(local: &[[f64; 3]], directions: Option<usize>, path: &Path) -> Result<(), Problem> {
+/// A line per row; with the vertex and its local direction where these are known, and the vertex's name in the model.
+fn write_values(
+    local: &[[f64; 3]],
+    directions: Option<usize>,
+    names: Option<&VertexNames<'_>>,
+    path: &Path,
+) -> Result<(), Problem> {
     write_file(path, |out| {
-        writeln!(out, "{}", if directions.is_some() { "vertex,direction,r,g,b" } else { "row,r,g,b" })?;
+        let columns = names.map_or_else(String::new, |_| format!(",{}", VertexNames::COLUMNS));
+        writeln!(out, "{},r,g,b{columns}", if directions.is_some() { "vertex,direction" } else { "row" })?;
         for (row, [r, g, b]) in local.iter().enumerate() {
             match directions {
-                Some(count) => writeln!(out, "{},{},{r},{g},{b}", row / count, row % count)?,
+                Some(count) => {
+                    let (vertex, direction) = (row / count, row % count);
+                    let name = names.map_or_else(String::new, |names| format!(",{}", names.fields(vertex)));
+                    writeln!(out, "{vertex},{direction},{r},{g},{b}{name}")?;
+                }
                 None => writeln!(out, "{row},{r},{g},{b}")?,
             }
         }

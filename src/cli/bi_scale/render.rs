@@ -8,7 +8,7 @@ use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::transfer::picture::{FramesArgs, PictureArgs};
+use crate::cli::transfer::picture::{FramesArgs, PictureArgs, ValuesArgs};
 use crate::study::prt::{BiScaleRendering, TexturedSurface};
 
 const EXAMPLES: &str = "\
@@ -43,6 +43,9 @@ pub(super) struct Args {
     frames: FramesArgs,
 
     #[command(flatten)]
+    values: ValuesArgs,
+
+    #[command(flatten)]
     picture: PictureArgs,
 
     /// Where to write pictures and the page
@@ -69,6 +72,7 @@ impl StudyArgs for Args {
     fn study(&self) -> miette::Result<BiScaleRendering> {
         let (textures, name) = (&self.textures, &self.picture.model);
         let (TransferOfModel { file, model, vertices, light }, texture_of) = textures.transfer(&self.file, name)?;
+        let values = self.values.of(name, &vertices);
         let surface = TexturedSurface::new(model.mesh.clone(), vertices, texture_of, textures.patches.repeat());
         let surface = surface.map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
@@ -85,6 +89,7 @@ impl StudyArgs for Args {
             frames: self.frames.frames,
             turning: self.frames.turning(),
             reference: self.reference,
+            values,
         })
     }
 }

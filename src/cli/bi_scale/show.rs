@@ -10,6 +10,7 @@ use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::transfer::model::nearest;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number};
 use crate::report::{Cell, Table};
@@ -36,16 +37,16 @@ pub(super) struct Args {
     file: PathBuf,
 
     /// A vertex, or a row of a matrix of something else, counted from 0
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", group = "which")]
     vertex: Option<u32>,
 
     /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", conflicts_with = "vertex",
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
           allow_hyphen_values = true)]
     at: Option<[f32; 3]>,
 
-    /// The model that the file was made from, for --at
-    #[arg(long, value_name = "MODEL", requires = "at")]
+    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
+    #[arg(long, value_name = "MODEL", requires = "which")]
     model: Option<PathBuf>,
 }
 
@@ -53,24 +54,26 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let file = load(&args.file)?;
     let rows = rows(&file);
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
-    let vertex = match (args.vertex, args.at, &args.model) {
-        (Some(vertex), ..) => Some(vertex as usize),
-        (None, Some(at), Some(model)) => {
-            nearest(vertices_of(model, &args.file, file.meaning.as_ref())?.positions(), at)
-        }
-        _ => None,
-    };
+    let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
+    let of_model = args.model.as_deref().map(vertices).transpose()?;
+    let nearest = || nearest(of_model.as_ref()?.positions(), args.at?);
+    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
     if let Some(vertex) = vertex.filter(|&vertex| vertex >= rows / local) {
         let what = format!("expected a vertex below {} (counted from 0), found {vertex}", rows / local);
         return Err(Problem::usage(what, "`crossbar bi-scale show` says how many there are").into());
     }
+    let names = args.model.as_ref().zip(of_model.as_ref());
+    let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
     if out.json() {
         let mut document = document(&file, rows, local);
         document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
+        if let (Some(vertex), Some(names)) = (vertex, &names) {
+            document["vertex"]["of_model"] = names.document(vertex);
+        }
         return Ok(out.document(&document)?);
     }
     match vertex {
-        Some(vertex) => one(&file, vertex, local, out),
+        Some(vertex) => one(&file, (vertex, local), names.as_ref(), out),
         None => all(&file, rows, local, out),
     }
 }
@@ -203,8 +206,16 @@ fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> 
     (0..local).map(of).collect()
 }
 
-fn one(file: &BiScaleFile, vertex: usize, local: usize, out: &mut Out) -> miette::Result<()> {
+fn one(
+    file: &BiScaleFile,
+    (vertex, local): (usize, usize),
+    names: Option<&VertexNames<'_>>,
+    out: &mut Out,
+) -> miette::Result<()> {
     out.line(format_args!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }))?;
+    if let Some(names) = names {
+        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+    }
     out.line("")?;
     let mut table = Table::new(
         "Local directions",

@@ -11,6 +11,7 @@ use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::HarmonicLightArgs;
 use crate::cli::transfer::on_card::{OnCardArgs, VertexArg};
 use crate::cli::transfer::picture::PictureArgs;
+use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{PrtCardOptions, WeightFormat};
 use crate::study::prt::OnCard;
 
@@ -66,7 +67,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, value_name = "V")]
     vertex: Option<VertexArg>,
 
-    /// Draw each cluster alone
+    /// Draw each cluster alone, not in the superclusters of the file, or as many as the registers hold
     #[arg(long)]
     alone: bool,
 
@@ -120,6 +121,7 @@ impl StudyArgs for Args {
         let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.picture.model)?;
         let clustering = clusters_of(&mut file, &self.file)?;
         let light_order = light_order(&file)?;
+        let superclusters = file.superclusters.as_deref().and_then(Superclusters::of_numbers);
         Ok(OnCard {
             model: self.picture.model_name(),
             camera: self.picture.camera(&model.mesh)?,
@@ -131,6 +133,7 @@ impl StudyArgs for Args {
             meaning: file.meaning,
             vertices,
             clustering,
+            superclusters,
         })
     }
 }

@@ -2,16 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
 use serde_json::{Value, json};
 
+use super::coherence::{Coherence, CoherenceArgs};
+use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::transfer::values::MethodArg;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory, view};
+use crate::cli::{Out, Problem, ProgressBar, given, memory, number, view};
 use crate::io::{ReadError, read_limited};
-use crate::report::{Cell, Table};
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaOptions, CpcaStep, Grown, StartPoints, compress,
+    compress_to_error,
 };
 use crate::transfer::file::{PrtFile, save_prt};
 use crate::transfer::{Signal, load_signal_and_meaning};
@@ -24,8 +27,21 @@ Examples:
       vectors redistributed among the clusters; every step's error for machines
   crossbar cpca compress docs/examples/signal.csv --clusters 3 --vectors 1 --start docs/examples/start.txt --out small.prt
       a signal of one's own, a line of numbers per point, from given start points
+  crossbar cpca compress docs/examples/step.prt --clusters 8 --max-error 0.001 --out small.prt
+      as few vectors as leave a thousandth of the signal's squares
+  crossbar cpca compress docs/examples/step.prt --clusters 8 --vectors 3 --model docs/examples/step.obj --reclassify 0.05 --supercluster-size 4 --out small.prt
+      fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
-CSV and NumPy arrays hold a row per point. The file that is written holds the clusters alone.";
+CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
+
+/// The number that grows until --max-error is met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum GrowArg {
+    /// Vectors per cluster, from 0 to --vectors
+    Vectors,
+    /// Clusters, from 1 to --clusters
+    Clusters,
+}
 
 /// Compress transfer, or any signal, by clustered principal components
 #[derive(Debug, clap::Args)]
@@ -35,25 +51,39 @@ pub(super) struct Args {
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
-    /// Clusters
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..))]
-    clusters: u32,
+    /// Clusters: 1 to as many as there are points [default: 256; if they grow, at most one per point]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    clusters: Option<u32>,
 
     /// Vectors per cluster; 0 is vector quantisation [default: 8, or as many as a point has numbers]
     #[arg(long, value_name = "N")]
     vectors: Option<u32>,
 
-    /// By which measure points are shared out to clusters
-    #[arg(long, value_enum, value_name = "HOW", default_value = "iterative")]
-    method: MethodArg,
+    /// Stop growing where the squared error is at most this share of the signal's sum of squares: above 0, below 1.
+    /// --vectors, or --clusters with --grow clusters, is a limit then, which it is an error not to meet
+    #[arg(long, value_name = "SHARE", value_parser = number::share)]
+    max_error: Option<f64>,
+
+    /// The number that grows until --max-error is met [default: vectors]
+    #[arg(long, value_enum, value_name = "WHAT", requires = "max_error")]
+    grow: Option<GrowArg>,
+
+    /// By which measure points are shared out to clusters [default: iterative]
+    #[arg(long, value_enum, value_name = "HOW")]
+    method: Option<MethodArg>,
 
     /// Without the clusters' means: vectors alone, the components of the points themselves
     #[arg(long)]
     linear: bool,
 
-    /// Iterations at most for each number of vectors, and rounds of redistribution
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    iterations: u32,
+    /// Iterations at most for each number of vectors, and rounds of redistribution: 1 to 1,000,000 [default: 10]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    iterations: Option<u32>,
+
+    /// Iterations at most of vector quantisation (LBG), before there are vectors: 1 to 1,000,000 [default: as
+    /// --iterations]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    vq_iterations: Option<u32>,
 
     /// Draws the start points
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -66,6 +96,9 @@ pub(super) struct Args {
     /// The file to write
     #[arg(long, value_name = "Y.prt")]
     out: PathBuf,
+
+    #[command(flatten)]
+    coherence: CoherenceArgs,
 }
 
 /// How to ask for less memory.
@@ -74,49 +107,132 @@ const HELP: &str = "name a smaller signal";
 const POINT_BYTES: u64 = 64;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+    args.refuse_idle()?;
     // The bytes, and numbers of four bytes while their list grows: a number takes two bytes of a table at least.
     view::require_file(&args.signal, 8, HELP)?;
     let start = start(args)?;
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
-    let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
-    let (clusters, vectors) = (args.clusters, args.vectors.unwrap_or(most.min(8)));
-    if vectors > most {
-        let what =
-            format!("expected at most {most} `--vectors`, the lesser of points and their numbers, found {vectors}");
-        return Err(Problem::usage(what, "more vectors than that approximate nothing better").into());
+    let vertices = args.coherence.vertices(&args.signal, mesh)?;
+    let options = args.options(&signal, start)?;
+    let bar = ProgressBar::new("vectors", options.vectors as u64 + 1);
+    let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
+    let Compression { clustering, steps } = match args.max_error {
+        None => compress(&signal, &options, observe),
+        Some(share) => compress_to_error(&signal, &options, share, args.grown(), observe),
     }
-    let need = memory_need(&signal, u64::from(clusters), u64::from(vectors));
-    let size = format_args!("compressing {} points", counted(signal.points())).to_string();
-    memory::require(size, need, HELP)?;
-    let iterations = args.iterations as usize;
-    let options = CpcaOptions {
-        clusters: clusters as usize,
-        vectors: vectors as usize,
-        iterations,
-        method: args.method.method(iterations),
-        form: if args.linear { CpcaForm::Linear } else { CpcaForm::Affine },
-        start,
-    };
-    let bar = ProgressBar::new("vectors", u64::from(vectors) + 1);
-    let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, u64::from(vectors) + 1);
-    let Compression { clustering, steps } = compress(&signal, &options, observe).map_err(|error| refused(&error))?;
+    .map_err(|error| refused(&error))?;
     drop(bar);
+    let provenance = args.provenance(&options, &clustering, &steps);
+    let coherence =
+        vertices.map(|vertices| args.coherence.apply(&signal, clustering.clone(), &vertices)).transpose()?;
+    let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.clustering.clone());
     let error = CompressionError::new(&signal, &clustering);
-    let file = PrtFile { meaning, mesh, transfer: None, clustering: Some(clustering) };
+    let superclusters = coherence.as_ref().and_then(|coherence| coherence.superclusters.clone());
+    let clustering = Some(clustering);
+    let file = PrtFile { meaning, mesh, transfer: None, clustering, superclusters, provenance: Some(provenance) };
     save_prt(&file, &args.out).map_err(Problem::from)?;
-    let stored = file.clustering.as_ref().map_or(0, Clustering::stored_numbers);
+    let Some(clustering) = &file.clustering else { return Ok(()) };
     if out.json() {
-        return Ok(out.document(&document(args, &signal, &steps, &error, stored))?);
+        return Ok(out.document(&document(args, (&signal, clustering), &steps, &error, coherence.as_ref()))?);
     }
     out.table(&table(&steps, error.energy))?;
     out.line("")?;
-    let numbers = signal.values().len();
+    let (numbers, stored) = (signal.values().len(), clustering.stored_numbers());
     out.line(format_args!("signal    {} points of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
+    if args.max_error.is_some() {
+        let (clusters, vectors) = (clustering.subspaces().len(), most_vectors(clustering));
+        out.line(format_args!("needed    {} clusters of {} vectors", counted(clusters), counted(vectors)))?;
+    }
     let share = 100.0 * stored as f64 / numbers as f64;
     out.line(format_args!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)))?;
+    if let Some(coherence) = &coherence {
+        coherence.report(error.energy, out)?;
+    }
     out.line(format_args!("error     {:.4e} of the signal's squares", error.relative()))?;
     out.line(format_args!("written   {}", args.out.display()))?;
     Ok(())
+}
+
+impl Args {
+    /// Refuses options that others make useless.
+    fn refuse_idle(&self) -> Result<(), Problem> {
+        let has_none = self.vectors == Some(0);
+        given::refuse(
+            [("--method", has_none && self.method.is_some()), ("--linear", has_none && self.linear)],
+            "clusters with vectors, and `--vectors` is 0",
+            "choose more `--vectors`, or leave it out",
+        )?;
+        let is_lbg_alone = has_none || self.method == Some(MethodArg::Static);
+        given::refuse(
+            [("--iterations", is_lbg_alone && self.iterations.is_some() && self.vq_iterations.is_some())],
+            "methods that iterate once there are vectors",
+            "`--vq-iterations` says all; leave it out",
+        )?;
+        let has_one = self.clusters == Some(1);
+        let [reclassify, size] = self.coherence.given();
+        given::refuse(
+            [("--reclassify", has_one && reclassify), ("--supercluster-size", has_one && size)],
+            "several clusters, and `--clusters` is 1",
+            "choose more `--clusters`, or leave it out",
+        )
+    }
+
+    const fn grown(&self) -> Grown {
+        match self.grow {
+            None | Some(GrowArg::Vectors) => Grown::Vectors,
+            Some(GrowArg::Clusters) => Grown::Clusters,
+        }
+    }
+
+    /// How a signal is compressed; checks that there is memory for it.
+    fn options(&self, signal: &Signal, start: StartPoints) -> miette::Result<CpcaOptions> {
+        let most = u32::try_from(signal.dimension().min(signal.points())).unwrap_or(u32::MAX);
+        let points = u32::try_from(signal.points()).unwrap_or(u32::MAX);
+        let all = if self.grown() == Grown::Clusters { points } else { 256 };
+        let (clusters, vectors) = (self.clusters.unwrap_or(all), self.vectors.unwrap_or(most.min(8)));
+        if vectors > most {
+            let what =
+                format!("expected at most {most} `--vectors`, the lesser of points and their numbers, found {vectors}");
+            return Err(Problem::usage(what, "more vectors than that approximate nothing better").into());
+        }
+        let need = memory_need(signal, u64::from(clusters), u64::from(vectors));
+        let size = format_args!("compressing {} points", counted(signal.points())).to_string();
+        memory::require(size, need, HELP)?;
+        let iterations = self.iterations.unwrap_or(10) as usize;
+        Ok(CpcaOptions {
+            clusters: clusters as usize,
+            vectors: vectors as usize,
+            vq_iterations: self.vq_iterations.map_or(iterations, |most| most as usize),
+            iterations,
+            method: self.method.unwrap_or(MethodArg::Iterative).method(iterations),
+            form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
+            start,
+        })
+    }
+
+    /// How the clusters were made, for the file: what was used, not what was allowed.
+    fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
+        let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
+        let method = self.method.unwrap_or(MethodArg::Iterative).to_possible_value();
+        let mut parts = vec![
+            format!("clusters={}", clustering.subspaces().len()),
+            format!("vectors={vectors}"),
+            format!("method={}", method.as_ref().map_or("iterative", |value| value.get_name())),
+            format!("form={}", if self.linear { "linear" } else { "affine" }),
+            format!("vq-iterations={}", options.vq_iterations),
+            format!("iterations={}", options.iterations),
+            match &options.start {
+                StartPoints::Seed(seed) => format!("seed={seed}"),
+                StartPoints::Given(_) => "start=given".to_owned(),
+            },
+        ];
+        if let Some(share) = self.max_error {
+            let grown = if self.grown() == Grown::Vectors { "vectors" } else { "clusters" };
+            parts.extend([format!("max-error={share}"), format!("grow={grown}")]);
+        }
+        parts.extend(self.coherence.provenance());
+        parts.join(" ")
+    }
 }
 
 /// Bytes while a signal is compressed: its numbers, and in f64 those of a cluster, which may be all; per point
@@ -150,46 +266,31 @@ fn refused(error: &CpcaError) -> Problem {
         CpcaError::NothingLinear => "choose more `--vectors`, or leave `--linear` out",
         CpcaError::Vectors { .. } => "choose fewer `--vectors`",
         CpcaError::StartCount { .. } => "give as many start points as `--clusters`",
+        CpcaError::AdaptiveGoesOn => "choose another `--method`, or `--grow clusters`",
+        CpcaError::NotMet { .. } => "allow more `--vectors` or `--clusters`, or a larger `--max-error`",
         _ => "see `crossbar cpca compress --help`",
     };
     Problem::usage(error.to_string(), help)
 }
 
-const fn word(kind: CpcaStepKind) -> &'static str {
-    match kind {
-        CpcaStepKind::Classified => "classified",
-        CpcaStepKind::Fitted => "fitted",
-        CpcaStepKind::Redistributed => "redistributed",
-    }
-}
-
-/// What each number of vectors ended with, and every redistribution; all steps stand in the document.
-fn table(steps: &[CpcaStep], energy: f64) -> Table {
-    let mut table = Table::new("Steps", &["steps", "vectors", "ends", "squared error", "of the signal (%)"]);
-    let last = |at: usize| steps.get(at + 1).is_none_or(|next| next.vectors != steps[at].vectors);
-    for (at, step) in steps.iter().enumerate() {
-        if last(at) || step.kind == CpcaStepKind::Redistributed {
-            let share = if energy > 0.0 { Cell::measured(100.0 * step.squared_error / energy) } else { Cell::Empty };
-            let error = Cell::measured(step.squared_error);
-            table.push([(at + 1).into(), step.vectors.into(), word(step.kind).into(), error, share]);
-        }
-    }
-    table
-}
-
-fn document(args: &Args, signal: &Signal, steps: &[CpcaStep], error: &CompressionError, stored: usize) -> Value {
-    let step = |step: &CpcaStep| {
-        let &CpcaStep { vectors, kind, moved, squared_error } = step;
-        json!({ "vectors": vectors, "step": word(kind), "moved": moved, "squared_error": squared_error })
-    };
+fn document(
+    args: &Args,
+    (signal, clustering): (&Signal, &Clustering),
+    steps: &[CpcaStep],
+    error: &CompressionError,
+    coherence: Option<&Coherence>,
+) -> Value {
     json!({
         "out": args.out,
         "points": signal.points(),
         "numbers_per_point": signal.dimension(),
-        "stored_numbers": stored,
+        "clusters": clustering.subspaces().len(),
+        "most_vectors": most_vectors(clustering),
+        "stored_numbers": clustering.stored_numbers(),
         "squared_error": error.total,
         "squared_signal": error.energy,
         "relative_error": error.relative(),
-        "steps": steps.iter().map(step).collect::<Vec<_>>(),
+        "coherence": coherence.map(Coherence::document),
+        "steps": steps_document(steps),
     })
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::file::clusters;
+use super::file::{clusters, model_of};
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
@@ -18,7 +19,9 @@ Examples:
   crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt
       squared error of all vertices, the largest, and how many have how much
   crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt --csv errors.csv --json
-      and a line per vertex: its cluster, its squared error, its squares";
+      and a line per vertex: its cluster, its squared error, its squares
+  crossbar cpca error docs/examples/step.prt docs/examples/step_small.prt --model docs/examples/step.obj --csv errors.csv
+      with the number of each vertex in the model's file, and its place";
 
 /// Compare a compressed signal with the original: error of each point, largest, histogram
 #[derive(Debug, clap::Args)]
@@ -31,6 +34,10 @@ pub(super) struct Args {
     /// What it was compressed to
     #[arg(value_name = "Y.prt")]
     compressed: PathBuf,
+
+    /// The model that the transfer was made from: points are named by its vertices, too
+    #[arg(long, value_name = "MODEL")]
+    model: Option<PathBuf>,
 
     /// Write a line per point to this file
     #[arg(long, value_name = "FILE")]
@@ -53,9 +60,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if mesh.is_some() && meaning != file.meaning {
         return Err(other_signal(&args.compressed, "numbers of the same meaning", "others").into());
     }
+    let of_model = args.model.as_ref().map(|model| model_of(&args.signal, mesh, model)).transpose()?;
+    let named = args.model.as_ref().zip(of_model.as_ref());
+    let names = named.map(|(model, (_, vertices, _))| VertexNames::new(model, vertices));
     let error = CompressionError::new(&signal, &clustering);
     if let Some(path) = &args.csv {
-        write_csv(path, &signal, &clustering, &error)?;
+        write_csv(path, &signal, &clustering, &error, names.as_ref())?;
     }
     let largest = error.largest();
     let cluster = clustering.of_point()[largest];
@@ -67,7 +77,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
             "squared_signal": error.energy,
             "relative_error": error.relative(),
             "root_mean_square": error.root_mean_square(),
-            "largest": { "point": largest, "cluster": cluster, "squared_error": error.squared[largest] },
+            "largest": { "point": largest, "cluster": cluster, "squared_error": error.squared[largest],
+                         "of_model": names.as_ref().map(|names| names.document(largest)) },
             "histogram": error.histogram().json(),
             "csv": args.csv,
         }))?);
@@ -75,7 +86,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("points         {} of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
     out.line(format_args!("squared error  {:.6e}, {:.4e} of the signal's squares", error.total, error.relative()))?;
     out.line(format_args!("root mean sq.  {:.6e} over all numbers", error.root_mean_square()))?;
-    out.line(format_args!("largest        {:.6e} at point {largest}, of cluster {cluster}", error.squared[largest]))?;
+    let name = names.as_ref().map_or_else(String::new, |names| format!(" ({})", names.phrase(largest)));
+    let squared = error.squared[largest];
+    out.sentence(format_args!("largest        {squared:.6e} at point {largest}{name}, of cluster {cluster}"))?;
     out.line("")?;
     out.titled_table(&error.histogram())?;
     if let Some(path) = &args.csv {
@@ -90,14 +103,22 @@ fn other_signal(path: &Path, expected: &str, found: &str) -> Problem {
 }
 
 /// A line per point, shortest digits that read back to the same numbers.
-fn write_csv(path: &Path, signal: &Signal, clustering: &Clustering, error: &CompressionError) -> Result<(), Problem> {
+fn write_csv(
+    path: &Path,
+    signal: &Signal,
+    clustering: &Clustering,
+    error: &CompressionError,
+    names: Option<&VertexNames<'_>>,
+) -> Result<(), Problem> {
     let square = |&value: &f32| f64::from(value) * f64::from(value);
     write_file(path, |file| {
         let mut file = std::io::BufWriter::new(file);
-        writeln!(file, "point,cluster,squared_error,squares")?;
+        let columns = names.map_or_else(String::new, |_| format!(",{}", VertexNames::COLUMNS));
+        writeln!(file, "point,cluster,squared_error,squares{columns}")?;
         for (point, (cluster, squared)) in clustering.of_point().iter().zip(&error.squared).enumerate() {
             let squares: f64 = signal.point(point).iter().map(square).sum();
-            writeln!(file, "{point},{cluster},{squared:e},{squares:e}")?;
+            let name = names.map_or_else(String::new, |names| format!(",{}", names.fields(point)));
+            writeln!(file, "{point},{cluster},{squared:e},{squares:e}{name}")?;
         }
         file.flush()
     })?;

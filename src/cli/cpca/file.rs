@@ -7,7 +7,7 @@ use crate::cli::transfer::model::{load, vertices};
 use crate::cli::{Problem, view};
 use crate::transfer::Vertices;
 use crate::transfer::clustering::Clustering;
-use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning, load_prt};
+use crate::transfer::file::{MeshDigest, PrtFile, PrtFileError, PrtMeaning, load_prt};
 
 /// A `.prt` file with the model that it was made from.
 pub(super) struct FileOfModel {
@@ -21,13 +21,25 @@ pub(super) struct FileOfModel {
 impl FileOfModel {
     pub(super) fn load(path: &Path, model: &Path) -> miette::Result<Self> {
         let file = load_prt(path, None)?;
-        let tangents = file.mesh.map(|mesh| mesh.tangents).unwrap_or_default();
-        let model = load(model, tangents)?;
-        let vertices = vertices(&model, tangents)?;
-        let digest = MeshDigest::new(&vertices);
-        file.require_mesh(&digest, path)?;
+        let (model, vertices, digest) = model_of(path, file.mesh, model)?;
         Ok(Self { file, model, vertices, digest })
     }
+}
+
+/// The model of the mesh that a file is of, with its vertices: the file's points.
+pub(super) fn model_of(
+    path: &Path,
+    mesh: Option<MeshDigest>,
+    model: &Path,
+) -> miette::Result<(Model, Vertices, MeshDigest)> {
+    let tangents = mesh.map(|mesh| mesh.tangents).unwrap_or_default();
+    let model = load(model, tangents)?;
+    let vertices = vertices(&model, tangents)?;
+    let digest = MeshDigest::new(&vertices);
+    if mesh != Some(digest) {
+        return Err(PrtFileError::OtherMesh { path: path.into(), expected: digest, found: mesh }.into());
+    }
+    Ok((model, vertices, digest))
 }
 
 /// The order of the light that a file's transfer takes.

@@ -2,7 +2,9 @@
 
 mod arrays;
 mod card;
+mod coherence;
 mod compress;
+mod compress_report;
 mod error;
 mod file;
 mod precompute;

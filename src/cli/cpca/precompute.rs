@@ -91,7 +91,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "FROM", default_value = "any", allow_hyphen_values = true)]
     tangents: TangentsArg,
 
-    /// Degree of the rule of directions over each hemisphere: D / 2 + 1 rings of D + 1 directions
+    /// Size of the rule of directions over each hemisphere, 18 to 255. From 40 on D / 2 + 1 rings of D + 2 directions
+    /// of different heights; below, rings of D + 1 directions, each ring of one height
     #[arg(long, value_name = "D", default_value_t = 44, value_parser = clap::value_parser!(u16).range(18..=255))]
     degree: u16,
 
@@ -199,7 +200,7 @@ fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<()
     };
     let (points, channels) = (precomputation.vertices.len() as u64, precomputation.channels.len() as u64);
     let matrix = 4 * rows as u64 * u64::from(args.order).pow(2);
-    let directions = (u64::from(args.degree) / 2 + 1) * (u64::from(args.degree) + 1);
+    let directions = (u64::from(args.degree) / 2 + 1) * (u64::from(args.degree) + 2);
     // Matrices of all channels, and once more together; of a bounce those before and after; blocked rays at 16 bytes.
     let copies = if channels == 1 { 1 } else { 2 * channels } + if args.bounces > 0 { 3 } else { 0 };
     let hits = if args.bounces > 0 { 16 * directions } else { directions / 8 };

@@ -7,7 +7,7 @@ use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::HarmonicLightArgs;
-use crate::cli::transfer::picture::{FramesArgs, PictureArgs};
+use crate::cli::transfer::picture::{FramesArgs, PictureArgs, ValuesArgs};
 use crate::study::prt::Rendering;
 use crate::transfer::file::{PrtFile, load_prt};
 
@@ -39,6 +39,9 @@ pub(super) struct Args {
 
     #[command(flatten)]
     frames: FramesArgs,
+
+    #[command(flatten)]
+    values: ValuesArgs,
 
     #[command(flatten)]
     picture: PictureArgs,
@@ -88,6 +91,7 @@ impl StudyArgs for Args {
             exposure: self.picture.exposure,
             frames: self.frames.frames,
             turning: self.frames.turning(),
+            values: self.values.of(&self.picture.model, &vertices),
             mesh: model.mesh,
             vertices,
             file,

@@ -1,12 +1,15 @@
 //! `crossbar cpca show`: what is in a `.prt` file of low-frequency transfer.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
 use super::arrays;
-use super::file::FileOfModel;
+use super::coherence::count;
+use super::file::model_of;
 use crate::cli::transfer::model::nearest;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, number, view};
 use crate::report::{Cell, Table};
@@ -36,16 +39,16 @@ pub(super) struct Args {
     file: PathBuf,
 
     /// A vertex, or another point, counted from 0
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", group = "which")]
     vertex: Option<u32>,
 
     /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", conflicts_with = "vertex",
+    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
           allow_hyphen_values = true)]
     at: Option<[f32; 3]>,
 
-    /// The model that the file was made from, for --at
-    #[arg(long, value_name = "MODEL", requires = "at")]
+    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
+    #[arg(long, value_name = "MODEL", requires = "which")]
     model: Option<PathBuf>,
 
     /// Write what the file holds to this folder as arrays of NumPy's: transfer.npy with a row per point, and of
@@ -57,25 +60,27 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     view::require_file(&args.file, 3, "name a smaller file")?;
     let file = load_prt(&args.file, None)?;
-    let vertex = match (args.vertex, args.at, &args.model) {
-        (Some(vertex), ..) => Some(vertex as usize),
-        (None, Some(at), Some(model)) => nearest(FileOfModel::load(&args.file, model)?.vertices.positions(), at),
-        _ => None,
-    };
+    let of_model = args.model.as_ref().map(|model| model_of(&args.file, file.mesh, model)).transpose()?;
+    let vertices = of_model.as_ref().map(|(_, vertices, _)| vertices);
+    let nearest = || nearest(vertices?.positions(), args.at?);
+    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
     if let Some(vertex) = vertex.filter(|&vertex| vertex >= file.points()) {
         let what = format!("expected a vertex below {} (counted from 0), found {vertex}", file.points());
         return Err(Problem::usage(what, "`crossbar cpca show` says how many there are").into());
     }
+    let names = args.model.as_ref().zip(vertices).map(|(model, vertices)| VertexNames::new(model, vertices));
     let written = args.arrays.as_deref().map(|folder| arrays::write(&file, folder)).transpose()?;
     if out.json() {
         let mut document = header_document(&file);
         document["arrays"] = json!(written);
         document["clusters"] = json!(file.clustering.as_ref().map(clusters_document));
-        document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex)));
+        document["superclusters"] = json!(file.superclusters);
+        document["made"] = json!(file.provenance.as_deref().map(made_document));
+        document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex, names.as_ref())));
         return Ok(out.document(&document)?);
     }
     match vertex {
-        Some(vertex) => one(&file, vertex, out)?,
+        Some(vertex) => one(&file, vertex, names.as_ref(), out)?,
         None => all(&file, out)?,
     }
     if let (Some(written), Some(folder)) = (written, &args.arrays) {
@@ -106,6 +111,12 @@ fn all(file: &PrtFile, out: &mut Out) -> miette::Result<()> {
     let parts = [file.transfer.is_some().then_some("transfer"), file.clustering.is_some().then_some("clusters")];
     out.line(format_args!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")))?;
     let Some(clustering) = &file.clustering else { return Ok(()) };
+    if let Some(line) = &file.provenance {
+        out.sentence(format_args!("made      {line}"))?;
+    }
+    if let Some(superclusters) = &file.superclusters {
+        out.line(format_args!("together  {} superclusters", counted(count(superclusters))))?;
+    }
     let numbers = clustering.points() * clustering.dimension();
     out.line(format_args!(
         "stored    {} numbers in place of {}",
@@ -114,13 +125,15 @@ fn all(file: &PrtFile, out: &mut Out) -> miette::Result<()> {
     ))?;
     out.line("")?;
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
+    headings.extend(file.superclusters.as_ref().map(|_| "supercluster".to_owned()));
     headings.extend((1..=EIGENVALUES).map(|number| format!("eigenvalue {number}")));
     let mut table = Table::new("Clusters", &headings);
     for ((cluster, subspace), points) in clustering.subspaces().iter().enumerate().zip(sizes(clustering)) {
         let eigenvalue = |at: usize| subspace.eigenvalues.get(at).map_or(Cell::Empty, |&value| Cell::measured(value));
-        table.push(
-            [cluster.into(), points.into(), subspace.len().into()].into_iter().chain((0..EIGENVALUES).map(eigenvalue)),
-        );
+        let mut row: Vec<Cell> = vec![cluster.into(), points.into(), subspace.len().into()];
+        row.extend(file.superclusters.as_ref().map(|of| (of[cluster] as usize).into()));
+        row.extend((0..EIGENVALUES).map(eigenvalue));
+        table.push(row);
     }
     out.table(&table)?;
     Ok(())
@@ -133,8 +146,11 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     sizes
 }
 
-fn one(file: &PrtFile, vertex: usize, out: &mut Out) -> miette::Result<()> {
+fn one(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("point     {vertex}"))?;
+    if let Some(names) = names {
+        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+    }
     let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
     if let Some(clustering) = &file.clustering {
         let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| format!("{weight:.4e}")).collect();
@@ -193,6 +209,11 @@ fn header_document(file: &PrtFile) -> Value {
     json!({ "meaning": meaning, "points": file.points(), "mesh": mesh, "has_transfer": file.transfer.is_some() })
 }
 
+/// The words of a line of provenance, by name.
+fn made_document(line: &str) -> BTreeMap<&str, &str> {
+    line.split(' ').map(|word| word.split_once('=').unwrap_or((word, "yes"))).collect()
+}
+
 fn clusters_document(clustering: &Clustering) -> Value {
     let clusters = clustering.subspaces().iter().zip(sizes(clustering));
     let clusters: Vec<Value> = clusters
@@ -203,11 +224,12 @@ fn clusters_document(clustering: &Clustering) -> Value {
     json!({ "stored_numbers": clustering.stored_numbers(), "clusters": clusters })
 }
 
-fn vertex_document(file: &PrtFile, vertex: usize) -> Value {
+fn vertex_document(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>) -> Value {
     let clustered = file.clustering.as_ref().map(|clustering| {
         json!({ "cluster": clustering.of_point()[vertex], "weights": clustering.weights(vertex),
                 "approximation": approximation(clustering, vertex) })
     });
     let transfer = file.transfer.as_ref().map(|signal| signal.point(vertex));
-    json!({ "number": vertex, "transfer": transfer, "clustered": clustered })
+    let of_model = names.map(|names| names.document(vertex));
+    json!({ "number": vertex, "of_model": of_model, "transfer": transfer, "clustered": clustered })
 }

@@ -6,3 +6,4 @@ pub(super) mod model;
 pub(super) mod on_card;
 pub(super) mod picture;
 pub(super) mod values;
+pub(super) mod vertex_names;

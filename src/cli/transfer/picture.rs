@@ -7,10 +7,12 @@ use clap::ValueEnum;
 use crate::cli::memory::{self, MemoryNeed};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
+use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::{model_name, number};
 use crate::geom::Mesh;
 use crate::scene::Camera;
-use crate::study::prt::Turning;
+use crate::study::prt::{Turning, ValuesFormat, VertexValues};
+use crate::transfer::Vertices;
 
 /// A picture of a model.
 #[derive(Debug, clap::Args)]
@@ -56,6 +58,34 @@ impl PictureArgs {
             bytes: memory::of_pixels(self.size.width, self.size.height, PER_PIXEL, 0),
             help: "ask for a smaller `--size`",
         }
+    }
+}
+
+/// How radiance of vertices is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ValuesArg {
+    /// vertices.csv: vertex, its number in the model's file, position, red, green, blue
+    Csv,
+    /// vertices.npy: a row per vertex of position, red, green, blue
+    Npy,
+}
+
+/// Radiance of vertices as numbers.
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct ValuesArgs {
+    /// Write the radiance of each vertex towards the camera to --out as numbers, hidden or not
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    values: Option<ValuesArg>,
+}
+
+impl ValuesArgs {
+    /// The format and the names of a model's vertices, if their radiance is to be written.
+    pub(in crate::cli) fn of(&self, model: &Path, vertices: &Vertices) -> Option<VertexValues> {
+        let format = match self.values? {
+            ValuesArg::Csv => ValuesFormat::Csv,
+            ValuesArg::Npy => ValuesFormat::Npy,
+        };
+        Some(VertexValues { format, numbers: VertexNames::new(model, vertices).numbers() })
     }
 }
 

@@ -22,6 +22,7 @@ pub mod rays;
 pub mod scene_file;
 pub mod scene_obj;
 pub mod stl;
+mod vertex_numbers;
 
 pub use atomic::{FileSet, WriteError, write_file};
 pub use cube_map::{CubeTableError, load_cube_table, parse_cube_table, write_cube_table};
@@ -45,6 +46,7 @@ pub use rays::{RaysError, load_rays, parse_rays, write_hits};
 pub use scene_file::{SceneFileError, scene_files, write_scene_file};
 pub use scene_obj::{parse_mtl, parse_scene, write_mtl, write_scene};
 pub use stl::{load_stl, parse_stl};
+pub use vertex_numbers::{VertexNumbers, load_vertex_numbers};
 
 use std::fs::File;
 use std::io::{self, Read};

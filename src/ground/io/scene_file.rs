@@ -114,6 +114,21 @@ fn plain(numbers: [Single; 3]) -> [f32; 3] {
 /// Endings of models.
 const MODELS: [&str; 5] = ["obj", "ply", "stl", "gltf", "glb"];
 
+/// The model of a scene: the file itself by its name's ending, or that which a scene file names. `None` for a scene
+/// file that cannot be read.
+pub fn model_path(path: &Path) -> Option<PathBuf> {
+    if is_model(path) {
+        return Some(path.to_owned());
+    }
+    let text = String::from_utf8(read_limited(path, LONGEST).ok()??).ok()?;
+    let (mesh, ..) = parse(&text, path).ok()?;
+    Some(path.parent().unwrap_or(Path::new("")).join(mesh))
+}
+
+fn is_model(path: &Path) -> bool {
+    MODELS.iter().any(|known| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known)))
+}
+
 /// Reads a scene: a model by the name's ending, else a scene file.
 pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
     load_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
@@ -121,8 +136,7 @@ pub fn load(path: &Path) -> Result<Scene, SceneFileError> {
 
 /// [`load`] with options for the model, and what the user should know of it. Views and point lights stay as they are.
 pub fn load_with(path: &Path, options: ModelOptions) -> Result<(Scene, Vec<ModelNote>), SceneFileError> {
-    let is = |known: &&str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
-    if MODELS.iter().any(is) {
+    if is_model(path) {
         return Ok(load_scene_with(path, options)?);
     }
     let read = read_limited(path, LONGEST).map_err(|source| SceneFileError::Read { path: path.into(), source })?;

@@ -60,6 +60,7 @@ impl CompressedSegment {
         let options = CpcaOptions {
             clusters: (signal.points() / options.points_per_cluster).max(1),
             vectors: options.vectors.min(signal.dimension()),
+            vq_iterations: options.iterations,
             iterations: options.iterations,
             method: options.method,
             form: CpcaForm::Linear,

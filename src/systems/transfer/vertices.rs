@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::error::TransferError;
 use super::frame::LocalFrame;
 use crate::geom::Mesh;
-use crate::geom::vector::{unit, wide};
+use crate::geom::vector::{place_bits, unit, wide};
 
 /// The source of the tangents.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -186,7 +186,7 @@ impl Vertices {
 
 /// Position as bits, where -0 and +0 are equal.
 fn place(mesh: &Mesh, vertex: u32) -> [u32; 3] {
-    mesh.positions()[vertex as usize].map(|value| (value + 0.0).to_bits())
+    place_bits(mesh.positions()[vertex as usize])
 }
 
 fn used(mesh: &Mesh) -> Vec<bool> {

@@ -15,6 +15,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crossbar::picture::Picture;
+use crossbar::transfer::file::{PrtFile, parse_prt, write_prt};
 use rayon::prelude::*;
 use serde_json::Value;
 
@@ -205,6 +206,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
         }
         let is_page = ["index.html", "study.json", ".crossbar_files"].iter().any(|page| name.ends_with(page));
         let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
+        let bytes = without_provenance(bytes);
         // A CRC would be equal for all files that end with their own CRC. Of pictures, which name the options too, only
         // the channels count.
         let mut digest = DefaultHasher::new();
@@ -213,6 +215,18 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
             Err(_) => bytes.hash(&mut digest),
         }
         put(format!("file {name}"), &format!("{:016x}", digest.finish()));
+    }
+}
+
+/// A file of transfer without how it was made; other files as they are.
+fn without_provenance(bytes: Vec<u8>) -> Vec<u8> {
+    match parse_prt(&bytes, Path::new("a.prt")) {
+        Ok(file) => {
+            let mut bare = Vec::new();
+            write_prt(&PrtFile { provenance: None, ..file }, &mut bare).expect("written");
+            bare
+        }
+        Err(_) => bytes,
     }
 }
 

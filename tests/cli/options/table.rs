@@ -172,11 +172,26 @@ pub(super) const TABLE: &[Tried] = &[
                   --strict@3",
     },
     Tried {
-        bases: &["cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --out OUT.prt"],
-        options: "--clusters=5 --vectors=1 --method=adaptive --linear --iterations=1 --seed=2 --start=starts.txt \
-                  --out=other.prt",
+        bases: &[
+            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --out OUT.prt",
+            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --max-error 0.1 --out OUT.prt",
+            "cpca compress docs/examples/step.prt --clusters 9 --vectors 2 --model docs/examples/step.obj \
+             --reclassify 0.5 --out OUT.prt",
+            "cpca compress docs/examples/step.prt --clusters 4 --vectors 2 --model odd.obj --reclassify 0.5 --out OUT.prt",
+        ],
+        options: "--clusters=5@0,1,2 --vectors=1@0,2 --max-error=0.02@0,1,2 --grow=clusters@0,1,2 --method=adaptive@0,1,2 \
+                  --linear@0,1,2 --iterations=1@0,2 --vq-iterations=1@0,1,2 --seed=2@0,1,2 --start=starts.txt@0,1 \
+                  --model=white-box@0,1,2 --reclassify=0@0,1,2 --refit@0,1,2 --supercluster-size=2@0,1,2 \
+                  --out=other.prt@0,1,2 --model-up=y --strict@3",
     },
-    Tried { bases: &["cpca error docs/examples/step.prt docs/examples/step_small.prt"], options: "--csv=other.csv" },
+    Tried {
+        bases: &[
+            "cpca error docs/examples/step.prt docs/examples/step_small.prt",
+            "cpca error docs/examples/step.prt docs/examples/step_small.prt --model docs/examples/step.obj",
+            "cpca error docs/examples/step.prt docs/examples/step_small.prt --model odd.obj",
+        ],
+        options: "--csv=other.csv@0,1 --model=docs/examples/step.obj@0 --model-up=y --strict@2",
+    },
     Tried {
         bases: &[
             "cpca show docs/examples/step_small.prt",
@@ -192,7 +207,8 @@ pub(super) const TABLE: &[Tried] = &[
             "cpca render docs/examples/step_small.prt --model docs/examples/step.obj --frames 2 --size 8x6 --out OUT",
         ],
         options: concat!(
-            "--original=docs/examples/step.prt@0,2 --window=hann@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+            "--original=docs/examples/step.prt@0,2 --window=hann@0,2 --values=npy@0,2 --frames=3@0,2 --turn=camera@2 \
+             --out=other@0,2",
             picture!("1")
         ),
     },
@@ -274,7 +290,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--original=docs/examples/step_all.prt@0,2 --keep=9@0,2 --ground=on.ground.prt@0 --ground-model=white-box@0,2 \
-             --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+             --values=csv@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
             picture!("1")
         ),
     },
@@ -304,8 +320,13 @@ pub(super) const TABLE: &[Tried] = &[
         options: "--seed=2 --seeds=3 --no-deletion --drop=0.25 --dump=other.csv --out=other.prt",
     },
     Tried {
-        bases: &["bi-scale multiply docs/examples/court_biclusters.prt"],
-        options: "--light=red-and-blue --rotate=20 --values=other.csv",
+        bases: &[
+            "bi-scale multiply docs/examples/court_biclusters.prt",
+            "bi-scale multiply docs/examples/court_biclusters.prt --values OUT.csv --model docs/examples/court.obj",
+            "bi-scale multiply docs/examples/court_biclusters.prt --values OUT.csv --model odd.obj",
+        ],
+        options: "--light=red-and-blue@0,1 --rotate=20@0,1 --values=other.csv@0,1 --model=white-box@0,1 --model-up=y \
+                  --strict@2",
     },
     Tried {
         bases: &[
@@ -344,7 +365,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--texture=wall=tiles@0,2 --repeat=3@0 --texture-size=5@0,2 --texture-views=3@0,2 --crease=10 --reference@0,2 \
-             --frames=3@0,2 --turn=camera@2 --out=other@0,2",
+             --values=csv@0,2 --frames=3@0,2 --turn=camera@2 --out=other@0,2",
             picture!("1")
         ),
     },

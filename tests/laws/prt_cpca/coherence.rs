@@ -30,6 +30,7 @@ fn clustered(signal: &Signal, clusters: usize) -> Clustering {
     let options = CpcaOptions {
         clusters,
         vectors: 1,
+        vq_iterations: 6,
         iterations: 6,
         method: CpcaMethod::Iterative,
         form: CpcaForm::Affine,
@@ -101,6 +102,40 @@ fn superclusters_keep_within_registers_and_have_no_neighbours_left_to_merge() {
         before = drawn;
     }
     assert_eq!(before, triangles.len() as u64, "all clusters fit: each triangle is drawn once");
+}
+
+/// Of a given size, superclusters hold no more clusters, and two neighbours hold more together.
+#[test]
+fn superclusters_of_a_size_are_as_large_as_may_be() {
+    let (signal, triangles) = (ragged(40, 0.02), grid(40));
+    let clustering = clustered(&signal, 30);
+    let mut before = overdraw(&triangles, clustering.of_point());
+    assert_eq!(Superclusters::of_size(&clustering, &triangles, 1).expect("of one").count(), 30);
+    for size in [2, 3, 8, 30] {
+        let superclusters = Superclusters::of_size(&clustering, &triangles, size).expect("superclusters");
+        let mut used = vec![0; superclusters.count()];
+        superclusters.of_cluster().iter().for_each(|&of| used[of as usize] += 1);
+        assert!(used.iter().all(|&used| used <= size), "{used:?}");
+        let of = |corner: u32| superclusters.of_cluster()[clustering.of_point()[corner as usize] as usize] as usize;
+        for corners in &triangles {
+            let [a, b, c] = corners.map(of);
+            assert!([(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| a == b || used[a] + used[b] > size));
+        }
+        let drawn = superclusters.overdraw(&clustering, &triangles);
+        assert!(drawn < before, "size {size}");
+        before = drawn;
+        let again = Superclusters::of_numbers(superclusters.of_cluster()).expect("in order");
+        assert_eq!(again, superclusters);
+        assert_eq!(again.require(&clustering, ConstantRegisters::diffuse(2 * size)), Ok(()));
+        let error = again.require(&clustering, ConstantRegisters::diffuse(2 * size - 1)).unwrap_err();
+        assert!(matches!(error, CoherenceError::SuperclusterRegisters { needed, .. } if needed == 2 * size), "{error}");
+    }
+    assert_eq!(before, triangles.len() as u64, "all clusters in one");
+    assert_eq!(Superclusters::of_size(&clustering, &triangles, 0).unwrap_err(), CoherenceError::Size);
+    assert_eq!(Superclusters::of_numbers(&[0, 2, 1]), None);
+    let other = Superclusters::of_numbers(&[0, 1, 1]).expect("in order");
+    let error = other.require(&clustering, ConstantRegisters::diffuse(99)).unwrap_err();
+    assert_eq!(error, CoherenceError::Clusters { expected: 30, found: 3 });
 }
 
 #[test]

@@ -15,7 +15,15 @@ const METHODS: [CpcaMethod; 4] =
 const FORMS: [CpcaForm; 2] = [CpcaForm::Affine, CpcaForm::Linear];
 
 fn options(clusters: usize, vectors: usize, method: CpcaMethod) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations: 8, method, form: CpcaForm::Affine, start: StartPoints::Seed(3) }
+    CpcaOptions {
+        clusters,
+        vectors,
+        vq_iterations: 8,
+        iterations: 8,
+        method,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(3),
+    }
 }
 
 fn compressed(signal: &Signal, options: &CpcaOptions) -> Compression {
@@ -89,8 +97,12 @@ fn ties_go_to_the_lower_cluster() {
     // Whole numbers: distances are exact. Point 2 is between the start points.
     let signal = Signal::new(1, vec![0.0, 4.0, 2.0, 0.0, 4.0]).expect("a signal");
     for (start, of_point) in [(vec![0, 1], [0, 1, 0, 0, 1]), (vec![1, 0], [1, 0, 0, 1, 0])] {
-        let options =
-            CpcaOptions { iterations: 1, start: StartPoints::Given(start), ..options(2, 0, CpcaMethod::Static) };
+        let options = CpcaOptions {
+            vq_iterations: 1,
+            iterations: 1,
+            start: StartPoints::Given(start),
+            ..options(2, 0, CpcaMethod::Static)
+        };
         assert_eq!(compressed(&signal, &options).clustering.of_point(), of_point);
         assert_eq!(reference::compress(&signal, &options).expect("compressed").of_point(), of_point);
     }
@@ -237,7 +249,7 @@ proptest! {
         (Just(signal), 1..=points, 0..=dimension, prop::sample::select(METHODS.to_vec()), prop::sample::select(FORMS.to_vec()), 0..9_u64)
     })) {
         let form = if vectors == 0 { CpcaForm::Affine } else { form };
-        let options = CpcaOptions { clusters, vectors, iterations: 5, method, form, start: StartPoints::Seed(seed) };
+        let options = CpcaOptions { clusters, vectors, vq_iterations: 5, iterations: 5, method, form, start: StartPoints::Seed(seed) };
         let compression = compressed(&signal, &options);
         check_steps(&signal, form, &compression);
         let clustering = &compression.clustering;

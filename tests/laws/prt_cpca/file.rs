@@ -41,6 +41,7 @@ fn small() -> PrtFile {
     let options = CpcaOptions {
         clusters: 3,
         vectors: 2,
+        vq_iterations: 3,
         iterations: 3,
         method,
         form: CpcaForm::Affine,
@@ -50,20 +51,24 @@ fn small() -> PrtFile {
     let meaning =
         PrtMeaning::Transfer { channels: 1, exit_functions: vec![0, 3], light_order: 2, includes_albedo: true };
     let mesh = Some(digest(Tangents::Along(DVec3::new(0.0, -0.5, 2.0))));
-    PrtFile { meaning, mesh, transfer: Some(signal), clustering: Some(clustering) }
+    let (transfer, clustering) = (Some(signal), Some(clustering));
+    let superclusters = Some(vec![0, 1, 0]);
+    let provenance = Some("clusters=3 vectors=2".to_owned());
+    PrtFile { meaning, mesh, transfer, clustering, superclusters, provenance }
 }
 
 #[test]
 fn what_is_written_is_read_in_all_its_parts() {
     let all = small();
     let plain = PrtFile { meaning: PrtMeaning::Numbers { dimension: 8 }, mesh: None, ..all.clone() };
-    let transfer = PrtFile { clustering: None, ..all.clone() };
-    let clusters = PrtFile { transfer: None, ..plain.clone() };
+    let transfer = PrtFile { clustering: None, superclusters: None, ..all.clone() };
+    let clusters = PrtFile { transfer: None, superclusters: None, ..plain.clone() };
+    let bare = PrtFile { superclusters: None, provenance: None, ..all.clone() };
     let tangents = [Tangents::Any, Tangents::Texture].map(|tangents| {
         let mesh = all.mesh.map(|mesh| MeshDigest { tangents, ..mesh });
         PrtFile { mesh, ..all.clone() }
     });
-    for file in [all, plain, transfer, clusters].into_iter().chain(tangents) {
+    for file in [all, plain, transfer, clusters, bare].into_iter().chain(tangents) {
         assert_eq!(parsed(&bytes(&file)), Ok(file.clone()));
         assert_eq!(file.points(), 12);
         let folder = tempfile::tempdir().expect("a folder");
@@ -115,7 +120,7 @@ fn forged_headers_are_refused_by_name() {
     assert_eq!(error(8, 2), "a.prt: expected a .prt file of version 1 to 1, found version 2");
     assert_eq!(error(12, 7), "a.prt: conventions: expected 1 to 3, found 7");
     assert_eq!(error(28, 2), "a.prt: albedo: expected 0 to 1, found 2");
-    assert_eq!(error(36, 0), "a.prt: number of sections: expected 1 to 2, found 0");
+    assert_eq!(error(36, 0), "a.prt: number of sections: expected 1 to 4, found 0");
     assert!(error(36, 1).contains("expected the end of the file"), "{}", error(36, 1));
     assert_eq!(error(40, 11), "a.prt: vertices of the mesh: expected 12, found 11");
     assert_eq!(error(56, 4), "a.prt: tangents: expected 0 to 3, found 4");
@@ -183,13 +188,50 @@ fn parts_that_do_not_go_together_are_not_written() {
         assert!(refused(&with(meaning(1, list, 2))).starts_with(functions), "{list:?}");
     }
     assert_eq!(refused(&with(meaning(1, &[0], 2))), "numbers per point: expected 4, found 8");
-    let empty = PrtFile { transfer: None, clustering: None, ..file.clone() };
+    let empty = PrtFile { transfer: None, clustering: None, superclusters: None, ..file.clone() };
     assert_eq!(refused(&empty), "contents: expected transfer or clusters, found neither");
     let mesh = file.mesh.map(|mesh| MeshDigest { vertices: 13, ..mesh });
     assert_eq!(refused(&PrtFile { mesh, ..file.clone() }), "vertices of the mesh: expected 12, found 13");
     let other = PrtFile { transfer: Some(torus_signal(11, 8, 1)), ..file.clone() };
     let shapes = "clusters: expected 11 points of 8 numbers, found 12 points of 8 numbers";
     assert_eq!(refused(&other), shapes);
+    let groups =
+        |superclusters: &[u32]| refused(&PrtFile { superclusters: Some(superclusters.to_vec()), ..file.clone() });
+    assert_eq!(groups(&[0, 1]), "superclusters: expected a number for 3 clusters, found 2");
+    assert_eq!(groups(&[0, 2, 1]), "superclusters: expected 0 to 1, in the order of clusters, found 2");
+    assert_eq!(groups(&[1, 0, 0]), "superclusters: expected 0 to 0, in the order of clusters, found 1");
+    let made = |line: &str| refused(&PrtFile { provenance: Some(line.to_owned()), ..file.clone() });
+    let expected = "provenance: expected a line of 1 to 4096 bytes without control characters, found";
+    for line in ["", "two\nlines", "\u{9b}31m", &"x".repeat(4097)] {
+        assert!(made(line).starts_with(expected), "{line:?}");
+    }
+}
+
+/// Sections out of order, twice, or with text that is none.
+#[test]
+fn forged_sections_are_refused_by_name() {
+    let whole = PrtFile { transfer: None, ..small() };
+    let without = |whole: &PrtFile| bytes(&PrtFile { superclusters: None, provenance: None, ..whole.clone() });
+    let forged = |sections: &[(&[u8; 4], &[u8])]| {
+        let section = |&(tag, body): &(&[u8; 4], &[u8])| {
+            let all = [&tag[..], &(body.len() as u64).to_le_bytes(), body].concat();
+            let crc = crc32fast::hash(&all).to_le_bytes();
+            [all, crc.to_vec()].concat()
+        };
+        let mut all = forged(&without(&whole), 36, (1 + sections.len() as u32).to_le_bytes());
+        all.extend(sections.iter().flat_map(section));
+        parsed(&all)
+    };
+    let (groups, line) = ((b"SUPR", &[0; 12][..]), (b"MADE", &b"a"[..]));
+    assert!(forged(&[groups, line]).is_ok() && forged(&[line]).is_ok());
+    for wrong in [&[line, groups][..], &[line, line], &[groups, groups], &[(b"CLUS", &[][..])], &[(b"ELSE", &[][..])]] {
+        let error = forged(wrong).expect_err("refused");
+        assert!(error.contains("in this order, each at most once, found"), "{error}");
+    }
+    assert!(forged(&[(b"MADE", &[255][..])]).expect_err("refused").contains("provenance: expected UTF-8"));
+    assert!(forged(&[(b"MADE", &[][..])]).expect_err("refused").contains("provenance: expected a line"));
+    assert!(forged(&[(b"SUPR", &[0; 11][..])]).is_err() && forged(&[(b"SUPR", &[0; 16][..])]).is_err());
+    assert!(forged(&[(b"SUPR", &[1; 12][..])]).expect_err("refused").contains("superclusters: expected 0 to 0"));
 }
 
 /// The same bytes for any number of threads.
@@ -212,7 +254,7 @@ proptest! {
         let signal = Signal::new(dimension, values[..whole].to_vec()).expect("a signal");
         let clusters = signal.points().min(3);
         let options = CpcaOptions {
-            clusters, vectors: 1, iterations: 2, method: CpcaMethod::Iterative, form: CpcaForm::Affine, start: StartPoints::Seed(7),
+            clusters, vectors: 1, vq_iterations: 2, iterations: 2, method: CpcaMethod::Iterative, form: CpcaForm::Affine, start: StartPoints::Seed(7),
         };
         let clustering = compress(&signal, &options, |_| ()).expect("compressed").clustering;
         let file = PrtFile {
@@ -220,6 +262,8 @@ proptest! {
             mesh: None,
             transfer: (keep & 1 != 0).then_some(signal),
             clustering: (keep & 2 != 0).then_some(clustering),
+            superclusters: None,
+            provenance: None,
         };
         prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }

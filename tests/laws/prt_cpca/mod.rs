@@ -3,3 +3,4 @@
 mod coherence;
 mod compression;
 mod file;
+mod to_error;

@@ -14,6 +14,7 @@ mod interpolate;
 mod precompute;
 mod render;
 mod stored_ways;
+mod vertex_values;
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
@@ -38,3 +39,4 @@ pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed,
 pub use render::{RenderError, Rendering, Turning};
 pub(super) use render::{auto_exposure, cluster_color};
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
+pub use vertex_values::{ValuesFormat, VertexValues};

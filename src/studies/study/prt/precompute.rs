@@ -6,13 +6,16 @@ use thiserror::Error;
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
-use crate::sphere::DirectionRule;
+use crate::sphere::{DirectionRule, MAX_ORDER};
 use crate::study::ProgressFn;
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
 use crate::transfer::file::{MeshDigest, PrtFile, PrtMeaning};
 use crate::transfer::{Signal, SignalError, TransferError, Vertices};
+
+/// Degree up to which a rule of many heights is exact: that of products of two functions of the largest order.
+const EXACT_DEGREE: usize = 2 * MAX_ORDER - 2;
 
 /// How exit radiance is expressed.
 #[derive(Clone, Debug)]
@@ -52,7 +55,8 @@ pub struct Precomputation<'a> {
     pub exit: ExitRadiance,
     /// The order of the light.
     pub order: usize,
-    /// The degree of the rule of directions over each vertex's hemisphere.
+    /// The size of the rule of directions over each vertex's hemisphere: [`DirectionRule::spread`], whose heights are
+    /// all different, from 40 on; below, [`DirectionRule::hemisphere`] of this degree.
     pub degree: usize,
     /// How often light is reflected on its way.
     pub bounces: Bounces,
@@ -101,7 +105,7 @@ impl Precomputation<'_> {
         self.check()?;
         let steps = 1 + self.channels.len() as u64;
         progress("rays", 0, steps);
-        let rule = DirectionRule::hemisphere(self.degree);
+        let rule = DirectionRule::spread(self.degree, EXACT_DEGREE);
         let mut tracer = HostTracer::new(self.mesh, Sides::Both);
         let keep_hits = self.bounces != Bounces::Count(0);
         let mut rays = TracedRays::trace(self.vertices, rule, &mut tracer, keep_hits)?;
@@ -124,7 +128,7 @@ impl Precomputation<'_> {
         let transfer = Some(together(channels)?);
         let mesh = Some(MeshDigest::new(self.vertices));
         Ok(Precomputed {
-            file: PrtFile { meaning, mesh, transfer, clustering: None },
+            file: PrtFile { meaning, mesh, transfer, clustering: None, superclusters: None, provenance: None },
             directions: rays.rule().len(),
             counts: std::mem::take(&mut rays.counts),
             bounces,

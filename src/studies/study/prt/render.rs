@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::compression_error::CompressionError;
 use super::exit_radiance::Lit;
 use super::interpolate::{Seen, linear_picture};
+use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
@@ -48,6 +49,8 @@ pub struct Rendering {
     pub frames: u32,
     /// Which of them.
     pub turning: Turning,
+    /// Format and names of vertices, if their radiance is written.
+    pub values: Option<VertexValues>,
 }
 
 /// What is carried round a model.
@@ -86,7 +89,8 @@ impl Study for Rendering {
         progress("rays", 0, steps);
         let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
         progress("radiance", 1, steps);
-        let drawn = self.colors(&seen, (&self.light, &self.camera), None)?;
+        let of_vertex = self.radiance((&self.light, &self.camera), None)?;
+        let drawn = seen.colors(&of_vertex, [0.0; 3]);
         let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
         let mut found = Findings::new("Precomputed radiance transfer");
         found.taken_from(self.camera.world_to_camera());
@@ -97,6 +101,9 @@ impl Study for Rendering {
             format!("{} under {}", self.model, self.light_name),
         )]);
         found.keep_layers("picture", picture);
+        if let Some(values) = &self.values {
+            values.keep(self.vertices.positions(), &of_vertex, &mut found);
+        }
         self.conclude(&seen, &mut found);
         if let Some(original) = &self.original {
             self.compare(&seen, original, &drawn, exposure, &mut found)?;
@@ -124,10 +131,19 @@ impl Study for Rendering {
 }
 
 impl Rendering {
-    /// Linear radiance of all pixels, from the clusters, else the transfer; of `original`, if given.
+    /// Linear radiance of all pixels, as [`Self::radiance`].
     fn colors(
         &self,
         seen: &Seen,
+        from: (&HarmonicLight, &Camera),
+        original: Option<&Signal>,
+    ) -> Result<Vec<[f64; 3]>, RenderError> {
+        Ok(seen.colors(&self.radiance(from, original)?, [0.0; 3]))
+    }
+
+    /// Radiance of all vertices towards a camera, from the clusters, else the transfer; of `original`, if given.
+    fn radiance(
+        &self,
         (light, camera): (&HarmonicLight, &Camera),
         original: Option<&Signal>,
     ) -> Result<Vec<[f64; 3]>, RenderError> {
@@ -137,7 +153,7 @@ impl Rendering {
             (None, Some(clustering), _) => lit.of_clusters(clustering),
             (None, None, None) => return Err(RenderError::NoTransfer),
         };
-        Ok(seen.colors(&lit.radiance(&exit, &self.vertices, wide(camera.eye())), [0.0; 3]))
+        Ok(lit.radiance(&exit, &self.vertices, wide(camera.eye())))
     }
 
     /// The pixels with light or camera carried round z, 1 being all the way.

@@ -183,6 +183,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
     let of_sample = CpcaOptions {
         clusters: options.clusters,
         vectors: options.vectors,
+        vq_iterations: options.iterations,
         iterations: options.iterations,
         method: CpcaMethod::Doubling,
         form: options.form,

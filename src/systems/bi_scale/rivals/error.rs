@@ -7,7 +7,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 
 /// Errors of storing transfer. Rows and columns count from 0.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RivalError {
     /// A matrix whose columns are not the light texels.

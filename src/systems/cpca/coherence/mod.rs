@@ -3,7 +3,8 @@
 //!
 //! - [`overdraw`]: how many triangles are drawn;
 //! - [`reclassify`]: vertices go to clusters of their neighbours, within a budget of error;
-//! - [`Superclusters`]: clusters that are drawn as one, as many as the constant registers hold. They change no error.
+//! - [`Superclusters`]: clusters that are drawn as one, as many as the constant registers hold, or a given number. They
+//!   change no error.
 
 mod reclassify;
 mod supercluster;
@@ -30,6 +31,17 @@ pub enum CoherenceError {
     /// A fraction of the error that is negative or not finite.
     #[error("expected an error budget of at least 0, as a share of the error, found {found}")]
     Budget { found: f64 },
+    /// Superclusters of no clusters.
+    #[error("expected superclusters of at least 1 cluster, found 0")]
+    Size,
+    /// Superclusters of another clustering.
+    #[error("expected superclusters of {expected} clusters, found those of {found}")]
+    Clusters { expected: usize, found: usize },
+    /// A supercluster has more constants than there are registers.
+    #[error(
+        "supercluster {supercluster} needs {needed} constant registers, expected at most {limit}; take smaller ones"
+    )]
+    SuperclusterRegisters { supercluster: usize, needed: usize, limit: usize },
     /// One cluster has more constants than there are registers.
     #[error("cluster {cluster} needs {needed} constant registers, expected at most {limit}; take fewer vectors")]
     Registers { cluster: usize, needed: usize, limit: usize },

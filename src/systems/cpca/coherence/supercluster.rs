@@ -50,15 +50,60 @@ impl Superclusters {
         registers: ConstantRegisters,
     ) -> Result<Self, CoherenceError> {
         check_triangles(triangles, clustering.points())?;
-        let mut needed = needed(clustering, registers)?;
+        Ok(Self::merged(clustering, triangles, needed(clustering, registers)?, registers.limit))
+    }
+
+    /// Likewise of `clusters` clusters at most, whatever they take: a size for all cards.
+    ///
+    /// # Errors
+    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or for a size of 0.
+    pub fn of_size(clustering: &Clustering, triangles: &[[u32; 3]], clusters: usize) -> Result<Self, CoherenceError> {
+        check_triangles(triangles, clustering.points())?;
+        if clusters == 0 {
+            return Err(CoherenceError::Size);
+        }
+        Ok(Self::merged(clustering, triangles, vec![1; clustering.subspaces().len()], clusters))
+    }
+
+    /// Superclusters by their numbers, one per cluster, in the order of their lowest clusters, as
+    /// [`PrtFile`](crate::transfer::file::PrtFile) holds them. `None` for another order.
+    pub fn of_numbers(of_cluster: &[u32]) -> Option<Self> {
+        let numbered = Self::numbered(of_cluster.to_vec());
+        (numbered.of_cluster == of_cluster).then_some(numbered)
+    }
+
+    /// Refuses superclusters that exceed the registers, or are of other clusters.
+    ///
+    /// # Errors
+    /// [`CoherenceError`].
+    pub fn require(&self, clustering: &Clustering, registers: ConstantRegisters) -> Result<(), CoherenceError> {
+        let (expected, found) = (clustering.subspaces().len(), self.of_cluster.len());
+        if expected != found {
+            return Err(CoherenceError::Clusters { expected, found });
+        }
+        let mut sums = vec![0_usize; self.count];
+        for (&of, needed) in self.of_cluster.iter().zip(needed(clustering, registers)?) {
+            sums[of as usize] = sums[of as usize].saturating_add(needed);
+        }
+        match sums.iter().position(|&sum| sum > registers.limit) {
+            Some(supercluster) => {
+                let (needed, limit) = (sums[supercluster], registers.limit);
+                Err(CoherenceError::SuperclusterRegisters { supercluster, needed, limit })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Merges superclusters while two that have triangles in common need no more than `limit` together.
+    fn merged(clustering: &Clustering, triangles: &[[u32; 3]], mut needed: Vec<usize>, limit: usize) -> Self {
         let mut of_cluster: Vec<u32> = (0..needed.len() as u32).collect();
         let mut corners = mixed_triangles(triangles, clustering.of_point());
-        while let Some((a, b)) = best_pair(&corners, &needed, registers.limit) {
+        while let Some((a, b)) = best_pair(&corners, &needed, limit) {
             needed[a as usize] += needed[b as usize];
             of_cluster.iter_mut().filter(|of| **of == b).for_each(|of| *of = a);
             corners = renamed(corners, a, b);
         }
-        Ok(Self::numbered(of_cluster))
+        Self::numbered(of_cluster)
     }
 
     /// One supercluster per cluster.

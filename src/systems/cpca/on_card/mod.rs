@@ -81,10 +81,13 @@ impl<'a> PrtCard<'a> {
         let kernel = kernel(&profile, &transfer, options)?;
         let (clustering, triangles) = (transfer.clustering, transfer.vertices.triangles());
         let registers = registers(&profile, &kernel);
-        let superclusters = if options.superclusters {
-            Superclusters::new(clustering, triangles, registers)?
-        } else {
-            Superclusters::apart(clustering, registers)?
+        let superclusters = match transfer.superclusters {
+            _ if !options.superclusters => Superclusters::apart(clustering, registers)?,
+            None => Superclusters::new(clustering, triangles, registers)?,
+            Some(given) => {
+                given.require(clustering, registers)?;
+                given.clone()
+            }
         };
         let programs = ShadingPrograms::new(&profile, kernel)?;
         let mut machine = executor.into().machine(profile)?;

@@ -9,7 +9,8 @@ use crate::card::MeshError;
 /// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// If true, as many clusters as fit the constant registers are drawn together; otherwise each alone.
+    /// Clusters are drawn together, in the superclusters of the transfer or as far as the constant registers hold;
+    /// otherwise each alone.
     pub superclusters: bool,
     /// The version of the vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the
     /// device has it.

@@ -34,6 +34,7 @@ impl CompressedHills {
         let options = CpcaOptions {
             clusters,
             vectors,
+            vq_iterations: 4,
             iterations: 4,
             method,
             form: CpcaForm::Affine,
@@ -45,7 +46,7 @@ impl CompressedHills {
 
     fn transfer(&self, vectors: usize) -> CompressedTransfer<'_> {
         let Self { vertices, clustering, basis } = self;
-        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors }
+        CompressedTransfer { vertices, clustering, basis, channels: 1, vectors, superclusters: None }
     }
 }
 

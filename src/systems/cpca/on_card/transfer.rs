@@ -1,6 +1,7 @@
 //! Compressed transfer of a mesh, which is the drawn object.
 
 use crate::card::MeshError;
+use crate::cpca::coherence::Superclusters;
 use crate::sphere::order_with;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
@@ -23,6 +24,8 @@ pub struct CompressedTransfer<'a> {
     pub channels: usize,
     /// The number n' of vectors per cluster. A cluster of lower rank may have fewer.
     pub vectors: usize,
+    /// The superclusters that clusters are drawn in; `None`: as many clusters as the constant registers hold.
+    pub superclusters: Option<&'a Superclusters>,
 }
 
 /// The order of the light that a transfer takes, and whether it is glossy.

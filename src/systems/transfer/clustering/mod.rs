@@ -4,6 +4,7 @@
 //!
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
+//! - [`compress_to_error`]: the same with as few vectors, or clusters, as a given error needs;
 //! - [`refit`]: new principal components after points were moved;
 //! - [`mod@reference`]: the same by plain loops, for tests.
 //!
@@ -30,9 +31,11 @@ mod products;
 pub mod reference;
 mod refit;
 mod subspace;
+mod to_error;
 
 pub use compress::{Compression, CpcaStep, CpcaStepKind, compress};
 pub use compressed::{Clustering, ClusteringError};
 pub use options::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints};
 pub use refit::refit;
 pub use subspace::AffineSubspace;
+pub use to_error::{Grown, compress_to_error};

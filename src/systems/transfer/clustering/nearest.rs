@@ -367,7 +367,7 @@ mod tests {
             let form = [CpcaForm::Affine, CpcaForm::Linear][draw(7, 2) as usize];
             let (method, start) = (CpcaMethod::Doubling, StartPoints::Seed(seed));
             let (clusters, vectors) = (1 + draw(8, 9) as usize, 1 + draw(9, 5) as usize);
-            let options = CpcaOptions { clusters, vectors, iterations: 2, method, form, start };
+            let options = CpcaOptions { clusters, vectors, vq_iterations: 2, iterations: 2, method, form, start };
             let fitted = compress(&signal, &options, |_| ()).expect("compressed").clustering;
             let mut subspaces: Vec<_> = fitted.subspaces().to_vec();
             subspaces.extend_from_within(..2.min(clusters));
@@ -416,7 +416,8 @@ mod tests {
             let signal = torus_signal(6000, dimension, 3);
             let fitted = |iterations| {
                 let (method, form, start) = (CpcaMethod::Doubling, CpcaForm::Affine, StartPoints::Seed(1));
-                let options = CpcaOptions { clusters: 60, vectors, iterations, method, form, start };
+                let options =
+                    CpcaOptions { clusters: 60, vectors, vq_iterations: iterations, iterations, method, form, start };
                 compress(&signal, &options, |_| ()).expect("compressed").clustering
             };
             let points = Points::new(&signal, CpcaForm::Affine, SimdLevel::widest());

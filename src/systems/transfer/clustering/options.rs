@@ -13,7 +13,9 @@ pub struct CpcaOptions {
     pub clusters: usize,
     /// Number of vectors per cluster n': from 0 (vector quantisation) to the signal's dimension.
     pub vectors: usize,
-    /// Largest number of iterations for each number of vectors; at least 1. The paper takes 10 to 20.
+    /// Largest number of iterations of vector quantisation (LBG), before the first vector; at least 1.
+    pub vq_iterations: usize,
+    /// Largest number of iterations for each number of vectors from 1 on; at least 1. The paper takes 10 to 20.
     pub iterations: usize,
     /// The measure by which points are assigned to clusters.
     pub method: CpcaMethod,
@@ -63,7 +65,7 @@ pub enum StartPoints {
 
 /// Reasons for which a signal cannot be compressed. Points count from 0.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CpcaError {
     /// No clusters, or more than points.
@@ -78,6 +80,18 @@ pub enum CpcaError {
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
+    /// A share of the error outside its range.
+    #[error("expected an error above 0 and below 1, as a share of the signal's squares, found {found}")]
+    ErrorShare { found: f64 },
+    /// Redistribution may raise an error that was met.
+    #[error("expected a method that ends when the error is met, found adaptive, which goes on")]
+    AdaptiveGoesOn,
+    /// The error is not met.
+    #[error(
+        "expected an error of at most {expected} of the signal's squares, found {found:.4e} with {clusters} clusters of \
+         {vectors} vectors"
+    )]
+    NotMet { expected: f64, found: f64, clusters: usize, vectors: usize },
     /// The number of start points differs from that of clusters.
     #[error("expected {clusters} start points, one per cluster, found {found}")]
     StartCount { clusters: usize, found: usize },
@@ -108,12 +122,13 @@ impl StartPoints {
 }
 
 impl CpcaMethod {
-    /// The successive numbers of vectors per cluster, up to `vectors`.
-    pub(super) fn growth(self, vectors: usize) -> Vec<usize> {
+    /// The successive numbers of vectors per cluster, up to `vectors`; every one of the static method's
+    /// if `one_by_one`.
+    pub(super) fn growth(self, vectors: usize, one_by_one: bool) -> Vec<usize> {
         match self {
             Self::Static if vectors == 0 => Vec::new(),
-            Self::Static => vec![vectors],
-            Self::Iterative | Self::Adaptive { .. } => (1..=vectors).collect(),
+            Self::Static if !one_by_one => vec![vectors],
+            Self::Static | Self::Iterative | Self::Adaptive { .. } => (1..=vectors).collect(),
             Self::Doubling => {
                 let doubled =
                     std::iter::successors(Some(1), |count| Some(2 * count)).take_while(|&count| count < vectors);
@@ -127,7 +142,7 @@ impl CpcaOptions {
     /// The start points, after a check of all options against a signal.
     pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, CpcaError> {
         let (points, dimension) = (signal.points(), signal.dimension());
-        let &Self { clusters, vectors, iterations, .. } = self;
+        let &Self { clusters, vectors, vq_iterations, iterations, .. } = self;
         if !(1..=points).contains(&clusters) {
             return Err(CpcaError::Clusters { clusters, points });
         }
@@ -137,7 +152,7 @@ impl CpcaOptions {
         if self.form == CpcaForm::Linear && vectors == 0 {
             return Err(CpcaError::NothingLinear);
         }
-        if iterations == 0 {
+        if vq_iterations.min(iterations) == 0 {
             return Err(CpcaError::NoIterations);
         }
         match &self.start {

@@ -25,7 +25,7 @@ pub fn compress(signal: &Signal, options: &CpcaOptions) -> Result<Clustering, Cp
         linear: false,
     };
     plain.clusters = start.iter().map(|&p| Plain::alone(plain.points[p as usize].clone())).collect();
-    plain.settle(0, options.iterations);
+    plain.settle(0, options.vq_iterations);
     plain.linear = options.form == CpcaForm::Linear;
     match options.method {
         CpcaMethod::Static => plain.fit(options.vectors),

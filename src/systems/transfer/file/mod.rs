@@ -32,6 +32,14 @@ const AXIS_TANGENTS: u32 = 3;
 
 const TRANSFER: &[u8; 4] = b"TRAN";
 const CLUSTERING: &[u8; 4] = b"CLUS";
+const SUPERCLUSTERS: &[u8; 4] = b"SUPR";
+const PROVENANCE: &[u8; 4] = b"MADE";
+
+/// Sections in their order.
+const SECTIONS: [&[u8; 4]; 4] = [TRANSFER, CLUSTERING, SUPERCLUSTERS, PROVENANCE];
+
+/// Longest line that says how a file was made, in bytes.
+const MAX_PROVENANCE: usize = 4096;
 
 /// The contents of a `.prt` file.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +52,11 @@ pub struct PrtFile {
     pub transfer: Option<Signal>,
     /// The compressed numbers.
     pub clustering: Option<Clustering>,
+    /// Per cluster the supercluster that it is drawn in, if that was decided beforehand: numbered from 0 in the order
+    /// of their lowest clusters.
+    pub superclusters: Option<Vec<u32>>,
+    /// How the numbers were made: one line of at most 4,096 bytes without control characters.
+    pub provenance: Option<String>,
 }
 
 /// The meaning of the numbers of a point.
@@ -128,6 +141,36 @@ impl PrtFile {
             return Some(("vertices of the mesh", first.0.to_string(), mesh.vertices.to_string()));
         }
         let expected = self.meaning.dimension().map_or(usize::MAX, |dimension| dimension);
-        (first.1 != expected).then(|| ("numbers per point", expected.to_string(), first.1.to_string()))
+        if first.1 != expected {
+            return Some(("numbers per point", expected.to_string(), first.1.to_string()));
+        }
+        self.superclusters_fault().or_else(|| self.provenance_fault())
+    }
+
+    fn superclusters_fault(&self) -> Option<(&'static str, String, String)> {
+        let superclusters = self.superclusters.as_ref()?;
+        let clusters = self.clustering.as_ref().map_or(0, |clustering| clustering.subspaces().len());
+        if superclusters.len() != clusters {
+            return Some((
+                "superclusters",
+                format!("a number for {clusters} clusters"),
+                superclusters.len().to_string(),
+            ));
+        }
+        let mut next = 0;
+        for &found in superclusters {
+            if found > next {
+                return Some(("superclusters", format!("0 to {next}, in the order of clusters"), found.to_string()));
+            }
+            next += u32::from(found == next);
+        }
+        None
+    }
+
+    fn provenance_fault(&self) -> Option<(&'static str, String, String)> {
+        let line = self.provenance.as_ref()?;
+        let is_line = (1..=MAX_PROVENANCE).contains(&line.len()) && !line.chars().any(char::is_control);
+        let expected = || format!("a line of 1 to {MAX_PROVENANCE} bytes without control characters");
+        (!is_line).then(|| ("provenance", expected(), format!("{} bytes", line.len())))
     }
 }

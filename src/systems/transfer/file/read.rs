@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{
     ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MAX_BYTES, MeshDigest, PrtFile, PrtFileError, PrtKind, PrtMeaning,
-    TEXTURE_TANGENTS, TRANSFER, VERSION,
+    SECTIONS, SUPERCLUSTERS, TEXTURE_TANGENTS, TRANSFER, VERSION,
 };
 use crate::geom::vector::unit;
 use crate::io::{ReadError, read_limited};
@@ -41,21 +41,32 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
 pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
     let header = reader.header()?;
-    let mut file = PrtFile { meaning: header.meaning, mesh: header.mesh, transfer: None, clustering: None };
+    let mut file = PrtFile {
+        meaning: header.meaning,
+        mesh: header.mesh,
+        transfer: None,
+        clustering: None,
+        superclusters: None,
+        provenance: None,
+    };
     let dimension = file.meaning.dimension().unwrap_or(usize::MAX);
+    let mut left = &SECTIONS[..];
     for _ in 0..header.sections {
         let (tag, mut section) = reader.section()?;
+        let Some(at) = left.iter().position(|expected| **expected == tag) else {
+            let expected = "\"TRAN\", \"CLUS\", \"SUPR\" and \"MADE\" in this order, each at most once";
+            return Err(reader.field("section", expected, format!("{:?}", String::from_utf8_lossy(&tag))));
+        };
+        left = &left[at + 1..];
         match &tag {
-            TRANSFER if file.transfer.is_none() && file.clustering.is_none() => {
-                file.transfer = Some(section.transfer(header.points, dimension)?)
+            TRANSFER => file.transfer = Some(section.transfer(header.points, dimension)?),
+            CLUSTERING => file.clustering = Some(section.clustering(header.points, dimension)?),
+            SUPERCLUSTERS => {
+                let clusters = file.clustering.as_ref().map_or(0, |clustering| clustering.subspaces().len());
+                file.superclusters = Some(section.integers(clusters, "superclusters")?);
             }
-            CLUSTERING if file.clustering.is_none() => {
-                file.clustering = Some(section.clustering(header.points, dimension)?);
-            }
-            other => {
-                let found = format!("{:?}", String::from_utf8_lossy(other));
-                return Err(reader.field("section", "\"TRAN\", then \"CLUS\", each at most once", found));
-            }
+            // The last of them, provenance.
+            _ => file.provenance = Some(section.line()?),
         }
         section.end()?;
     }
@@ -204,7 +215,7 @@ impl<'a> Reader<'a> {
             ("albedo", albedo, 0..=matrix),
             ("tangents", tangents, 0..=AXIS_TANGENTS),
             ("mesh's digest", digest.iter().copied().max().unwrap_or(0), 0..=of_mesh * u32::MAX),
-            ("number of sections", sections, 1..=2),
+            ("number of sections", sections, 1..=SECTIONS.len() as u32),
         ];
         for (field, found, expected) in fields {
             if !expected.contains(&found) {
@@ -251,6 +262,13 @@ impl<'a> Reader<'a> {
         let end = self.at;
         self.checksum(first, "a section")?;
         Ok((tag, Self { bytes: &self.bytes[..end], at: begin, name: self.name }))
+    }
+
+    /// The rest of a section, as text.
+    fn line(&mut self) -> Result<String, PrtFileError> {
+        let bytes = self.take((self.bytes.len() - self.at) as u64, "provenance")?;
+        let text = std::str::from_utf8(bytes).map_err(|_| self.field("provenance", "UTF-8", "other bytes"))?;
+        Ok(text.to_owned())
     }
 
     fn transfer(&mut self, points: usize, dimension: usize) -> Result<Signal, PrtFileError> {

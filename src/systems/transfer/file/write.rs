@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::{
-    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MeshDigest, PrtFile, PrtKind, PrtMeaning, TEXTURE_TANGENTS,
-    TRANSFER, VERSION,
+    ANY_TANGENTS, AXIS_TANGENTS, CLUSTERING, MAGIC, MeshDigest, PROVENANCE, PrtFile, PrtKind, PrtMeaning,
+    SUPERCLUSTERS, TEXTURE_TANGENTS, TRANSFER, VERSION,
 };
 use crate::io::{WriteError, write_file};
 use crate::transfer::clustering::{AffineSubspace, Clustering};
@@ -39,6 +39,16 @@ pub fn write_prt(file: &PrtFile, out: &mut dyn Write) -> io::Result<()> {
         write_clustering(clustering, &mut section)?;
         section.end()?;
     }
+    if let Some(superclusters) = &file.superclusters {
+        let mut section = Section::begin(out, SUPERCLUSTERS, 4 * superclusters.len() as u64)?;
+        section.write_all(superclusters.iter().map(|number| number.to_le_bytes()))?;
+        section.end()?;
+    }
+    if let Some(line) = &file.provenance {
+        let mut section = Section::begin(out, PROVENANCE, line.len() as u64)?;
+        section.write(line.as_bytes())?;
+        section.end()?;
+    }
     Ok(())
 }
 
@@ -49,7 +59,9 @@ fn header(file: &PrtFile) -> Vec<u8> {
             (*channels, &exit_functions[..], *light_order, u32::from(*includes_albedo))
         }
     };
-    let sections = u32::from(file.transfer.is_some()) + u32::from(file.clustering.is_some());
+    let parts =
+        [file.transfer.is_some(), file.clustering.is_some(), file.superclusters.is_some(), file.provenance.is_some()];
+    let sections = parts.into_iter().map(u32::from).sum();
     let digest = file.mesh.map_or([0; 4], digest_fields);
     let (tangents, axis) = file.mesh.map_or((0, [0.0; 3]), |mesh| tangent_fields(mesh.tangents));
     let fields = [

@@ -60,7 +60,15 @@ fn rounds_begin_with_the_clusters_of_the_dense_signal() {
     let signal = Signal::new(6144, values.collect()).expect("a signal");
     for form in FORMS {
         let start = StartPoints::Seed(1);
-        let dense = CpcaOptions { clusters: 5, vectors: 3, iterations: 4, method: CpcaMethod::Doubling, form, start };
+        let dense = CpcaOptions {
+            clusters: 5,
+            vectors: 3,
+            vq_iterations: 4,
+            iterations: 4,
+            method: CpcaMethod::Doubling,
+            form,
+            start,
+        };
         let dense = compress(&signal, &dense, |_| ()).expect("compressed").clustering;
         let found = clusters(&matrix, &RowClusterOptions { rounds: 0, ..options(form) });
         let mut residual = 0.0;

@@ -19,7 +19,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table,
 use crate::scene::Camera;
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::{carried, cluster_color};
-use crate::study::prt::{Seen, Turning, auto_exposure, linear_picture};
+use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, linear_picture};
 use crate::study::{ProgressFn, Study};
 use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 use crate::transfer::{TransferError, Vertices};
@@ -38,6 +38,8 @@ pub struct AllFrequencyRendering {
     pub frames: u32,
     /// Which of them.
     pub turning: Turning,
+    /// Format and names of the model's vertices, if their radiance is written.
+    pub values: Option<VertexValues>,
 }
 
 /// The ground below a model, with transfer of its own.
@@ -105,6 +107,9 @@ impl Study for AllFrequencyRendering {
         let caption = format!("{} under {}", self.lit.model, self.lit.light_name);
         found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
         found.keep_layers("picture", picture);
+        if let Some(values) = &self.values {
+            values.keep(self.lit.vertices.positions(), &of_vertex, &mut found);
+        }
         self.conclude(&seen, &drawn, &cut, &mut found);
         if parts.iter().all(Part::is_coded) {
             time(&parts, &cut.light, times, &mut found);

@@ -70,6 +70,12 @@ impl<'a> BiScaleDrawing<'a> {
         self.shade_pixels(&self.rendering.surface.pixels(camera), local)
     }
 
+    /// Radiance of all vertices towards the camera.
+    pub(super) fn radiance_of_vertices(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let shown = self.rendering.surface.at_vertices(&self.rendering.camera);
+        self.shade_pixels(&shown.into_iter().map(Some).collect::<Vec<_>>(), local)
+    }
+
     fn shade_pixels(&self, pixels: &[Option<SurfacePixel>], local: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let color = |b: &mut Vec<[f64; 3]>, pixel: &Option<SurfacePixel>| {
             let pixel = pixel.as_ref();

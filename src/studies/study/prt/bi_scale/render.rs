@@ -53,6 +53,10 @@ impl Study for BiScaleRendering {
         let caption = format!("{} under {}", self.model, self.light_name);
         found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
         found.keep_layers("picture", picture);
+        if let Some(values) = &self.values {
+            let radiance = drawing.radiance_of_vertices(&local.rows);
+            values.keep(self.surface.vertices.positions(), &radiance, &mut found);
+        }
         self.conclude(&drawing.pixels, &local, &mut found);
         self.time(&drawing.pixels, times, &mut found);
         if self.reference {

@@ -4,7 +4,7 @@ use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
 use crate::scene::Camera;
-use crate::study::prt::Turning;
+use crate::study::prt::{Turning, VertexValues};
 use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
@@ -32,6 +32,8 @@ pub struct BiScaleRendering {
     pub turning: Turning,
     /// Whether to hold the picture against one by rays; all textures must have patches.
     pub reference: bool,
+    /// Format and names of vertices, if their radiance is written, at the texture coordinates of their first triangles.
+    pub values: Option<VertexValues>,
 }
 
 /// A bidirectional texture with its name.

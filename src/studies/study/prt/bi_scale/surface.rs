@@ -78,15 +78,39 @@ impl TexturedSurface {
         rays.par_iter().zip(&hits).map(|(ray, hit)| Some(self.pixel(ray, hit.as_ref()?, eye))).collect()
     }
 
+    /// Per vertex what a pixel exactly at it would show of its first triangle, whether or not the camera sees it.
+    pub(super) fn at_vertices(&self, camera: &Camera) -> Vec<SurfacePixel> {
+        let eye = wide(camera.eye());
+        let mut first = vec![None; self.vertices.len()];
+        for (triangle, corners) in (0..).zip(self.vertices.triangles()) {
+            for (corner, &vertex) in corners.iter().enumerate() {
+                first[vertex as usize].get_or_insert((triangle, corner));
+            }
+        }
+        // Every vertex is a corner of a triangle.
+        let places = first.into_iter().flatten().zip(self.vertices.positions());
+        let shown = |((triangle, corner), &place): ((u32, usize), &[f32; 3])| {
+            let mut weights = [0.0; 3];
+            weights[corner] = 1.0;
+            self.shown(triangle, (wide(place), weights), eye)
+        };
+        places.map(shown).collect()
+    }
+
     fn pixel(&self, ray: &Ray, hit: &Hit, eye: DVec3) -> SurfacePixel {
         let corners = self.vertices.triangles()[hit.triangle as usize];
         let places = corners.map(|corner| wide(self.vertices.positions()[corner as usize]));
         let at = wide(ray.origin()) + f64::from(hit.t) * wide(ray.direction());
-        let weights = weights(at, places).to_array();
+        self.shown(hit.triangle, (at, weights(at, places).to_array()), eye)
+    }
+
+    /// The shaded point of a triangle at a place with its weights.
+    fn shown(&self, triangle: u32, (at, weights): (DVec3, [f64; 3]), eye: DVec3) -> SurfacePixel {
+        let corners = self.vertices.triangles()[triangle as usize];
         let frame = pixel_frame(&self.vertices, corners, weights);
         let texture = self.mesh.texcoords().unwrap_or_default();
         let mut place = [0.0; 2];
-        for (corner, weight) in self.mesh.triangles()[hit.triangle as usize].into_iter().zip(weights) {
+        for (corner, weight) in self.mesh.triangles()[triangle as usize].into_iter().zip(weights) {
             for (into, along) in place.iter_mut().zip(texture[corner as usize]) {
                 *into += weight * self.repeat * f64::from(along);
             }
@@ -94,8 +118,8 @@ impl TexturedSurface {
         // An eye on the surface has no direction; none is drawn from there.
         let view = frame.to_local(unit(eye - at).unwrap_or(frame.normal()));
         SurfacePixel {
-            triangle: hit.triangle,
-            texture: self.texture_of[hit.triangle as usize] as usize,
+            triangle,
+            texture: self.texture_of[triangle as usize] as usize,
             frame,
             shaded: ShadedPixel { corners, weights, place, view },
         }

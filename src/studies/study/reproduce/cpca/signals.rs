@@ -222,7 +222,15 @@ impl ComputedSignal {
 }
 
 fn options(clusters: usize, vectors: usize, (method, iterations): (CpcaMethod, usize)) -> CpcaOptions {
-    CpcaOptions { clusters, vectors, iterations, method, form: CpcaForm::Affine, start: StartPoints::Seed(1) }
+    CpcaOptions {
+        clusters,
+        vectors,
+        vq_iterations: iterations,
+        iterations,
+        method,
+        form: CpcaForm::Affine,
+        start: StartPoints::Seed(1),
+    }
 }
 
 impl SignalMaterial {

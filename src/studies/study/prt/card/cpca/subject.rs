@@ -1,5 +1,6 @@
 //! A model with compressed transfer, lit and seen.
 
+use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
@@ -20,6 +21,8 @@ pub struct OnCard {
     pub meaning: PrtMeaning,
     /// The clusters.
     pub clustering: Clustering,
+    /// Their superclusters, if the file has some.
+    pub superclusters: Option<Superclusters>,
     /// The light's name.
     pub light_name: String,
     /// The light, of the order of the transfer.
@@ -45,7 +48,8 @@ impl OnCard {
     pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardPictureError> {
         let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardPictureError::NoTransfer) };
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
-        let (vertices, clustering) = (&self.vertices, &self.clustering);
-        Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
+        let Self { vertices, clustering, superclusters, .. } = self;
+        let (channels, superclusters) = (*channels as usize, superclusters.as_ref());
+        Ok(CompressedTransfer { vertices, clustering, basis, channels, vectors, superclusters })
     }
 }

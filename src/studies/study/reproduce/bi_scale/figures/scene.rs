@@ -77,6 +77,7 @@ impl TexturedModel {
             frames: 0,
             turning: Turning::Light,
             reference: true,
+            values: None,
         })
     }
 

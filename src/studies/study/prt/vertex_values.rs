@@ -1,0 +1,53 @@
+//! Radiance of vertices, as a table or an array.
+
+use crate::io::{NumberTable, write_npy};
+use crate::report::{Cell, Findings, FoundTable, Table};
+
+/// How radiance of vertices is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ValuesFormat {
+    /// `vertices.csv`: vertex, number in the model's file, position, red, green, blue; all digits.
+    Csv,
+    /// `vertices.npy`: a row of f32 per vertex: position, red, green, blue.
+    Npy,
+}
+
+/// That radiance of vertices is written, and the vertices' numbers in the model's file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VertexValues {
+    /// How.
+    pub format: ValuesFormat,
+    /// One per vertex; `None` where the file gives none.
+    pub numbers: Vec<Option<u32>>,
+}
+
+impl VertexValues {
+    /// Keeps the radiance of each vertex towards the camera, whether or not the camera sees it.
+    pub(super) fn keep(&self, positions: &[[f32; 3]], radiance: &[[f64; 3]], found: &mut Findings) {
+        match self.format {
+            ValuesFormat::Csv => {
+                let headings = ["vertex", "model_vertex", "x", "y", "z", "red", "green", "blue"];
+                let mut table = Table::new("Radiance of vertices", &headings);
+                for (vertex, ((&number, place), color)) in self.numbers.iter().zip(positions).zip(radiance).enumerate()
+                {
+                    let numbers: [Cell; 2] = [vertex.into(), number.map_or(Cell::Empty, Cell::from)];
+                    table.push(numbers.into_iter().chain(place.map(Cell::from)).chain(color.map(Cell::from)));
+                }
+                found.keep_table(FoundTable::from(table).csv("vertices"));
+            }
+            ValuesFormat::Npy => {
+                let row = |(place, color): (&[f32; 3], &[f64; 3])| {
+                    let [x, y, z] = *place;
+                    let [red, green, blue] = color.map(|channel| channel as f32);
+                    [x, y, z, red, green, blue]
+                };
+                let values = positions.iter().zip(radiance).flat_map(row).collect();
+                let mut bytes = Vec::new();
+                // Writing to memory does not fail.
+                if write_npy(&NumberTable { columns: 6, values }, &mut bytes).is_ok() {
+                    found.keep_file("vertices.npy", bytes);
+                }
+            }
+        }
+    }
+}
