@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::cli::transfer::values::MethodArg;
+use crate::cli::one_of::variants;
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::io::{ReadError, read_limited};
 use crate::report::{Cell, Table};
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, CpcaStepKind, StartPoints,
+    compress,
 };
 use crate::transfer::file::{PrtFile, save_prt};
 use crate::transfer::{Signal, load_signal_and_meaning};
@@ -44,8 +45,8 @@ pub(super) struct Args {
     vectors: Option<u32>,
 
     /// By which measure points are shared out to clusters
-    #[arg(long, value_enum, value_name = "HOW", default_value = "iterative")]
-    method: MethodArg,
+    #[arg(long, value_name = "HOW", default_value = "iterative", value_parser = variants::<CpcaMethod>())]
+    method: CpcaMethod,
 
     /// Without the clusters' means: vectors alone, the components of the points themselves
     #[arg(long)]
@@ -93,7 +94,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         clusters: clusters as usize,
         vectors: vectors as usize,
         iterations,
-        method: args.method.method(iterations),
+        method: args.method.with_rounds(iterations),
         form: if args.linear { CpcaForm::Linear } else { CpcaForm::Affine },
         start,
     };

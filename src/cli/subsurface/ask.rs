@@ -3,14 +3,14 @@
 use glam::DVec3;
 
 use super::args::Args;
-use super::values::{ChannelsArg, ChoiceArg, FloatArg, MapArg, YesNo};
+use super::values::ChoiceArg;
 use crate::cli::Problem;
 use crate::cli::materials::published;
 use crate::io::load_irradiances;
 use crate::scene::Camera;
-use crate::study::subsurface::{GatherWay, Lighting};
+use crate::study::subsurface::{GatherWay, Lighting, MapBits};
 use crate::subsurface::links::LinkChoice;
-use crate::subsurface::on_card::Light;
+use crate::subsurface::on_card::{FloatTexels, Light};
 use crate::subsurface::{Coefficients, Material};
 
 /// Texels along a side up to which all pairs are gathered unasked.
@@ -39,24 +39,16 @@ pub(super) fn material(args: &Args) -> miette::Result<Material> {
 /// Every combination of what may be repeated.
 pub(super) fn ways(args: &Args, material: &Material) -> Result<Vec<GatherWay>, Problem> {
     let [r, g, b] = material.channels;
-    let usual = if r == g && g == b { ChannelsArg::Scalar } else { ChannelsArg::Rgb };
     let choices = or(&args.choice, ChoiceArg::Fixed);
-    let (channels, formats) = (or(&args.channels, usual), or(&args.link_format, FloatArg::Fp16));
-    let maps = or(&args.map, MapArg::Fp16);
+    let (channels, formats) = (or(&args.channels, r != g || g != b), or(&args.link_format, FloatTexels::Fp16));
+    let maps = or(&args.map, MapBits::Float(FloatTexels::Fp16));
     let mut ways = Vec::new();
     for &choice in &choices {
         for &links in &args.links {
             let choice = link_choice(choice, links, args.atlas)?;
-            for &channels in &channels {
-                for &format in &formats {
-                    let rgb = channels == ChannelsArg::Rgb;
-                    let way = |&map: &MapArg| GatherWay {
-                        choice,
-                        rgb,
-                        links: format.into(),
-                        map: map.into(),
-                        half: args.half,
-                    };
+            for &rgb in &channels {
+                for &links in &formats {
+                    let way = |&map: &MapBits| GatherWay { choice, rgb, links, map, half: args.half };
                     ways.extend(maps.iter().map(way));
                 }
             }
@@ -105,7 +97,7 @@ pub(super) fn lighting(args: &Args, camera: &Camera) -> miette::Result<Lighting>
 
 /// Whether all pairs are gathered.
 pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
-    let asked = args.all_pairs == Some(YesNo::Yes);
+    let asked = args.all_pairs == Some(true);
     if asked && args.atlas > MOST_ALL_PAIRS {
         let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MOST_ALL_PAIRS}");
         return Err(Problem::usage(format!("all pairs of {0} x {0} texels would take hours", args.atlas), help));

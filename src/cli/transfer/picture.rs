@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-
 use crate::cli::memory::{self, MemoryNeed};
+use crate::cli::one_of::variants;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::{model_name, number};
@@ -59,15 +58,6 @@ impl PictureArgs {
     }
 }
 
-/// What frames turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TurnArg {
-    /// The light, around z
-    Light,
-    /// The camera, around the model
-    Camera,
-}
-
 /// Pictures in which something turns.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FramesArgs {
@@ -76,14 +66,14 @@ pub(in crate::cli) struct FramesArgs {
     pub(in crate::cli) frames: u32,
 
     /// What --frames turns
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "light", requires = "frames")]
-    turn: TurnArg,
+    #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
+    turn: Turning,
 }
 
 impl FramesArgs {
     /// What frames turn.
     pub(in crate::cli) fn turning(&self) -> Turning {
-        if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light }
+        self.turn
     }
 
     /// Memory of a picture and of these.

@@ -15,7 +15,8 @@ pub struct CodeOptions {
 
 /// Which numbers share a step; the paper says nothing.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum ScaleOf {
     /// Those of a representative; the weights on it share another.
     Representative,

@@ -41,7 +41,8 @@ impl Supersamples {
 
 /// What samples beyond the disc of a map hold, whose directions lie below the horizon: 212 of 1,024 texels of a map of
 /// 32 x 32 have their centers there, and more have some of their samples.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum OutsideDisc {
     /// 0.
     #[default]

@@ -7,7 +7,7 @@ use crate::card::through_half;
 
 /// What the card holds light in, before it is multiplied.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumString)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum LightFormat {
     /// Fractions of 8 bits of the largest number.
@@ -37,7 +37,7 @@ impl LightFormat {
 
 /// What vertices hold local light in.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumString)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum LocalFormat {
     /// Fractions of 8 bits of the frame's largest number.

@@ -14,7 +14,7 @@ pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
 const BYTE: f64 = 127.0;
 
 /// By what coefficients of a row are chosen; of equal ones the first by number.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientPriority {
     /// Magnitude times the number of texels under the basis function, as the paper has it.
@@ -25,14 +25,15 @@ pub enum CoefficientPriority {
 }
 
 /// What a coefficient is stored as, beside its number of two bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientStorage {
-    /// A byte, in steps of 1/127 of the largest coefficient of all rows: three bytes a coefficient, which is what the
-    /// paper's 37.1 MB come to.
+    /// A byte, in steps of 1/127 of the largest coefficient of all rows.
+    ///
+    /// Three bytes per coefficient come to the paper's 37.1 MB.
     #[default]
     Byte,
-    /// An f32.
+    /// Four bytes, an f32.
     Single,
 }
 

@@ -36,16 +36,18 @@ pub enum CpcaForm {
 
 /// How points are shared out to clusters.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum CpcaMethod {
     /// By distance from the means, then principal components of each cluster once (section 4.1).
     Static,
     /// By the error of their approximation, while vectors are added one by one (section 4.2).
     Iterative,
-    /// By the same, while the number of vectors is doubled: 1, 2, 4 and so on, the last step as far as asked. Not in
-    /// the papers; for signals of thousands of dimensions, where it saves most of the time.
+    /// By the same, while the number of vectors is doubled: 1, 2, 4 and so on, the last step as far as asked.
+    ///
+    /// Not in the papers; for signals of thousands of dimensions, where it saves most of the time.
     Doubling,
-    /// As [`CpcaMethod::Iterative`]; then vectors are redistributed among the clusters (section 4.3).
+    /// As iterative; then vectors are redistributed among the clusters (section 4.3).
     Adaptive {
         /// Rounds of redistribution at most.
         rounds: usize,
@@ -108,6 +110,15 @@ impl StartPoints {
 }
 
 impl CpcaMethod {
+    /// The method, with at most so many rounds of redistribution where it redistributes.
+    #[must_use]
+    pub const fn with_rounds(self, rounds: usize) -> Self {
+        match self {
+            Self::Adaptive { .. } => Self::Adaptive { rounds },
+            other => other,
+        }
+    }
+
     /// The numbers of vectors that clusters have one after another, up to `vectors`.
     pub(super) fn growth(self, vectors: usize) -> Vec<usize> {
         match self {
