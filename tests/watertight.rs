@@ -1,5 +1,6 @@
-//! Holes told from silhouettes: Woop's watertight test passes on a closed curved mesh, Moeller and Trumbore's does not,
-//! and both verdicts are checked against how the triangles at the edge face. Needs the crate without its features.
+//! Classification of missed rays as leaks or silhouettes: Woop's watertight test passes on a closed curved mesh,
+//! Moeller and Trumbore's does not, and both verdicts are checked against the facing of the triangles at each edge.
+//! Needs the crate without its features.
 
 #[expect(dead_code, reason = "as an example it prints what the tests look at")]
 #[path = "../docs/examples/watertight.rs"]
@@ -27,7 +28,7 @@ fn the_mesh_is_closed() {
     assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts()), (0, 0));
 }
 
-/// Sizes that are no powers of two of each other, so that corners are rounded in different ways.
+/// Sizes that are no powers of two of each other, so that corner coordinates are rounded differently.
 #[test]
 fn a_watertight_test_passes() {
     for size in [1.0, 77.7] {
@@ -38,9 +39,9 @@ fn a_watertight_test_passes() {
     }
 }
 
-/// No leaks and no false hits. Without what is said of triangles that tie at a vertex of the outline, 27 of its answers
-/// were false hits, whatever counted as nearby. Rays in the planes of triangles are left out: of one of them the first
-/// surface is missed, as beside an outline, and a neighbour of the second is named.
+/// Expects no leaks and no false hits. Unless the oracle accepts triangles that tie at a vertex of the outline, 27 of
+/// Woop's answers count as false hits at any `nearby_ulps`. Rays in the planes of triangles are left out: for one of
+/// them the first surface is missed, as beside an outline, and a neighbour of the second is returned.
 #[test]
 fn a_watertight_test_is_faithful() {
     for (size, each, seed) in [(SIZE, 984, 1), (77.7, 240, 3)] {
@@ -54,8 +55,8 @@ fn a_watertight_test_is_faithful() {
     }
 }
 
-/// What touches the triangle found, asked again among all triangles: the ray's first hit shares a corner with it, and
-/// the ray is near.
+/// Checks each `touched_by` ray with the exact tracer: its first hit shares a corner with the triangle found or ties
+/// with it in depth, and its direction is within 9 epsilon of that of the ray examined.
 #[test]
 fn touching_rays_prove_what_is_said() {
     let (mesh, _, report) = report(SIZE, woop, 8);
@@ -83,7 +84,7 @@ fn touching_rays_prove_what_is_said() {
     assert_eq!(report.count(DisagreementKind::FalseHit), 0, "{report}");
 }
 
-/// An intersector that finds triangles larger than they are has no hole, and hits what is not there beside outlines.
+/// An intersector that enlarges triangles by a tenth leaves no leaks, and reports false hits beside outlines.
 #[test]
 fn blown_up_triangles_are_false_hits() {
     let mesh = closed_surface(SIZE);
@@ -108,7 +109,8 @@ fn what_it_misses_lies_beside_outlines() {
     let (mesh, rays, report) = report(SIZE, woop, 8);
     let adjacency = mesh.adjacency();
     let missed = |wrong: &&Disagreement| {
-        // From far away a triangle is smaller than an ULP, and its outline is another's.
+        // Seen from far away a triangle is smaller than an ULP, so its missed edges may be on the outline of another
+        // triangle.
         let surface = wrong.expected.is_some() && (wrong.found.is_none() || wrong.met_at.is_some());
         wrong.kind == DisagreementKind::Silhouette && surface && rays[wrong.ray].aim != Aim::Far
     };
@@ -134,7 +136,8 @@ fn leaks_of_another_test_are_holes() {
     }
 }
 
-/// Rays that are said to be answered rightly, asked again among all triangles, and not far away.
+/// Checks each `right_for` ray with the exact tracer: the answer is right for it, and its direction is within 9 epsilon
+/// of that of the ray examined.
 #[test]
 fn nearby_rays_prove_what_is_said() {
     for test in [woop, moeller_trumbore] {
@@ -154,7 +157,7 @@ fn nearby_rays_prove_what_is_said() {
     }
 }
 
-/// Through a hole in a tetrahedron every other triangle is a neighbour of the one missed.
+/// A miss through a hole in a tetrahedron is a leak, though every other triangle is a neighbour of the one missed.
 #[test]
 fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
     let corners = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
@@ -174,7 +177,7 @@ fn a_hole_is_a_hole_though_a_neighbour_shows_through() {
     assert_eq!(miss(start), DisagreementKind::Start);
 }
 
-/// The page's last digits come from multiplications and additions of f32, which are alike everywhere.
+/// The page quotes the last digits: they come from additions and multiplications in f32, the same on every CPU.
 #[test]
 fn the_page_says_what_is_measured() {
     let page = include_str!("../docs/examples/foreign_intersector.md").replace('\r', "");
@@ -182,13 +185,13 @@ fn the_page_says_what_is_measured() {
     assert!(page.contains(&tables), "docs/examples/foreign_intersector.md has other tables than\n{tables}");
 }
 
-/// n.d: its sign says which way a triangle faces, seen along a ray.
+/// Dot product n . d of a triangle's normal and the ray's direction; its sign tells which side faces the ray.
 fn facing(mesh: &Mesh, triangle: u32, wrong: &Disagreement) -> f64 {
     let [a, b, c] = mesh.corners(triangle).expect("a triangle of the mesh").map(wide);
     (b - a).cross(c - a).dot(wide(wrong.direction))
 }
 
-/// Whether the triangles of an edge face opposite ways.
+/// True if the two triangles of an edge face opposite ways, or the edge belongs to one triangle only.
 fn is_outline(mesh: &Mesh, triangles: &[u32], wrong: &Disagreement) -> bool {
     let [one, other] = triangles else { return true };
     facing(mesh, *one, wrong) * facing(mesh, *other, wrong) <= 0.0
@@ -198,7 +201,7 @@ fn missed_triangle(wrong: &Disagreement) -> u32 {
     wrong.expected.as_ref().expect("a surface was missed").triangles[0]
 }
 
-/// Whether an edge at a corner of the triangle that was missed is one of the outline.
+/// True if an edge at a corner of the missed triangle is on the outline.
 fn passes_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
     let corners = mesh.triangles()[missed_triangle(wrong) as usize];
     let at_corner = |vertices: [u32; 2]| vertices.iter().any(|vertex| corners.contains(vertex));
@@ -206,7 +209,7 @@ fn passes_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> b
     edges.any(|edge| is_outline(mesh, &edge.triangles, wrong))
 }
 
-/// Whether the edge of the triangle missed that the ray passes nearest is one of the outline.
+/// True if, of the missed triangle's three edges, the one nearest the ray is on the outline.
 fn aimed_edge_is_outline(mesh: &Mesh, adjacency: &Adjacency, wrong: &Disagreement) -> bool {
     let distance = |edge: u32| {
         let ends = adjacency.edges()[edge as usize].vertices;

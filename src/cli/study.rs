@@ -64,10 +64,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
         out.document(&document)?;
         return Ok(found.verdict());
     }
-    print(&found, out)?;
-    if let Some(folder) = args.folder() {
-        out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;
-    }
+    print(&found, args.folder(), out)?;
     Ok(found.verdict())
 }
 
@@ -76,7 +73,7 @@ pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
     if out.json() {
         out.document(&found.plain_document())?;
     } else {
-        print(found, out)?;
+        print(found, None, out)?;
     }
     Ok(found.verdict())
 }
@@ -91,22 +88,22 @@ pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = 
     }
 }
 
-fn print(found: &Findings, out: &mut Out) -> miette::Result<()> {
-    for line in found.introduction() {
-        out.sentence(line)?;
-    }
-    if !found.introduction().is_empty() && found.printed_tables().next().is_some() {
-        out.line("")?;
-    }
+/// Prints the introduction, each table, and the other lines with the page of a folder; empty lines part them.
+fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Result<()> {
+    let mut is_first = found.introduction().is_empty();
+    let mut part = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };
+    found.introduction().iter().try_for_each(|line| out.sentence(line))?;
     for table in found.printed_tables() {
+        part(out)?;
         out.titled_table(table)?;
-        out.line("")?;
     }
-    for sentence in found.conclusions() {
-        out.sentence(sentence)?;
+    let lines: Vec<&String> = found.conclusions().iter().chain(found.printed_lines()).collect();
+    if !lines.is_empty() || folder.is_some() {
+        part(out)?;
     }
-    for line in found.printed_lines() {
-        out.sentence(line)?;
+    lines.into_iter().try_for_each(|line| out.sentence(line))?;
+    if let Some(folder) = folder {
+        out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;
     }
     Ok(())
 }

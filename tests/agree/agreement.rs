@@ -1,4 +1,5 @@
-//! One body for all cases: draw it with every executor, compare, cut down what differs, say how to see it again.
+//! The body of all agreement tests: draw a case with every executor, compare, shrink a difference, say how to repeat
+//! it.
 
 use crate::blame::{Side, blame};
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
@@ -11,13 +12,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// A difference between the reference and another executor.
 #[derive(Clone, Debug)]
 pub(crate) struct Difference {
-    /// Place in the list of executors.
+    /// Index into [`EXECUTORS`].
     pub(crate) executor: usize,
-    /// The first thing that differs.
+    /// The first difference, in words.
     pub(crate) what: String,
 }
 
-/// Draws; a panic is an outcome like any other, and an error too.
+/// Draws a case; a panic becomes an error.
 fn draw(case: &Case, programs: &Programs, executor: &Executor) -> Result<Outcome, String> {
     match catch_unwind(AssertUnwindSafe(|| case.scene.draw(executor, programs))) {
         Ok(drawn) => drawn.map_err(|e| e.to_string()),
@@ -28,7 +29,7 @@ fn draw(case: &Case, programs: &Programs, executor: &Executor) -> Result<Outcome
     }
 }
 
-/// What the reference draws, and every executor whose `turn` it is that draws something else.
+/// The reference's outcome, and the differences of all executors that draw this case.
 pub(crate) fn compare(case: &Case, turn: u64) -> Result<(Outcome, Vec<Difference>), String> {
     let programs = case.build()?;
     let expected = draw(case, &programs, &REFERENCE)?;
@@ -43,7 +44,7 @@ pub(crate) fn compare(case: &Case, turn: u64) -> Result<(Outcome, Vec<Difference
     Ok((expected, differences))
 }
 
-/// How one result differs from the expected one.
+/// The difference of one result from the expected one, in words.
 fn differs(expected: &Outcome, found: Result<Outcome, String>, executor: &Executor) -> Option<String> {
     match found {
         Ok(found) => expected.difference(&found, &executor.name),
@@ -51,14 +52,14 @@ fn differs(expected: &Outcome, found: Result<Outcome, String>, executor: &Execut
     }
 }
 
-/// How one executor differs from the reference on a case, if it does; `None` too if the case is not legal.
+/// The difference of one executor from the reference on a case; `None` also if the case is not legal.
 pub(crate) fn difference(case: &Case, executor: &Executor) -> Option<String> {
     let programs = case.build().ok()?;
     let expected = draw(case, &programs, &REFERENCE).ok()?;
     differs(&expected, draw(case, &programs, executor), executor)
 }
 
-/// The seeds of a run: the suite's, one that was asked for, or many more.
+/// The seeds of a run: the suite's, the one in `CROSSBAR_SEED`, or many more in the full form.
 fn seeds(suite: &Suite) -> std::ops::Range<u64> {
     if let Some(seed) = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok()) {
         return seed..seed + 1;
@@ -66,12 +67,12 @@ fn seeds(suite: &Suite) -> std::ops::Range<u64> {
     0..if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * suite.seeds } else { suite.seeds }
 }
 
-/// Runs a suite in its short form.
+/// Runs a suite, by default in its short form.
 pub(crate) fn run(suite: &Suite) {
     let one = std::env::var_os("CROSSBAR_SEED").is_some();
     let mut fragments = 0;
     for seed in seeds(suite) {
-        // A case that was asked for is everybody's.
+        // A case requested by its seed is drawn by all executors.
         let turn = if one { 0 } else { suite.turn(seed) };
         match compare(&suite.case(seed), turn) {
             Ok((drawn, differences)) if differences.is_empty() => fragments += drawn.fragments(),
@@ -82,7 +83,7 @@ pub(crate) fn run(suite: &Suite) {
     assert!(one || fragments > 0, "the scenes of {} cover nothing", suite.name);
 }
 
-/// Everything that is to be known about a difference: how to see it again, and the smallest case that shows it.
+/// A report of a difference: how to repeat it, and the smallest case that shows it.
 pub(crate) fn report(suite: &Suite, seed: u64, difference: &Difference) -> String {
     let case = suite.case(seed);
     let executor = &EXECUTORS[difference.executor];

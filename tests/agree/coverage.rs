@@ -1,4 +1,5 @@
-//! What the dice reach: everything that a program, a device or a scene can say turns up in the seeds of the short form.
+//! Coverage of the random cases: every feature of programs, devices and scenes occurs among the seeds of the short
+//! form.
 
 use crate::generate::{self, Layout};
 use crate::random::Random;
@@ -18,7 +19,7 @@ use refsim::texture::{AddressMode, Filter, MipFilter, TexelFormat, TextureKind};
 use std::collections::BTreeSet;
 use std::fmt::Debug;
 
-/// What was seen, by words.
+/// The features seen so far, as text.
 #[derive(Default)]
 struct Seen(BTreeSet<String>);
 
@@ -27,7 +28,7 @@ impl Seen {
         self.0.insert(format!("{what} {value:?}"));
     }
 
-    /// Panics with everything that is missing.
+    /// Panics with all `wanted` features that were not seen.
     fn require(&self, wanted: impl IntoIterator<Item = String>) {
         let missing: Vec<String> = wanted.into_iter().filter(|w| !self.0.contains(w)).collect();
         assert!(missing.is_empty(), "the dice never throw:\n{}", missing.join("\n"));
@@ -38,7 +39,7 @@ fn each<T: Debug>(what: &str, all: impl IntoIterator<Item = T>) -> Vec<String> {
     all.into_iter().map(|value| format!("{what} {value:?}")).collect()
 }
 
-/// Programs of a version, on the device without limits.
+/// Random legal programs of a version, for the device without limits.
 fn programs(version: Version, count: u64) -> Vec<Program> {
     let mut samplers = vec![(0, TextureKind::D2), (2, TextureKind::Cube), (3, TextureKind::Volume)];
     if version.is_fragment_program() {
@@ -52,7 +53,7 @@ fn programs(version: Version, count: u64) -> Vec<Program> {
         let layout = layout(seed % 4 == 0, 1 + seed as usize % 4);
         let lines = generate::program(version, &layout, seed as usize % 4, &mut r);
         if let Ok(program) = build(&lines, &profile) {
-            // What the checker gives has instructions in place of its fog.
+            // The checker replaces fog by instructions, so it is taken from the assembled text.
             let fog = asm::assemble(&lines.join("\n")).ok().and_then(|program| program.fog);
             out.push(Program { fog, ..program.into_inner() });
         }
@@ -99,7 +100,7 @@ fn note(seen: &mut Seen, version: Version, instruction: &Instruction) {
     }
 }
 
-/// What of a version must turn up beside its opcodes.
+/// The features of a version that must occur.
 fn wanted(version: Version) -> Vec<String> {
     use Modifier as M;
     let named = |what: &str| format!("{version} {what}");
@@ -205,7 +206,7 @@ fn programs_reach_every_opcode_modifier_and_swizzle() {
     }
 }
 
-/// What OpenGL's state a program reads, by the kind of it, and its fog.
+/// Notes the kinds of OpenGL state that a program reads, and its fog.
 fn note_state(seen: &mut Seen, program: &Program) {
     seen.add("fog", program.fog.map(|fog| fog.mode));
     for parameter in &program.parameters {
@@ -241,7 +242,7 @@ fn wanted_state() -> Vec<String> {
     ];
     let mut out = each("state", kinds);
     out.extend(each("fog", FogMode::ALL.map(Some).into_iter().chain([None])));
-    // Executors see a row as any constant: which matrix goes with which form and row is nothing to them.
+    // Executors treat a matrix row as any constant, so combinations of matrix, form and row need not all occur.
     out.extend(each("matrix", ["ModelView", "Projection", "Mvp", "Texture", "Program"]));
     let forms = [MatrixForm::Plain, MatrixForm::Inverse, MatrixForm::Transpose, MatrixForm::InvTrans];
     out.extend(each("form", forms));
@@ -332,7 +333,7 @@ fn devices_reach_every_switch_value() {
     for suite in suite::all() {
         let Kind::Card(card, _) = suite.kind else { continue };
         for seed in 0..suite.seeds {
-            // The dice of `Suite::case`, up to the device.
+            // The same random stream as in `Suite::case`, up to the device.
             let mut r = Random::named(&suite.name, seed);
             suite::first_throws(&mut r);
             for switch in rules::card(card, &mut r).switches() {

@@ -13,7 +13,7 @@ use refsim::output::{
 use refsim::raster::{ClipSpace, Cull, PixelCenter, Provoking, Viewport};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, Region, SamplerState, TexelFormat, TextureKind};
 
-/// What a suite fixes; the dice decide the rest.
+/// Properties that a suite fixes (`Some`); all others are random.
 #[derive(Clone, Debug)]
 pub(crate) struct Options {
     pub(crate) version: Version,
@@ -25,7 +25,7 @@ pub(crate) struct Options {
     pub(crate) depth: Option<DepthFormat>,
     pub(crate) compare: Option<CompareFunction>,
     pub(crate) blend: Option<BlendOp>,
-    /// Most of the program reads textures.
+    /// Most instructions of the program read textures.
     pub(crate) sampling: bool,
 }
 
@@ -65,7 +65,7 @@ fn depth_formats(profile: &Profile) -> Vec<DepthFormat> {
     DepthFormat::ALL.iter().copied().filter(|f| names.iter().any(|n| n == f.name())).collect()
 }
 
-/// A texture of random bytes, or of bytes that are codes at the ends of their range.
+/// A texture of random bytes, or of codes at the ends of their range.
 fn image(format: TexelFormat, kind: TextureKind, profile: &Profile, r: &mut Random) -> Image {
     let size = |r: &mut Random| 1 + r.below(9) as u32;
     let (w, h) = (size(r), size(r));
@@ -106,7 +106,7 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     let max_mip_level = r.below(3) as u8;
     SamplerState {
         min,
-        // One in three surely filters alike near and far.
+        // At least one in three uses the same filter for minification and magnification.
         mag: if max_mip_level == 1 { min } else { mag },
         mip: if filtered || mip != MipFilter::Linear { mip } else { MipFilter::Nearest },
         address_u,
@@ -118,7 +118,7 @@ fn sampler(image: &Image, options: &Options, profile: &Profile, r: &mut Random) 
     }
 }
 
-/// OpenGL's state. It takes nothing from the dice of the caller, which throw as they would without it.
+/// OpenGL's state. It has a random stream of its own, so that the caller's stream does not depend on it.
 fn state(mut r: Random) -> FixedFunctionState {
     let mut state = FixedFunctionState::default();
     let matrix = |r: &mut Random| std::array::from_fn(|_| r.vector());
@@ -142,7 +142,7 @@ fn state(mut r: Random) -> FixedFunctionState {
 
 pub(crate) fn constants(r: &mut Random) -> Constants {
     let mut float: Vec<[u32; 4]> = (0..12).map(|_| r.vector()).collect();
-    // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so do the rows c8 to c11 of a mild matrix.
+    // `mad oPos, r0, c5, v0`: a small c5 keeps triangles in view; so do the rows c8 to c11, a matrix near the identity.
     float[5] = [0x3a00_0000, 0x3a80_0000, 0, 0];
     let one = 0x3f80_0000;
     for (row, place) in (0..4).zip(8..) {
@@ -159,7 +159,7 @@ pub(crate) fn constants(r: &mut Random) -> Constants {
     }
 }
 
-/// Which sampler has what kind of texture.
+/// The texture kind of each sampler in use.
 fn kinds(options: &Options, r: &mut Random) -> Vec<(usize, TextureKind)> {
     use TextureKind::{Cube, D1, D2, Rectangle, Volume};
     let mut all = if options.is_ps_1() {
@@ -210,7 +210,7 @@ fn targets(options: &Options, profile: &Profile, r: &mut Random) -> Vec<TexelFor
     (0..count)
         .map(|i| match options.target {
             Some(format) => format,
-            // The first target shows what the program computed, if it can.
+            // The first target shows the program's results with enough range, if it can.
             None if i == 0 && !r.one_in(4) => wide.into_iter().find(|f| formats.contains(f)).unwrap_or(formats[0]),
             None => r.choose(&formats),
         })
@@ -238,9 +238,9 @@ fn viewport([width, height]: [u32; 2], r: &mut Random) -> Viewport {
     viewport
 }
 
-/// A scene for a device, and what a pixel program may count on in it.
+/// A random scene for a device, and the layout that its pixel program may rely on.
 pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Scene, Layout) {
-    // Two scenes in three show what the program computes: nothing special goes in, nothing is tested away.
+    // Two scenes in three show the program's results: no special numbers, and no tests that discard fragments.
     r.tame = !r.one_in(3);
     r.wide = r.one_in(3);
     let plain = !r.one_in(3);
@@ -315,12 +315,12 @@ pub(crate) fn scene(profile: Profile, options: &Options, r: &mut Random) -> (Sce
     (scene, layout)
 }
 
-/// Whether the device generates mip levels of a format.
+/// True if the device generates mip levels of a format.
 fn generates(profile: &Profile, format: TexelFormat) -> bool {
     !format.record().is_float() || profile.limits.float_mipmaps && profile.limits.float_filtering
 }
 
-/// Levels of textures, and of a target that is read, that the card makes itself.
+/// Adds mip levels that the card generates: of textures, and of a target that is read.
 pub(crate) fn mipmaps(scene: &mut Scene, options: &Options, r: &mut Random) {
     (scene.generated, scene.levels) = (Vec::new(), None);
     for (slot, image, _) in &scene.textures {

@@ -8,7 +8,7 @@ use refsim::exec::gpu::testing;
 use refsim::machine::{ExecutorKind, Machine, MachineError};
 use std::sync::LazyLock;
 
-/// One way to draw.
+/// An executor with its settings.
 #[derive(Clone, Debug)]
 pub(crate) struct Executor {
     /// Its name in messages and counts.
@@ -16,14 +16,14 @@ pub(crate) struct Executor {
     kind: ExecutorKind,
     threads: usize,
     simd: Option<SimdLevel>,
-    /// Whether its texels are watched: it draws in the order of the hardware then.
+    /// True if a texel observer is attached, which makes it draw in the order of the hardware.
     watched: bool,
-    /// It draws one case in so many: slow ones needn't see all.
+    /// Draws one case in this many: slow executors need not see all.
     pub(crate) every: u64,
 }
 
 impl Executor {
-    /// A machine of its own.
+    /// A new machine for this executor.
     pub(crate) fn machine(&self, profile: &Profile) -> Result<Machine, MachineError> {
         #[cfg(feature = "wgpu")]
         if self.kind == ExecutorKind::Wgpu
@@ -39,14 +39,14 @@ impl Executor {
         Ok(machine)
     }
 
-    /// Whether the executor is to draw a case for this device; `turn` is [`crate::suite::Suite::turn`], 0 for
-    /// everybody.
+    /// True if the executor draws a case with this `turn` ([`crate::suite::Suite::turn`]); 0 is a case for all
+    /// executors.
     pub(crate) fn draws(&self, _profile: &Profile, turn: u64) -> bool {
         turn.is_multiple_of(self.every)
     }
 }
 
-/// Counts the texels that it is told of.
+/// Counts the texels reported to it.
 #[derive(Debug)]
 struct Watcher(u64);
 
@@ -63,7 +63,7 @@ impl TexelObserver for Watcher {
     }
 }
 
-/// The reference: what it draws is right.
+/// The reference, which is right by definition.
 pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     name: "scalar".to_owned(),
     kind: ExecutorKind::Scalar,
@@ -73,7 +73,7 @@ pub(crate) static REFERENCE: LazyLock<Executor> = LazyLock::new(|| Executor {
     every: 1,
 });
 
-/// Everything that is compared with the reference.
+/// All executors that are compared with the reference.
 pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     let mut all = Vec::new();
     for level in SimdLevel::available() {
@@ -88,13 +88,13 @@ pub(crate) static EXECUTORS: LazyLock<Vec<Executor>> = LazyLock::new(|| {
     all
 });
 
-/// The adapter, if there is one; if not, tests/gpu counts an ignored test for these suites.
+/// The adapter, if there is one; without one, tests/gpu counts an ignored test for these suites.
 #[cfg(feature = "wgpu")]
 fn on_gpu() -> Option<Executor> {
     testing::shared().unwrap_or_else(|e| panic!("{e}"))?;
     Some(Executor { name: "wgpu".to_owned(), kind: ExecutorKind::Wgpu, every: EVERY_GPU, ..REFERENCE.clone() })
 }
 
-/// Draws on software drivers take milliseconds where the batch executor takes microseconds.
+/// On the GPU one case in this many: software drivers take milliseconds where the batch executor takes microseconds.
 #[cfg(feature = "wgpu")]
 const EVERY_GPU: u64 = 4;

@@ -1,5 +1,5 @@
 //! The long form: `CROSSBAR_FUZZ=1h` (or `30m`, or seconds) goes through all suites in turn, with seeds of its own,
-//! until the time is up, and says how much it has compared.
+//! until the time is up, and reports how much it has compared.
 
 use crate::agreement::{compare, report};
 use crate::executors::EXECUTORS;
@@ -9,12 +9,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Differences that are cut down and printed; more are only counted.
+/// Number of differences that are shrunk and printed; more are only counted.
 const REPORTS: usize = 10;
 /// The first seed, where `CROSSBAR_SEED` names no other: beyond those of the short and the full form.
 const FIRST: u64 = 1 << 32;
 
-/// What a run has seen.
+/// Counts and reports of a run.
 #[derive(Default)]
 struct Counts {
     cases: u64,
@@ -66,7 +66,7 @@ fn fuzz() {
     assert_eq!(found, 0, "{}", counts.reports.join("\n\n"));
 }
 
-/// One case.
+/// Compares one case.
 fn one(suite: &Suite, seed: u64, counts: &Mutex<Counts>) {
     let case = suite.case(seed);
     let turn = suite.turn(seed);
@@ -112,7 +112,7 @@ fn summary(counts: &Counts) -> String {
     text
 }
 
-/// Past the test harness, which would hold the text back until the end.
+/// Writes to standard error directly, because the test harness would hold the text back until the end.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

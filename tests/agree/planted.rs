@@ -1,5 +1,4 @@
-//! The tools themselves: a difference that was planted is found, cut down to what makes it, and blamed on its
-//! instruction.
+//! Tests of the tools: a planted difference is found, shrunk to its cause, and blamed on its instruction.
 
 use crate::blame::{Side, blame};
 use crate::executors::REFERENCE;
@@ -10,7 +9,7 @@ use crate::suite::{self, Kind};
 use refsim::device::MadMode;
 use refsim::isa::Version;
 
-/// What the reference draws, by one rounding or by two in every `mad`.
+/// The reference's outcome with this rounding of `mad`.
 fn drawn(case: &Case, mad: MadMode) -> Option<Outcome> {
     let case = with(case, mad);
     let programs = case.build().ok()?;
@@ -23,13 +22,13 @@ fn with(case: &Case, mad: MadMode) -> Case {
     case
 }
 
-/// Whether it matters how often `mad` rounds.
+/// True if the outcome depends on the rounding of `mad`.
 fn shows(case: &Case) -> bool {
     let (one, two) = (drawn(case, MadMode::Fused), drawn(case, MadMode::TwoRoundings));
     matches!((one, two), (Some(a), Some(b)) if a.difference(&b, "fused").is_some())
 }
 
-/// A larger case in which it does.
+/// A larger case whose outcome depends on the rounding of `mad`.
 fn planted() -> Case {
     let suites = suite::all();
     let mut programs = suites.iter().filter(|s| matches!(s.kind, Kind::Program(Version::Ps2_0, ..)));

@@ -4,9 +4,9 @@
 #[derive(Clone)]
 pub(crate) struct Random {
     state: u64,
-    /// Numbers are of ordinary size, none special.
+    /// Numbers are of ordinary size, without special values.
     pub(crate) tame: bool,
-    /// Tame numbers go beyond the range of short fixed-point formats.
+    /// Tame numbers exceed the range of short fixed-point formats.
     pub(crate) wide: bool,
 }
 
@@ -18,7 +18,7 @@ impl Random {
         Self { state: state | 1, tame: false, wide: false }
     }
 
-    /// The stream of a seed within a suite.
+    /// The stream of a seed within the suite `name`.
     pub(crate) fn named(name: &str, seed: u64) -> Self {
         let hash =
             name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
@@ -34,12 +34,12 @@ impl Random {
         self.state >> 8
     }
 
-    /// Below `n`.
+    /// A number in 0..n.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         (self.next() % n as u64) as usize
     }
 
-    /// True once in `n` times.
+    /// True with probability 1 / n.
     pub(crate) fn one_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
     }
@@ -52,7 +52,7 @@ impl Random {
         list[self.below(list.len())]
     }
 
-    /// A number of ordinary size, now and then special.
+    /// A number of ordinary size, at times special, as the bits of an f32.
     pub(crate) fn number(&mut self) -> u32 {
         let r = self.next();
         if self.tame {
@@ -69,7 +69,7 @@ impl Random {
         }
     }
 
-    /// What formats treat in ways of their own: infinities, NaN, the smallest and the largest numbers.
+    /// A number that formats treat specially: infinities, NaN, the smallest and the largest numbers.
     pub(crate) fn special(&mut self) -> u32 {
         self.choose(&[
             0x7f80_0000,

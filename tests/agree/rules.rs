@@ -9,7 +9,7 @@ use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-/// Formats that are computed in the same way.
+/// Formats that share an implementation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
     S3_12,
@@ -52,14 +52,14 @@ impl Family {
     }
 }
 
-/// Rules that are varied together.
+/// Rules that vary together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Group {
-    /// What instructions compute.
+    /// Arithmetic of instructions.
     Arithmetic,
-    /// What texture instructions read.
+    /// Results of texture instructions.
     Sampling,
-    /// What comes before and after the program.
+    /// Stages before and after the program.
     Pipeline,
     /// All of them.
     Together,
@@ -98,7 +98,7 @@ fn format(text: &str) -> Format {
     text.parse().unwrap_or_else(|e| panic!("{text}: {e}"))
 }
 
-/// An ideal device in a format of a family, the seed says which, with the rules of a group at random.
+/// An ideal device in a format of the family, chosen by the seed, with random rules of the group.
 pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> Profile {
     let mut profile = profile("ideal-fp32");
     let formats = family.formats();
@@ -138,7 +138,7 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
     profile
 }
 
-/// Vertex programs in a format of the family, fp32 for the pixels.
+/// Vertex programs in a format of the family, pixel programs in fp32.
 pub(crate) fn vertex_ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> Profile {
     let mut profile = ideal(Family::Fp32, group, seed, r);
     let formats = family.formats();
@@ -146,7 +146,7 @@ pub(crate) fn vertex_ideal(family: Family, group: Group, seed: u64, r: &mut Rand
     profile
 }
 
-/// A card with every switch at random.
+/// A card with random settings of all switches.
 pub(crate) fn card(name: &str, r: &mut Random) -> Profile {
     let mut profile = profile(name);
     let switches: Vec<(String, String)> =

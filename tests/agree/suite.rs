@@ -1,4 +1,4 @@
-//! Suites: a name, what it draws from, how many seeds it goes through in the short form.
+//! Suites: a name, the kind of cases, and the number of seeds in the short form.
 
 use crate::dice::{self, Options};
 use crate::files;
@@ -13,16 +13,16 @@ use refsim::machine::StepRate;
 use refsim::output::{BlendOp, CompareFunction, DepthFormat};
 use refsim::texture::{AddressMode, TexelFormat, TextureKind};
 
-/// What a suite fixes.
+/// The kind of cases of a suite: the properties that are fixed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Kind {
-    /// Random programs of a version, in a family of formats, with the rules of a group at random.
+    /// Random programs of a version, in a family of formats, with random rules of a group.
     Program(Version, Family, Group),
-    /// Random programs of a version on a card, every switch at random.
+    /// Random programs of a version on a card, with random switches.
     Card(&'static str, Version),
     /// Textures of a format.
     Texture(TexelFormat),
-    /// Textures of a kind, addressed in a way.
+    /// Textures of a kind, with an address mode.
     Address(TextureKind, AddressMode),
     /// Targets of a format.
     Target(TexelFormat),
@@ -47,7 +47,7 @@ pub(crate) enum Kind {
 pub(crate) struct Suite {
     pub(crate) name: String,
     pub(crate) kind: Kind,
-    /// Seeds of the short form: 0 and up.
+    /// Seeds of the short form are 0 up to this number.
     pub(crate) seeds: u64,
 }
 
@@ -59,7 +59,7 @@ impl Suite {
         Self { name: name.into(), kind, seeds }
     }
 
-    /// Whose turn a seed is among executors that draw only some cases: spread over suites and seeds alike.
+    /// A random number by which executors that draw only some cases choose them, evenly over suites and seeds.
     pub(crate) fn turn(&self, seed: u64) -> u64 {
         Random::named(&self.name, seed).next()
     }
@@ -69,7 +69,7 @@ impl Suite {
         let mut random = Random::named(&self.name, seed);
         let r = &mut random;
         let options = |version: Version| Options::new(version);
-        // Small programs, so that what the suite fixes is what is seen.
+        // Small programs, so that the suite's fixed property dominates the picture.
         let version = first_throws(r);
         let any = r.next();
         let family = Family::ALL[seed as usize % Family::ALL.len()];
@@ -123,7 +123,7 @@ impl Suite {
     }
 }
 
-/// What is thrown first for every suite: a version for those that fix none.
+/// The first random numbers of every case: a pixel program version for suites that fix none.
 pub(crate) fn first_throws(r: &mut Random) -> Version {
     r.choose(&PIXEL[3..])
 }
@@ -143,7 +143,7 @@ fn legal(version: Version, layout: &Layout, sizes: usize, profile: &Profile, r: 
     panic!("no legal {version} program for {} in 1000 tries; the last is\n{last}", profile.name)
 }
 
-/// A random pixel program in a random scene; some scenes draw instances behind a vertex program that passes all on.
+/// A random pixel program in a random scene; some scenes are drawn as instances by a pass-through vertex program.
 fn pixel_case(profile: Profile, options: &Options, sizes: usize, r: &mut Random) -> Case {
     let (mut scene, layout) = dice::scene(profile, options, r);
     let pixel = legal(options.version, &layout, sizes, &scene.profile, r);
@@ -152,7 +152,7 @@ fn pixel_case(profile: Profile, options: &Options, sizes: usize, r: &mut Random)
     Case { scene, pixel, vertex }
 }
 
-/// Instances of the scene's vertices: positions a vertex, everything else an instance.
+/// Turns the scene's vertices into instances: positions per vertex, all else per instance; returns the vertex program.
 pub(crate) fn pass_through(scene: &mut Scene, r: &mut Random) -> Vec<String> {
     scene.instances = 1 + r.below(6);
     scene.streams = vec![(0, StepRate::Vertex, scene.vertices.iter().map(|v| v.position).collect())];
@@ -176,11 +176,11 @@ pub(crate) fn pass_through(scene: &mut Scene, r: &mut Random) -> Vec<String> {
     lines
 }
 
-/// A random vertex program before a pixel program that shows all its outputs.
+/// A random vertex program with a pixel program that shows all its outputs.
 fn vertex_case(profile: Profile, version: Version, r: &mut Random) -> Case {
     let options = Options::new(version);
     let (mut scene, layout) = dice::scene(profile, &options, r);
-    // It is the vertices that are to be seen.
+    // Small targets suffice, because vertices are tested here.
     scene.size = scene.size.map(|side| 1 + side % 12);
     let vertex = legal(version, &layout, 4, &scene.profile, r);
     let pixel = shows_all(&scene.profile, layout.targets);
@@ -206,7 +206,7 @@ pub(crate) fn shows_all(profile: &Profile, targets: usize) -> Vec<String> {
     lines
 }
 
-/// A version as suites are named after it.
+/// A version as used in the names of suites.
 pub(crate) fn version_name(version: Version) -> &'static str {
     match version {
         Version::Fp1_0 => "fp_1_0",

@@ -1,4 +1,4 @@
-//! What the systems' own suites share: the card, every way to draw on it, and texels as bits.
+//! Shared by the suites of the systems: the card, all executors, and texels as bits.
 
 use crossbar::card::Texels;
 use refsim::device::Profile;
@@ -11,7 +11,7 @@ pub(crate) fn nv35() -> Profile {
     Profile::named("nv35").expect("a card")
 }
 
-/// Every way to draw, by name; the scalar executor first.
+/// All executors by name; the scalar one first.
 pub(crate) fn executors() -> Vec<(&'static str, Executor)> {
     let all = vec![("scalar", ExecutorKind::Scalar.into()), ("batch", ExecutorKind::Batch.into())];
     #[cfg(feature = "wgpu")]
@@ -19,7 +19,7 @@ pub(crate) fn executors() -> Vec<(&'static str, Executor)> {
     all
 }
 
-/// The adapter that there is; without one, nothing, except where that is a failure.
+/// The adapter; `None` without one, panics where a missing adapter counts as a failure.
 #[cfg(feature = "wgpu")]
 fn on_gpu() -> Option<(&'static str, Executor)> {
     let gpu = testing::shared().unwrap_or_else(|e| panic!("{e}"))?;

@@ -1,5 +1,5 @@
-//! Traces against each other: for random programs and draws every other executor's trace of every pixel is the scalar
-//! executor's, step by step, and following a pixel tells the truth about what the draw leaves there.
+//! Traces: for random programs and draws, every executor's trace of every pixel equals the scalar executor's step by
+//! step, and the last fragment of a trace agrees with the drawn target.
 
 use crate::executors::{EXECUTORS, Executor, REFERENCE};
 use crate::scene::{Case, Programs};
@@ -7,7 +7,7 @@ use crate::suite;
 use refsim::machine::FragmentTrace;
 use refsim::num::Flags;
 
-/// Flags are the scalar executor's alone.
+/// Removes flags, which only the scalar executor computes.
 fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>> {
     for step in traces.iter_mut().flatten().flat_map(|trace| &mut trace.shading.steps) {
         step.flags = Flags::empty();
@@ -15,7 +15,7 @@ fn without_flags(mut traces: Vec<Vec<FragmentTrace>>) -> Vec<Vec<FragmentTrace>>
     traces
 }
 
-/// Case number `n`: the suites of random pixel programs one after the other, drawn once, all pixels followed.
+/// Case number `n`: over the suites of random pixel programs in turn, drawn once, with all pixels traced.
 fn case(n: u64) -> Case {
     let suites = suite::all();
     let is_pixel = |name: &str| name.starts_with("programs::") && !name.starts_with("programs::vs_");
@@ -26,14 +26,14 @@ fn case(n: u64) -> Case {
     case
 }
 
-/// The seeds from 0, fewer in the short form; the one that was asked for.
+/// Seeds from 0, fewer in the short form; or the one in `CROSSBAR_SEED`.
 fn seeds(short: u64) -> std::ops::Range<u64> {
     let one = std::env::var("CROSSBAR_SEED").ok().and_then(|s| s.parse().ok());
     let all = if std::env::var_os("CROSSBAR_FULL").is_some() { 30 * short } else { short };
     one.map_or(0..all, |seed: u64| seed..seed + 1)
 }
 
-/// Compares the traces of one case; counts steps and fragments.
+/// Compares the traces of one case; returns the numbers of steps and fragments.
 fn same(seed: u64, case: &Case, other: &Executor) -> (usize, usize) {
     let (mut steps, mut fragments) = (0, 0);
     let text = case.pixel.join("\n");
@@ -89,7 +89,7 @@ fn the_gpu_trace_is_the_scalar_trace() {
     }
 }
 
-/// What the last fragment of every pixel leaves is what the draw leaves, and fates are counted as the draw counts them.
+/// Checks that the last fragment of every pixel leaves the same as the draw, and that the numbers of fragments agree.
 fn follows_the_draw(case: &Case, programs: &Programs, traces: &[Vec<FragmentTrace>], seed: u64) {
     let drawn = case.scene.draw(&REFERENCE, programs).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(traces.iter().flatten().count() as u64, drawn.fragments(), "seed {seed}");

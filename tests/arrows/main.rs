@@ -1,5 +1,5 @@
-//! Laws of the source: a room uses only the rooms that its line allows, as docs/architecture.md prints them; the files
-//! of a room need each other in one direction; names, words and lines of documentation keep their bounds.
+//! Laws of the source: rooms use only those that docs/architecture.md allows them; the files of a room have no circular
+//! needs; names, words and lines of documentation keep their bounds.
 
 mod circles;
 mod mirrors;
@@ -13,7 +13,7 @@ use std::fs;
 use circles::room;
 use source::{Crate, MEMBERS, root};
 
-/// A crate's source folder, the module whose rooms it is about, and for each of them the rooms that it may name.
+/// A source folder, the module that contains the rooms, and for each room the rooms that it may name.
 type Law = (&'static str, &'static [&'static str], &'static [(&'static str, &'static [&'static str])]);
 
 const REFSIM: Law = (
@@ -39,7 +39,7 @@ const REFSIM: Law = (
 const CROSSBAR: Law = (
     "src",
     &[],
-    // Of all members of the workspace below `src`, whose rooms name each other as those of one crate.
+    // The rooms of all members of the workspace below `src`, which name each other as rooms of one crate.
     &[
         ("linalg", &[]),
         ("elementary", &[]),
@@ -197,7 +197,7 @@ const BATCH: Law = (
     ],
 );
 
-/// Rooms of the root package that may speak to the emulator at all; the shared ground knows nothing of cards.
+/// Rooms of the root package that may use the emulator; the shared ground knows nothing of cards.
 const SPEAKS_REFSIM: &[&str] = &[
     "card",
     "tracer",
@@ -215,8 +215,8 @@ const SPEAKS_REFSIM: &[&str] = &[
     "cli",
 ];
 
-/// What the files of a law's folder name against their room's line. A file outside the table's rooms is a fault, or,
-/// where the rooms have files in common, may name no room at all.
+/// The uses that a law forbids, one line each. A file outside the table's rooms is a violation, or, where the rooms
+/// share files (`below` is not empty), may name no room.
 fn violations((crate_folder, below, law): Law) -> Vec<String> {
     let source = Crate::read(crate_folder);
     let rooms: BTreeSet<&str> = law.iter().map(|(room, _)| *room).collect();
@@ -268,13 +268,13 @@ fn the_emulator_depends_on_nothing_heavy() {
     for banned in ["crossbar", "nalgebra", "image", "clap"] {
         assert!(!dependencies.contains(banned), "refsim depends on `{banned}`");
     }
-    // The GPU's driver side comes only to who asks for it.
+    // Only the feature `wgpu` brings the dependency on a GPU driver.
     let gpu = dependencies.lines().find(|line| line.starts_with("wgpu = {")).expect("wgpu, by feature");
     assert!(gpu.contains("optional = true"), "refsim depends on `wgpu` without being asked");
     assert!(!dependencies.contains("default = ["), "refsim has default features");
 }
 
-/// The feature of each room: that under which lib.rs re-exports the member of the workspace that the room is in.
+/// The feature of each room: that under which lib.rs re-exports the member of the workspace with the room.
 fn features() -> BTreeMap<String, String> {
     let read = |file: String| fs::read_to_string(root().join(file)).expect("a library's root");
     let library = read("src/lib.rs".to_owned()).replace(['\r', '\n'], " ");
@@ -313,7 +313,7 @@ fn rooms_have_the_feature_that_the_page_says_and_need_no_larger_one() {
     }
 }
 
-/// nalgebra's product chooses its kernel by the processor if other crates turn its `std` on: docs/decisions/0016.
+/// nalgebra's product chooses its kernel by the CPU if another crate enables its `std`: docs/decisions/0016.
 #[test]
 fn only_linalg_names_nalgebra() {
     let source = Crate::read("src");
@@ -323,7 +323,7 @@ fn only_linalg_names_nalgebra() {
     let manifests = ["", "src/base/", "src/ground/", "src/systems/", "src/studies/"];
     for manifest in manifests.map(|folder| root().join(folder).join("Cargo.toml")) {
         let text = fs::read_to_string(manifest).expect("a manifest");
-        // What the program depends on; the root's profile names crates that only the benches compile.
+        // Dependencies of the program only; the root's profiles name crates that only the benches compile.
         let dependencies = text.split("[profile.").next().unwrap_or_default();
         for comparison in ["bvh", "parry3d", "obvhs"] {
             assert!(!dependencies.contains(comparison), "`{comparison}` belongs into benches/Cargo.toml");

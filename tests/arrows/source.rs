@@ -1,4 +1,4 @@
-//! What the laws know of a crate's source: its modules, the items of each, and the paths that each names.
+//! A crate's source as the laws see it: its modules, the items of each, and the paths that each names.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -17,7 +17,7 @@ struct Named {
     path: Names,
     /// The name that a `use` gives it; `*` for all names of a module.
     alias: Option<String>,
-    /// Whether the `use` is a re-export.
+    /// True if the `use` is a re-export.
     exported: bool,
 }
 
@@ -25,14 +25,14 @@ struct Named {
 #[derive(Default)]
 pub(crate) struct Module {
     pub(crate) file: PathBuf,
-    /// Whether it is for tests only.
+    /// True if it is compiled for tests only.
     pub(crate) is_test: bool,
     named: Vec<Named>,
     /// Names of all items.
     items: BTreeSet<String>,
     /// Names of structures, enumerations, traits and aliases.
     pub(crate) types: BTreeSet<String>,
-    /// Every first name of a path in code.
+    /// First segments of all paths in code.
     words: BTreeSet<String>,
 }
 
@@ -82,14 +82,14 @@ impl Crate {
         let texts = rust_files(&folder).into_iter().filter_map(|file| {
             let below = file.strip_prefix(&folder).expect("below the folder");
             let member = MEMBERS.iter().find_map(|(member, _)| below.strip_prefix(member).ok());
-            // The root of a member imports rooms of others and uses none.
+            // The root of a member re-imports rooms of other members, which is no use of them.
             let is_root = member.is_some_and(|below| below == Path::new("lib.rs"));
             (!is_root).then(|| (member.unwrap_or(below).to_owned(), read(&file)))
         });
         Self::of_texts(texts)
     }
 
-    /// The crate of files with their paths below the source folder.
+    /// The crate made of source texts, each with its path below the source folder.
     pub(crate) fn of_texts(texts: impl IntoIterator<Item = (PathBuf, String)>) -> Self {
         let mut modules = BTreeMap::new();
         for (file, text) in texts {
@@ -105,7 +105,7 @@ impl Crate {
         Self { modules }
     }
 
-    /// A path that stands in `module`, from the crate's root. `None`: of another crate, or no path of modules.
+    /// The absolute form of a path in `module`; `None` for a path of another crate, or of no module.
     fn absolute(&self, module: &[String], path: &[String], depth: usize) -> Option<Names> {
         let (first, rest) = path.split_first()?;
         match first.as_str() {
@@ -127,7 +127,7 @@ impl Crate {
         }
     }
 
-    /// The file where the first item of a path from the root is written, through re-exports.
+    /// The file that defines the item of an absolute path, looking through re-exports.
     fn defining_file(&self, path: &[String], depth: usize) -> Option<&Path> {
         let known = (0..=path.len()).rev().find(|&n| self.modules.contains_key(&path[..n]))?;
         let (module, rest) = path.split_at(known);
@@ -143,7 +143,7 @@ impl Crate {
         inside.map_or(Some(&it.file), |glob| self.defining_file(&[&glob[..], rest].concat(), depth))
     }
 
-    /// What a module names right after a prefix: after `crate`, the rooms that it uses.
+    /// The names that follow a prefix in a module's paths: after `crate`, the rooms that it uses.
     pub(crate) fn after<'a>(&'a self, module: &[String], prefix: &'a str) -> impl Iterator<Item = &'a str> {
         let named = self.modules[module].named.iter();
         named.filter(move |named| named.path[0] == prefix).filter_map(|named| named.path.get(1).map(String::as_str))
@@ -154,7 +154,7 @@ impl Crate {
         self.modules[module].named.iter().filter_map(move |named| self.absolute(module, &named.path, 9))
     }
 
-    /// The other files whose items a module names, with the names. A re-export counts only where its name is used.
+    /// The other files whose items a module names, each with the name. A re-export counts only where its name is used.
     pub(crate) fn needs<'a>(&'a self, module: &'a [String]) -> impl Iterator<Item = (&'a Path, String)> {
         let it = &self.modules[module];
         it.named.iter().filter_map(move |named| {
@@ -168,7 +168,7 @@ impl Crate {
     }
 }
 
-/// Reads one module, and those inside it.
+/// Reads one module and the modules inside it.
 struct Reader<'a> {
     modules: &'a mut BTreeMap<Names, Module>,
     path: Names,
@@ -224,7 +224,8 @@ impl Reader<'_> {
         self.module.named.push(Named { path, alias: Some(alias), exported });
     }
 
-    /// The paths in an item's tokens, and what it defines: in front of its braces, or anywhere in a macro.
+    /// Collects the paths in an item's tokens, and the names that it defines: before its braces, or anywhere in a
+    /// macro.
     fn tokens(&mut self, tokens: TokenStream, defines: bool, is_macro: bool) {
         let tokens: Vec<TokenTree> = tokens.into_iter().collect();
         let word = |at: usize| match tokens.get(at) {
@@ -235,7 +236,7 @@ impl Reader<'_> {
         let mut at = 0;
         while at < tokens.len() {
             if let TokenTree::Group(group) = &tokens[at] {
-                // What visibility is restricted to is not used.
+                // The path in `pub(in path)` is no use.
                 if at == 0 || word(at - 1).is_none_or(|word| word != "pub") {
                     self.tokens(group.stream(), is_macro, is_macro);
                 }

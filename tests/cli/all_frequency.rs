@@ -39,7 +39,7 @@ fn the_examples_are_made_by_the_commands() {
     }
 }
 
-/// A compression that was stopped goes on where it was, to the same file; finished segments are of the same work only.
+/// An interrupted compression resumes and writes the same file; finished segments are reused for the same work only.
 #[test]
 fn finished_segments_are_kept() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -48,7 +48,7 @@ fn finished_segments_are_kept() {
         format!("all-frequency compress {SIGHT} --model {STEP} --points-per-cluster 40 --vectors 4 --resume {kept}");
     let in_all = document(&format!("{options} --out {out}"));
     assert_eq!(in_all["segments_kept"], 0);
-    // As if it had been stopped before segment 9: what is lost is computed, what is there is taken.
+    // As if interrupted before segment 9: missing segments are computed, present ones are read.
     for segment in 9..24 {
         fs::remove_file(folder.path().join(format!("kept/segment-{segment:02}.json"))).expect("a finished segment");
     }
@@ -74,7 +74,7 @@ fn finished_segments_are_kept() {
     assert!(cut.contains("FOLDER/segment-02.prt"), "{cut}");
 }
 
-/// What `error` finds by computing transfer again is what `compress` says, and a picture is as far off as it must be.
+/// `error` recomputes the error that `compress` reports, and the picture differs from the original's within bounds.
 #[test]
 fn errors_are_those_of_compression() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -96,7 +96,7 @@ fn errors_are_those_of_compression() {
     assert!(fs::metadata(folder.path().join("page/index.html")).is_ok());
 }
 
-/// Glossy transfer by the factors that another command wrote; all of a rank's terms beside few.
+/// Glossy transfer by the factors that another command wrote; all terms of the rank compared with few.
 #[test]
 fn factors_go_from_one_command_to_the_next() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -115,13 +115,13 @@ fn factors_go_from_one_command_to_the_next() {
     let drawn =
         document(&format!("all-frequency render {coded} --model {model} --light constant --size 16x16 --out {page}"));
     assert!(number(&drawn["multiplies"]["vertices"]) > 0.0);
-    // The camera alone: light and clusters are not looked at again, and nothing else may change.
+    // Another camera must change nothing but the picture.
     document(&format!(
         "all-frequency render {coded} --model {model} --turn camera --frames 2 --size 16x16 --out {page}"
     ));
 }
 
-/// A ground is precomputed, compressed and drawn with its model; each is in the other's light.
+/// A ground is precomputed, compressed and drawn with its model; each lights the other.
 #[test]
 fn a_model_stands_on_a_ground() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -135,7 +135,7 @@ fn a_model_stands_on_a_ground() {
         (made["ground"]["out"].as_str(), made["ground"]["model"].as_str()),
         (Some(ground.as_str()), Some(ground_model.as_str()))
     );
-    // The example's base is flat, at 0, and 2 wide: in its plane the ground would show in stripes.
+    // The example's base is flat, at 0, and 2 wide: a ground in its plane would z-fight.
     let ground_text = fs::read_to_string(&ground_model).expect("a model");
     let heights =
         ground_text.lines().filter_map(|line| line.strip_prefix("v ")?.split(' ').nth(2)?.parse::<f32>().ok());
@@ -146,7 +146,7 @@ fn a_model_stands_on_a_ground() {
     );
     let sees = |found: &Value| number(&found["directions_visible"]);
     assert!(sees(&made) <= sees(&alone), "a ground hides light");
-    // Half of all directions, less what the model hides.
+    // Half of all directions, less those that the model blocks.
     assert!(sees(&made["ground"]) < 64.0 * 49_152.0 && sees(&made["ground"]) > 32.0 * 49_152.0);
     document(&format!(
         "all-frequency compress {ground} --model {ground_model} --points-per-cluster 16 --vectors 3 --out {small}"
@@ -166,7 +166,7 @@ fn a_model_stands_on_a_ground() {
     assert_eq!(other.code, Some(2), "its model is beside a ground's file: {}", other.stderr);
 }
 
-/// A vertex's weights and its decoded transfer are what arrays hold; what is shown of the whole file stays.
+/// A vertex's weights and its decoded transfer equal the arrays; the summary of the whole file stays the same.
 #[test]
 fn a_vertex_is_shown() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -206,7 +206,7 @@ fn a_vertex_is_shown() {
     );
 }
 
-/// Light alone: its energy is that of what is kept and what is not; nothing flickers where all is kept.
+/// Light alone: its energy is that of kept and dropped coefficients; nothing flickers where all are kept.
 #[test]
 fn light_is_taken_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -222,8 +222,8 @@ fn light_is_taken_apart() {
     assert_eq!((&few["kept"], &few["segments"]), (&Value::from(20), &Value::from(6)));
 }
 
-/// Light truncated in six faces has texels below 0, and is drawn: the picture is that of the light but for what was
-/// taken away, whose red is that of the table.
+/// Light truncated on six faces has negative texels, and is drawn: the picture differs by the dropped part, whose red
+/// is that of the table.
 #[test]
 fn truncated_light_is_drawn() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -244,13 +244,13 @@ fn truncated_light_is_drawn() {
     let apart = squares(&mut whole.as_flattened().iter().zip(of_six.as_flattened()).map(|(a, b)| a - b));
     let share = (apart / squares(&mut whole.as_flattened().iter().copied())).sqrt();
     assert!(share > 1e-4 && share < 0.2, "{share}");
-    // All of its coefficients in 24 segments are the same light, turned all the way round too.
+    // All of its coefficients in 24 segments are the same light, also after a full rotation.
     assert_eq!(picture(&light, "--keep 6144"), of_six);
     let turned = document(&format!("all-frequency lighting --light {light} --rotate 90"));
     assert!(number(&turned["negative_texels"]) > 0.0, "{turned}");
 }
 
-/// What a model answers to most is kept, which is not what is kept by area.
+/// `--by transfer` keeps the coefficients to which a model responds most, which are not those kept by area.
 #[test]
 fn light_is_truncated_by_what_a_model_answers_to() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -12,7 +12,7 @@ const MODEL: &str = "docs/examples/step.obj";
 const SIGHT: &str = "docs/examples/step_all.prt";
 const CODED: &str = "docs/examples/step_all_small.prt";
 
-/// Visibility and code of the model with ten glossy terms.
+/// Files of visibility and code of the model with ten glossy terms.
 fn glossy(folder: &Path) -> [String; 2] {
     let [factors, sight, coded] = ["factors", "sight.prt", "coded.prt"].map(|name| place(folder, name));
     let of_factors = ["--brdf", "cook-torrance", "--side", "16", "--supersamples", "1x1", "--terms", "10"];
@@ -33,7 +33,8 @@ fn rms(found: &Value) -> f64 {
     number(&found["difference"]["rms_255ths"])
 }
 
-/// Both ways are the host's picture but for rounding, on both cards; the diffuse example has one term and is colors.
+/// Both methods draw the host's picture up to rounding, on both cards; the diffuse example has one term, drawn as
+/// colors.
 #[test]
 fn cards_draw_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -43,7 +44,7 @@ fn cards_draw_what_the_host_draws() {
     let ideal = drawn(&coded, &out, &[&["--device", "ideal-fp32"], &fine[..]].concat());
     assert!(ideal["time"].is_null() && rms(&ideal) < 1e-3, "{}", rms(&ideal));
     let r350 = drawn(&coded, &out, &[]);
-    // Half a 255th of the target, evenly spread, is 0.29.
+    // Half a 255th of the target, evenly distributed, has an RMS of 0.29.
     assert!(rms(&r350) > 0.1 && rms(&r350) < 0.35, "{}", rms(&r350));
     let size = |found: &Value, what: &str| {
         let rows = found["sizes"].as_array().expect("sizes");
@@ -64,7 +65,7 @@ fn cards_draw_what_the_host_draws() {
         let row = rows.iter().find(|row| row["step"].as_str().is_some_and(|step| step.contains(what)));
         number(&row.unwrap_or_else(|| panic!("{what}"))["rms_255ths"])
     };
-    // Highlights between vertices are lost with either way's numbers: the same two pictures are compared.
+    // Both methods lose highlights between vertices equally: the same two pictures are compared.
     assert_eq!(step(&colors, "interpolated, not products"), step(&r350, "interpolated, not products"));
     assert!(step(&r350, "single precision") < 1e-3);
     let diffuse = drawn(CODED, &out, &["--original", SIGHT, "--keep", "40"]);
@@ -75,7 +76,7 @@ fn cards_draw_what_the_host_draws() {
     assert!(steps.into_iter().all(|step| !step.contains("not products")), "one term has no other way");
 }
 
-/// More bits are nearer, of everything that has bits; files and pages are where they are said to be.
+/// More bits give smaller errors for each quantity; files and pages are where the command says.
 #[test]
 fn a_sweep_says_what_shows() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -88,8 +89,8 @@ fn a_sweep_says_what_shows() {
         number(&row.unwrap_or_else(|| panic!("{what} {choice}"))["rms_255ths"])
     };
     for what in ["representatives", "weights"] {
-        // Four bits are a sixteenth in the mean; of one small picture under a sun, whose few coefficients count, they
-        // are half at most.
+        // Four bits reduce the error 16 times on average; in one small picture under a sun, whose few coefficients
+        // matter, at least by half.
         for [coarse, fine] in [["8 bits", "12 bits"], ["10 bits", "14 bits"]] {
             assert!(of(what, coarse) > 2.0 * of(what, fine), "{what}: {coarse} against {fine}");
         }
@@ -100,12 +101,12 @@ fn a_sweep_says_what_shows() {
     for name in ["index.html", "precision.csv", "blame.csv", "card.exr", "timeline.json", "card.png"] {
         assert!(folder.path().join("out").join(name).exists(), "{name}");
     }
-    // A raw file is drawn too; it has no code to be made coarse.
+    // Raw transfer is drawn too; it has no code to quantise.
     let raw = drawn(&sight, &out, &["--sweep"]);
     assert!(raw["precision"].as_array().expect("a sweep").iter().all(|row| row["what"] != "weights"));
 }
 
-/// What does not go together, or fits no card, is refused with what to do; nothing is written.
+/// Options that conflict, or fit no card, are refused with advice, and nothing is written.
 #[test]
 fn what_no_card_takes_is_refused() {
     let folder = tempfile::tempdir().expect("a folder for the test");

@@ -22,12 +22,12 @@ pub(crate) fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("expected a number, found {value}"))
 }
 
-/// A place for a file in a folder, as an argument.
+/// The path of a file in a folder, as an argument.
 pub(crate) fn place(folder: &Path, name: &str) -> String {
     folder.join(name).to_str().expect("a name in UTF-8").to_owned()
 }
 
-/// The files of the examples are what the commands write, whatever the number of threads.
+/// The commands write the example files, on any number of threads.
 #[test]
 fn the_examples_are_made_by_the_commands() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -42,7 +42,7 @@ fn the_examples_are_made_by_the_commands() {
     }
 }
 
-/// Closed forms: a white wall under the whole sky, and under light that grows with z.
+/// Closed forms: a white wall under a uniform sky, and under light that grows with z.
 #[test]
 fn a_square_sees_the_whole_sky() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -58,12 +58,12 @@ fn a_square_sees_the_whole_sky() {
     let page = place(folder.path(), "page");
     let options = ["--light", "constant:2,2,2", "--size", "16x16", "--out", &page];
     let drawn = document(&[&["cpca", "render", &out, "--model", "fixtures/models/square.obj"][..], &options].concat());
-    // Every lit pixel has radiance 0.5 x 2, which the exposure takes to 18 % grey.
+    // Every lit pixel has radiance 0.5 x 2; the exposure maps it to 18 % grey.
     assert_relative_eq!(number(&drawn["exposure"]), 0.18, max_relative = 1e-6);
     assert!(folder.path().join("page/index.html").is_file() && folder.path().join("page/picture.png").is_file());
 }
 
-/// While the number of vectors stays the error does not grow, and `error` finds what `compress` says.
+/// While the number of vectors stays the error does not grow, and `error` recomputes the error that `compress` reports.
 #[test]
 fn errors_fall_and_are_found_again() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -90,7 +90,7 @@ fn errors_fall_and_are_found_again() {
     assert!(number(&whole["relative_error"]) < 1e-20, "as many vectors as numbers lose nothing: {whole}");
 }
 
-/// Arrays hold what a file does: a point is its cluster's mean and its weights times vectors.
+/// Arrays hold the file's contents: a point is its cluster's mean plus its weights times the vectors.
 #[test]
 fn files_are_written_as_arrays() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -151,7 +151,7 @@ fn what_does_not_go_together_is_refused() {
     }
 }
 
-/// The card's picture is the host's but for its rounding: next to nothing without it, more on real cards.
+/// The card's picture is the host's up to rounding: almost equal on an ideal device, less so on real cards.
 #[test]
 fn a_card_draws_what_the_host_draws() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -184,7 +184,7 @@ fn a_card_draws_what_the_host_draws() {
     assert!(folder.path().join("out/precision.csv").exists() && folder.path().join("out/index.html").exists());
 }
 
-/// What a card does not take is refused with what to do, and nothing is written.
+/// Files and formats that a card does not support are refused with advice, and nothing is written.
 #[test]
 fn cards_refuse_what_they_have_no_programs_for() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -205,19 +205,19 @@ fn cards_refuse_what_they_have_no_programs_for() {
     assert!(floats.contains("rgba32f") && floats.contains("r300"), "{floats}");
 }
 
-/// A Radiance HDR file of 8 x 4 pixels, all (1, 1, 1), in packed scanlines or plain pixels.
+/// A Radiance HDR file of 8 x 4 pixels, all (1, 1, 1), in run-length encoded scanlines or plain pixels.
 fn white_hdr(first_line: &str, packed: bool) -> Vec<u8> {
     // Mantissas of 128 / 256 with the exponent 1.
     let pixel = [128, 128, 128, 129];
     let row = match packed {
-        // Per channel a run of eight.
+        // Per channel one run of eight.
         true => [vec![2, 2, 0, 8], pixel.iter().flat_map(|&value| [128 + 8, value]).collect()].concat(),
         false => pixel.repeat(8),
     };
     [format!("{first_line}\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n").into_bytes(), row.repeat(4)].concat()
 }
 
-/// Pictures of light are known by what is in them, whatever they are called.
+/// Formats of light pictures are recognised by their contents, not by their names.
 #[test]
 fn pictures_are_lights() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -274,8 +274,8 @@ fn pictures_that_are_no_lights_are_refused() {
     }
 }
 
-/// A square whose first texture coordinate grows with y: the anisotropic material runs along it, the file says so, and
-/// commands that read the file need not be told.
+/// A square whose first texture coordinate grows with y: the anisotropic material follows it, the file stores the
+/// tangents, and commands that read the file need no option for them.
 #[test]
 fn tangents_come_from_the_texture_and_stay_with_the_file() {
     let folder = tempfile::tempdir().expect("a folder for the test");

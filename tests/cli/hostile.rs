@@ -1,4 +1,4 @@
-//! Hostile and careless values for every option of every subcommand: exit code 2, one message, nothing left behind.
+//! Hostile and careless values for every option of every subcommand: exit code 2, one message, no files left behind.
 
 use std::ffi::OsString;
 use std::fs;
@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::tree;
 
-/// Values that somebody may give to any option.
+/// Hostile values for any option.
 const HOSTILE: &[&str] = &[
     "", " ", "nan", "inf", "-inf", "1e39", "-1e39", "1e400", "1e300", "-1", "0", "-0", "1,nan,2", "-1,-1", "0x0",
     "1e9x1e9", ",", "=", "a=", "=1,1,1", "--", "-", ".", "..", "/", "a\nb", "🫖",
@@ -24,8 +24,8 @@ const LONG: &[&str] = &[
     "\u{1b}[2J",
 ];
 
-/// Each command with arguments with which it fails before any work whatever its options say: the test is of what it
-/// says, and of what it leaves.
+/// Each command with arguments with which it fails before any work, whatever its options are: messages and files left
+/// behind are tested.
 const COMMANDS: &[&str] = &[
     "all-frequency card nowhere.prt --model nowhere.obj",
     "all-frequency compress nowhere.prt --model nowhere.obj --out y.prt",
@@ -68,7 +68,7 @@ const COMMANDS: &[&str] = &[
     "timeline nowhere.toml",
 ];
 
-/// Commands whose options take no values.
+/// Commands without options that take values.
 const WITHOUT_VALUES: [&str; 1] = ["completions"];
 
 /// Names and contents.
@@ -88,7 +88,7 @@ fn said(folder: &Path, arguments: &[OsString]) -> Said {
     Said { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
 }
 
-/// One message, whole, that says nothing twice and does nothing to a terminal; and nothing else.
+/// Requires one complete message that repeats nothing and has no control characters, and no other output.
 fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     let folder = tempfile::tempdir().expect("a folder for the test");
     for (name, bytes) in files {
@@ -97,7 +97,7 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     let Said { code, stdout, stderr } = said(folder.path(), arguments);
     assert_eq!((code, stdout.as_str()), (Some(2), ""), "{arguments:?}: {stderr}");
     let errors = stderr.lines().filter(|line| line.to_lowercase().starts_with("error:")).count();
-    // A shader's errors stand under one that counts them.
+    // A shader's errors are listed under one that counts them.
     let one = errors == 1 || (errors > 1 && stderr.starts_with("Error: asm::syntax"));
     assert!(one, "{arguments:?}: one error, not {errors}:\n{stderr}");
     assert!(!stderr.contains("panicked"), "{arguments:?}: {stderr}");
@@ -111,7 +111,7 @@ fn assert_refused(arguments: &[OsString], files: &[(&str, &[u8])]) -> String {
     stderr
 }
 
-/// A cause, behind an arrow, whose words the message in front of it has said already.
+/// A cause, printed behind an arrow, that repeats the words of the message before it.
 fn twice(stderr: &str) -> Option<String> {
     let words = |text: &str| text.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
     let (_, rest) = stderr.split_once("  x ")?;
@@ -129,7 +129,7 @@ fn twice(stderr: &str) -> Option<String> {
     words(message).contains(&cause).then_some(cause)
 }
 
-/// A command line, and an option that takes a value.
+/// Every command line with each of its options that takes a value.
 fn all_options() -> Vec<(Vec<&'static str>, String)> {
     let commands = tree::commands();
     let own = COMMANDS.iter().flat_map(|base| {
@@ -152,7 +152,7 @@ fn every_command_is_here() {
 #[test]
 fn hostile_values() {
     let mut runs: Vec<Vec<OsString>> = Vec::new();
-    // In the short form each option gets a third of the values, another third than its neighbours.
+    // In the short form each option gets a third of the values, a different one than its neighbours.
     let full = std::env::var_os("CROSSBAR_FULL").is_some();
     for (number, (base, option)) in all_options().into_iter().enumerate() {
         let base = || base.iter().map(OsString::from).chain([OsString::from(&option)]);
@@ -176,7 +176,7 @@ fn hostile_values() {
     });
 }
 
-/// Values that the option itself must refuse, with words that say what is wrong.
+/// Values that the option itself must refuse, with messages that name the fault.
 #[test]
 fn what_is_wrong_is_said() {
     const LARGE: &str = "too large for a 32-bit float: at most 3.4028235e38";
@@ -287,7 +287,7 @@ fn what_is_wrong_is_said() {
     }
 }
 
-/// Every place for a file with everything that is no such file.
+/// Every option for an input file with every kind of file that is no such input.
 #[test]
 fn hostile_files() {
     let commands: [&[&str]; 22] = [
@@ -362,7 +362,7 @@ fn hostile_files() {
     });
 }
 
-/// What a file claims and does not hold is refused at once, whatever it would take.
+/// Files that claim huge sizes are refused at once, before memory is allocated for them.
 #[test]
 fn claims_of_size() {
     let mtx = |sizes: &str| format!("%%MatrixMarket matrix coordinate real general\n{sizes}\n1 1 1\n").into_bytes();
@@ -384,7 +384,7 @@ fn claims_of_size() {
     }
 }
 
-/// A `.prt` file of no biclusters, with right checksums, that says it is a matrix of this size.
+/// A `.prt` file without biclusters, with right checksums, that claims a matrix of this size.
 fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
     let ended = |mut bytes: Vec<u8>| {
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
@@ -394,13 +394,13 @@ fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
     let fields = [version, conventions, 0, 0, rows, columns, 0, sections, 0, 0, 0, 0, 0];
     let header =
         [b"\x89PRT\r\n\x1a\n".to_vec(), fields.iter().flat_map(|field| field.to_le_bytes()).collect(), vec![0; 24]];
-    // No biclusters, whose columns take two bytes and whose values one.
+    // No biclusters; column indices take two bytes and values one.
     let body = [0, 0, 0, 0, 2, 1, 0, 0];
     let section = [&b"BICL"[..], &(body.len() as u64).to_le_bytes(), &body].concat();
     [ended(header.concat()), ended(section)].concat()
 }
 
-/// A PNG file of so many pixels along a side, of red, green, blue and alpha, with so many bytes that are no pixels.
+/// A PNG file whose header claims `side` x `side` RGBA pixels, followed by `length` arbitrary bytes.
 fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
     let header = [&b"IHDR"[..], &side.to_be_bytes(), &side.to_be_bytes(), &[sample_bits, 6, 0, 0, 0]].concat();
     let chunk = |body: &[u8]| {
@@ -411,8 +411,8 @@ fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
     [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
 }
 
-/// A picture of too many pixels, for the program, for what is asked of it, for the memory that it may take or for its
-/// file, is refused by its header: what follows may be anything.
+/// A picture with too many pixels for the program, the command, the memory limit or its file's size is refused by its
+/// header, whatever follows.
 #[test]
 fn large_pictures_are_refused_by_their_headers() {
     let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
@@ -433,7 +433,7 @@ fn large_pictures_are_refused_by_their_headers() {
     }
 }
 
-/// That nothing shines is said before the work, which would take minutes here.
+/// A scene without light sources is refused before the work, which would take minutes here.
 #[test]
 fn a_dark_scene_is_refused_before_the_work() {
     let side = 40;
@@ -448,7 +448,7 @@ fn a_dark_scene_is_refused_before_the_work() {
     let start = std::time::Instant::now();
     let stderr = assert_refused(&["radiosity", "m.obj"].map(OsString::from), &[("m.obj", model.as_bytes())]);
     assert!(stderr.contains("radiosity::dark"), "{stderr}");
-    // As many patches as faces, whatever was asked for: what they take is known once they are counted.
+    // There are at least as many patches as faces, so their memory is known only once they are counted.
     let shining = format!("mtllib m.mtl\nusemtl shining\n{model}");
     let files = [("m.obj", shining.as_bytes()), ("m.mtl", b"newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n")];
     let few = ["radiosity", "m.obj", "--patches", "10", "--memory-limit", "256MiB"];
@@ -457,7 +457,7 @@ fn a_dark_scene_is_refused_before_the_work() {
     assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
 }
 
-/// Every place for a result with everything that takes none.
+/// Every option for an output path with every kind of path that cannot be written.
 #[test]
 fn hostile_places_for_results() {
     let files: [(&str, &[u8]); 3] = [
@@ -493,7 +493,7 @@ fn hostile_places_for_results() {
     });
 }
 
-/// No error repeats in its own words what its cause says: whoever prints the chain would print it twice.
+/// No error repeats its cause in its own message: printing the chain of causes would print it twice.
 #[test]
 fn no_error_says_its_cause_twice() {
     fn sources(folder: &Path, found: &mut Vec<String>) {

@@ -1,4 +1,4 @@
-//! A program that is told to end leaves nothing half-written.
+//! A program that receives a signal leaves nothing half-written.
 #![cfg(unix)]
 
 use std::fs;
@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A command to which no signal is ignored, though one may be to whoever runs these tests (`nohup`, a script in the
-/// background): it would stay so for the program too, and work of minutes would run to its end.
+/// A command with no signal ignored. If the tests themselves run with one ignored (by `nohup`, or by a script in the
+/// background), the program would inherit that, and minutes of work would run to their end.
 fn unignoring(program: &str) -> Command {
     if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
@@ -29,7 +29,7 @@ fn staging(folder: &Path) -> usize {
     entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(".crossbar-")).count()
 }
 
-/// Waits until the long work has begun, which is after its staging folder is there.
+/// Waits until the long work has begun, which is after its staging folder exists.
 fn begun(child: &mut Child, folder: &Path) {
     let start = Instant::now();
     while staging(folder) == 0 {
@@ -44,7 +44,7 @@ fn signal(child: &Child, name: &str) {
     assert!(sent.success());
 }
 
-/// Work of minutes, which every test here ends early.
+/// Work of minutes, which every test here interrupts early.
 const LONG: &[&str] = &["render", "white-box", "--renderer", "path", "--samples", "100000", "--size", "64x64"];
 
 #[test]
@@ -67,7 +67,7 @@ fn signals_leave_nothing_behind() {
     }
 }
 
-/// The last sentence says that nothing was written and that work does not resume, as text or JSON.
+/// The last message says that nothing was written and that work does not resume, as text or as JSON.
 #[test]
 fn what_is_lost_is_said() {
     for (more, expected) in [(None, "Error: crossbar::interrupted"), (Some("--json"), "{\"")] {
@@ -84,11 +84,11 @@ fn what_is_lost_is_said() {
     }
 }
 
-/// A reader that never empties its pipe does not keep the program alive.
+/// A reader that never empties its pipe does not keep the program running.
 #[test]
 fn a_full_pipe_does_not_keep_the_program() {
     let folder = tempfile::tempdir().expect("a folder for the test");
-    // The shell fills its pipe, which nobody reads, and hands it over as standard error.
+    // The shell fills its pipe, which has no reader, and passes it on as standard error.
     let script = "(head -c 65536 /dev/zero >&2) & wait; exec \"$0\" \"$@\"";
     let mut command = unignoring("sh");
     command.args(["-c", script, env!("CARGO_BIN_EXE_crossbar")]).args(LONG).current_dir(folder.path());
@@ -104,7 +104,7 @@ fn a_full_pipe_does_not_keep_the_program() {
 fn shells_see_130_and_143() {
     for (name, code) in [("INT", 130), ("TERM", 143), ("HUP", 129)] {
         let folder = tempfile::tempdir().expect("a folder for the test");
-        // A shell without job control starts what is in the background with SIGINT ignored, so the program is in its
+        // A shell without job control starts background jobs with SIGINT ignored, so the program runs in its
         // foreground.
         let script = format!(
             "(until ls -d .crossbar-* > /dev/null 2>&1; do sleep 0.02; done; kill -s {name} $(cat pid)) & \
@@ -136,7 +136,7 @@ fn what_is_ignored_stays_ignored() {
     assert_eq!(staging(folder.path()), 0);
 }
 
-/// What a kill leaves, the next run clears away.
+/// The next run removes the staging folder of a killed one.
 #[test]
 fn the_next_run_clears_up_after_a_kill() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -152,7 +152,7 @@ fn the_next_run_clears_up_after_a_kill() {
     assert_eq!(fs::read_dir(folder.path().join("new")).expect("a folder").count(), 3);
 }
 
-/// A staging folder without a lock is one that was left: whoever makes one has the folder's lock meanwhile.
+/// A staging folder without a lock is abandoned: a run that creates one holds the lock of the parent folder meanwhile.
 #[test]
 fn the_next_run_clears_up_what_has_no_lock() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -163,7 +163,7 @@ fn the_next_run_clears_up_what_has_no_lock() {
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1, "nor is a lock left");
 }
 
-/// A program that may open next to no files cleans up all the same.
+/// A program with a low limit of open files cleans up all the same.
 #[test]
 fn without_files_to_open_nothing_is_left() {
     for most in 3..12 {
@@ -178,7 +178,7 @@ fn without_files_to_open_nothing_is_left() {
     }
 }
 
-/// Files of two runs into one folder never mix: all are of the one that came last.
+/// Files of two runs into one folder never mix: all come from the run that finished last.
 #[test]
 fn two_runs_do_not_mix() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -219,7 +219,7 @@ fn two_runs_do_not_mix() {
     assert_eq!(staging(folder.path()) + staging(&folder.path().join("out")), 0);
 }
 
-/// Names and bytes of a folder's pictures, which hold no times.
+/// Names and bytes of a folder's pictures, which contain no times.
 fn contents(folder: &Path) -> Vec<(std::ffi::OsString, Vec<u8>)> {
     let entries = fs::read_dir(folder).expect("a folder").flatten();
     let pictures = entries.filter(|entry| entry.path().extension().is_some_and(|ending| ending == "png"));

@@ -1,5 +1,5 @@
-//! Work that does not fit into memory is refused before it begins, and what is said to be needed is about what is
-//! needed.
+//! Work that does not fit into memory is refused before it begins, and the estimate in the message is near the memory
+//! actually used.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use crossbar::picture::{RgbImage, png};
 
 use crate::{crossbar_in, start};
 
-/// Commands whose work is large, each with an input that it finds in [`inputs`].
+/// Commands with large work, each with an input from [`inputs`].
 const LARGE: &[&[&str]] = &[
     &["render", "square.obj", "--size", "16384x16384"],
     &["render", "square.obj", "--size", "16384x16384", "--device", "r200"],
@@ -91,7 +91,7 @@ fn too_much_is_refused_with_the_limit_named() {
         let ran = crossbar_in(folder.path(), &[arguments, &["--memory-limit", "64MiB"][..]].concat(), "");
         assert_eq!((ran.code, ran.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ran.stderr);
         assert!(ran.stderr.contains("crossbar::memory"), "{arguments:?}: {}", ran.stderr);
-        // Lines are broken at spaces and hyphens.
+        // Lines are wrapped at spaces and hyphens.
         let stderr = ran.stderr.replace(|c: char| c == '|' || c.is_whitespace(), "");
         assert!(stderr.contains("64.0MiBareallowedby`--memory-limit`"), "{arguments:?}: {}", ran.stderr);
         assert_eq!(names(folder.path()), before, "{arguments:?} writes nothing");
@@ -102,13 +102,13 @@ fn too_much_is_refused_with_the_limit_named() {
     assert_eq!(ran.code, Some(2), "{}", ran.stderr);
 }
 
-/// The limit of the process counts, without any option.
+/// The process's own memory limit counts, without any option.
 #[test]
 #[cfg(target_os = "linux")]
 fn a_limited_process_refuses_and_does_not_abort() {
     let folder = inputs();
     let before = names(folder.path());
-    // With less than the first, the system may not even load the program.
+    // With less than the first limit, the system may not even load the program.
     for kibibytes in ["500000", "1500000"] {
         let small = |arguments: &&[&str]| {
             arguments[0] == "intersect"
@@ -127,7 +127,7 @@ fn a_limited_process_refuses_and_does_not_abort() {
     }
 }
 
-/// Address space that threads and their allocators reserve counts too: a sentence, or the work done, never an abort.
+/// Address space that threads and allocators reserve counts too: the result is a message or success, never an abort.
 #[test]
 #[cfg(target_os = "linux")]
 fn little_address_space_is_no_abort() {
@@ -149,11 +149,11 @@ fn little_address_space_is_no_abort() {
     }
 }
 
-/// How much a command says that it needs, in bytes, by what it says when too little is allowed.
+/// The memory in bytes that a command says it needs when the limit is too small; 0 if 1 MiB suffices.
 fn said(folder: &Path, arguments: &[&str]) -> f64 {
     let ran = crossbar_in(folder, &[arguments, &["--memory-limit", "1MiB", "--json"]].concat(), "");
     if ran.code == Some(0) {
-        // Too little to be refused.
+        // It runs within 1 MiB.
         return 0.0;
     }
     let error: serde_json::Value = serde_json::from_str(&ran.stderr).expect("one JSON document");
@@ -163,8 +163,8 @@ fn said(folder: &Path, arguments: &[&str]) -> f64 {
     size.parse::<bytesize::ByteSize>().expect("a size").as_u64() as f64
 }
 
-/// The largest resident memory of a run, in bytes, as the kernel keeps it for the program's own address space. What the
-/// system accounts to an ended process begins at the size of the process that started it: these tests are large.
+/// The peak resident memory of a run in bytes, polled from the kernel's `VmHWM`. `wait4`'s figure would begin at the
+/// size of the parent process, and these tests are large.
 #[cfg(target_os = "linux")]
 fn peak(folder: &Path, arguments: &[&str]) -> f64 {
     let mut child = start(folder, arguments);
@@ -183,8 +183,7 @@ fn peak(folder: &Path, arguments: &[&str]) -> f64 {
     }
 }
 
-/// What is said against what is measured: the peak of resident memory above that of the same command with next to no
-/// work.
+/// The estimate against the measurement: both as the increase over the same command with little work.
 #[test]
 #[cfg(target_os = "linux")]
 fn what_is_said_is_what_is_taken() {

@@ -1,4 +1,4 @@
-//! Model files of all kinds, for every command that reads them: what is mended is said, and how they are to be read.
+//! Model files of all kinds, for every command that reads them: repairs are reported, and options say how to read them.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn run(folder: &Path, line: &str) -> Ran {
     crossbar_in(folder, &line.split(' ').collect::<Vec<_>>(), "")
 }
 
-/// What is the matter with a model stands in the text of every command that reads it, in the same words.
+/// Every command that reads a model reports its defects, in the same words.
 #[test]
 fn what_is_mended_is_said_by_every_command() {
     let folder = folder();
@@ -80,7 +80,7 @@ fn a_model_with_y_up_stands_up() {
     }
 }
 
-/// A model and rays of one's own, with classes, map and page as for the teapot.
+/// Leaks of a user's model and rays, with classes, map and page as for the teapot.
 #[test]
 fn leaks_of_any_model() {
     let folder = folder();
@@ -101,7 +101,7 @@ fn leaks_of_any_model() {
     let report: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let rows = report["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 2);
-    // `intersect` gives the same number of hits.
+    // `intersect` finds the same number of hits.
     for (row, device) in rows.iter().zip(["r200", "r300"]) {
         let line = format!("intersect --mesh {mesh} --rays {rays} --device {device} --out h.csv --json");
         let asked: serde_json::Value = serde_json::from_str(&run(folder.path(), &line).stdout).expect("JSON");
@@ -112,7 +112,7 @@ fn leaks_of_any_model() {
     }
 }
 
-/// Rays of any origin at small triangles leave nothing of t on a card of 16 bits, and the program says so.
+/// Rays of any origin at small triangles leave no significant bits of t on a 16-bit card, and the program says so.
 #[test]
 fn a_format_without_bits_is_said() {
     let folder = folder();

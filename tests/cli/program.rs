@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-/// What a run left behind.
+/// Exit code and output of a run.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Ran {
     pub(crate) code: Option<i32>,
@@ -20,7 +20,7 @@ impl Ran {
     }
 }
 
-/// Runs the program in `folder` with `input` on standard input; no variable of the caller changes how it looks.
+/// Runs the program in `folder` with `input` on standard input; environment variables cannot change its output's style.
 pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Ran {
     let mut child = Command::new(env!("CARGO_BIN_EXE_crossbar"))
         .args(arguments)
@@ -41,13 +41,13 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Ran
     let output = child.wait_with_output().expect("the program runs to its end");
     writer.join().expect("writing does not panic");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");
-    // Lines on progress come where the computer is slow.
+    // Lines of progress depend on the computer's speed.
     let stderr = text(output.stderr);
     let stderr = stderr.split_inclusive('\n').filter(|line| !line.starts_with("progress: ")).collect();
     Ran { code: output.status.code(), stdout: text(output.stdout), stderr }
 }
 
-/// Starts the program with nobody reading.
+/// Starts the program with its output discarded.
 #[allow(dead_code, reason = "not every binary leaves the program running")]
 pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));

@@ -17,11 +17,11 @@ fn an_unknown_entry_is_refused_before_anything_is_written() {
     assert!(slip.stderr.contains("did you mean `figure-7`?"), "{}", slip.stderr);
 }
 
-/// The figures themselves: whoever changes the model sees here what it does to them.
+/// Snapshot of the figures: a change of the model shows here.
 #[test]
 fn the_rows_are_these() {
     let folder = tempfile::tempdir().expect("a folder");
-    // The tables of whole renderings take long; tests/papers holds theirs.
+    // The tables of complete renderings take long; tests/papers covers them.
     let quick = ["radeon-8500", "vertex-variant", "equation-11", "figure-7"];
     let ran = crossbar_in(folder.path(), &[&["reproduce", "--json", "--out", "found"], &quick[..]].concat(), "");
     assert_eq!(ran.code, Some(1), "figures are missed: {}", ran.stderr);
@@ -37,7 +37,7 @@ fn the_rows_are_these() {
     insta::assert_snapshot!(file("rows.csv") + &file("tally.csv"));
 }
 
-/// What holds ends with 0, and says so in text.
+/// Exit code 0 and a text that says so, when every row holds.
 #[test]
 fn nothing_missed_is_success() {
     let folder = tempfile::tempdir().expect("a folder");

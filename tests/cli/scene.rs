@@ -1,4 +1,4 @@
-//! `crossbar scene`: the list, one scene, its files, and what is said of a wrong name.
+//! `crossbar scene`: the list, one scene, its files, and the message for a wrong name.
 
 use crate::{crossbar, crossbar_in};
 
@@ -20,7 +20,7 @@ fn files_are_written_together() {
     assert_eq!(Some(scene), crossbar::scene::built::build("cornell-box"));
 }
 
-/// What a user reads who hands over a scene with a mistake.
+/// Messages for scene files with a mistake.
 #[test]
 fn bad_scenes() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes/bad");

@@ -1,4 +1,4 @@
-//! What reaches a terminal of text from outside: nothing that acts on it, no endless lines, no endless lists.
+//! Text from outside on a terminal: no control sequences, no endless lines, no endless lists.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crossbar::report::visible::is_hidden;
 
 use crate::{Ran, crossbar, crossbar_in};
 
-/// A place for the files of a test.
+/// A temporary folder with the files of a test.
 fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder for the test");
     for (name, bytes) in files {
@@ -36,7 +36,7 @@ fn an_error_far_to_the_right_is_shown_with_its_column() {
     assert!(ran.stdout.len() < 2000, "a finding of {} bytes", ran.stdout.len());
 }
 
-/// Escape sequences, a line that overwrites itself, and letters that read backwards.
+/// Escape sequences, a carriage return, and characters that reverse the text's direction.
 const HOSTILE: &str = "\x1b]0;title\x07\x1b[2J\r\u{202e}\u{9b}31m\u{200b}";
 
 fn nothing_hidden(ran: &Ran, what: &str) {
@@ -92,7 +92,7 @@ fn nothing_from_outside_acts_on_the_terminal() {
     nothing_hidden(&crossbar(&["alu", "sqrt", "--format", "fp16"], &format!("{HOSTILE}\n")), "standard input");
 }
 
-/// A program of so many lines that break a rule each.
+/// A program of `count` lines, each of which breaks a rule.
 fn bad_lines(count: usize) -> String {
     format!("ps_1_4\n{}", "mov r0, c9\n".repeat(count))
 }
@@ -118,8 +118,8 @@ fn lists_of_errors_are_cut_unless_all_are_asked_for() {
     assert_eq!(check(&bad_lines(3), &["--all-errors"]), check(&bad_lines(3), &[]));
 }
 
-/// Processor time of the program alone, so that a busy machine does not matter: eight times the errors may cost eight
-/// times the time, where a renderer that walks the text for each error would take 64 times.
+/// Processor time of the program alone, so that other load does not matter: eight times the errors may cost eight times
+/// the time, where a renderer that scans the text for each error would take 64 times.
 #[test]
 fn a_report_costs_as_much_as_its_errors() {
     let seconds = |count: usize, more: &[&str]| {

@@ -1,4 +1,4 @@
-//! Tables of every command, in the widths of terminals.
+//! Tables of every command, at terminal widths.
 
 use std::path::Path;
 use std::process::Command;
@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr as _;
 
 use crate::crossbar_in;
 
-/// What a command prints on a terminal of so many columns.
+/// The output of a command on a terminal of `columns` columns.
 fn printed(folder: &Path, arguments: &[&str], columns: usize) -> String {
     let mut command = Command::new(env!("CARGO_BIN_EXE_crossbar"));
     command.args(arguments).current_dir(folder).env("COLUMNS", columns.to_string());
@@ -19,7 +19,7 @@ fn fixture(path: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path).display().to_string()
 }
 
-/// Every command that prints tables: no line of one is wider than the terminal.
+/// No line of any table is wider than the terminal.
 #[test]
 fn tables_fit_the_terminal() {
     let (case, square) = (fixture("cases/modulate.toml"), fixture("models/square.obj"));
@@ -50,8 +50,7 @@ fn tables_fit_the_terminal() {
     }
 }
 
-/// The main study as it is read, with the switches that change nothing folded, on its page too; files for programs have
-/// every row.
+/// In the main study, switches that change nothing are folded, on its page too; files for programs have every row.
 #[test]
 fn rows_of_the_same_bits_are_folded() {
     let folder = tempfile::tempdir().expect("a folder for the test");
@@ -66,7 +65,8 @@ fn rows_of_the_same_bits_are_folded() {
     assert_eq!(csv.lines().count(), 1 + rows, "{csv}");
 }
 
-/// Off a terminal nothing depends on one: tables are 100 columns wide at most, progress has no control characters.
+/// Without a terminal the output does not depend on one: tables are at most 100 columns wide, progress has no control
+/// characters.
 #[test]
 fn off_a_terminal_the_width_is_fixed() {
     let ran = crossbar_in(Path::new(env!("CARGO_MANIFEST_DIR")), &["devices", "nv20"], "");

@@ -1,4 +1,4 @@
-//! `crossbar timeline`: tables, document and trace of a run, and what is said about bad requests.
+//! `crossbar timeline`: tables, document and trace of a run, and messages for invalid requests.
 
 use std::fs;
 
@@ -26,7 +26,7 @@ fn sum(list: &Value, field: &str) -> u64 {
     list.as_array().expect("a list").iter().map(|entry| number(&entry[field])).sum()
 }
 
-/// What must hold between the figures of a document.
+/// Relations between the figures of a document.
 fn check(document: &Value, models: &[&str]) {
     let found: Vec<&str> =
         document["models"].as_array().expect("models").iter().map(|m| m["model"].as_str().expect("a name")).collect();
@@ -48,7 +48,7 @@ fn check(document: &Value, models: &[&str]) {
 
 #[test]
 fn a_case_by_its_rates() {
-    // Of the two models the one without guesses: its tables change when the tables do, not when a guess does.
+    // The model without guesses of the two: its tables change with the tables of the device, not with a guess.
     let ran = crossbar(&["timeline", "fixtures/cases/modulate.toml", "--model", "rates", "--sensitivity"], "");
     insta::assert_snapshot!(ran.transcript());
 }
@@ -69,7 +69,7 @@ fn buckets_follow_one_another_on_one_card() {
     let timed = document(RAYS);
     check(&timed, &["rates", "pipeline"]);
     assert_eq!((&timed["rays"], &timed["device"]), (&Value::from(48 * 40), &Value::from("r200")));
-    // 32 x 32 rays a bucket, cut at the edges: four buckets.
+    // 32 x 32 rays per bucket, cut at the edges: four buckets.
     assert_eq!(timed["models"][0]["draws"].as_array().map(Vec::len), Some(4));
     assert_eq!(document(&[RAYS, &["--threads", "3"]].concat()), timed, "the same for any number of threads");
 }
@@ -99,7 +99,7 @@ fn guesses_are_halved_and_doubled() {
     let total = number(&model["total_ps"]);
     let rows = model["sensitivity"].as_array().expect("rows");
     let row = |key: &str| rows.iter().find(|row| row["guess"] == key).unwrap_or_else(|| panic!("no guess {key}"));
-    // Four pixels: the host's way to the draw is longer than the draw.
+    // With four pixels the host needs longer to submit the draw than the card to execute it.
     let draw = row("queue.draw_ps");
     assert!(number(&draw["halved_ps"]) < total && total < number(&draw["doubled_ps"]), "{draw}");
     let unused = row("queue.test_fence_ps");
@@ -122,7 +122,7 @@ fn the_texture_cache_on_request() {
         assert!(texels > 0 && lines >= texels && lines >= half, "{row}");
         assert!(half >= same && same >= double && double >= distinct && distinct > 0, "{row}");
     }
-    // The same work, whoever counts the misses.
+    // The same work, whichever model counts the cache misses.
     assert_eq!(sum(&estimated["models"][0]["draws"], "fragments"), sum(&simulated["models"][0]["draws"], "fragments"));
 }
 

@@ -1,5 +1,5 @@
-//! A strict reader of the trace event format, in its JSON object form, as far as Crossbar writes it: complete events,
-//! metadata and flows. Whatever the format does not know, or a viewer would drop without a word, is an error.
+//! A strict reader of the trace event format in its JSON object form, as far as Crossbar writes it: complete events,
+//! metadata and flows. Anything unknown to the format, or silently dropped by viewers, is an error.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +15,7 @@ pub(crate) struct TraceFile {
     pub(crate) other_data: Map<String, Value>,
 }
 
-/// What viewers show times in.
+/// The unit in which viewers show times.
 #[derive(Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum TimeUnit {
@@ -23,7 +23,7 @@ pub(crate) enum TimeUnit {
     Ns,
 }
 
-/// An event, by its phase. Times are microseconds.
+/// An event by its phase, with times in microseconds.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "ph", deny_unknown_fields)]
 pub(crate) enum Event {
@@ -46,7 +46,7 @@ pub(crate) enum Event {
     FlowEnd { name: String, cat: String, id: u64, ts: f64, pid: u32, tid: u32, bp: BindingPoint },
 }
 
-/// Metadata that the format knows.
+/// Metadata names that the format defines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum MetadataName {
@@ -57,14 +57,14 @@ pub(crate) enum MetadataName {
     ThreadSortIndex,
 }
 
-/// Where a flow ends: within the slice around it, not at the next one.
+/// Binding of a flow's end: to the enclosing slice, not to the next one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub(crate) enum BindingPoint {
     #[serde(rename = "e")]
     Enclosing,
 }
 
-/// A slice of a thread.
+/// A slice on a thread.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slice {
     pub(crate) name: String,
@@ -73,7 +73,7 @@ pub(crate) struct Slice {
     pub(crate) end: f64,
 }
 
-/// What a viewer shows: threads by name, in their order, with their slices.
+/// The trace as a viewer shows it: threads by name, in their order, with their slices.
 #[derive(Debug)]
 pub(crate) struct Shown {
     pub(crate) process: String,
@@ -82,8 +82,8 @@ pub(crate) struct Shown {
     pub(crate) about: Map<String, Value>,
 }
 
-/// Reads a trace and holds it to what viewers need: one named process, named threads with places, slices of each in
-/// order and side by side, flows in pairs whose ends lie in slices.
+/// Reads a trace and checks the requirements of viewers: one named process, named and ordered threads, slices of each
+/// in order without overlap, flows in pairs whose ends lie in slices.
 pub(crate) fn read(text: &str) -> Result<Shown, String> {
     let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
@@ -143,7 +143,7 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
         return Err("a flow ends that did not start".to_owned());
     }
     for slices in slices.values() {
-        // Exact in picoseconds; in microseconds the sums are off in the last bit.
+        // Times are exact in picoseconds; in microseconds sums are off in the last bit.
         if let Some(pair) = slices.windows(2).find(|pair| pair[1].start < pair[0].end - 1e-7) {
             return Err(format!("two at a time: {pair:?}"));
         }

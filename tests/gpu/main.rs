@@ -1,4 +1,4 @@
-//! What needs a GPU adapter, beside the emulator's own tests (`refsim/tests/gpu_*`, `wgsl_*`): the same bits as by the
+//! Tests that need a GPU adapter, beside the emulator's own (`refsim/tests/gpu_*`, `wgsl_*`): the same bits as by the
 //! batch executor. Without an adapter every test here is counted as ignored.
 //!
 //! `tests/agree` draws one case in four on the adapter too, and compares the other executors where there is none.

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::program::{crossbar, crossbar_in};
 
-/// What the program says as JSON; drivers may talk on the error stream.
+/// The program's output as JSON; drivers may write to standard error.
 fn document(text: &str) -> Value {
     serde_json::from_str(text).expect("one JSON document")
 }
@@ -28,7 +28,7 @@ pub(crate) fn adapters_are_listed(_: &Arc<Gpu>) {
     }
 }
 
-/// Every operation is tried, and the exit code follows from the numbers shown.
+/// Every operation is probed, and the exit code follows from the numbers shown.
 pub(crate) fn an_adapter_is_probed(gpu: &Arc<Gpu>) {
     let ran = crossbar(&["devices", "--probe", &gpu.adapter().name, "--json"], "");
     let report = document(&ran.stdout);
@@ -59,7 +59,7 @@ pub(crate) fn every_example_is_equal_down_to_its_instructions(_: &Arc<Gpu>) {
             assert_eq!(ran.code, Some(0), "{case}: {}", ran.transcript());
             document(&ran.stdout)["trace"].clone()
         };
-        // Neither knows flags.
+        // Neither executor computes flags.
         assert_eq!(trace("wgpu"), trace("batch"), "{case}");
     }
 }

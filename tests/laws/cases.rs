@@ -1,4 +1,4 @@
-//! The case parser: whatever stands in the file, the answer is a case or an error, and every error can be shown.
+//! The case parser: any bytes give a case or an error, and every error can be rendered.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ fn folder() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/cases"))
 }
 
-/// Reads the bytes as a case; an error must be one that can be rendered with its place.
+/// Reads the bytes as a case; renders the error if there is one.
 fn read(bytes: &[u8]) -> Option<Setup> {
     let shown = |error: CaseError| {
         let mut text = String::new();
@@ -29,7 +29,7 @@ fn read(bytes: &[u8]) -> Option<Setup> {
     Setup::from_bytes("case.toml", bytes, folder()).map_err(shown).ok()
 }
 
-/// Draws what small cases ask for: bad state must come back as an error, too.
+/// Draws small cases: invalid state must come back as an error too.
 fn draw(setup: &Setup) {
     if setup.size[0] * setup.size[1] <= 64 * 64 {
         case::run(setup, ExecutorKind::Scalar).ok();
@@ -54,7 +54,7 @@ fn deep_nesting_does_not_overflow_the_stack() {
     }
 }
 
-/// Words and numbers that mean something somewhere in a case, and some that do nowhere.
+/// Words and numbers, some of which mean something in a case.
 const PIECES: &[&str] = &[
     "0",
     "-1",
@@ -96,7 +96,7 @@ const PIECES: &[&str] = &[
     "\"\"\"",
 ];
 
-/// What a mutation does at a place, given as a fraction of the text.
+/// A mutation of the text at a place, given as a fraction of the text's length.
 #[derive(Clone, Debug)]
 enum Mutation {
     Replace(usize, u8),

@@ -1,4 +1,4 @@
-//! Laws of `crossbar::compare`: ULPs measure, and whatever is changed in a trace is found, at its place.
+//! Laws of `crossbar::compare`: ULPs are a metric, and every change to a trace is found at its place.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ proptest! {
     fn the_next_number_is_one_ulp_away(format in format(), bits in any::<u32>()) {
         let bits = bits & format.mask();
         let (a, b) = (Number { format, bits }, Number { format, bits: (bits + 1) & format.mask() });
-        // Not over the end of the range, nor from the largest of one sign to the zero of the other.
+        // Excludes steps to infinity or NaN, and from the largest number of one sign to the zero of the other.
         prop_assume!(format.is_finite(a.bits) && format.is_finite(b.bits));
         prop_assume!(format.is_negative(a.bits) == format.is_negative(b.bits));
         prop_assert_eq!(ulps(&a, &b).0, Some(1.0));
@@ -76,7 +76,7 @@ fn example(name: &str) -> Setup {
     Setup::read(&path).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
-/// The difference between a pixel's trace and the same after a change.
+/// The first difference between a pixel's trace and the same trace after a change.
 fn after(setup: &Setup, pixel: (u32, u32), change: impl Fn(&mut Vec<FragmentTrace>)) -> Option<TraceDifference> {
     let loaded = Loaded::new(setup, ExecutorKind::Scalar).expect("the example fits its card");
     let trace = loaded.trace(&[pixel]).expect("the pixel is inside").remove(0);
@@ -108,7 +108,7 @@ fn one_bit_of_one_step() {
             let register = if k == 2 { "oC0" } else { "r0" };
             assert_eq!(found.values[0].name, format!("{register}.{}", ["x", "y", "z", "w"][c]));
             assert!(found.operands.iter().all(|operand| !operand.differs), "{found:?}");
-            // What every instruction of the example reads, in its order.
+            // The operands that each instruction of the example reads, in its order.
             let read: Vec<&str> = found.operands.iter().map(|operand| operand.values[0].name.as_str()).collect();
             assert_eq!(read, [&["c0.x"][..], &["r0.x", "c1.x"], &["r0.x"]][k]);
         }
@@ -120,7 +120,7 @@ type Change = fn(&mut Vec<FragmentTrace>);
 #[test]
 fn every_stage_in_its_order() {
     let setup = example("two_triangles.toml");
-    // Every change alone, from the latest stage to the earliest; then with all later ones, which it must hide.
+    // Each change alone, from the latest stage to the earliest; then together with all later ones, which it must hide.
     let changes: [(&str, Change); 7] = [
         ("merge", |t| t[1].after.colors[0] = Some(7)),
         ("test", |t| t[1].shading.fate = FragmentFate::AlphaFailed),
@@ -167,8 +167,8 @@ fn every_stage_in_its_order() {
     assert!(matches!(shorter.stage, TraceStage::Coverage { left: Some(_), right: None }), "{shorter:?}");
 }
 
-/// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and with it
-/// whether it covers the centre of column 3.
+/// A matrix entry that a short format rounds from 1.06 to 1: the right edge moves from column 3.06 to 3, and no longer
+/// covers the centre of column 3.
 #[test]
 fn vertices_come_before_what_they_cause() {
     let mut setup = example("transform.toml");
@@ -191,8 +191,8 @@ fn a_mask_is_a_difference() {
     assert_eq!(found.stage, TraceStage::Mask { index: 1, left: Mask::ALL, right: Mask(0b0101) });
 }
 
-/// What an instruction read is put together from what was written before: through `phase`, which loses alpha, and for
-/// both of a pair from before the pair.
+/// Operand values are recovered from earlier writes: across `phase`, which loses alpha, and for both instructions of a
+/// co-issued pair from before the pair.
 #[test]
 fn operands_are_what_was_read() {
     let text = r#"shader_model = "ps_1_4"

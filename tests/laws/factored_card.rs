@@ -1,4 +1,5 @@
-//! All-frequency transfer on a card: what pixels show, how far each choice is off f64, and the time of a frame.
+//! All-frequency transfer on a card: the triangles that pixels show, the error of each precision against f64, and the
+//! time of a frame.
 
 use approx::assert_relative_eq;
 use crossbar::all_frequency::Reflectance;
@@ -15,7 +16,7 @@ use crossbar::all_frequency::shade::{Multiplies, TransferredRadiance, plain};
 use crossbar::card::frame_time::frame_time;
 use crossbar::card::{MeshView, seen_pixels};
 use crossbar::scene::Camera;
-use crossbar::study::prt::{factored_precision, factored_precision_table};
+use crossbar::study::prt::{factored_precision, variants_table};
 use crossbar::transfer::synthetic::{hills, signal_at, torus_signal};
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
@@ -28,7 +29,7 @@ use refsim::timing::{Level, Model};
 
 const SIZE: [u32; 2] = [48, 40];
 
-/// From above, so that the hills hide nothing of each other.
+/// From above, so that no hill hides another.
 fn camera() -> Camera {
     Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
 }
@@ -57,7 +58,7 @@ impl Hills {
     }
 }
 
-/// The point that a pixel's weights give lies on the pixel's ray, as near as vertices are put at fractions of a pixel.
+/// The point that a pixel's weights give lies on the pixel's ray, to the subpixel precision of vertices.
 #[test]
 fn pixels_show_what_their_rays_meet() {
     let hills = Hills::new();
@@ -79,7 +80,7 @@ fn pixels_show_what_their_rays_meet() {
     assert!(seen.iter().flatten().count() > 700);
 }
 
-/// Two bits more are a quarter of the error; fp24 is nearer than fp16, sixteen bits nearer than eight on each card.
+/// Each two bits fewer quadruple the error; fp24 is nearer to f64 than fp16, sixteen bits than eight on each card.
 #[test]
 fn what_is_coarser_is_farther_off() {
     let hills = Hills::new();
@@ -93,7 +94,7 @@ fn what_is_coarser_is_farther_off() {
     });
     let brightest = brightest.fold(0.0, f64::max);
     assert!((0.5..2.0).contains(&brightest), "{brightest}");
-    let table = factored_precision_table(&ways);
+    let table = variants_table(&ways);
     assert_eq!(table.rows().len(), ways.len());
     let rms = |choice: &str| {
         let way = ways.iter().find(|way| way.choice == choice).unwrap_or_else(|| panic!("{choice}"));
@@ -109,10 +110,10 @@ fn what_is_coarser_is_farther_off() {
     assert!(4.0 * rms("r350: signed 16 bits, sampler") < rms("r350: signed 8 bits, sampler"));
     assert!(rms("nv35: signed 16 bits, sampler, fp32") < rms("nv35: signed 16 bits, sampler, fp16"));
     let mut products = ways.iter().filter(|way| way.axis != "vertex colors");
-    assert!(products.all(|way| way.below_zero > 0), "truncated factors have negative lobes");
+    assert!(products.all(|way| way.below_zero > Some(0)), "truncated factors have negative lobes");
 }
 
-/// One constant for six models: the rates that Table 1 prints ask for 0.57 to 1.08 G multiplications a second.
+/// One host rate for six models: Table 1's frame rates imply 0.57 to 1.08 G multiplications per second.
 #[test]
 fn the_host_is_that_of_table_1() {
     let rates = TABLE_1.map(|model| model.multiplies_per_second() / 1e9);
@@ -126,7 +127,7 @@ fn the_host_is_that_of_table_1() {
     assert_relative_eq!(host.time_of(HostOperation::MultiplyAdd, all).seconds(), seconds, max_relative = 1e-3);
 }
 
-/// What a frame asks for follows from its sizes, and its time from that: 30 floats per vertex cross the bus.
+/// The work of a frame follows from its sizes, and its time from that work: 30 floats per vertex cross the bus.
 #[test]
 fn a_frame_is_counted_and_timed() {
     let hills = Hills::new();
@@ -152,7 +153,7 @@ fn a_frame_is_counted_and_timed() {
         let model = Model::new(Level::Pipeline, &r350).expect("a model");
         assert_eq!(time.uploads, model.upload(bytes as u64 * vertices));
         assert!(time.frame >= time.host && time.host >= time.products, "{time:?}");
-        // From sizes alone: host and vertices take as long, and only pixels are missing.
+        // From sizes alone: host and vertices take as long, and only the pixels' time is missing.
         let run_per_triangle = time.vertices_run as f64 / time.triangles as f64;
         let frame = FactoredFrame { vertices, triangles, terms: 10, host: steps, run_per_triangle };
         let estimate = frame_time(&r350, &frame.log(&place), &host).expect("a time");
@@ -168,7 +169,8 @@ fn a_frame_is_counted_and_timed() {
     }
 }
 
-/// Beside steps 2 and 3 on the host, 30 floats per vertex and the product per pixel take next to nothing.
+/// Compared with steps 2 and 3 on the host, transferring 30 floats per vertex and one product per pixel take little
+/// time.
 #[test]
 fn the_card_waits_for_the_host_of_table_1() {
     let (r350, host) = (Profile::named("r350").expect("a card"), host_of_table_1().expect("a host"));
@@ -189,7 +191,7 @@ fn the_card_waits_for_the_host_of_table_1() {
     }
 }
 
-/// Made-up transfer of 60 vertices in two segments.
+/// Synthetic transfer of 60 vertices in two segments.
 fn coded(rows: usize, vectors: usize) -> CodedTransfer {
     let segment = |segment: usize, vertices: Vec<u32>| {
         let options = SegmentOptions { points_per_cluster: 20, vectors, iterations: 3, ..SegmentOptions::default() };
@@ -201,8 +203,8 @@ fn coded(rows: usize, vectors: usize) -> CodedTransfer {
     CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded")
 }
 
-/// Equation 13 by pixel programs is that of plain loops in f64 of the same code, to the rounding of each card's
-/// arithmetic; of clusters with more than sixteen representatives too.
+/// Equation 13 by pixel programs agrees with plain f64 loops over the same code, to the rounding of each card's
+/// arithmetic; also for clusters with more than sixteen representatives.
 #[test]
 fn sums_by_a_card_are_those_of_plain_loops() {
     let light: Vec<[f32; 3]> = (0..48).map(|at| [at % 3, at % 5, at % 7].map(|value| value as f32 - 1.75)).collect();
@@ -211,7 +213,7 @@ fn sums_by_a_card_are_those_of_plain_loops() {
         let coded = coded(rows, vectors);
         let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
         let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
-        // Sums of up to forty products, each rounded to a significand of 17, 24 and 11 bits.
+        // Sums of up to forty products, each rounded to a significand of 17, 24 or 11 bits.
         for (device, bits) in [("r350", 17), ("nv35", 24), ("ideal-fp32", 24)] {
             let profile = Profile::named(device).expect("a device");
             let mut card = SumCard::new(profile, ExecutorKind::Batch, &coded).expect("a card");
@@ -229,7 +231,7 @@ fn sums_by_a_card_are_those_of_plain_loops() {
     }
 }
 
-/// What does not fit is refused with the limit's name.
+/// Sums that exceed a card's limits are refused, and the message names the limit.
 #[test]
 fn sums_that_no_card_holds_are_refused() {
     let refused = |profile: Profile, coded: &CodedTransfer| {

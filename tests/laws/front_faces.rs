@@ -1,6 +1,5 @@
-//! What cards show of open models: front faces alone, as rays of the host meet them, on the card of each kind of
-//! transfer. An ideal card differs from values interpolated in f64 by less than putting vertices at fractions of a
-//! pixel explains.
+//! Cards draw the front faces of open models alone, as rays of the host meet them, for each kind of transfer. An ideal
+//! card differs from values interpolated in f64 by less than the snapping of vertices to subpixels explains.
 
 use crossbar::all_frequency::Reflectance;
 use crossbar::all_frequency::factor::{FactorSampling, Factorization, Lobe, Supersamples};
@@ -22,7 +21,7 @@ use crossbar::report::Provenance;
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::study::Study;
-use crossbar::study::prt::OnCard;
+use crossbar::study::prt::{CardSetting, OnCard};
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::file::PrtMeaning;
@@ -35,16 +34,16 @@ use refsim::texture::TexelFormat;
 
 const SIZE: [u32; 2] = [60, 50];
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
-/// Rays beside a pixel's center, in pixels: where all meet one triangle, the raster decides as they do.
+/// Offsets of rays from a pixel's center, in pixels: where all meet the same triangle, the rasterizer finds it too.
 const AROUND: [[f64; 2]; 5] = [[0.0, 0.0], [0.05, 0.05], [0.05, -0.05], [-0.05, 0.05], [-0.05, -0.05]];
 
-/// What a pixel shows in f64.
+/// The surface that a pixel shows, computed in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shown {
     Nothing,
-    /// The triangle's values at the center, and a step to the right and down.
+    /// The barycentric weights at the center, one subpixel step to the right, and one down.
     Triangle([SeenPixel; 3]),
-    /// Triangles meet near the center: the raster may decide otherwise.
+    /// Triangles meet near the center: the rasterizer may decide otherwise.
     Edge,
 }
 
@@ -67,7 +66,7 @@ impl Scene {
         scene
     }
 
-    /// A box without a lid from above and aside: there is nothing to see where inner faces would be.
+    /// A box without a lid, seen from above and aside: where an inner face would be, its culled back shows nothing.
     fn open_box() -> Self {
         let corner = |at: usize| {
             let [x, y] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]][at % 4];
@@ -94,8 +93,8 @@ impl Scene {
         DVec3::from(self.vertices.positions()[vertex as usize].map(f64::from))
     }
 
-    /// Distance, and the corners' weights, of the point of a triangle's plane at a place of the picture; `None` from
-    /// behind.
+    /// Distance along the ray, and barycentric weights, of the point where the ray at a place of the picture meets a
+    /// triangle's plane; `None` for a back face or behind the eye.
     fn meet(&self, triangle: usize, [x, y]: [f64; 2]) -> Option<(f64, SeenPixel)> {
         let (eye, direction) = (DVec3::from(self.camera.eye().map(f64::from)), self.camera.direction_at(x, y));
         let corners = self.vertices.triangles()[triangle];
@@ -109,7 +108,7 @@ impl Scene {
             .then_some((t, SeenPixel { triangle: triangle as u32, corners, weights }))
     }
 
-    /// Made-up transfer to light of order 3: 64 clusters of 6 vectors where there are vertices enough.
+    /// Synthetic transfer to light of order 3: up to 64 clusters of 6 vectors, one for every four vertices at most.
     fn clusters(&self, basis: &ExitBasis) -> Clustering {
         let place = |at: usize| self.place(at as u32).to_array();
         let signal = signal_at(self.vertices.len(), basis.len() * 9, 3, place);
@@ -137,7 +136,7 @@ impl Scene {
             return Shown::Edge;
         }
         let Some(triangle) = nearest else { return Shown::Nothing };
-        // Twice what vertices are moved by, half a fraction of a pixel each.
+        // Twice the snapping error of a vertex, which is half a subpixel per axis.
         let step = 1.0 / f64::from(1_u32 << ideal().rules.subpixel_bits);
         let met = [[0.0; 2], [step, 0.0], [0.0, step]].map(|beside| self.meet(triangle as usize, at(beside)));
         match met {
@@ -146,8 +145,8 @@ impl Scene {
         }
     }
 
-    /// Holds a picture against values in f64: nothing where nothing is, and elsewhere within what a step explains plus
-    /// a share of the largest value. `None` of a value: it is not compared.
+    /// Compares a picture with values in f64: background pixels are exactly 0, others lie within the change over one
+    /// subpixel step plus `share` of the largest value. Pixels whose value is `None` are not compared.
     fn check(&self, kind: &str, texels: &Texels, share: f64, value: &dyn Fn(&SeenPixel) -> Option<[f64; 3]>) {
         let name = format!("{}, {kind}", self.name);
         let values = |shown: &Shown| {
@@ -183,7 +182,7 @@ fn scenes() -> [Scene; 2] {
     [Scene::open_box(), Scene::teapot()]
 }
 
-/// The one place that says what pixels show for comparisons shows front faces too.
+/// `seen_pixels`, on which comparisons rely, reports front faces only.
 #[test]
 fn seen_pixels_are_those_of_rays() {
     for scene in scenes() {
@@ -204,7 +203,7 @@ fn seen_pixels_are_those_of_rays() {
 #[test]
 fn compressed_transfer_shows_front_faces() {
     for scene in scenes() {
-        // What is left of glossy transfer is the linear filter between 256 texels of a map.
+        // The remaining error of glossy transfer is the bilinear filter between the 256 texels of a map's side.
         for (basis, share) in [(ExitBasis::Radiance, 1e-5), (ExitBasis::of_order(4), 3e-3)] {
             let clustering = scene.clusters(&basis);
             let light = HarmonicLight::red_and_blue(3);
@@ -229,7 +228,7 @@ fn compressed_transfer_shows_front_faces() {
                 let parts = || seen.corners.into_iter().zip(seen.weights);
                 let local = |v: u32| vertices.frames()[v as usize].to_local(eye - scene.place(v));
                 let view = parts().map(|(v, weight)| weight * local(v)).sum::<DVec3>().normalize();
-                // Maps end at the horizon.
+                // Maps end at the horizon, so grazing views are not compared.
                 if transfer.is_glossy() && view.z < 0.05 {
                     return None;
                 }
@@ -271,7 +270,7 @@ fn all_frequency_transfer_shows_front_faces() {
 fn bi_scale_transfer_shows_front_faces() {
     let (random, views, lights) = (CounterRng::new(7), 5, 3);
     let directions = |side| LocalDirections::new(side).expect("directions");
-    // Of one color throughout a patch, so that the few bits of a sampler's weights do not show.
+    // One color throughout a patch, so that the few weight bits of a sampler make no difference.
     let sample = |at: u64| [0, 1, 2].map(|channel| random.unit(at / 16, channel, 0) as f32);
     let samples = (0..16 * (views * lights) as u64 * (views * lights) as u64).map(sample).collect();
     let textures = [BidirectionalTexture::new(4, directions(views), directions(lights), samples).expect("a texture")];
@@ -298,7 +297,7 @@ fn bi_scale_transfer_shows_front_faces() {
     }
 }
 
-/// What a study says of an ideal card that interpolates shades is the rounding of single precision.
+/// A study of an ideal card that interpolates shades reports the rounding of single precision and no more.
 #[test]
 fn a_study_blames_no_back_face() {
     let scene = Scene::open_box();
@@ -307,19 +306,20 @@ fn a_study_blames_no_back_face() {
     let study = OnCard {
         model: scene.name.to_owned(),
         clustering: scene.clusters(&basis),
-        mesh: scene.mesh,
         vertices: scene.vertices,
         meaning,
         light_name: "red and blue".to_owned(),
         light: HarmonicLight::red_and_blue(3),
         camera: scene.camera,
         exposure: None,
-        profile: ideal(),
-        switches: Vec::new(),
-        executor: ExecutorKind::Batch.into(),
-        format: FLOATS,
+        card: CardSetting {
+            profile: ideal(),
+            switches: Vec::new(),
+            executor: ExecutorKind::Batch.into(),
+            format: FLOATS,
+            sweep: false,
+        },
         options: PrtCardOptions::default(),
-        sweep: false,
     };
     let found = study.findings(&mut |_, _, _| ()).expect("a picture");
     let document = found.document(&Provenance::new("crossbar cpca card"));

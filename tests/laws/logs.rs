@@ -1,4 +1,4 @@
-//! What a card is asked is the same whoever computes, and writing it down changes no answer.
+//! Requests to a card are the same for every executor, and recording them changes no hit and no count.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::teapot::teapot;

@@ -1,4 +1,4 @@
-//! What messages show of a text: nothing hidden, nothing endless, the right column, and never a panic.
+//! Error messages that quote a text: no hidden characters, bounded length, the right column, and never a panic.
 
 use std::fmt;
 use std::ops::Range;
@@ -33,7 +33,7 @@ fn rendered(source: &dyn SourceCode, spans: &[Range<usize>]) -> String {
     let mut text = String::new();
     let handler = GraphicalReportHandler::new_themed(GraphicalTheme::none()).with_width(100);
     handler.render_report(&mut text, &Message(excerpt, labels)).expect("a message");
-    // 80 characters of the text and two marks of a cut, behind numbers of lines of at most 8 digits.
+    // 80 characters of the text and two marks of a cut, after line numbers of at most 8 digits.
     assert!(text.lines().all(|line| line.chars().count() <= 80 + 6 + 8 + 10), "{text}");
     text
 }
@@ -70,7 +70,7 @@ fn labels_at_the_edges_of_a_text() {
     }
 }
 
-/// Bytes of which many are line ends, tabs, controls and broken characters, and stretches longer than a line may be.
+/// Bytes with many line ends, tabs, control and broken characters, and stretches longer than a line may be.
 fn bytes() -> impl Strategy<Value = Vec<u8>> {
     let piece = prop_oneof![
         4 => prop::collection::vec(any::<u8>(), 0..30),
@@ -95,7 +95,7 @@ proptest! {
         }).collect();
         let text = rendered(&SourceText::new("\x1b[1mx", lossy), &inside);
         prop_assert!(!text.contains(|c| c != '\n' && is_hidden(c)), "{text:?}");
-        // Bytes that are no text come from sources of others.
+        // Sources of other kinds may hold bytes that are no UTF-8.
         let labels: Vec<_> = spans.iter().map(|s| LabeledSpan::new(None, s.start, s.len())).collect();
         if Excerpt::new(&bytes, &labels).is_some() {
             let text = rendered(&bytes, &spans);

@@ -1,4 +1,4 @@
-//! The oracle for other people's tests, tested: every way to be wrong is planted and found, and nothing else.
+//! Tests of the oracle for other people's tests: every planted error is found, and nothing else is reported.
 
 use crossbar::geom::teapot::teapot;
 use crossbar::geom::{Hit, Mesh, Ray, Sides, exact};
@@ -7,7 +7,7 @@ use crossbar::oracle::{
     assert_within_ulps, bits_equal, hard_rays, hits_equal, images_equal, within_ulps,
 };
 
-/// The square in z = 0 seen from above, a triangle that touches its corner, one far below, one that looks down.
+/// A square in z = 0 seen from above, a triangle that touches its corner, one far below, and one that faces down.
 fn scene() -> Mesh {
     let positions = vec![
         [0.0, 0.0, 0.0],
@@ -112,7 +112,7 @@ fn the_report_reads_well() {
     assert_eq!((leaks.leaks(), leaks.disagreements().len()), (2, 2));
 }
 
-/// What a report says of a ray can be pasted into a test: the same bits, and what the ray was aimed at.
+/// A report's text of a ray can be pasted into a test: the same bits, and the aim of the ray.
 #[test]
 fn disagreements_can_be_pasted() {
     let mesh = teapot(2).expect("a teapot");
@@ -129,7 +129,7 @@ fn disagreements_can_be_pasted() {
             .collect();
         let triangle = wrong.expected.as_ref().expect("a surface").triangles[0];
         let corners = mesh.corners(triangle).expect("a triangle");
-        // `[[f32; 3]; 3]` has two numbers of its own.
+        // The type `[[f32; 3]; 3]` contributes two numbers of its own.
         let expected = [wrong.origin, wrong.direction].into_iter().flatten().chain([3.0, 3.0]);
         let expected: Vec<u32> = expected.chain(corners.into_iter().flatten()).map(f32::to_bits).collect();
         assert_eq!(numbers, expected, "{literal}");
@@ -163,7 +163,7 @@ fn answers_are_counted() {
     assert!(hard_rays(&nothing, 100, 1).is_empty());
 }
 
-/// What a panic says.
+/// The message of the panic that `test` causes.
 fn said(test: impl FnOnce() + std::panic::UnwindSafe) -> String {
     let payload = std::panic::catch_unwind(test).expect_err("it panics");
     payload.downcast_ref::<String>().expect("words").clone()

@@ -1,4 +1,4 @@
-//! Pages of studies: whole, balanced, self-contained HTML in which no wrong pixel is lost.
+//! Pages of studies: complete, balanced, self-contained HTML in which every wrong pixel stays visible.
 
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use crossbar::geom::exact::Sides;
@@ -25,7 +25,7 @@ fn file<'a>(files: &'a [NamedFile], name: &str) -> &'a [u8] {
     &files.iter().find(|file| file.0 == name).unwrap_or_else(|| panic!("{name}")).1
 }
 
-/// Everything that a page can hold, with words that try to be tags.
+/// A page with every kind of content, with text that looks like tags.
 fn everything() -> Vec<NamedFile> {
     let mut found = Findings::new("T & U");
     found.conclusion("Two of <three> rows hold.");
@@ -49,7 +49,7 @@ fn everything() -> Vec<NamedFile> {
     found.take_files(&Provenance::new("crossbar leaky-teapot --size 8x8")).expect("all of it can be encoded")
 }
 
-/// A page without style sheets, the inside of drawings and of pictures.
+/// A page without style sheets and without the contents of drawings and pictures.
 fn structure(page: &str) -> String {
     let cut = |text: &str, from: &str, to: &str| -> String {
         let mut parts = text.split(from);
@@ -62,7 +62,7 @@ fn structure(page: &str) -> String {
     let page = cut(page, "<style>", "</style>");
     let page = cut(&page, "<svg", "</svg>");
     let page = cut(&page, "base64,", "\"").replace(env!("CARGO_PKG_VERSION"), "VERSION");
-    // A line per block.
+    // One line per block.
     [
         "<h1", "<h2", "<section", "<nav", "<ul", "<li", "<p", "<div", "<figure", "<img", "<table", "<thead", "<tbody",
         "<tr", "<dl", "<body", "<main", "<head",
@@ -79,7 +79,7 @@ fn the_structure_of_a_page() {
 /// Tags that have no end tag.
 const VOID: [&str; 4] = ["meta", "img", "wbr", "br"];
 
-/// The tags of a page, each with its attributes; panics where one is not closed, or closed twice.
+/// The tags of a page, each with its attributes; panics where a tag is not closed, or closed twice.
 fn balanced(page: &str) -> Vec<String> {
     let (mut open, mut all): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
     let mut rest = page;
@@ -157,7 +157,7 @@ fn decoded(png: &[u8]) -> RgbImage {
     image::load_from_memory(png).expect("a picture").to_rgb8()
 }
 
-/// The pictures of a page's figure, in the sizes in which it shows them.
+/// The pictures of a page's figure, at each size in which the page shows them.
 fn shown(page: &str, alt: &str) -> Vec<RgbImage> {
     let images = page.split("<img ").filter(|image| image.split_once('>').is_some_and(|(tag, _)| tag.contains(alt)));
     let images = images.map(|image| {
@@ -167,15 +167,15 @@ fn shown(page: &str, alt: &str) -> Vec<RgbImage> {
             size.expect("a size").parse().expect("a number")
         };
         let picture = decoded(&STANDARD.decode(data).expect("base64"));
-        // In its own pixels.
+        // At its own pixel size.
         assert_eq!(picture.dimensions(), (image_size("width"), image_size("height")));
         picture
     });
     images.collect()
 }
 
-/// The leaky teapot in a picture too wide for any place of the page: each wrong pixel of the map stays visible in each
-/// size, as what it is or as something worse, and leaks stay visible in the shaded picture.
+/// A leaky teapot in a picture too wide for any place of the page: each wrong pixel of the map stays visible at each
+/// size, in its own class or a worse one, and leaks stay visible in the shaded picture.
 #[test]
 fn every_wrong_pixel_is_shown() {
     let (width, height) = (800, 160);
@@ -204,7 +204,7 @@ fn every_wrong_pixel_is_shown() {
     let wrong = map.pixels().filter(|pixel| verdict(pixel).rank() > 0).count();
     let leaks = map.pixels().filter(|pixel| verdict(pixel) == PixelVerdict::Leak).count();
     assert!(wrong > 100 && leaks > 20, "{wrong} {leaks}");
-    // The conclusion is of these pixels.
+    // The conclusion counts these pixels.
     let said = found.conclusions().join(" ");
     let sentences = [(leaks, "leaks: "), (wrong, "is wrong in ")];
     for (count, before) in sentences {
@@ -232,7 +232,7 @@ fn every_wrong_pixel_is_shown() {
     }
 }
 
-/// What the page of `reproduce` concludes is counted from its rows, and its verdicts stay at the edge of their tables.
+/// The conclusion of the `reproduce` page is counted from its rows, and verdicts stay at the edge of their tables.
 #[test]
 fn papers_rows_are_tallied() {
     let entries = reproduce::choose(&["equation-11".to_owned(), "radeon-8500".to_owned()]).expect("two entries");

@@ -1,4 +1,4 @@
-//! Compressed transfer drawn on a card against an image that the host interpolates in f64, ray by ray.
+//! Compressed transfer drawn on a card, compared with a picture that the host interpolates in f64, ray by ray.
 
 use approx::assert_relative_eq;
 use crossbar::card::frame_time::frame_time;
@@ -55,7 +55,7 @@ impl Hills {
         card.view_texels(&self.light, &view).expect("a picture")
     }
 
-    /// Exit radiance of a vertex: rows of red, green and blue.
+    /// Exit radiance coefficients of a vertex: rows of red, green and blue.
     fn exit(&self, vertex: usize) -> [Vec<f64>; 3] {
         let mut matrix = vec![0.0; self.clustering.dimension()];
         self.clustering.approximation(vertex, &mut matrix);
@@ -63,8 +63,8 @@ impl Hills {
         self.light.channels().each_ref().map(|light| matrix.chunks(9).map(|row| 0.5 * product(row, light)).collect())
     }
 
-    /// What a ray from the eye sees: exit radiance and the view vector are interpolated between the corners of the
-    /// first triangle. `None`: nothing.
+    /// The radiance that a ray from the eye sees, with exit coefficients and the view vector interpolated between the
+    /// corners of the first triangle; `None` if it hits none.
     fn seen(&self, exits: &[[Vec<f64>; 3]], direction: DVec3) -> Option<[f64; 3]> {
         let eye = DVec3::from(camera().eye().map(f64::from));
         let mut nearest: Option<(f64, [f64; 3], [u32; 3])> = None;
@@ -91,8 +91,8 @@ impl Hills {
         Some([0, 1, 2].map(radiance))
     }
 
-    /// The largest difference of a picture from what the host interpolates, over pixels whose neighbours show the hills
-    /// as well, as a share of the largest value.
+    /// The largest difference of a picture from the host's values, relative to the largest value, over pixels whose
+    /// four neighbours show the hills too.
     fn error(&self, picture: &Texels) -> f64 {
         let exits: Vec<_> = (0..self.vertices.len()).map(|vertex| self.exit(vertex)).collect();
         let at = |x: f64, y: f64| self.seen(&exits, camera().direction_at(x, y));
@@ -118,7 +118,7 @@ impl Hills {
     }
 }
 
-/// From above, so that the hills hide nothing of each other.
+/// From above, so that no hill hides another.
 fn camera() -> Camera {
     Camera::new([0.6, -1.5, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 0.4, SIZE[0], SIZE[1]).expect("a camera")
 }
@@ -135,7 +135,7 @@ fn diffuse_pictures_are_the_interpolated_sums() {
     }
 }
 
-/// What is left is the linear filter between the texels of the maps: a quarter for twice the texels.
+/// The remaining error is that of the bilinear filter between the maps' texels: it falls with the square of their size.
 #[test]
 fn glossy_pictures_converge_with_the_maps() {
     for basis in [ExitBasis::of_order(4), ExitBasis::without_1_0(5).expect("order 5"), ExitBasis::of_order(5)] {
@@ -171,7 +171,7 @@ fn passes_add_up_to_one_picture() {
     }
 }
 
-/// What a frame asks for follows from its sizes, and its time from that.
+/// The work of a frame follows from its sizes, and its time from that work.
 #[test]
 fn a_frame_is_counted_and_timed() {
     let host = host_of_section_7().expect("a host");
@@ -201,7 +201,7 @@ fn a_frame_is_counted_and_timed() {
         assert!((4 * vertices..=9 * drawn + 3 * triangles.len() as u64).contains(&time.vertices_run));
         assert!(time.frame >= time.host.max(time.draws) && time.host >= time.products, "{time:?}");
         assert!(time.frame <= time.host + time.draws + time.state + time.draws, "{time:?}");
-        // From sizes alone: vertices and constants take as long, and only pixels are missing.
+        // From sizes alone: vertices and constants take as long, and only the pixels' time is missing.
         let draws = || log.iter().filter_map(|event| if let Event::Draw(draw) = event { Some(draw) } else { None });
         let of_groups = draws().skip(1).map(|draw| draw.vertices_run[1]).sum::<u64>();
         let counts = FrameCounts {
@@ -223,12 +223,12 @@ fn a_frame_is_counted_and_timed() {
         time
     };
     let [few, many] = [2, 8].map(frame);
-    // Rounded up to picoseconds, each.
+    // Each time is rounded up to picoseconds.
     assert!((3 * few.products.0).abs_diff(many.products.0) <= 3, "3 parts of a cluster, 9: {few:?} {many:?}");
     assert!(many.frame > few.frame, "{few:?} {many:?}");
 }
 
-/// Fewer bits for weights change a picture, and by how much is in order.
+/// Fewer weight bits give larger errors, within the expected size.
 #[test]
 fn weights_of_fewer_bits_are_farther_off() {
     let hills = Hills::new(ExitBasis::of_order(4), 6, 6);

@@ -1,4 +1,4 @@
-//! What compressed transfer is compared with: methods that must agree do.
+//! Baselines of compressed transfer: methods that are equal in exact arithmetic agree.
 
 use crossbar::cpca::rivals::{ExitCoefficients, RivalError, UncompressedTransfer, ViewMap};
 use crossbar::cpca::transfer::{Bounces, Incident, Response, TracedRays, Transfer};
@@ -34,7 +34,7 @@ impl Hills {
         Signal::new(transfer.row_count() * 25, transfer.into_values()).expect("a signal")
     }
 
-    /// Matrices by equation 1, or with `inverses` off by integrals alone.
+    /// Transfer matrices by equation 1; without `inverses` the incident light is projected by integrals alone.
     fn glossy(&self, brdf: &Brdf, exit: &ExitBasis, inverses: bool) -> Signal {
         let incident = Incident::Harmonics { order: 5, inverse: inverses };
         let views = DirectionRule::hemisphere(BRDF_DEGREE);
@@ -45,7 +45,7 @@ impl Hills {
         UncompressedTransfer::new(signal, rows).expect("matrices").times(&self.light).expect("light of order 5")
     }
 
-    /// Radiance by the exact functions in f64.
+    /// Radiance by evaluating the basis functions exactly in f64.
     fn exact(&self, basis: &ExitBasis, exit: &ExitCoefficients) -> Vec<[f64; 3]> {
         let radiance = |vertex: usize| {
             let mut y = vec![0.0; basis.len()];
@@ -62,7 +62,7 @@ impl Hills {
     }
 }
 
-/// The largest difference, as a share of the largest number.
+/// The largest difference, relative to the largest expected number.
 fn apart(found: impl IntoIterator<Item = f64>, expected: impl IntoIterator<Item = f64>) -> f64 {
     let pairs: Vec<(f64, f64)> = found.into_iter().zip(expected).collect();
     assert!(!pairs.is_empty());
@@ -70,7 +70,8 @@ fn apart(found: impl IntoIterator<Item = f64>, expected: impl IntoIterator<Item 
     pairs.iter().fold(0.0_f64, |most, (found, expected)| most.max((found - expected).abs())) / largest
 }
 
-/// Exit coefficients of section 6: products with mean and vectors once per cluster, weighted sums per vertex, in f64.
+/// Exit coefficients as in section 6: products with mean and vectors once per cluster, weighted sums per vertex, in
+/// f64.
 fn weighted(clustering: &Clustering, rows: usize, light: &HarmonicLight) -> Vec<f64> {
     let product = |part: &[f64]| -> Vec<f64> {
         let of_row = |row: &[f64]| light.channels().each_ref().map(|channel| dot(row, channel));
@@ -102,7 +103,7 @@ fn options(clusters: usize, vectors: usize) -> CpcaOptions {
     }
 }
 
-/// 25 x 25, 24 x 25 and 16 x 25 matrices of a diffuse surface by equation 1, and diffuse transfer: the same radiance.
+/// Matrices of 25 x 25, 24 x 25 and 16 x 25 of a diffuse surface by equation 1 give the radiance of diffuse transfer.
 #[test]
 fn matrices_of_every_height_agree_on_lambert() {
     let hills = Hills::new();
@@ -117,7 +118,7 @@ fn matrices_of_every_height_agree_on_lambert() {
     }
 }
 
-/// As many vectors as dimensions leave nothing out: n' = n.
+/// With as many vectors as dimensions (n' = n) the approximation is exact.
 #[test]
 fn all_vectors_are_the_uncompressed_transfer() {
     let hills = Hills::new();
@@ -130,7 +131,7 @@ fn all_vectors_are_the_uncompressed_transfer() {
     }
 }
 
-/// Vector quantisation with a cluster per vertex: the same bits.
+/// Vector quantisation with one cluster per vertex gives the same bits as no compression.
 #[test]
 fn a_cluster_per_vertex_is_the_uncompressed_transfer() {
     let hills = Hills::new();
@@ -148,8 +149,8 @@ fn a_cluster_per_vertex_is_the_uncompressed_transfer() {
     assert!(fewer.squared_error(&signal) > 0.0, "half as many are not enough");
 }
 
-/// Kautz, Sloan and Snyder's maps of y B times R_p T_p l, and y times M_p l with M_p = B R_p T_p: the same radiance but
-/// for the maps' filter, whose error falls with the square of a texel.
+/// Kautz, Sloan and Snyder's maps of y B times R_p T_p l, and y times M_p l with M_p = B R_p T_p, give the same
+/// radiance up to the maps' filter, whose error falls with the square of a texel.
 #[test]
 fn maps_of_y_b_tend_to_the_matrices() {
     let (hills, basis) = (Hills::new(), ExitBasis::of_order(5));
@@ -157,7 +158,7 @@ fn maps_of_y_b_tend_to_the_matrices() {
     let incident = Transfer::incident(&hills.vertices, &hills.rays, (&basis, false), 5, None).expect("R_p T_p");
     let incident = hills.exit(&Signal::new(625, incident.into_values()).expect("a signal"), 25);
     let brdf = brdf_matrix(&WARD, &basis, 5, &DirectionRule::hemisphere(BRDF_DEGREE)).expect("B");
-    // Vertices that see the eye: maps end beyond the horizon.
+    // Vertices that face the eye: maps end at the horizon.
     let seen: Vec<usize> = (0..hills.vertices.len()).filter(|&vertex| hills.view(vertex).z > 0.0).collect();
     assert!(seen.len() > 30, "{} vertices", seen.len());
     let expected = hills.exact(&basis, &exit);

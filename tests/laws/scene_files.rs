@@ -1,4 +1,5 @@
-//! Scene files: what is written reads back to the same bits, the fixtures are the scenes, and no bytes cause a panic.
+//! Scene files: writing and reading gives the same bits, the fixtures equal the built scenes, and no bytes cause a
+//! panic.
 
 use std::io;
 use std::path::Path;
@@ -38,7 +39,7 @@ fn round_trip(scene: &Scene) -> Scene {
 /// The bits of three points.
 type Bits = [[u32; 3]; 3];
 
-/// Everything that has to come back, as bits: corners, normals and materials of all triangles.
+/// Everything that must survive a round trip, as bits: corners, normals and materials of all triangles.
 fn bits(scene: &Scene) -> Vec<(Bits, Option<Bits>, String)> {
     let bits = |corners: [[f32; 3]; 3]| corners.map(|corner| corner.map(f32::to_bits));
     let triangle =
@@ -77,7 +78,8 @@ fn built_scenes_read_back_whole() {
     }
 }
 
-/// The scenes stand as files beside the models, byte for byte: no change of a generator goes unseen, on any machine.
+/// The scene files equal the generators' output byte for byte, so that a change of a generator is noticed on any
+/// machine.
 #[test]
 fn fixtures_are_the_scenes() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
@@ -167,7 +169,7 @@ proptest! {
     }
 }
 
-/// What modellers write and we refuse: scaled under a note, and refused where files are to stay as they are.
+/// Materials that modelling tools write and that reflect more than all light: scaled with a note, refused where strict.
 #[test]
 fn materials_of_modellers_are_scaled_and_noted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -208,7 +210,7 @@ fn materials_of_modellers_are_scaled_and_noted() {
     assert_eq!(read(false).expect("a scene").1, []);
 }
 
-/// A model with y up is the same one with z up, to the bit, and so is its scene; glTF has y up by itself.
+/// A model with y up gives the same bits as its z-up version, and so does its scene; glTF has y up by definition.
 #[test]
 fn models_stand_up() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/models");
@@ -230,7 +232,7 @@ fn models_stand_up() {
     }
 }
 
-/// Flipped triangles are turned and counted, with their normals; so are triangles without area and crowded edges.
+/// Flipped triangles are turned round with their normals, and counted; so are degenerate triangles and crowded edges.
 #[test]
 fn odd_models_are_mended_and_counted() {
     let folder = tempfile::tempdir().expect("a folder");

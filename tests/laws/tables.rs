@@ -1,5 +1,5 @@
-//! Tables as text: no line is wider than the width, no word and no number is broken, nothing is lost; and rows that
-//! found the same are folded.
+//! Tables as text: no line exceeds the width, no word or number is broken, nothing is lost; and rows with the same
+//! results are folded.
 
 use crossbar::report::digits::{Quantity, shown};
 use crossbar::report::layout::MIN_WIDTH;
@@ -13,7 +13,7 @@ fn words() -> impl Strategy<Value = String> {
         .prop_map(|words| words.join(" "))
 }
 
-/// 1 with so many zeros.
+/// 10 to the power of `power`.
 fn power_of_ten(power: i32) -> f64 {
     format!("1e{power}").parse().expect("a number")
 }
@@ -27,7 +27,7 @@ fn cell() -> impl Strategy<Value = Cell> {
         Just(Quantity::Percent),
         Just(Quantity::Error),
     ];
-    // Figures of a table, not all doubles: seven digits after the point of 1e300 are no figure.
+    // Figures as tables have them, not all doubles: seven digits after the point of 1e300 make no sense.
     let real = (-1e9..1e9_f64, -12_i32..3).prop_map(|(x, power)| x * power_of_ten(power));
     prop_oneof![
         words().prop_map(Cell::Text),
@@ -56,7 +56,7 @@ fn table() -> impl Strategy<Value = Table> {
     })
 }
 
-/// The pieces that a text must not be broken within: words, but for long ones with slashes.
+/// The pieces within which a text must not be broken: words, or the parts between slashes of long words.
 fn pieces(text: &str) -> Vec<String> {
     let of = |word: &str| -> Vec<String> {
         if word.len() > 24 { word.split_inclusive('/').map(str::to_owned).collect() } else { vec![word.to_owned()] }
@@ -82,7 +82,7 @@ proptest! {
         }
     }
 
-    /// One table within its width: the points of a column of numbers are below each other.
+    /// The decimal points of a column of numbers are below each other.
     #[test]
     fn points_are_below_each_other(numbers in proptest::collection::vec(-1e6..1e6_f64, 1..8)) {
         let mut table = Table::of("t", "what value");
@@ -93,7 +93,7 @@ proptest! {
         prop_assert!(places.windows(2).all(|two| two[0] == two[1]), "{}", text);
     }
 
-    /// What people are shown is the number, to the digits that they are shown.
+    /// A number as shown equals the number, to the digits shown.
     #[test]
     fn digits_are_those_of_the_number(x in -1e9..1e9_f64, power in -20_i32..3) {
         let x = x * power_of_ten(power);
@@ -103,7 +103,7 @@ proptest! {
         }
     }
 
-    /// The folded table has the first of each group, and a row for the others of those that are many; the document has
+    /// The folded table has the first row of each group, and one row for the others of a large group; the document has
     /// every row.
     #[test]
     fn folds_lose_nothing(kinds in proptest::collection::vec(0_usize..4, 1..30)) {

@@ -1,4 +1,4 @@
-//! docs/studies/leaky_teapot.md says what the program prints: its blocks between marks are made here.
+//! Checks that docs/studies/leaky_teapot.md quotes the program's figures: the blocks between marks are generated here.
 //! `INSTA_UPDATE=always` writes them.
 
 use std::path::{Path, PathBuf};
@@ -17,13 +17,13 @@ fn page() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/studies/leaky_teapot.md")
 }
 
-/// What stands between the marks of a block.
+/// The text between the marks of a block.
 fn block<'a>(text: &'a str, name: &str) -> &'a str {
     let (_, rest) = text.split_once(&format!("<!-- leaky-teapot: {name} -->")).expect("a mark");
     rest.split_once(END).expect("its end").0
 }
 
-/// The rows of the program without options.
+/// The rows of the program when run without options.
 fn defaults() -> Vec<Configuration> {
     let mut all = Configuration::device_under_each_switch("r200").expect("a card");
     all.extend(formats(&["fp16", "fp24", "fp32"]));
@@ -34,7 +34,7 @@ fn switch(configuration: &Configuration) -> String {
     configuration.switch.as_ref().map(|(name, value)| format!("`{name}={value}`")).unwrap_or_default()
 }
 
-/// Whether rows have the same hits and the same counts of aimed rays.
+/// True if the rows have the same hits, bit for bit, and the same counts of aimed rays.
 fn alike(a: &TeapotRow, b: &TeapotRow) -> bool {
     let bits = |row: &TeapotRow| row.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     (&a.triangle, a.edges, a.vertices) == (&b.triangle, b.edges, b.vertices) && bits(a) == bits(b)
@@ -57,7 +57,7 @@ fn row(row: &TeapotRow) -> String {
     )
 }
 
-/// The page with every block made anew. `same` are the switches that change nothing.
+/// The page with every block generated again. `same` lists the switches that change nothing.
 fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
     let named = |label: &str| outcome.rows.iter().find(|row| row.configuration.label == label).expect("a row");
     let (r200, fp24, fp32) = (named("r200"), named("fp24"), named("fp32"));
@@ -94,8 +94,8 @@ fn filled(text: &str, outcome: &TeapotOutcome, same: &[String]) -> String {
     out
 }
 
-/// The figures at full size. Rows that the page says are the first to the bit are left out, and asked on a smaller
-/// picture; the full form, and whoever writes the page, asks them at full size too.
+/// The figures at full size. Rows that the page lists as bit-identical to the first are checked on a smaller picture;
+/// in the full form, and when the page is written, they too are computed at full size.
 #[test]
 fn the_page_says_what_the_program_prints() {
     let writes = std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always");

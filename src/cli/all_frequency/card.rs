@@ -127,18 +127,8 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyOnCard> {
-        let OnCardArgs { target_format, sweep, card } = &self.card;
-        let profile = card.profile("r350")?;
-        let place = self.place(&profile)?;
-        Ok(AllFrequencyOnCard {
-            lit: self.lit.load()?,
-            switches: card.switches(),
-            executor: card.executor()?,
-            format: *target_format,
-            place,
-            sums_on_card: self.way == WayArg::Sums,
-            sweep: *sweep,
-            profile,
-        })
+        let card = self.card.setting("r350")?;
+        let place = self.place(&card.profile)?;
+        Ok(AllFrequencyOnCard { lit: self.lit.load()?, place, sums_on_card: self.way == WayArg::Sums, card })
     }
 }

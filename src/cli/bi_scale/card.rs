@@ -85,7 +85,6 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<BiScaleOnCard> {
-        let OnCardArgs { target_format, sweep, card } = &self.card;
         let (textures, name) = (&self.textures, &self.picture.model);
         let (TransferOfModel { file, model, vertices, light: directions }, texture_of) =
             textures.transfer(&self.file, name)?;
@@ -108,13 +107,9 @@ impl StudyArgs for Args {
             light_name: self.light.name(),
             light: self.light.distant()?,
             exposure: self.picture.exposure,
-            profile: card.profile("gt200")?,
-            switches: card.switches(),
-            executor: card.executor()?,
-            format: *target_format,
+            card: self.card.setting("gt200")?,
             light_format: self.light_format,
             options: DisplayOptions { edges: self.blocks, texture: self.texture_format, local: self.local_format },
-            sweep: *sweep,
         })
     }
 }

@@ -99,8 +99,7 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<OnCard> {
-        let OnCardArgs { target_format, sweep, card } = &self.card;
-        let profile = card.profile("r300")?;
+        let card = self.card.setting("r300")?;
         let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.picture.model)?;
         let clustering = clusters_of(&mut file, &self.file)?;
         let light_order = light_order(&file)?;
@@ -110,14 +109,9 @@ impl StudyArgs for Args {
             light: self.light.of_order(light_order)?,
             light_name: self.light.name(),
             exposure: self.picture.exposure,
-            options: self.options(&profile.limits.texture_formats),
-            switches: card.switches(),
-            executor: card.executor()?,
-            format: *target_format,
-            sweep: *sweep,
-            mesh: model.mesh,
+            options: self.options(&card.profile.limits.texture_formats),
+            card,
             meaning: file.meaning,
-            profile,
             vertices,
             clustering,
         })

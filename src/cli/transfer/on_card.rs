@@ -5,6 +5,7 @@ use refsim::texture::TexelFormat;
 
 use crate::cli::card::CardArgs;
 use crate::cli::one_of::{OneOf, one_of};
+use crate::study::prt::CardSetting;
 
 /// The card, its target, and what of it is varied.
 #[derive(Debug, clap::Args)]
@@ -19,6 +20,15 @@ pub(in crate::cli) struct OnCardArgs {
 
     #[command(flatten)]
     pub(in crate::cli) card: CardArgs,
+}
+
+impl OnCardArgs {
+    /// The card that draws; `device` is drawn on where none is named.
+    pub(in crate::cli) fn setting(&self, device: &str) -> miette::Result<CardSetting> {
+        let Self { target_format: format, sweep, card } = self;
+        let (profile, executor) = (card.profile(device)?, card.executor()?);
+        Ok(CardSetting { profile, switches: card.switches(), executor, format: *format, sweep: *sweep })
+    }
 }
 
 /// The languages of vertex programs, for `--vertex`.

@@ -11,7 +11,7 @@ pub fn attribute([x, y, z]: [f64; 3], w: f32) -> [u32; 4] {
     [x as f32, y as f32, z as f32, w].map(f32::to_bits)
 }
 
-/// Attributes from register 0 on, of one instance. The first says how many vertices there are.
+/// Attributes of one instance, from register 0 up. The length of the first is the number of vertices.
 pub fn vertex_streams<'a>(attributes: impl IntoIterator<Item = &'a Attribute>) -> VertexStreams<'a> {
     let of = |(register, data): (usize, &'a Attribute)| AttributeStream { register, step: StepRate::Vertex, data };
     let streams: Vec<_> = attributes.into_iter().enumerate().map(of).collect();

@@ -1,5 +1,5 @@
-//! How long a frame takes: the host's work, data and constants on their way, vertices and pixels; and frames whose log
-//! follows from sizes and counts alone.
+//! The modelled time of a frame: host work, uploads and constants, vertices and pixels; and frames whose log follows
+//! from sizes and counts alone.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,10 +12,10 @@ use refsim::timing::timeline::Unit;
 use refsim::timing::{Bottleneck, Level, Model, Picoseconds, TimingError};
 use thiserror::Error;
 
-/// Frames that are put on the time axis: enough for card and host to find their pace.
+/// Number of consecutive frames that are modelled: enough for card and host to reach a steady state.
 const FRAMES: usize = 4;
 
-/// Why a frame has no time.
+/// Errors of modelling a frame's time.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages of the errors below say what is wrong")]
@@ -28,44 +28,44 @@ pub enum FrameTimeError {
     Host(#[from] HostError),
 }
 
-/// The modelled time of a frame and of its parts, of which host and card work side by side.
+/// The modelled time of a frame and of its parts. Host and card work in parallel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameTime {
-    /// From one frame to the next, when frame follows frame.
+    /// Time from one frame to the next in a sequence of equal frames.
     pub frame: Picoseconds,
-    /// Of it the host is at work: products, and commands handed to the driver.
+    /// Time in which the host works: products, and commands submitted to the driver.
     pub host: Picoseconds,
-    /// The host's products alone.
+    /// Time of the host's products alone.
     pub products: Picoseconds,
-    /// Data on their way to the card beside constants.
+    /// Time of uploads to the card, without constants.
     pub uploads: Picoseconds,
-    /// State that changes, constants among it.
+    /// Time of state changes, constants included.
     pub state: Picoseconds,
-    /// Draws one after the other, into the depth buffer and of chunks.
+    /// Sum of the times of all draws, those into the depth buffer included.
     pub draws: Picoseconds,
-    /// Constant registers that are sent.
+    /// Number of constant registers uploaded.
     pub constants: u64,
-    /// Vertices that are run.
+    /// Number of vertices run.
     pub vertices_run: u64,
-    /// Triangles that are set up.
+    /// Number of triangles set up.
     pub triangles: u64,
-    /// Draws.
+    /// Number of draws.
     pub calls: usize,
-    /// What the draws that take longest together wait for; `None` without draws.
+    /// The bottleneck of the draws that take the most time together; `None` without draws.
     pub bottleneck: Option<Bottleneck>,
 }
 
 impl FrameTime {
-    /// Frames a second.
+    /// Frames per second.
     pub fn per_second(&self) -> f64 {
         1.0 / self.frame.seconds()
     }
 }
 
-/// The time of a frame from its log.
+/// The modelled time of a frame from its log.
 ///
 /// # Errors
-/// [`FrameTimeError`] if the device's rates are not known.
+/// [`FrameTimeError`] if the device's rates are unknown.
 pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<FrameTime, FrameTimeError> {
     let model = Model::new(Level::Pipeline, profile)?;
     let options = Options { host: Some(host), ..Options::of(Level::Pipeline) };
@@ -73,6 +73,7 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
         let frames: Vec<Event> = std::iter::repeat_n(log, frames).flatten().cloned().collect();
         Ok(replay(&frames, &model, &options)?.timeline)
     };
+    // The time that one more frame adds leaves out the start, in which card and host wait for each other.
     let (fewer, more) = (span(FRAMES - 1)?, span(FRAMES)?);
     let mut time = FrameTime {
         frame: fewer.makespan().until(more.makespan()),
@@ -106,15 +107,15 @@ pub fn frame_time(profile: &Profile, log: &[Event], host: &HostModel) -> Result<
     Ok(time)
 }
 
-/// Bytes of an attribute.
+/// Bytes per attribute.
 const ATTRIBUTE_BYTES: u64 = 16;
 
-/// Work of the host as an event of a log.
+/// Host work as an event of a log.
 pub fn host_work(operation: HostOperation, operations: u64) -> Event {
     Event::Host(HostWork { kind: operation.name().into(), operations })
 }
 
-/// A draw of triangles of which no pixel is seen: triangles and vertices run, slots and attributes of a vertex.
+/// A draw without visible pixels: numbers of triangles and vertices run, of slots and attributes of a vertex.
 pub fn unseen_draw([triangles, run]: [u64; 2], (slots, attributes): (u64, u64), pixel: &Arc<ProgramWork>) -> Event {
     let mut counts = DrawEvents {
         draws: 1,

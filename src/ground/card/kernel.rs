@@ -1,4 +1,4 @@
-//! Programs as text, and what a device says to them.
+//! Programs as text, checked for a device.
 
 use std::fmt::Write as _;
 
@@ -8,10 +8,10 @@ use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
 use refsim::isa::Version;
 
-/// What stands before and after the part of a kernel that is repeated.
+/// Comment lines before and after the repeated part of a kernel.
 const MARKS: [&str; 2] = ["# a texel\n", "# end of a texel\n"];
 
-/// A program text with the name under which messages speak of it.
+/// A program's text with its name for messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct KernelText {
     /// The file's name.
@@ -20,7 +20,7 @@ pub struct KernelText {
     pub text: &'static str,
 }
 
-/// A device refuses a kernel.
+/// A device cannot run a kernel.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, miette::Diagnostic)]
 #[error("device `{device}` refuses {kernel}: {problem}")]
 #[diagnostic(code(card::refused))]
@@ -29,7 +29,7 @@ pub struct KernelError {
     pub kernel: String,
     /// The device.
     pub device: String,
-    /// The first thing that is wrong.
+    /// The first violated rule.
     pub problem: String,
 }
 
@@ -49,7 +49,7 @@ macro_rules! kernels {
 pub use crate::kernels;
 
 impl KernelText {
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if the text does not assemble, or breaks a rule of the device.
@@ -57,7 +57,7 @@ impl KernelText {
         checked(profile, format!("`{}`", self.name), self.text)
     }
 
-    /// The text with its repeated part written out `texels` times, and the program.
+    /// The text with its repeated part written out `texels` times, and the checked program.
     ///
     /// # Errors
     /// As [`Self::checked`].
@@ -71,7 +71,7 @@ impl KernelText {
         Ok((text, program))
     }
 
-    /// What stands before, in and after the repeated part.
+    /// The text before, in and after the repeated part.
     fn parts(&self) -> [&'static str; 3] {
         let [begin, end] = MARKS;
         let (head, rest) = self.text.split_once(begin).unwrap_or((self.text, ""));
@@ -79,11 +79,11 @@ impl KernelText {
         [head, body, tail]
     }
 
-    /// The program for a block of so many texels: there are no loops in these languages.
+    /// The program's text for a block of `texels` texels, unrolled because these languages have no loops.
     pub fn unrolled(&self, texels: usize) -> String {
         let [head, body, tail] = self.parts();
         let mut text = String::with_capacity(head.len() + texels * body.len() + tail.len() + 40);
-        // Notes in front of a program are `//` lines; those of the language come after its first word.
+        // Notes before a program are `//` lines; comments of the language can follow only after its first word.
         text.push_str(head);
         let _ = writeln!(text, "# {texels} texels");
         text.extend(std::iter::repeat_n(body, texels));
@@ -91,27 +91,27 @@ impl KernelText {
         text
     }
 
-    /// Instructions outside of the repeated part.
+    /// Number of instructions outside the repeated part.
     pub fn overhead(&self) -> usize {
         let [head, _, tail] = self.parts();
         instructions(head) + instructions(tail)
     }
 
-    /// Instructions per texel: those of the repeated part.
+    /// Number of instructions per texel: those of the repeated part.
     pub fn per_texel(&self) -> usize {
         instructions(self.parts()[1])
     }
 
-    /// The most texels that a program of so many instructions can take.
+    /// The largest number of texels for a program with a limit of instructions.
     pub fn block(&self, max_instructions: usize) -> usize {
         max_instructions.saturating_sub(self.overhead()) / self.per_texel().max(1)
     }
 }
 
-/// Refuses a device that does not run all of these languages. `what` is written in them.
+/// Refuses a device that does not support all `versions`; `what` names the programs that need them.
 ///
 /// # Errors
-/// [`KernelError`] with the cards that run them.
+/// [`KernelError`], which lists the cards that support them.
 pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> Result<(), KernelError> {
     let runs = |profile: &Profile| versions.iter().all(|version| profile.limits.versions.contains(version));
     if runs(profile) {
@@ -124,10 +124,10 @@ pub fn require_versions(profile: &Profile, versions: &[Version], what: &str) -> 
     Err(KernelError { kernel: what.to_owned(), device: profile.name.clone(), problem })
 }
 
-/// The language of vertex programs that is asked for, else vs_2_0 where the device has it, else vs_1_1.
+/// The requested version of vertex programs; by default vs_2_0 where the device has it, else vs_1_1.
 ///
 /// # Errors
-/// [`KernelError`] if the device does not run it.
+/// [`KernelError`] if the device does not support it.
 pub fn vertex_version(profile: &Profile, asked: Option<Version>) -> Result<Version, KernelError> {
     let has_vs_2_0 = profile.limits.versions.contains(&Version::Vs2_0);
     let version = asked.unwrap_or(if has_vs_2_0 { Version::Vs2_0 } else { Version::Vs1_1 });
@@ -135,18 +135,18 @@ pub fn vertex_version(profile: &Profile, asked: Option<Version>) -> Result<Versi
     Ok(version)
 }
 
-/// Slots of a program's texture reads and of its arithmetic.
+/// Numbers of texture slots and of arithmetic slots of a program.
 pub fn slots(program: &CheckedProgram) -> [u32; 2] {
     let slots = &program.facts().slots;
     [slots.iter().map(|phase| phase.texture).sum(), slots.iter().map(|phase| phase.arithmetic).sum()]
 }
 
-/// Instructions of a text: lines that end in `;`.
+/// Number of instructions in a text: lines that end in `;`.
 pub fn instructions(text: &str) -> usize {
     text.lines().filter(|line| !line.starts_with("//") && line.trim_end().ends_with(';')).count()
 }
 
-/// A program text, accepted by a device. `kernel` is what messages call it.
+/// A program text, checked for a device. `kernel` is its name in messages.
 ///
 /// # Errors
 /// [`KernelError`] if the text does not assemble, or breaks a rule of the device.

@@ -32,8 +32,8 @@ impl Levels {
         &self.targets
     }
 
-    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the
-    /// point of it that lies under the fragment's center, in texels: between the four texels that the fragment
+    /// Fills all levels from `base`, one pass each. The program reads the finer level from sampler 0; TEX0 is the point
+    /// of that level under the fragment's center, in texels: the common corner of the four texels that the fragment
     /// covers.
     ///
     /// # Errors

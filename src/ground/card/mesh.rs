@@ -1,4 +1,4 @@
-//! A mesh drawn from a camera, for all systems that show one: front faces alone, as rays of the host meet them.
+//! A mesh drawn from a camera, for all systems that display one: front faces only, as rays of the host hit them.
 
 use refsim::device::Profile;
 use refsim::event::Event;
@@ -17,20 +17,20 @@ use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 
-/// How a mesh is shown.
+/// Camera, exposure and format of a picture of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshView {
     /// The camera.
     pub camera: Camera,
-    /// What radiances are multiplied by in the picture: 0 to 1e30.
+    /// Factor of all radiances in the picture: 0 to 1e30.
     pub exposure: f64,
-    /// The picture's format. Fractions clamp each pass to 0 to 1; floats need a device that draws, and where passes
-    /// are added up blends, them.
+    /// The picture's format. Fixed-point formats clamp each pass to [0, 1]; floating-point formats need a device that
+    /// can draw into them, and blend in them where passes are added.
     pub format: TexelFormat,
 }
 
 impl From<Camera> for MeshView {
-    /// Radiances as they are, in single precision.
+    /// Unscaled radiances in single precision.
     fn from(camera: Camera) -> Self {
         Self { camera, exposure: 1.0, format: TexelFormat::Rgba32f }
     }
@@ -43,60 +43,60 @@ impl MeshView {
     }
 }
 
-/// Why a card does not show a mesh.
+/// Errors of displaying a mesh.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MeshError {
-    /// A size that differs from what another part says.
+    /// Two parts have contradictory sizes.
     #[error("expected {expected} {what}, found {found}")]
     Size { what: &'static str, expected: usize, found: usize },
-    /// A figure out of its range.
+    /// A number out of its range.
     #[error("expected {what}, found {found}")]
     Figure { what: &'static str, found: f64 },
-    /// The card refuses a resource or a draw.
+    /// The card refused a resource or a draw.
     #[error(transparent)]
     Machine(#[from] MachineError),
 }
 
 impl MeshError {
-    /// An error unless two sizes agree.
+    /// Returns an error unless two sizes are equal.
     pub fn check_size(what: &'static str, expected: usize, found: usize) -> Result<(), Self> {
         if expected == found { Ok(()) } else { Err(Self::Size { what, expected, found }) }
     }
 }
 
-/// The fragments that a draw keeps.
+/// The fragments that a draw writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeptFragments {
-    /// The nearest ones.
+    /// The nearest ones, by the depth test, which also fills the depth buffer.
     Nearest,
-    /// Those at the depths that earlier draws have left, in place of what is there.
+    /// Those at the depths left by earlier draws, replacing the target's contents.
     Visible,
-    /// The same, added to what is there.
+    /// The same, added to the target's contents.
     Added,
 }
 
-/// A draw of a mesh, or of a part of it.
+/// A draw of a mesh or of a part of it.
 #[derive(Clone, Debug)]
 pub struct MeshDraw<'a> {
     /// The vertex program and its constants.
     pub vertex: (&'a CheckedProgram, Vec<[f32; 4]>),
-    /// Attributes from register 0 on.
+    /// Attributes, from register 0 up.
     pub attributes: Vec<&'a Attribute>,
-    /// Three vertices per triangle; `None`: all in order.
+    /// Three vertices per triangle; `None`: all vertices in order.
     pub indices: Option<&'a [u32]>,
     /// The pixel program and its constants.
     pub pixel: (&'a CheckedProgram, Vec<[f32; 4]>),
     /// The textures of samplers 0, 1 and so on.
     pub textures: Vec<ReadTexture>,
-    /// The fragments that are kept.
+    /// The fragments that are written.
     pub fragments: KeptFragments,
     /// The components that are written.
     pub mask: WriteMask,
 }
 
-/// The programs that fill the depth buffer alone.
+/// The programs that fill the depth buffer only.
 #[derive(Clone, Debug)]
 pub struct DepthPrograms {
     vertex: CheckedProgram,
@@ -104,7 +104,7 @@ pub struct DepthPrograms {
 }
 
 impl DepthPrograms {
-    /// The programs, accepted by a device.
+    /// The programs, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if the device has neither vertex nor pixel programs.
@@ -113,7 +113,7 @@ impl DepthPrograms {
     }
 }
 
-/// A mesh as a card gets it: in units of its own size, so that the unit of length does not matter.
+/// A mesh in the form that a card gets: in units of its own size, so that the scene's unit of length does not matter.
 #[derive(Debug)]
 pub struct MeshOnCard {
     frame: UnitFrame,
@@ -122,7 +122,7 @@ pub struct MeshOnCard {
 }
 
 impl MeshOnCard {
-    /// A mesh of vertices at these positions.
+    /// A mesh whose vertices have these positions.
     pub fn new(positions: impl IntoIterator<Item = [f32; 3], IntoIter: Clone>) -> Self {
         let positions = positions.into_iter().map(wide);
         let frame = UnitFrame::new(positions.clone());
@@ -130,27 +130,27 @@ impl MeshOnCard {
         Self::in_frame(frame, positions)
     }
 
-    /// A mesh of positions in a frame already, w = 1.
+    /// A mesh with positions that are already in a frame, with w = 1.
     pub fn in_frame(frame: UnitFrame, positions: Attribute) -> Self {
         Self { frame, positions, target: ViewTarget::default() }
     }
 
-    /// The frame of positions.
+    /// The frame of the positions.
     pub fn frame(&self) -> &UnitFrame {
         &self.frame
     }
 
-    /// Positions in the frame, w = 1.
+    /// Positions in the frame, with w = 1.
     pub fn positions(&self) -> &Attribute {
         &self.positions
     }
 
-    /// A picture as the target holds it after `draw`: 0 where nothing is drawn. With it what the draws asked of the
-    /// card, without the read-back, where that is logged.
+    /// The target after `draw`, which is 0 where nothing is drawn; and if `is_logged` the log of the draws, without the
+    /// read-back.
     ///
     /// # Errors
     /// [`MeshError::Figure`] for an exposure out of range, [`MeshError::Machine`] if the card has no such target, and
-    /// what `draw` says.
+    /// the errors of `draw`.
     pub fn show<E: From<MeshError>>(
         &mut self,
         machine: &mut Machine,
@@ -184,7 +184,7 @@ impl MeshOnCard {
     }
 }
 
-/// A picture in the making.
+/// A picture while it is drawn.
 #[derive(Debug)]
 pub struct MeshPass<'a> {
     machine: &'a mut Machine,
@@ -200,27 +200,27 @@ impl<'a> MeshPass<'a> {
         self.machine
     }
 
-    /// Positions in the mesh's frame, w = 1.
+    /// Positions in the mesh's frame, with w = 1.
     pub fn positions(&self) -> &'a Attribute {
         self.positions
     }
 
-    /// Rows of the projection from the mesh's frame.
+    /// Rows of the projection matrix for the mesh's frame.
     pub fn rows(&self) -> [[f32; 4]; 4] {
         self.camera.clip_rows(self.frame)
     }
 
-    /// The eye in the mesh's frame, and a fourth number.
+    /// The eye in the mesh's frame, with a fourth component.
     pub fn eye(&self, w: f32) -> [f32; 4] {
         attribute(self.frame.of_scene(wide(self.camera.eye())).to_array(), w).map(f32::from_bits)
     }
 
-    /// What constants of vertex programs begin with: rows of the projection, then the eye, w = 1.
+    /// The first constants of vertex programs: rows of the projection, then the eye with w = 1.
     pub fn head(&self) -> Vec<[f32; 4]> {
         self.rows().into_iter().chain([self.eye(1.0)]).collect()
     }
 
-    /// Draws the whole mesh into the depth buffer alone.
+    /// Draws the whole mesh into the depth buffer only.
     ///
     /// # Errors
     /// [`MachineError`] if the card refuses the draw.
@@ -236,7 +236,7 @@ impl<'a> MeshPass<'a> {
         })
     }
 
-    /// Draws front faces, those whose corners turn counter-clockwise as seen.
+    /// Draws front faces: triangles whose corners appear counter-clockwise.
     ///
     /// # Errors
     /// [`MachineError`] if the card refuses the draw.

@@ -40,7 +40,7 @@ pub struct FullScreenPass<'a> {
     pub constants: &'a Constants,
     /// The textures of samplers 0, 1 and so on.
     pub textures: &'a [ReadTexture],
-    /// Where the results go.
+    /// The target of the results.
     pub target: TextureId,
     /// The components that are written.
     pub mask: WriteMask,

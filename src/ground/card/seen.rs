@@ -1,4 +1,4 @@
-//! What each pixel shows, by the raster of a device: for comparisons in which only arithmetic differs.
+//! The triangle at each pixel by a device's rasterization, for comparisons in which only arithmetic differs.
 
 use refsim::device::Profile;
 use refsim::machine::{Executor, ExecutorKind};
@@ -8,25 +8,25 @@ use super::kernels::{FLOAT_COLOR, SHADE};
 use super::{Attribute, KeptFragments, MeshDraw, MeshError, MeshOnCard, MeshView, attribute};
 use crate::scene::Camera;
 
-/// A triangle's vertices with weights that sum to 1.
+/// A triangle's vertices with barycentric weights that sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPixel {
     /// The triangle's number.
     pub triangle: u32,
     /// The corners.
     pub corners: [u32; 3],
-    /// Their weights, correct in perspective.
+    /// Their perspective-correct weights.
     pub weights: [f64; 3],
 }
 
-/// What each pixel of a camera shows of a mesh's front faces, row by row: a draw in single precision with the
-/// fractions of a pixel that a device puts vertices at. `None`: nothing.
+/// The front face and barycentric weights at each pixel of a camera, row by row: from a draw in single precision with
+/// the device's subpixel precision of vertices. `None` where the background shows.
 ///
 /// # Errors
 /// [`MeshError::Machine`] for pictures that are too large.
 ///
 /// # Panics
-/// If a triangle names a vertex that there is not.
+/// If a triangle names a vertex that does not exist.
 pub fn seen_pixels(
     profile: &Profile,
     (positions, triangles): (&[[f32; 3]], &[[u32; 3]]),

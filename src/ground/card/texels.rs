@@ -1,4 +1,4 @@
-//! Rectangles of floats on the host, and their way to a card's textures and back.
+//! Rectangles of floats on the host, and their transfer to and from textures of a card.
 
 use refsim::machine::{Machine, MachineError, TextureId};
 use refsim::num::Format;
@@ -7,22 +7,22 @@ use refsim::texture::{Image, SignedTexelMinimum, TargetRounding, TexelFormat, Te
 /// Texels of four f32, row by row. A vector is one row: a 1-D texture.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Texels {
-    /// Texels in a row.
+    /// Texels per row.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
     /// Red, green, blue, alpha; `width * height` of them.
     pub texels: Vec<[f32; 4]>,
 }
 
 impl Texels {
-    /// Texels that a function gives, by column and row.
+    /// Texels computed by a function of column and row.
     pub fn from_fn([width, height]: [usize; 2], texel: impl Fn(usize, usize) -> [f32; 4]) -> Self {
         let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| texel(x, y)).collect();
         Self { width, height, texels }
     }
 
-    /// One row.
+    /// A single row.
     pub fn vector(texels: Vec<[f32; 4]>) -> Self {
         Self { width: texels.len(), height: 1, texels }
     }
@@ -42,7 +42,7 @@ impl Texels {
     pub fn to_image(&self, format: TexelFormat) -> Result<Image, TextureError> {
         let extents = extents([self.width, self.height]);
         if format == TexelFormat::Rgba32f {
-            // The bits are the bytes; large matrices go this way.
+            // The bits are stored as they are, which is the fast path for large matrices.
             let bytes = self.texels.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect();
             return Image::from_bytes(format, TextureKind::Rectangle, extents, 1, bytes);
         }
@@ -50,7 +50,7 @@ impl Texels {
         Image::from_values(format, TextureKind::Rectangle, extents, Format::FP32, &bits, TargetRounding::Nearest)
     }
 
-    /// The texels of an image of one level; components that the format lacks read as the card reads them.
+    /// The texels of an image with one level; components that the format lacks have the values that the card reads.
     pub fn from_image(image: &Image) -> Self {
         let [width, height] = [image.width(), image.height()].map(|side| side as usize);
         let value = |bytes: &[u8]| f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]);
@@ -82,15 +82,15 @@ impl Texels {
         levels.map(of).collect()
     }
 
-    /// A new texture of a card that holds these.
+    /// A new texture on a card with these texels.
     ///
     /// # Errors
-    /// [`MachineError`] if there is no such texture, or the card does not have the format.
+    /// [`MachineError`] if the texture is impossible, or the card does not support the format.
     pub fn upload(&self, machine: &mut Machine, format: TexelFormat) -> Result<TextureId, MachineError> {
         machine.create_texture(self.to_image(format)?)
     }
 
-    /// Replaces what a texture holds.
+    /// Replaces the contents of a texture.
     ///
     /// # Errors
     /// [`MachineError`] if the texture has another size or format.
@@ -98,7 +98,7 @@ impl Texels {
         machine.update_texture(texture, &self.to_image(format)?)
     }
 
-    /// What a target holds; the host waits for it.
+    /// Reads back the contents of a target, for which the host waits.
     ///
     /// # Errors
     /// [`MachineError`] if the card has no such target.
@@ -107,18 +107,18 @@ impl Texels {
     }
 }
 
-/// A target of zeros that can be read as a texture.
+/// A target filled with zeros that can be read as a texture.
 ///
 /// # Errors
-/// [`MachineError`] if the extents are 0 or too large, or the card does not draw into the format.
+/// [`MachineError`] if the extents are 0 or too large, or the card cannot draw into the format.
 pub fn new_target(machine: &mut Machine, format: TexelFormat, size: [usize; 2]) -> Result<TextureId, MachineError> {
     machine.create_target_from(Image::new(format, TextureKind::Rectangle, extents(size), 1)?)
 }
 
-/// A texture of texels in order, each number rounded once into the format.
+/// A texture from texels in order, each number rounded once into the format.
 ///
 /// # Errors
-/// [`MachineError`] if the texels do not fill the extents, or the card does not have the format.
+/// [`MachineError`] if the texels do not fill the extents, or the card does not support the format.
 pub fn new_texture(
     machine: &mut Machine,
     (format, kind): (TexelFormat, TextureKind),
@@ -129,7 +129,7 @@ pub fn new_texture(
     machine.create_texture(Image::from_values(format, kind, extents, Format::FP32, &bits, TargetRounding::Nearest)?)
 }
 
-/// Extents that an image can refuse.
+/// Extents for an image; sizes beyond 32 bits become the largest, which it refuses.
 fn extents([width, height]: [usize; 2]) -> [u32; 3] {
     let extent = |size| u32::try_from(size).unwrap_or(u32::MAX);
     [extent(width), extent(height), 1]

@@ -17,7 +17,7 @@ pub const MAX_BYTES: u64 = 1 << 26;
 const HEADER: [&str; 6] = ["face", "row", "column", "r", "g", "b"];
 const FACES: [&str; 6] = ["+x", "-x", "+y", "-y", "+z", "-z"];
 
-/// Why a file is no cube map. Lines count from 1, the header's.
+/// Errors of reading a cube map. Lines count from 1, the header's.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -75,7 +75,7 @@ pub fn load_cube_table(path: &Path, side: usize) -> Result<Vec<[f64; 3]>, CubeTa
     }
 }
 
-/// Reads the texels of a cube map from bytes; `name` stands for the file in messages.
+/// Reads the texels of a cube map from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`CubeTableError`], with the line where there is one.

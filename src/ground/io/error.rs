@@ -1,4 +1,4 @@
-//! Why a file cannot be used.
+//! Errors of reading files.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -11,7 +11,7 @@ use super::read_limited;
 use crate::geom::MeshError;
 use crate::scene::SceneError;
 
-/// Why there are no bytes of a file.
+/// Errors of reading a file's bytes.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -61,7 +61,7 @@ impl fmt::Display for FilePlace {
     }
 }
 
-/// Why a file is no mesh, no scene or no material library.
+/// Errors of reading a mesh, a scene or a material library.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -84,7 +84,7 @@ pub enum ModelError {
         help("faces count from 1, or from -1 backwards: is a part of the file missing?")
     )]
     IndexOutOfRange { place: FilePlace, what: &'static str, index: i64, count: usize },
-    /// An element of a PLY's binary data is not what the header says.
+    /// An element of a PLY's binary data that differs from its description in the header.
     #[error("{place}: {element} {index} (counted from 0): expected {expected}, found {found}")]
     #[diagnostic(code(crossbar::model::element), help("is the file whole, and written as its header says?"))]
     Element { place: FilePlace, element: String, index: usize, expected: Cow<'static, str>, found: Cow<'static, str> },
@@ -100,7 +100,7 @@ pub enum ModelError {
     #[error("{0}: expected each material once, found a second `newmtl {1}`")]
     #[diagnostic(code(crossbar::model::second_material), help("rename one of the two"))]
     SecondMaterial(FilePlace, String),
-    /// A material's figures do not go together. In an MTL file the place is its `newmtl`.
+    /// Parameters of a material that contradict each other. In an MTL file the place is its `newmtl`.
     #[error("{place}: material {name}: expected {expected}, found {found}")]
     #[diagnostic(code(crossbar::model::material), help("docs/scenes.md says which figures a material may have"))]
     Material { place: FilePlace, name: String, expected: &'static str, found: String },

@@ -14,7 +14,7 @@ pub const MAX_BYTES: u64 = 1 << 28;
 /// The largest irradiance: sums of it times any throughput are still far from the range of single floats.
 pub const MAX_IRRADIANCE: f64 = 1e30;
 
-/// Why a file is no table of irradiances. Lines count from 1, the header's.
+/// Errors of reading a table of irradiances. Lines count from 1, the header's.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -49,7 +49,7 @@ pub fn load_irradiances(path: &Path) -> Result<Vec<[f64; 3]>, IrradiancesError> 
     }
 }
 
-/// Reads irradiances from bytes; `name` stands for the file in messages.
+/// Reads irradiances from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`IrradiancesError`], with the line where there is one.

@@ -23,7 +23,7 @@ pub struct LightSourceRow {
     pub radiance: [f64; 3],
 }
 
-/// Why a file is no list of sources. Lines count from 1, the header's.
+/// Errors of reading a list of sources. Lines count from 1, the header's.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -36,7 +36,7 @@ pub enum LightSourcesError {
     #[error("{}:1: expected the header `x,y,z,degrees,r,g,b`, found {found}", path.display())]
     #[diagnostic(code(crossbar::light_sources::header), help("a line `x,y,z,degrees,r,g,b`, then a line per source"))]
     Header { path: PathBuf, found: String },
-    /// A line is no source.
+    /// A line that is not a valid source.
     #[error(
         "{}:{line}: expected seven finite numbers (x,y,z,degrees,r,g,b), a direction other than 0, degrees above 0 and \
          up to 180, radiances of at least 0; found {found}", path.display()
@@ -61,7 +61,7 @@ pub fn load_light_sources(path: &Path) -> Result<Vec<LightSourceRow>, LightSourc
     }
 }
 
-/// Reads sources from bytes; `name` stands for the file in messages.
+/// Reads sources from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`LightSourcesError`], with the line where there is one.

@@ -36,7 +36,7 @@ pub(super) fn single(word: &[u8]) -> Result<f32, NumberError> {
     std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f32)
 }
 
-/// The same in double precision.
+/// As `single`, in double precision.
 pub(super) fn double(word: &[u8]) -> Result<f64, NumberError> {
     std::str::from_utf8(word).map_err(|_| NumberError::NoNumber).and_then(parse_f64)
 }

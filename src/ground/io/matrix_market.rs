@@ -33,7 +33,7 @@ pub struct CoordinateMatrix {
     pub entries: Vec<(u32, u32, f64)>,
 }
 
-/// Why a file is no matrix. Lines, rows and columns count from 1.
+/// Errors of reading a matrix. Lines, rows and columns count from 1.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -63,7 +63,7 @@ pub enum MatrixMarketError {
         help("leave out empty rows and columns: beyond {ANY_SIZE} there may be one per byte of the file")
     )]
     Claim { path: PathBuf, line: usize, most: usize, bytes: usize, rows: usize, columns: usize },
-    /// A line that is no entry.
+    /// A line that is not a valid entry.
     #[error("{}:{line}: expected {expected}, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::entry), help("a line `row column value` per entry, counted from 1"))]
     Entry { path: PathBuf, line: usize, expected: &'static str, found: String },
@@ -71,7 +71,7 @@ pub enum MatrixMarketError {
     #[error("{}:{line}: expected a {what} from 1 to {most}, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::place), help("rows and columns count from 1"))]
     Place { path: PathBuf, line: usize, what: &'static str, most: usize, found: String },
-    /// Fewer or more entries than the line of sizes says.
+    /// The number of entries differs from the line of sizes.
     #[error("{}: expected {expected} entries as line {line} says, found {found}", path.display())]
     #[diagnostic(code(crossbar::matrix_market::count), help("is the file cut?"))]
     Count { path: PathBuf, line: usize, expected: usize, found: usize },
@@ -93,7 +93,7 @@ pub fn load_matrix_market(path: &Path) -> Result<CoordinateMatrix, MatrixMarketE
     }
 }
 
-/// Reads a matrix from bytes; `name` stands for the file in messages.
+/// Reads a matrix from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`MatrixMarketError`].
@@ -102,7 +102,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
     let banner = lines.next().map_or(&[][..], |(_, banner)| banner);
     let banner = Banner::parse(banner)
         .ok_or_else(|| MatrixMarketError::Banner { path: name.into(), found: quoted(banner.trim_ascii()) })?;
-    // Comments may stand behind the banner, empty lines anywhere.
+    // Comments may follow the banner, and empty lines may be anywhere.
     let mut lines = lines.filter(|(_, text)| !text.trim_ascii().is_empty());
     let (size_line, size) = lines.by_ref().find(|(_, text)| !text.starts_with(b"%")).unwrap_or((2, &b""[..]));
     let [rows, columns, count] = sizes(size).ok_or_else(|| MatrixMarketError::Size {
@@ -116,7 +116,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
         return Err(MatrixMarketError::Claim { path, line: size_line, most, bytes, rows, columns });
     }
     let reader = EntryReader { name, banner, size: [rows, columns] };
-    // Nothing is allocated that the file's bytes do not fill.
+    // Memory is allocated in proportion to the file's bytes only.
     let mut entries = Vec::with_capacity(count.min(bytes.len() / SHORTEST) * banner.copies());
     let mut found = 0;
     for (line, text) in lines {
@@ -184,7 +184,7 @@ impl Banner {
         Some(Self { has_values, symmetry })
     }
 
-    /// Entries of the matrix that a line stands for, at most.
+    /// Largest number of matrix entries per line.
     fn copies(self) -> usize {
         if self.symmetry == Symmetry::General { 1 } else { 2 }
     }

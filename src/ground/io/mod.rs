@@ -1,4 +1,5 @@
-//! Files in and out: models, scenes, pictures, rays and hits, and the writing that never leaves half a file.
+//! Input and output of files: models, scenes, pictures, rays and hits; writing is atomic, so that no file is left
+//! partial.
 
 pub mod atomic;
 pub mod cube_map;
@@ -49,11 +50,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// What is read of a device at most, in bytes (1 MiB): it may have no end. Files and pipes have limits of their kinds.
+/// Largest number of bytes read from a device (1 MiB), which may be endless. Files and pipes have limits by their kind.
 const MAX_DEVICE_BYTES: u64 = 1 << 20;
 
-/// The bytes of a file, as many as a byte more than `limit`, by which the reader knows that it is longer. A device that
-/// has more than [`MAX_DEVICE_BYTES`] is an error.
+/// The bytes of a file, up to one more than `limit`, by which the reader notices that it is longer. A device with more
+/// than [`MAX_DEVICE_BYTES`] is an error.
 pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bounded>> {
     let file = File::open(path)?;
     let is_device = file.metadata().is_ok_and(|found| is_device(&found.file_type()));
@@ -61,7 +62,7 @@ pub(crate) fn open_limited(path: &Path, limit: u64) -> io::Result<io::Take<Bound
     Ok(Bounded { file, left }.take(limit.saturating_add(1)))
 }
 
-/// A file of which so many bytes may be read.
+/// A file of which at most `left` bytes may be read.
 #[derive(Debug)]
 pub(crate) struct Bounded {
     file: File,
@@ -91,14 +92,14 @@ fn is_device(_: &std::fs::FileType) -> bool {
     false
 }
 
-/// The whole of a file of at most `limit` bytes, or `None` when it is longer.
+/// The contents of a file of at most `limit` bytes, or `None` if it is longer.
 pub fn read_limited(path: &Path, limit: u64) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     open_limited(path, limit)?.read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))
 }
 
-/// A piece of bad input as messages quote it: escaped, and cut to 40 characters.
+/// Invalid input as messages quote it: escaped, and cut to 40 characters.
 fn quoted(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     let cut: String = text.chars().take(40).collect();

@@ -1,4 +1,4 @@
-//! Meshes and scenes from a model file of any format.
+//! Meshes and scenes from model files of any supported format.
 
 use std::io;
 use std::path::Path;
@@ -24,7 +24,7 @@ enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// By the ending of the name or the first bytes; what is nothing else is taken for an OBJ file.
+    /// The format by the file name's extension or the first bytes; OBJ if neither is conclusive.
     fn of(bytes: &[u8], path: &Path) -> Self {
         let ending = |known: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(known));
         if ending("ply") || bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
@@ -39,27 +39,26 @@ impl ModelFormat {
     }
 }
 
-/// Which axis of a model file points up.
+/// The axis of a model file that points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As in glTF, and where modellers say so on export.
+    /// As in glTF, and in files exported with that setting.
     Y,
     /// As in this project's scenes.
     Z,
 }
 
-/// How a model file is read.
+/// Options of reading a model file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ModelOptions {
-    /// The axis of the file that points up: y of glTF and z of all others, unless it is said here. z points up in what
-    /// is read.
+    /// The axis of the file that points up; `None`: y for glTF and z for all others. In the result z points up.
     pub up: Option<UpAxis>,
-    /// Whether materials that cannot be used are refused and triangles stay as they are, or what is odd about a model
-    /// is mended and noted.
+    /// If true, unusable materials are refused and triangles stay as they are; otherwise defects are repaired and
+    /// noted.
     pub strict: bool,
 }
 
-/// Reads a mesh from an OBJ, PLY, STL or glTF file, as it is.
+/// Reads a mesh from an OBJ, PLY, STL or glTF file, without repairs.
 ///
 /// # Errors
 /// [`ModelError`], with the path, and the line, element or part where there is one.
@@ -68,8 +67,8 @@ pub fn load_mesh(path: &Path) -> Result<Mesh, ModelError> {
     mesh_of(&bytes, ModelFormat::of(&bytes, path), path)
 }
 
-/// Reads a scene from an OBJ file and the libraries that it names, from a glTF file and its buffers, or from a PLY or
-/// STL file, all of one grey material, as it is. It has no views and no point lights.
+/// Reads a scene without repairs: from an OBJ file and its material libraries, from a glTF file and its buffers, or
+/// from a PLY or STL file, which gets one grey material. It has no views and no point lights.
 ///
 /// # Errors
 /// [`ModelError`], with the path, and the line, element or part where there is one.
@@ -77,8 +76,8 @@ pub fn load_scene(path: &Path) -> Result<Scene, ModelError> {
     load_scene_with(path, ModelOptions { up: None, strict: true }).map(|(scene, _)| scene)
 }
 
-/// [`load_mesh`] with options, and what the user should know of the model: unless it is to stay as it is, triangles
-/// that face another way than their neighbours are turned round ([`Mesh::misoriented`]).
+/// [`load_mesh`] with options, and notes on the model: unless it is to stay as it is, triangles that face another way
+/// than their neighbours are turned round ([`Mesh::misoriented`]).
 ///
 /// # Errors
 /// As [`load_mesh`].
@@ -96,8 +95,8 @@ pub fn load_mesh_with(path: &Path, options: ModelOptions) -> Result<(Mesh, Vec<M
     Ok((mesh.turned_round(&wrong), notes))
 }
 
-/// [`load_scene`] with options, and what the user should know of the model: unless it is to stay as it is, its
-/// triangles are mended as by [`load_mesh_with`], and materials as [`super::scene_obj::mtl`] says.
+/// [`load_scene`] with options, and notes on the model: unless it is to stay as it is, its triangles are repaired as by
+/// [`load_mesh_with`], and its materials as described in [`super::scene_obj::mtl`].
 ///
 /// # Errors
 /// As [`load_scene`].
@@ -129,17 +128,17 @@ fn mesh_of(bytes: &[u8], format: ModelFormat, path: &Path) -> Result<Mesh, Model
     }
 }
 
-/// What brings the axis asked for to z, of coordinates as the format's reader gives them.
+/// The rotation that brings the requested axis to z, for coordinates as returned by the format's reader.
 fn rotation(format: ModelFormat, options: ModelOptions) -> Option<fn([f32; 3]) -> [f32; 3]> {
     match (options.up?, format == ModelFormat::Gltf) {
         (UpAxis::Y, false) => Some(|[x, y, z]| [x, -z, y]),
-        // What the reader of glTF has turned goes back.
+        // The glTF reader has already rotated y up to z up, which is reverted.
         (UpAxis::Z, true) => Some(|[x, y, z]| [x, z, -y]),
         (UpAxis::Y, true) | (UpAxis::Z, false) => None,
     }
 }
 
-/// The triangles to turn round, and what is odd about a mesh.
+/// The triangles to turn round, and notes on defects of a mesh.
 fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     let wrong = mesh.misoriented();
     let crowded = mesh.welded().edges().iter().filter(|edge| !edge.is_manifold()).count();
@@ -151,7 +150,7 @@ fn oddities(mesh: &Mesh) -> (Vec<u32>, Vec<ModelNote>) {
     (wrong, notes.into_iter().filter(|(count, _)| *count > 0).map(|(_, note)| note).collect())
 }
 
-/// Reads files in the folder of a model.
+/// A function that reads files from the folder of a model.
 fn beside(model: &Path) -> impl FnMut(&Path) -> io::Result<Vec<u8>> + '_ {
     let folder = model.parent().unwrap_or(Path::new(""));
     move |file| {

@@ -1,25 +1,25 @@
-//! What was changed in a model so that it can be used, and what is odd about it.
+//! Notes on repairs and defects of a model.
 
 use std::fmt;
 
 use super::error::FilePlace;
 
-/// Something about a model file that its user should know.
+/// A repair or a defect of a model file of which the user should know.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ModelNote {
     /// Reflectances that sum to more than 1 were scaled.
     Scaled { place: FilePlace, material: String, sum: f32 },
-    /// Transparency without glass was passed over.
+    /// Transparency of a material that is not glass was ignored.
     Opaque { place: FilePlace, material: String, passes: f32 },
-    /// A glossy material without an exponent above 0 got one.
+    /// A glossy material without an exponent above 0 got the default.
     Exponent { place: FilePlace, material: String, exponent: f32 },
-    /// Triangles that ran the other way round than their neighbours were turned.
+    /// Triangles with the opposite winding of their neighbours were turned round.
     TurnedRound { triangles: usize },
     /// Triangles without area.
     Degenerate { triangles: usize },
-    /// Edges of three triangles or more.
+    /// Edges with three or more triangles.
     CrowdedEdges { edges: usize },
 }
 

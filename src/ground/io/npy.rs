@@ -1,5 +1,5 @@
 //! NumPy's array files (`.npy`), versions 1 to 3: arrays of f4 or f8 in C order, of either byte order. As a table, the
-//! first axis counts rows; the others together are its columns. Where f32 is read, f8 is rounded to the nearest.
+//! first axis gives the rows, and all others together the columns. Where f32 is read, f8 is rounded to the nearest.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use thiserror::Error;
 use super::number_table::NumberTable;
 use super::{NumberError, quoted, to_f32};
 
-/// How such a file begins.
+/// The first bytes of such a file.
 pub const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Why a file is no array that can be read.
+/// Reasons for which a file cannot be read as an array.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -21,35 +21,35 @@ pub enum NpyError {
     #[error("{}: expected {expected} bytes of {what}, found {found}", path.display())]
     #[diagnostic(code(crossbar::npy::truncated), help("the file is cut; write it again"))]
     Truncated { path: PathBuf, what: &'static str, expected: usize, found: usize },
-    /// A part of the file is not what belongs there.
+    /// A part of the file is invalid.
     #[error("{}: {what}: expected {expected}, found {found}", path.display())]
     #[diagnostic(code(crossbar::npy::header), help("write it with numpy.save"))]
     Header { path: PathBuf, what: &'static str, expected: &'static str, found: String },
-    /// Numbers of a type that is not read.
+    /// Numbers of an unsupported type.
     #[error("{}: expected numbers of type <f4, <f8, >f4 or >f8, found {found}", path.display())]
     #[diagnostic(code(crossbar::npy::dtype), help("convert the array: a.astype('<f4')"))]
     Type { path: PathBuf, found: String },
-    /// Columns first.
+    /// An array in Fortran order.
     #[error("{}: expected an array in C order, found Fortran order", path.display())]
     #[diagnostic(code(crossbar::npy::order), help("convert the array: numpy.ascontiguousarray(a)"))]
     FortranOrder { path: PathBuf },
-    /// More or fewer numbers than the shape says, or none.
+    /// The number of values differs from the shape, or is 0.
     #[error("{}: expected {expected} of numbers, found {found}", path.display())]
     #[diagnostic(code(crossbar::npy::size))]
     Size { path: PathBuf, expected: String, found: String },
-    /// A number that f32 cannot hold.
+    /// A number that overflows f32.
     #[error("{}: number {index} (counted from 0) is too large for a 32-bit float: {value:e}", path.display(),
         value = f64::from_bits(*bits))]
     #[diagnostic(code(crossbar::npy::range))]
     TooLarge { path: PathBuf, index: usize, bits: u64 },
 }
 
-/// Numbers along any number of axes, the last one fastest.
+/// Numbers along any number of axes, in C order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberArray<T = f32> {
-    /// How many there are along each axis: at least one axis, each at least 1.
+    /// Length of each axis: at least one axis, each of length 1 or more.
     pub shape: Vec<usize>,
-    /// All numbers: the product of the shape.
+    /// All numbers, as many as the product of the shape.
     pub values: Vec<T>,
 }
 
@@ -59,7 +59,7 @@ impl<T> From<NumberArray<T>> for NumberTable<T> {
     }
 }
 
-/// Reads an array from bytes as a table of f64; `name` stands for the file in messages.
+/// Reads an array from bytes as a table of f64; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`NpyError`].
@@ -67,7 +67,7 @@ pub fn parse_npy(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, NpyError
     array(bytes, name, f64::from, Ok).map(NumberTable::from)
 }
 
-/// The same as a table of f32.
+/// As [`parse_npy`], as a table of f32.
 ///
 /// # Errors
 /// [`NpyError`].
@@ -75,7 +75,7 @@ pub fn parse_single_npy(bytes: &[u8], name: &Path) -> Result<NumberTable, NpyErr
     parse_npy_array(bytes, name).map(NumberTable::from)
 }
 
-/// Reads an array of f32 from bytes; `name` stands for the file in messages.
+/// Reads an array of f32 from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`NpyError`].
@@ -138,7 +138,7 @@ fn doubles<T>(data: &[u8], is_big: bool, read: fn(f64) -> Result<T, NumberError>
     numbers.map(|(i, number)| read(number).map_err(|_| (i, number.to_bits()))).collect()
 }
 
-/// The text of the header, and what stands behind it.
+/// The text of the header, and the bytes that follow it.
 fn split<'a>(bytes: &'a [u8], name: &Path) -> Result<(&'a [u8], &'a [u8]), NpyError> {
     let path = || name.to_path_buf();
     let Some(rest) = bytes.strip_prefix(MAGIC) else {
@@ -168,7 +168,7 @@ struct Header {
 }
 
 impl Header {
-    /// What is wrong, and what was expected, on failure.
+    /// Parses the header; on failure returns the faulty part and what was expected.
     fn parse(text: &[u8]) -> Result<Self, (&'static str, &'static str)> {
         let text = std::str::from_utf8(text).map_err(|_| ("the header", "a Python dictionary in ASCII"))?;
         let inside = text.trim().strip_prefix('{').and_then(|text| text.strip_suffix('}'));
@@ -196,7 +196,7 @@ impl Header {
     }
 }
 
-/// Keeps a value, if there is one and none was kept before; gives the text behind it.
+/// Stores a value that was found, unless there was one before; returns the text after it.
 fn keep<'a, T>(
     slot: &mut Option<T>,
     found: Option<(T, &'a str)>,
@@ -227,38 +227,38 @@ fn tuple(text: &str) -> Option<(Vec<usize>, &str)> {
     let inside = inside.trim();
     let inside = inside.strip_suffix(',').unwrap_or(inside);
     let numbers = inside.split(',').map(str::trim).filter(|_| !inside.is_empty());
-    // Python 2 wrote long integers with an L.
+    // Python 2 writes long integers with the suffix L.
     Some((numbers.map(|n| n.strip_suffix('L').unwrap_or(n).parse().ok()).collect::<Option<_>>()?, rest))
 }
 
-/// Writes a table as an array of little-endian f4, of version 1.
+/// Writes a table as an array of little-endian f4, in version 1.
 ///
 /// # Errors
 /// Those of `out`.
 ///
 /// # Panics
-/// If the values are not whole rows.
+/// If the number of values is no multiple of the columns.
 pub fn write_npy(table: &NumberTable, out: &mut dyn Write) -> io::Result<()> {
     let NumberTable { columns, values } = table;
     assert!(*columns > 0 && values.len().is_multiple_of(*columns), "whole rows");
     write_npy_array(&[values.len() / columns, *columns], values, out)
 }
 
-/// Writes numbers of any shape as an array of little-endian f4, of version 1.
+/// Writes numbers of any shape as an array of little-endian f4, in version 1.
 ///
 /// # Errors
 /// Those of `out`.
 ///
 /// # Panics
-/// If there are not as many values as the shape says, or there are more axes than a header has room for.
+/// If the number of values differs from the shape's product, or a header cannot hold all axes.
 pub fn write_npy_array(shape: &[usize], values: &[f32], out: &mut dyn Write) -> io::Result<()> {
     assert_eq!(values.len(), shape.iter().product::<usize>(), "as many as the shape says");
     let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
-    // A tuple of one has a comma behind it.
+    // A Python tuple of one element has a trailing comma.
     let shape = format!("({}{})", axes.join(", "), if shape.len() == 1 { "," } else { "" });
     let mut header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
     assert!(header.len() < 60_000, "a shape of fewer axes");
-    // The data begin at a multiple of 64 bytes, behind a line feed.
+    // Data begin at a multiple of 64 bytes, after a line feed.
     let padding = (MAGIC.len() + 4 + header.len() + 1).next_multiple_of(64) - (MAGIC.len() + 4 + header.len() + 1);
     header.extend(std::iter::repeat_n(' ', padding).chain(['\n']));
     out.write_all(MAGIC)?;

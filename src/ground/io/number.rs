@@ -1,17 +1,17 @@
-//! Decimal numbers of files and options, in single and in double precision.
+//! Parsing of decimal numbers in files and options, in single and double precision.
 
 use serde::{Deserialize, Deserializer, de};
 use thiserror::Error;
 
-/// Why a piece of text is no number in single or double precision. What was found is quoted by those who know where it
-/// stands.
+/// Reasons for which a text is no number in single or double precision. The text itself is quoted by callers, who know
+/// its place.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected {}", self.expected())]
 pub enum NumberError {
-    /// No number at all.
+    /// The text is no number.
     NoNumber,
-    /// A NaN or an infinity, by name.
+    /// A NaN or an infinity, given by name.
     NotFinite,
     /// A number that rounds to infinity in single precision.
     TooLarge,
@@ -20,7 +20,7 @@ pub enum NumberError {
 }
 
 impl NumberError {
-    /// What was expected, to stand between "expected" and "found".
+    /// The expectation, as text between "expected" and "found".
     pub const fn expected(self) -> &'static str {
         match self {
             Self::NoNumber => "a number",
@@ -31,24 +31,24 @@ impl NumberError {
     }
 }
 
-/// The number that a decimal text stands for, rounded to the nearest single-precision number.
+/// Parses a decimal number, rounded to the nearest single-precision number.
 pub fn parse_f32(text: &str) -> Result<f32, NumberError> {
     let number: f32 = text.parse().map_err(|_| NumberError::NoNumber)?;
     if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLarge)) }
 }
 
-/// The same for the nearest double-precision number.
+/// Parses a decimal number, rounded to the nearest double-precision number.
 pub fn parse_f64(text: &str) -> Result<f64, NumberError> {
     let number: f64 = text.parse().map_err(|_| NumberError::NoNumber)?;
     if number.is_finite() { Ok(number) } else { Err(not_finite(text, NumberError::TooLargeForDouble)) }
 }
 
-/// Infinities and NaN have names without digits.
+/// The names of infinities and NaN contain no digits.
 fn not_finite(text: &str, too_large: NumberError) -> NumberError {
     if text.contains(|c: char| c.is_ascii_digit()) { too_large } else { NumberError::NotFinite }
 }
 
-/// A number in double precision rounded to the nearest of single precision; NaN and infinities stay what they are.
+/// A number rounded from double to single precision; NaN and infinities are kept.
 ///
 /// # Errors
 /// [`NumberError::TooLarge`].
@@ -57,7 +57,7 @@ pub fn to_f32(number: f64) -> Result<f32, NumberError> {
     if number.is_finite() && rounded.is_infinite() { Err(NumberError::TooLarge) } else { Ok(rounded) }
 }
 
-/// A number of a TOML file in single precision.
+/// A number in a TOML file, in single precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Single(pub(crate) f32);
 

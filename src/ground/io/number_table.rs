@@ -24,7 +24,7 @@ pub struct NumberTable<T = f32> {
     pub values: Vec<T>,
 }
 
-/// Why a file is no table of numbers. Lines and fields count from 1.
+/// Errors of reading a table of numbers. Lines and fields count from 1.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -51,7 +51,7 @@ pub enum NumberTableError {
     Syntax { path: PathBuf, reason: String },
 }
 
-/// Reads a comma-separated table from bytes, each number rounded to the nearest f64; `name` stands for the file in
+/// Reads a comma-separated table from bytes, each number rounded to the nearest f64; `name` is the file's name in
 /// messages.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn parse_number_table(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>,
     rows(bytes, name, double)
 }
 
-/// The same with each number rounded to the nearest f32.
+/// As [`parse_number_table`], with each number rounded to the nearest f32.
 ///
 /// # Errors
 /// [`NumberTableError`].

@@ -1,4 +1,4 @@
-//! Numbers from arrays of NumPy's or comma-separated values, told apart by how a file begins.
+//! Numbers from NumPy arrays or comma-separated values, recognised by the first bytes of a file.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use super::error::{ReadError, read};
 use super::npy::{self, NpyError, NumberArray, parse_npy, parse_npy_array, parse_single_npy};
 use super::number_table::{NumberTable, NumberTableError, parse_number_table, parse_single_table};
 
-/// Why a file has no numbers.
+/// Errors of reading numbers.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 pub enum NumbersError {
@@ -26,8 +26,8 @@ pub enum NumbersError {
     Table(#[from] NumberTableError),
 }
 
-/// The numbers of an array of NumPy's or of comma-separated values, rounded to the nearest f64; `name` stands for the
-/// file in messages.
+/// The numbers of a NumPy array or of comma-separated values, rounded to the nearest f64; `name` is the file's name in
+/// messages.
 ///
 /// # Errors
 /// [`NumbersError::Npy`] and [`NumbersError::Table`].
@@ -38,7 +38,7 @@ pub fn parse_numbers(bytes: &[u8], name: &Path) -> Result<NumberTable<f64>, Numb
     Ok(parse_number_table(bytes, name)?)
 }
 
-/// The same rounded to the nearest f32.
+/// As [`parse_numbers`], rounded to the nearest f32.
 ///
 /// # Errors
 /// [`NumbersError::Npy`] and [`NumbersError::Table`].

@@ -1,11 +1,10 @@
 //! Wavefront OBJ.
 //!
-//! A first pass checks every line that is used, so that an error can name the line and nothing reaches tobj that it is
-//! not made for; tobj then turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects,
-//! materials, colors, lines and points are passed over, so that the whole file is one mesh. A face of more than three
-//! corners becomes a fan around its first corner. Triangle ids are the order of the file, from 0. Vertices are numbered
-//! by first use; those that no face uses are dropped. Degenerate triangles are kept, since they hold a place in that
-//! order; nothing ever hits them.
+//! A first pass checks every used line, so that an error can name the line and tobj gets valid input only; tobj then
+//! turns the checked lines into triangles. Used are `v`, `vt`, `vn` and `f`: groups, objects, materials, colors, lines
+//! and points are ignored, so that the whole file is one mesh. A face of more than three corners becomes a fan around
+//! its first corner. Triangle ids follow the order of the file, from 0. Vertices are numbered by first use; unused ones
+//! are dropped. Degenerate triangles are kept, because they have an id in that order; no ray hits them.
 //!
 //! Texture coordinates and normals have indices of their own in the file. If all corners have them, each combination of
 //! position, texture coordinate and normal becomes a vertex, so that a position may be repeated; otherwise they are
@@ -20,7 +19,7 @@ use super::lines::{logical_lines, single, words};
 use super::quoted;
 use crate::geom::Mesh;
 
-/// Longest file that is read, in bytes (256 MiB).
+/// Largest size of a file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 256 << 20;
 
 /// The bytes of a model.
@@ -28,7 +27,7 @@ pub(super) fn load_model(path: &Path) -> Result<Vec<u8>, ReadError> {
     read(path, "model", MAX_BYTES)
 }
 
-/// Refuses what [`load_model`] would.
+/// Refuses input that [`load_model`] would refuse by its length.
 pub(super) fn within_limit(bytes: &[u8], name: &Path) -> Result<(), ReadError> {
     let fits = bytes.len() as u64 <= MAX_BYTES;
     if fits { Ok(()) } else { Err(ReadError::TooLong { what: "model", path: name.into(), limit: MAX_BYTES }) }
@@ -42,7 +41,7 @@ pub fn load_obj(path: &Path) -> Result<Mesh, ModelError> {
     parse_obj(&load_model(path)?, path)
 }
 
-/// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic.
+/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
 /// [`ModelError`], with the line where there is one.
@@ -55,7 +54,7 @@ pub fn parse_obj(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     reader.mesh(true)
 }
 
-/// What tobj makes of checked lines.
+/// The mesh that tobj reads from checked lines.
 fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ModelError> {
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..Default::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
@@ -73,7 +72,7 @@ fn load_clean(clean: &str, name: &Path) -> Result<Mesh, ModelError> {
     mesh.map_err(|reason| ModelError::Mesh(name.into(), reason))
 }
 
-/// Writes a mesh so that it reads back with the same bits in every corner.
+/// Writes a mesh so that reading it gives the same bits for every corner.
 pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     // Rust prints the shortest decimal that reads back to the same f32.
     for [x, y, z] in mesh.positions() {
@@ -93,7 +92,7 @@ pub fn write_obj(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// A corner with the indices that are asked for.
+/// A corner with the requested indices.
 fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) -> String {
     match (texcoords, normals) {
         (false, false) => format!("{v}"),
@@ -103,20 +102,20 @@ fn corner<T: fmt::Display>([v, vt, vn]: [T; 3], texcoords: bool, normals: bool) 
     }
 }
 
-/// The first pass: what it has seen, and the checked lines for tobj.
+/// The first pass: its state, and the checked lines for tobj.
 #[derive(Default)]
 pub(super) struct ObjReader {
     name: PathBuf,
     /// Checked `v`, `vt` and `vn` lines.
     clean: String,
-    /// How many of each of [`TARGETS`].
+    /// Number of elements of each of [`TARGETS`].
     counts: [usize; 3],
     normals: Vec<[f32; 3]>,
-    /// Indices from 1 of vertex, texture coordinate and normal; 0 for none.
+    /// Indices of vertex, texture coordinate and normal, from 1; 0 for none.
     corners: Vec<[usize; 3]>,
-    /// Where the corners of each face begin.
+    /// The index of each face's first corner.
     faces: Vec<usize>,
-    /// Indices that named something not yet seen, with their lines.
+    /// Indices to elements that had not been read yet: line, target and index.
     forward: Vec<(usize, usize, i64)>,
 }
 
@@ -125,7 +124,7 @@ impl ObjReader {
         Self { name: name.into(), ..Self::default() }
     }
 
-    /// Checks one line, given as words and as it stands.
+    /// Checks one line, given as words and as text.
     pub(super) fn line(&mut self, line: usize, words: &[&[u8]], text: &[u8]) -> Result<(), ModelError> {
         match words.split_first() {
             Some((&b"v", numbers)) => self.vertex(line, text, numbers),
@@ -137,7 +136,7 @@ impl ObjReader {
     }
 
     fn vertex(&mut self, line: usize, text: &[u8], numbers: &[&[u8]]) -> Result<(), ModelError> {
-        // x y z, then nothing, a weight, or a color of three or four.
+        // x y z, then optionally a weight, or a color of three or four numbers.
         if !matches!(numbers.len(), 3 | 4 | 6 | 7) {
             return Err(self.syntax(line, "a vertex `v x y z`", text));
         }
@@ -171,7 +170,7 @@ impl ObjReader {
         Ok(())
     }
 
-    /// Checks numbers and writes them to a line of this key for tobj.
+    /// Checks numbers and appends a line with this key for tobj.
     fn numbers(&mut self, line: usize, key: &str, words: &[&[u8]]) -> Result<Vec<f32>, ModelError> {
         self.clean.push_str(key);
         let mut numbers = Vec::with_capacity(words.len());
@@ -209,7 +208,8 @@ impl ObjReader {
         Ok(())
     }
 
-    /// An index counted from 1, if it names something, perhaps further down in the file.
+    /// An index of the file, negative ones counted back from the last element, as one from 1. Indices to elements that
+    /// have not been read yet are accepted and remembered.
     fn place(&mut self, line: usize, target: usize, index: i64) -> Result<usize, ModelError> {
         let count = self.counts[target];
         let place = match index {
@@ -224,7 +224,7 @@ impl ObjReader {
         place.ok_or_else(|| self.out_of_range(line, target, index))
     }
 
-    /// The corners of each face: indices from 1 of vertex, texture coordinate and normal; 0 for none.
+    /// The corners of each face: indices of vertex, texture coordinate and normal, from 1; 0 for none.
     pub(super) fn faces(&self) -> impl Iterator<Item = &[[usize; 3]]> {
         let ends = self.faces.iter().skip(1).copied().chain([self.corners.len()]);
         self.faces.iter().zip(ends).map(|(&start, end)| &self.corners[start..end])
@@ -240,12 +240,12 @@ impl ObjReader {
         &self.normals
     }
 
-    /// The mesh of the checked lines, once it is known how many vertices there are; with texture coordinates and
-    /// normals if all corners have them, or of positions alone.
+    /// The mesh of the checked lines, after the forward indices have been checked; if `attributes`, with texture
+    /// coordinates and normals where all corners have them, otherwise with positions alone.
     pub(super) fn mesh(&mut self, attributes: bool) -> Result<Mesh, ModelError> {
         for &(line, target, index) in &self.forward {
             let count = self.counts[target];
-            // Some exporters leave the coordinates out and keep their indices.
+            // Some exporters omit the coordinates but keep their indices.
             if target == 1 && count == 0 {
                 continue;
             }
@@ -282,7 +282,7 @@ impl ObjReader {
     }
 }
 
-/// What the indices of a corner name, in the order in which it writes them.
+/// The elements that a corner's indices refer to, in their order in the file.
 const TARGETS: [&str; 3] = ["a face uses vertex", "a corner uses texture coordinate", "a corner uses normal"];
 
 /// The indices of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`.

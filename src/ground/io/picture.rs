@@ -10,7 +10,7 @@ use crate::picture::{Picture, PictureError, PictureSize};
 /// Longest file that is read, in bytes (256 MiB).
 pub const MAX_BYTES: u64 = 256 << 20;
 
-/// Why a file is no picture.
+/// Errors of reading a picture.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -19,7 +19,7 @@ pub enum PictureFileError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Read(#[from] ReadError),
-    /// The bytes are no picture.
+    /// The bytes cannot be decoded.
     #[error("{}: {reason}", path.display())]
     Decode { path: PathBuf, reason: PictureError },
 }
@@ -45,7 +45,7 @@ impl PictureFile {
         }
     }
 
-    /// The size that the header says.
+    /// The size that the header states.
     pub const fn size(&self) -> PictureSize {
         self.size
     }

@@ -1,12 +1,11 @@
 //! PLY, the format of scanned models: ASCII and both binary encodings, read with ply-rs-bw.
 //!
 //! Used are the elements `vertex` (`x y z`; `nx ny nz`; `s t`, `u v` or `texture_u texture_v`) and `face`
-//! (`vertex_indices` or `vertex_index`); all others are passed over. A face of more than three corners becomes a fan
-//! around its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ
-//! files.
+//! (`vertex_indices` or `vertex_index`); all others are ignored. A face of more than three corners becomes a fan around
+//! its first corner. Vertices are those of the file, in its order; degenerate triangles are kept, as in OBJ files.
 //!
-//! The file is read element by element, so that an error names the line or the element, and no memory is taken on the
-//! word of a count in the header.
+//! The file is read element by element, so that an error names the line or the element, and no memory is allocated by a
+//! count in the header alone.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -19,10 +18,10 @@ use super::obj::{load_model, within_limit};
 use super::quoted;
 use crate::geom::Mesh;
 
-/// Names of the numbers of a vertex that are used.
+/// Names of the used numbers of a vertex.
 const NUMBERS: [&[&str]; 8] =
     [&["x"], &["y"], &["z"], &["nx"], &["ny"], &["nz"], &["s", "u", "texture_u"], &["t", "v", "texture_v"]];
-/// Names of the list of a face that is used.
+/// Names of the used list of a face.
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Reads a mesh from a file.
@@ -33,7 +32,7 @@ pub fn load_ply(path: &Path) -> Result<Mesh, ModelError> {
     parse_ply(&load_model(path)?, path)
 }
 
-/// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic.
+/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
 /// [`ModelError`], with the line or element where there is one.
@@ -75,12 +74,12 @@ pub fn parse_ply(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     mesh.finish(attributes, name)
 }
 
-/// The file does not hold a mesh.
+/// The error for a file without a required part.
 fn missing(name: &Path, expected: &'static str) -> ModelError {
     ModelError::Syntax { place: name.into(), expected: expected.into(), found: "none".to_owned() }
 }
 
-/// The header, how many lines it has, and the data behind it.
+/// The header, its number of lines, and the data after it.
 fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]), ModelError> {
     let syntax = |line: usize, expected: &str, found: String| {
         let expected = expected.to_owned().into();
@@ -93,7 +92,7 @@ fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]),
         if lines == 1 && line != b"ply" {
             return Err(syntax(1, "the word `ply`", quoted(line)));
         }
-        // Comments may be in any encoding; what is used is ASCII.
+        // Comments may be in any encoding; all used lines are ASCII.
         text = std::str::from_utf8(line).unwrap_or("comment");
         if text == "end_header" {
             break;
@@ -119,21 +118,21 @@ fn header<'a>(bytes: &'a [u8], name: &Path) -> Result<(Header, usize, &'a [u8]),
     Ok((header, lines, data))
 }
 
-/// The elements of a file, one after the other.
+/// Reads the elements of a file in order.
 struct Data<'a> {
     name: &'a Path,
     encoding: Encoding,
-    /// Lines read so far.
+    /// Number of lines read so far.
     line: usize,
     rest: &'a [u8],
 }
 
-/// Where an element stands, for messages.
+/// The place of an element, for messages.
 struct ElementPlace<'a> {
     name: &'a Path,
     element: &'a str,
     index: usize,
-    /// The line and what it says, in ASCII data.
+    /// In ASCII data the line's number and text.
     line: Option<(usize, String)>,
 }
 
@@ -151,7 +150,7 @@ impl ElementPlace<'_> {
 }
 
 impl<'a> Data<'a> {
-    /// The next element, which is the one of this index of its kind.
+    /// The next element, which has this index among those of its kind.
     fn next<'b>(&mut self, element: &'b ElementDef, index: usize) -> Result<(Record, ElementPlace<'b>), ModelError>
     where
         'a: 'b,
@@ -197,14 +196,14 @@ impl<'a> Data<'a> {
     }
 }
 
-/// What belongs where an element stands.
+/// A description of the expected element.
 fn expected(element: &ElementDef) -> String {
     let names: Vec<&str> = element.properties.keys().map(String::as_str).take(12).collect();
     let more = if element.properties.len() > names.len() { " ..." } else { "" };
     format!("a `{}` of `{}{more}`", visible(&element.name), visible(&names.join(" ")))
 }
 
-/// A name of the header as messages show it.
+/// A name in the header as messages show it.
 fn visible(name: &str) -> String {
     name.chars().take(80).collect::<String>().escape_debug().to_string()
 }
@@ -223,7 +222,7 @@ impl PropertyAccess for Record {
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
         if let Some(place) = NUMBERS.iter().position(|names| names.contains(&name)) {
-            // In elements other than vertices such a name may be of anything.
+            // In elements other than vertices a property of this name may have any type.
             property.to_f32_lossy().inspect(|&number| self.numbers[place] = number);
         } else if INDICES.contains(&name) {
             let Some(indices) = property.to_u32_list() else { return PropertyAccessResult::UnsupportedType };
@@ -235,7 +234,7 @@ impl PropertyAccess for Record {
     }
 }
 
-/// The vertices and triangles so far.
+/// The vertices and triangles read so far.
 #[derive(Default)]
 struct MeshReader {
     vertices: Vec<[f32; NUMBERS.len()]>,

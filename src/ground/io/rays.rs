@@ -21,13 +21,13 @@ use crate::geom::{Ray, RayError};
 /// Longest file that is read, in bytes (1 GiB).
 pub const MAX_BYTES: u64 = 1 << 30;
 
-/// The first line ends within so many bytes.
+/// Largest length of the first line, in bytes.
 const MAX_HEADER_BYTES: u64 = 4096;
 
 /// The columns of a ray table.
 const HEADER: [&str; 6] = ["ox", "oy", "oz", "dx", "dy", "dz"];
 
-/// Why a file is no table of rays. Lines count from 1, the header's.
+/// Errors of reading a table of rays. Lines count from 1, the header's.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -45,7 +45,7 @@ pub enum RaysError {
     /// A field is not a number of single precision.
     #[error("{}:{line}: expected {} for {column}, found {found}", path.display(), reason.expected())]
     Number { path: PathBuf, line: u64, column: &'static str, reason: NumberError, found: String },
-    /// The six numbers are no ray.
+    /// Six numbers that are not a valid ray.
     #[error("{}:{line}: {reason}", path.display())]
     Ray { path: PathBuf, line: u64, reason: RayError },
     /// The table's syntax is broken.
@@ -75,7 +75,7 @@ fn unreadable(path: &Path, source: io::Error) -> ReadError {
     ReadError::Unreadable { what: "rays", path: path.into(), source }
 }
 
-/// Reads rays from bytes; `name` stands for the file in messages. A table without rays is fine.
+/// Reads rays from bytes; `name` is the file's name in messages. A table without rays is valid.
 ///
 /// # Errors
 /// [`RaysError`], with the line where there is one.
@@ -86,7 +86,7 @@ pub fn parse_rays(bytes: &[u8], name: &Path) -> Result<Vec<Ray>, RaysError> {
 fn read_rays(mut input: impl Read, name: &Path) -> Result<Vec<Ray>, RaysError> {
     let mut head = Vec::new();
     input.by_ref().take(MAX_HEADER_BYTES).read_to_end(&mut head).map_err(|source| unreadable(name, source))?;
-    // What is no table may be one line of any length.
+    // A file of another kind may be a single line of any length.
     if head.len() as u64 == MAX_HEADER_BYTES && !head.contains(&b'\n') {
         return Err(RaysError::Header { path: name.into(), found: quoted(&head) });
     }

@@ -36,7 +36,7 @@ use crate::scene::{CameraError, PointLight, Scene, View};
 /// Longest scene file that is read, in bytes (1 MiB); its mesh may be longer.
 const LONGEST: u64 = 1 << 20;
 
-/// Why a file is no scene.
+/// Errors of reading a scene.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -52,7 +52,7 @@ pub enum SceneFileError {
     #[error("{}: expected a scene file of at most {LONGEST} bytes of UTF-8", path.display())]
     #[diagnostic(code(crossbar::scene::text), help("a scene file is TOML that names its mesh: docs/scenes.md"))]
     NoText { path: PathBuf },
-    /// The file is no TOML, or does not say what a scene file says.
+    /// The file is not valid TOML, or not a valid scene file.
     #[error("{}:{line}: {message}", path.display())]
     #[diagnostic(
         code(crossbar::scene::toml),
@@ -175,7 +175,7 @@ pub fn parse(text: &str, name: &Path) -> Result<(PathBuf, Vec<View>, Vec<PointLi
 /// The three files of a scene, `stem.toml`, `stem.obj` and `stem.mtl`, with their names.
 ///
 /// # Errors
-/// [`io::ErrorKind::InvalidInput`] where a material's name can't stand in a file (see [`super::write_scene`]).
+/// [`io::ErrorKind::InvalidInput`] if a material's name cannot be written (see [`super::write_scene`]).
 pub fn scene_files(scene: &Scene, stem: &str) -> io::Result<Vec<(String, Vec<u8>)>> {
     let (mesh, library) = (format!("{stem}.obj"), format!("{stem}.mtl"));
     let [mut file, mut obj, mut mtl] = [Vec::new(), Vec::new(), Vec::new()];

@@ -1,8 +1,8 @@
 //! STL, binary and ASCII, through stl_io.
 //!
-//! Triangles in the order of the file; corners at one place, to the bit, become one vertex. The normals of the file are
-//! those of the triangles, and are passed over, as are colors. Binary data are told by their length, since some begin
-//! with the word `solid` of the other kind.
+//! Triangles are in the order of the file; corners with the same position, bit for bit, become one vertex. The file's
+//! normals, which are those of the triangles, are ignored, as are colors. Binary data are recognised by their length,
+//! because some begin with the word `solid` of the ASCII format.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -11,9 +11,9 @@ use super::error::{FilePlace, ModelError};
 use super::obj::{load_model, within_limit};
 use crate::geom::mesh::{Mesh, Welder};
 
-/// Bytes in front of the triangles of binary data: a header, and their number.
+/// Bytes before the triangles of binary data: a header, and their number.
 const HEAD: usize = 84;
-/// Bytes of a triangle: twelve numbers, and an attribute.
+/// Bytes per triangle: twelve numbers, and an attribute.
 const TRIANGLE: usize = 50;
 
 /// Reads a mesh from a file.
@@ -24,8 +24,8 @@ pub fn load_stl(path: &Path) -> Result<Mesh, ModelError> {
     parse_stl(&load_model(path)?, path)
 }
 
-/// Reads a mesh from bytes; `name` stands for the file in messages. No input makes it panic, or take more memory than
-/// its length supports.
+/// Reads a mesh from bytes; `name` is the file's name in messages. Never panics, and allocates memory in proportion to
+/// the file's length only.
 ///
 /// # Errors
 /// [`ModelError`].
@@ -39,7 +39,7 @@ pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     let mut bytes = bytes.to_vec();
     let claimed = claimed_length(&bytes);
     if claimed == Some(bytes.len() as u64) {
-        // stl_io takes what begins with `solid` for ASCII; a header says nothing.
+        // stl_io takes data that begin with `solid` for ASCII; the header has no meaning otherwise.
         bytes[..5].fill(0);
     } else if !bytes.trim_ascii_start().starts_with(b"solid") {
         let expected = "an STL file: `solid`, or binary data of the length that they claim";
@@ -62,12 +62,12 @@ pub fn parse_stl(bytes: &[u8], name: &Path) -> Result<Mesh, ModelError> {
     Mesh::new(welder.into_positions(), triangles).map_err(|reason| ModelError::Mesh(name.into(), reason))
 }
 
-/// Whether these are an STL file's: binary data of the length that they claim, or text that begins as one.
+/// True for the contents of an STL file: binary data with the length that they state, or text that begins as ASCII STL.
 pub(super) fn is_stl(bytes: &[u8]) -> bool {
     bytes.starts_with(b"solid ") || claimed_length(bytes) == Some(bytes.len() as u64)
 }
 
-/// How long binary data with this head are.
+/// The length of binary data as their head states it.
 fn claimed_length(bytes: &[u8]) -> Option<u64> {
     let count = bytes.get(HEAD - 4..HEAD)?.try_into().ok()?;
     Some(HEAD as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(count)))

@@ -9,9 +9,13 @@ use crate::elementary::sin_cos;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum BandWindow {
-    /// Half a cosine wave: (1 + cos(pi l / w)) / 2.
+    /// Half a cosine wave.
+    ///
+    /// (1 + cos(pi l / w)) / 2.
     Hann,
-    /// sin(x) / x of x = pi l / w.
+    /// sin(x) / x.
+    ///
+    /// With x = pi l / w.
     Lanczos,
 }
 

@@ -7,7 +7,7 @@ use crate::transfer::clustering::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, StartPoints, compress,
 };
 
-/// How segments are compressed.
+/// Options of the compression of segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SegmentOptions {
     /// Vertices per cluster on average; the paper has 200. Each segment gets as many clusters as that goes into its
@@ -18,9 +18,9 @@ pub struct SegmentOptions {
     pub vectors: usize,
     /// Iterations at most for each number of representatives.
     pub iterations: usize,
-    /// By which measure vertices are shared out; the paper's is [`CpcaMethod::Iterative`].
+    /// The measure by which vertices are assigned to clusters; [`CpcaMethod::Iterative`] in the paper.
     pub method: CpcaMethod,
-    /// Draws the start points, of each segment others.
+    /// Random seed of the start points, which differ between segments.
     pub seed: u64,
 }
 
@@ -81,12 +81,12 @@ pub struct CompressedTransfer {
     pub segments: Vec<CompressedSegment>,
 }
 
-/// Why segments make no transfer. Segments and vertices count from 0.
+/// Reasons for which segments make no transfer. Segments and vertices count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum CompressedError {
-    /// Numbers per point that are no whole number of light coefficients.
+    /// A number of values per point that is no multiple of the rows.
     #[error("segment {segment}: expected a multiple of {rows} numbers per vertex, one per row, found {found}")]
     Shape { segment: usize, rows: usize, found: usize },
     /// Segments of unlike sizes, or out of order.

@@ -33,11 +33,11 @@ const MAX_SIDE: u32 = 1 << 12;
 pub struct AllFrequencyFile {
     /// The mesh whose vertices it belongs to.
     pub mesh: MeshDigest,
-    /// The hats of the light's texels.
+    /// The width of the light texels' hat functions.
     pub hats: HatWidth,
     /// The reflectance; its color is the mesh's.
     pub reflectance: Reflectance,
-    /// Which directions each vertex sees, a map per vertex.
+    /// The visible directions of each vertex, one map per vertex.
     pub visibility: Option<VisibilityMaps>,
     /// Transfer, compressed and coded.
     pub coded: Option<CodedTransfer>,
@@ -53,7 +53,7 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
     Ok(file)
 }
 
-/// Reads a file from bytes; `name` stands for it in messages.
+/// Reads a file from bytes; `name` is its name in messages.
 ///
 /// # Errors
 /// [`PrtFileError`].
@@ -109,7 +109,7 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
 }
 
 impl AllFrequencyFile {
-    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
     ///
     /// # Errors
     /// [`PrtFileError::OtherMesh`].
@@ -121,7 +121,7 @@ impl AllFrequencyFile {
         Err(PrtFileError::OtherMesh { path: path.into(), expected: *expected, found: Some(found) })
     }
 
-    /// Why the parts do not go together: the field, what was expected, what was found.
+    /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self, terms: usize) -> Option<(&'static str, String, String)> {
         if self.reflectance.terms() != terms {
             return Some(("terms of the reflectance", self.reflectance.terms().to_string(), terms.to_string()));
@@ -220,10 +220,10 @@ impl Reader<'_> {
     }
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts do not go together.
+/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts contradict each other.
 pub fn save_all_frequency(file: &AllFrequencyFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_all_frequency(file, out))
 }
@@ -231,7 +231,7 @@ pub fn save_all_frequency(file: &AllFrequencyFile, path: &Path) -> Result<(), Wr
 /// Writes the bytes of a file.
 ///
 /// # Errors
-/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts do not go together.
+/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
 pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::Result<()> {
     let terms = file.reflectance.terms();
     if let Some((field, expected, found)) = file.fault(terms) {

@@ -1,7 +1,7 @@
-//! Reference solution: exit radiance of a vertex under a light of cube texels, in f64, every fine direction against
-//! every triangle. No factors, no matrices, no wavelets, no compression, no card: equation 1 as it stands.
+//! Reference solution: exit radiance of a vertex under a light of cube texels, in f64, every fine direction tested
+//! against every triangle. Equation 1 without factors, matrices, wavelets, compression or a card.
 //!
-//! It shares the vertices and the choice of hats with what it checks, and no other arithmetic.
+//! It shares the vertices and the choice of hat functions with the code that it checks, and no other arithmetic.
 
 use glam::DVec3;
 
@@ -10,23 +10,23 @@ use crate::geom::vector::{unit, wide};
 use crate::transfer::Vertices;
 use crate::transfer::hats::HatWidth;
 
-/// Rays start this far off the triangles at a vertex, as a share of the mesh's size.
+/// Distance of ray origins from the triangles at a vertex, relative to the mesh's size.
 const LIFT: f64 = 1e-7;
 /// Texels of the light along an edge.
 const LIGHT: usize = 32;
 /// Directions along an edge: 4 x 4 per texel.
 const FINE: usize = 128;
 
-/// A scene for the reference: vertices, one BRDF, one channel of light.
+/// Input of the reference: vertices, one BRDF, one channel of light.
 #[derive(Clone, Copy)]
 pub struct AllFrequencyReference<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
     /// f(v, s) = b(v, s) s_z for local directions of view and light.
     pub product: &'a dyn Fn(DVec3, DVec3) -> f64,
-    /// The radiance of each light texel, by face 1024 + row 32 + column.
+    /// The radiance of each light texel, with index 1024 face + 32 row + column.
     pub light: &'a [f64],
-    /// How the light is interpolated between texels.
+    /// Interpolation of the light between texels.
     pub hats: HatWidth,
 }
 
@@ -37,8 +37,9 @@ impl std::fmt::Debug for AllFrequencyReference<'_> {
 }
 
 impl AllFrequencyReference<'_> {
-    /// g_p(v), the radiance that a vertex sends in a direction of its local frame (equation 1). `sees` says whether
-    /// light from a direction, given by face, row and column of 128 x 128, reaches the vertex; [`Self::sees`] does.
+    /// g_p(v), the radiance that a vertex sends towards `view` in its local frame (equation 1). `sees` returns whether
+    /// light from a direction, given by face, row and column of 6 x 128 x 128, reaches the vertex; [`Self::sees`] is
+    /// the exact one.
     ///
     /// # Panics
     /// If there is no such vertex.
@@ -60,7 +61,7 @@ impl AllFrequencyReference<'_> {
         sum
     }
 
-    /// Whether a vertex sees the light in a direction: it lies above its horizon, and no triangle is met.
+    /// True if a vertex sees the light in a direction: the direction lies above its horizon, and no triangle blocks it.
     ///
     /// # Panics
     /// If there is no such vertex or face.
@@ -72,26 +73,26 @@ impl AllFrequencyReference<'_> {
         normal.dot(direction) > 0.0 && !all.into_iter().any(|triangle| meets(origin, direction, self.corners(triangle)))
     }
 
-    /// The light in a direction.
+    /// The light's radiance in a direction.
     fn light(&self, face: usize, row: usize, column: usize) -> f64 {
         let texel = |row: usize, column: usize| self.light[(face * LIGHT + row) * LIGHT + column];
         if self.hats == HatWidth::OneTexel {
             return texel(row * LIGHT / FINE, column * LIGHT / FINE);
         }
-        // In texel widths from the center of the first texel.
+        // In texels, from the center of the first texel.
         let [y, x] = [row, column].map(|at| (at as f64 + 0.5) * LIGHT as f64 / FINE as f64 - 0.5);
         let [v, u] = [y - y.floor(), x - x.floor()];
         let radiance = |down: f64, right: f64| self.texel_beyond(face, y.floor() + down, x.floor() + right);
         let corners = [radiance(0.0, 0.0), radiance(0.0, 1.0), radiance(1.0, 0.0), radiance(1.0, 1.0)];
-        // Where only three texels meet, the fourth is their mean.
+        // At a corner of the cube only three texels meet, and their mean takes the place of the fourth.
         let there: Vec<f64> = corners.into_iter().flatten().collect();
         let mean = there.iter().sum::<f64>() / there.len() as f64;
         let [a, b, c, d] = corners.map(|corner| corner.unwrap_or(mean));
         (1.0 - v) * ((1.0 - u) * a + u * b) + v * ((1.0 - u) * c + u * d)
     }
 
-    /// The radiance of the texel at a row and column that may lie one beyond the face: of the texel there when the
-    /// neighboring face is unfolded into its plane.
+    /// The radiance of the texel at a row and column that may lie one beyond the face: then the texel there after the
+    /// neighboring face has been unfolded into this face's plane; `None` beyond a corner.
     fn texel_beyond(&self, face: usize, row: f64, column: f64) -> Option<f64> {
         let along = |at: f64| (2.0 * at + 1.0) / LIGHT as f64 - 1.0;
         let [v, u] = [along(row), along(column)];
@@ -100,7 +101,7 @@ impl AllFrequencyReference<'_> {
         }
         let beyond = (u.abs().max(v.abs()) - 1.0).max(0.0);
         let point = point(face, u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)) - beyond * point(face, 0.0, 0.0);
-        // The face that the folded point lies on is the one that a component of 1 belongs to.
+        // The point lies on the face on whose axis its component is 1.
         let on = (0..6).find(|&other| (point.dot(self::point(other, 0.0, 0.0)) - 1.0).abs() < 1e-9)?;
         let place = |axis: DVec3| (((point.dot(axis) + 1.0) / 2.0 * LIGHT as f64).floor() as usize).min(LIGHT - 1);
         let right = self::point(on, 1.0, 0.0) - self::point(on, 0.0, 0.0);
@@ -108,7 +109,7 @@ impl AllFrequencyReference<'_> {
         Some(self.light[(on * LIGHT + place(down)) * LIGHT + place(right)])
     }
 
-    /// The vertex, lifted off the triangles that meet there.
+    /// The vertex position, moved off the triangles that meet there.
     fn origin(&self, vertex: usize) -> DVec3 {
         let place = wide(self.vertices.positions()[vertex]);
         let mut towards = DVec3::ZERO;
@@ -148,7 +149,7 @@ fn direction(face: usize, row: usize, column: usize, side: usize) -> DVec3 {
     point / point.length()
 }
 
-/// The solid angle of a texel of 128 x 128: differences of that of the rectangle from (0, 0) to (x, y) at distance 1.
+/// Solid angle of a texel of 128 x 128, by differences of that of the rectangle from (0, 0) to (x, y) at distance 1.
 fn solid_angle(row: usize, column: usize) -> f64 {
     let edge = |at: usize| 2.0 * at as f64 / FINE as f64 - 1.0;
     let to = |x: f64, y: f64| atan2(x * y, (x * x + y * y + 1.0).sqrt());
@@ -156,7 +157,7 @@ fn solid_angle(row: usize, column: usize) -> f64 {
     to(x1, y1) - to(x0, y1) - to(x1, y0) + to(x0, y0)
 }
 
-/// Whether a ray meets a triangle, from either side (Moeller and Trumbore).
+/// True if a ray hits a triangle, from either side (Moeller and Trumbore).
 fn meets(origin: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> bool {
     let (ab, ac) = (b - a, c - a);
     let across = direction.cross(ac);

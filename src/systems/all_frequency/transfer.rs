@@ -1,13 +1,14 @@
-//! The transfer M_p of vertices, one segment of the light at a time (equations 6 and 10).
+//! The transfer M_p of vertices, computed one segment of the light at a time (equations 6 and 10).
 //!
-//! The raw transfer of a vertex sums over the fine directions that it sees: component i of light texel j is the sum of
-//! hat_j(s) F_i(R_p s) times the solid angle of s. Texels are radiances, so a light of texels l has the transferred
-//! radiance M l; the Haar transform of each segment's row of M, which is orthonormal, makes it M L.
+//! The raw transfer of a vertex is a sum over its visible fine directions: component i for light texel j is the sum of
+//! hat_j(s) F_i(R_p s) times the solid angle of s. Texels hold radiances, so a light with texels l has the transferred
+//! radiance M l; an orthonormal Haar transform of each segment's rows of M and of the light leaves the product the
+//! same.
 //!
-//! *Cost.* A vertex's sum takes one evaluation of F per visible direction and segment that shares it (hats of two
-//! texels reach over the borders of segments: 68 x 68 directions of 64 x 64, 13 % more). *Memory*: the visibility maps,
-//! 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and at
-//! most 512 MB.
+//! *Cost.* A vertex takes one evaluation of F per visible direction and segment that shares it (hat functions of two
+//! texels reach over the borders of segments: 68 x 68 directions instead of 64 x 64, 13 % more). *Memory*: visibility
+//! maps, 12 KiB per vertex, and one segment, 1 KiB per vertex and row of F: for 50,000 vertices and 10 rows 614 MB and
+//! at most 512 MB.
 
 use std::ops::Range;
 
@@ -21,33 +22,34 @@ use crate::transfer::hats::Hats;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
 use crate::transfer::{Signal, TransferError, Vertices};
 
-/// Light texels, and coefficients, of a segment.
+/// Number of light texels, and of coefficients, in a segment.
 const LEN: usize = Segmentation::Quarters.len();
-/// Points per chunk of a sum over all points: part of the shape of the sum.
+/// Points per chunk of a sum over all points; it fixes the order of the additions.
 const CHUNK: usize = 1024;
 
-/// Memory of the visibility maps of so many vertices and of one segment with so many rows, in bytes, at most.
+/// Upper bound, in bytes, of the memory for the visibility maps of `vertices` vertices and one segment with `rows`
+/// rows.
 pub const fn transfer_bytes(vertices: u64, rows: u64) -> u64 {
     vertices * (VISIBILITY_BYTES as u64 + 4 * LEN as u64 * rows + 16)
 }
 
-/// What transfer is computed from: visibility, and the light's side of the factored BRDF.
+/// Input of transfer: visibility, and the light's side of the factored BRDF.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredTransfer<'a, F> {
     /// The mesh.
     pub vertices: &'a Vertices,
-    /// Visibility of the vertices that transfer is wanted for.
+    /// Visibility maps of the vertices whose transfer is computed.
     pub maps: &'a VisibilityMaps,
-    /// The hats of the light's texels.
+    /// Hat functions of the light's texels.
     pub hats: &'a Hats,
     /// m, the number of components of F: at least 1.
     pub rows: usize,
-    /// F: for a local direction of length 1 with z > 0 (normal z, tangent x) its `rows` components, which include the
-    /// cosine z. It writes all of them.
+    /// F: writes all `rows` components for a local direction of length 1 with z > 0 (z along the normal, x along the
+    /// tangent); they include the cosine z.
     pub response: F,
 }
 
-/// The transfer of a reflectance: F is its light's side.
+/// The transfer of a reflectance, whose light's side is F.
 pub fn transfer_of<'a>(
     vertices: &'a Vertices,
     maps: &'a VisibilityMaps,
@@ -58,20 +60,20 @@ pub fn transfer_of<'a>(
     FactoredTransfer { vertices, maps, hats, rows: reflectance.terms(), response }
 }
 
-/// The transfer of one segment of the light at the vertices that see any of it.
+/// The transfer of one segment of the light, for the vertices that see any of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferSegment {
     /// The segment, 0 to 23.
     pub segment: usize,
-    /// The vertices, by their number in the mesh, in the order of the visibility maps.
+    /// The vertices, by their index in the mesh, in the order of the visibility maps.
     pub vertices: Vec<u32>,
-    /// A point per vertex: row i and Haar coefficient c are component 256 i + c.
+    /// One point per vertex: row i and Haar coefficient c are component 256 i + c.
     pub signal: Signal,
 }
 
-/// What a thread works in.
+/// Scratch memory of a thread.
 struct Scratch {
-    /// F of a direction.
+    /// F for one direction.
     response: Vec<f64>,
     /// Raw transfer, texel by texel.
     raw: Vec<f64>,
@@ -87,7 +89,7 @@ impl Scratch {
 }
 
 impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
-    /// The segments one after the other, without those that no vertex sees. Each is computed when it is asked for.
+    /// The segments in order, without those that no vertex sees. Each is computed when the iterator reaches it.
     ///
     /// # Errors
     /// As [`Self::segment`].
@@ -95,10 +97,10 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         (0..Segmentation::Quarters.count()).filter_map(|segment| self.segment(segment).transpose())
     }
 
-    /// One segment; `None` if no vertex sees any of it. Its bits do not depend on the number of threads.
+    /// One segment; `None` if no vertex sees any of it. The bits do not depend on the number of threads.
     ///
     /// # Errors
-    /// [`TransferError`] if there are no rows, the maps are of another mesh, or F is not finite somewhere.
+    /// [`TransferError`] if `rows` is 0, the maps belong to another mesh, or F is not finite somewhere.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -127,8 +129,8 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         Ok(Some(TransferSegment { segment, vertices, signal: Signal::new(dimension, values)? }))
     }
 
-    /// The average response to every coefficient of a light in 24 segments, 0 where no vertex has transfer:
-    /// [`TransferSegment::mean_response`] of all of them, which [`TruncationPriority::Transfer`] takes.
+    /// The mean response to every coefficient of a light in 24 segments, 0 where no vertex has transfer:
+    /// [`TransferSegment::mean_response`] of all segments, as [`TruncationPriority::Transfer`] needs it.
     ///
     /// # Errors
     /// As [`Self::segment`].
@@ -155,7 +157,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         (0..self.rows * LEN).map(|at| scratch.raw[at % LEN * self.rows + at / LEN]).collect()
     }
 
-    /// Sums over the directions that a map's vertex sees, in their order.
+    /// Sums over the directions that a map's vertex sees, in the order of their numbers.
     fn gather(&self, segment: usize, map: usize, scratch: &mut Scratch) {
         let frame = &self.vertices.frames()[self.maps.vertices()[map] as usize];
         let (directions, rows) = (FineDirections::get().directions(), self.rows);
@@ -171,7 +173,7 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
         });
     }
 
-    /// Takes raw transfer into Haar coefficients, row by row.
+    /// Transforms raw transfer into Haar coefficients, row by row.
     fn transform(&self, scratch: &mut Scratch, into: &mut [f32]) {
         let Scratch { raw, square, haar, .. } = scratch;
         for (row, into) in into.chunks_exact_mut(LEN).enumerate() {
@@ -183,13 +185,13 @@ impl<F: Fn(DVec3, &mut [f64]) + Sync> FactoredTransfer<'_, F> {
 }
 
 impl TransferSegment {
-    /// The places of a row in a point of the signal.
+    /// The components of a row within a point of the signal.
     pub const fn row(row: usize) -> Range<usize> {
         row * LEN..(row + 1) * LEN
     }
 
-    /// The average response to each coefficient of the segment: the mean magnitude over `all` vertices, of which those
-    /// that are not in the segment count as 0, and over rows. What [`TruncationPriority::Transfer`] asks for.
+    /// The mean response to each coefficient of the segment: the mean magnitude over rows and over `all` vertices,
+    /// where vertices outside the segment count as 0. Used by [`TruncationPriority::Transfer`].
     ///
     /// [`TruncationPriority::Transfer`]: crate::transfer::light::TruncationPriority::Transfer
     pub fn mean_response(&self, all: usize) -> Vec<f64> {

@@ -1,9 +1,9 @@
-//! The M local directions that a bidirectional texture is sampled in, for light and for view.
+//! The M local directions in which a bidirectional texture is sampled, for light and for view.
 //!
-//! A square of k x k cells is mapped onto the hemisphere so that equal areas stay equal: the concentric map of Shirley
-//! and Chiu from the square to the disc, then Lambert's equal-area map from the disc to the hemisphere (section VI-A,
-//! reference 34, which the scan has lost: that it is Shirley and Chiu's is an inference). The directions are those of
-//! the cells' centers.
+//! A square of k x k cells is mapped onto the hemisphere with equal areas: the concentric map of Shirley and Chiu from
+//! the square to the disc, then Lambert's equal-area map from the disc to the hemisphere (section VI-A, reference 34,
+//! which the scan has lost: that it is Shirley and Chiu's is an inference). The directions are those of the cells'
+//! centers.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -19,16 +19,16 @@ pub struct LocalDirections {
     directions: Vec<DVec3>,
 }
 
-/// A number of cells that there cannot be.
+/// A number of cells out of range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected 1 to {} directions along an edge of the square, found {found}", LocalDirections::MOST)]
 pub struct DirectionsError {
-    /// What was asked for.
+    /// The requested number of cells along an edge of the square.
     pub found: usize,
 }
 
 impl LocalDirections {
-    /// The most cells along an edge: 4096 directions.
+    /// The largest number of cells along an edge, which gives 4096 directions.
     pub const MOST: usize = 64;
 
     /// The directions of a square of `side` x `side` cells.
@@ -49,13 +49,13 @@ impl LocalDirections {
         self.side
     }
 
-    /// The directions, of length 1, by number.
+    /// The M directions by number, of length 1.
     pub fn directions(&self) -> &[DVec3] {
         &self.directions
     }
 
-    /// The direction nearest to one in the local frame, which may lie below the horizon: that of the largest cosine, of
-    /// equal ones the lowest.
+    /// The number of the direction nearest to `direction` in the local frame, which may lie below the horizon: the one
+    /// with the largest cosine, the lowest number among equal ones.
     pub fn nearest(&self, direction: DVec3) -> usize {
         // Cells are at most three times as long as wide, so that no center two cells away is nearer than the own one.
         let around = square(direction).map(|at| {
@@ -66,7 +66,7 @@ impl LocalDirections {
         self.nearest_of(direction, down.flat_map(|v| across.clone().map(move |u| v * self.side + u)))
     }
 
-    /// The same, with all directions looked at.
+    /// As [`Self::nearest`], by a search over all directions.
     pub fn nearest_of_all(&self, direction: DVec3) -> usize {
         self.nearest_of(direction, 0..self.directions.len())
     }
@@ -83,7 +83,7 @@ impl LocalDirections {
     }
 }
 
-/// The direction of a point of the square [-1, 1]^2. A half's width of the square is a quarter of a circle's turn.
+/// The direction of length 1 for a point of the square [-1, 1]^2.
 pub fn hemisphere([u, v]: [f64; 2]) -> DVec3 {
     let (radius, angle) = if u == 0.0 && v == 0.0 {
         (0.0, 0.0)
@@ -93,14 +93,14 @@ pub fn hemisphere([u, v]: [f64; 2]) -> DVec3 {
         (v, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (u / v))
     };
     let (sine, cosine) = elementary::sin_cos(angle);
-    // Lambert: the height falls with the disc's area, and the radius over the ground follows from length 1.
+    // Lambert's map: the height falls linearly with the disc's area, and the horizontal radius follows from length 1.
     let height = 1.0 - radius * radius;
     let ground = radius * (2.0 - radius * radius).sqrt();
     DVec3::new(ground * cosine, ground * sine, height)
 }
 
-/// The point of the square that a direction of the upper hemisphere comes from: the inverse of [`hemisphere`]. What
-/// lies below is taken for the horizon.
+/// The point of the square [-1, 1]^2 for a direction of the upper hemisphere: the inverse of [`hemisphere`]. Directions
+/// below the horizon are moved onto it.
 pub fn square(direction: DVec3) -> [f64; 2] {
     let radius = (1.0 - direction.z.clamp(0.0, 1.0)).sqrt();
     let (x, y) = (direction.x, direction.y);
@@ -135,7 +135,7 @@ mod tests {
         }
     }
 
-    /// Solid angles of cells, by the triangles of fine grids, are equal.
+    /// Solid angles of cells, summed over triangles of a fine grid, are equal.
     #[test]
     fn areas_are_kept() {
         let (cells, fine) = (6, 40);

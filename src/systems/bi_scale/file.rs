@@ -1,4 +1,4 @@
-//! The `.prt` file of bi-scale transfer: conventions 3 of the same version. docs/prt-format.md specifies it.
+//! The `.prt` file of bi-scale transfer, which is kind 3 of the same version. docs/prt-format.md specifies it.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,24 +17,24 @@ use crate::transfer::visibility::Horizon;
 
 const MATRIX: &[u8; 4] = b"MATR";
 const BICLUSTERS: &[u8; 4] = b"BICL";
-/// Fields of 32 bits between the conventions and the axis of tangents.
+/// Number of 32-bit fields between the conventions and the axis of tangents.
 const FIELDS: usize = 11;
 
-/// What the rows of a transfer matrix are.
+/// The meaning of the rows of a transfer matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BiScaleMeaning {
     /// The mesh of the vertices.
     pub mesh: MeshDigest,
     /// Local directions along an edge of the square: M = side^2 per vertex.
     pub side: u32,
-    /// What ends the view of a vertex.
+    /// The horizon that limits the visibility of a vertex.
     pub horizon: Horizon,
 }
 
-/// A sparse matrix, its biclusters, or both: of a mesh's transfer, or any.
+/// A sparse matrix, its biclusters, or both: the transfer of a mesh, or any other matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BiScaleFile {
-    /// What the rows are, if the matrix is transfer.
+    /// The meaning of the rows, if the matrix is transfer.
     pub meaning: Option<BiScaleMeaning>,
     /// The matrix.
     pub matrix: Option<SparseMatrix>,
@@ -131,7 +131,7 @@ impl BiScaleFile {
         [of_matrix, of_biclusters].into_iter().flatten()
     }
 
-    /// Why the parts do not go together: the field, what was expected, what was found.
+    /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         let mut shapes = self.shapes();
         let say = |shape: Shape| format!("{} x {} in 2^-{}", shape.rows, shape.columns, shape.fraction_bits);
@@ -154,7 +154,8 @@ impl BiScaleFile {
 }
 
 impl Reader<'_> {
-    /// Entries of so many lines, of so many each: their places along the line, then their values.
+    /// Entries of `counts.len()` lines with `counts[i]` entries each: first all indices along the lines, then all
+    /// values.
     fn entries(&mut self, counts: &[u32]) -> Result<Vec<MatrixEntry>, PrtFileError> {
         let what = "entries";
         let count = counts.iter().fold(0_usize, |sum, &count| sum.saturating_add(count as usize));
@@ -173,7 +174,7 @@ impl Reader<'_> {
         };
         let entries: Vec<MatrixEntry> =
             indices.into_iter().zip(values).map(|(index, value)| MatrixEntry { index, value }).collect();
-        // Equal contents have equal bytes.
+        // The shortest widths are required, so that equal contents have equal bytes.
         let least = widths(entries.iter());
         if [index_bytes, value_bytes, zero[0], zero[1]] != [least[0], least[1], 0, 0] {
             let found = format!("{index_bytes} and {value_bytes}");
@@ -220,7 +221,7 @@ impl Reader<'_> {
     }
 }
 
-/// The least bytes that places and values need: 2 or 4; 1, 2 or 4.
+/// The least numbers of bytes for indices (2 or 4) and values (1, 2 or 4).
 fn widths<'a>(entries: impl Iterator<Item = &'a MatrixEntry>) -> [u8; 2] {
     let (mut index, mut low, mut high) = (0, 0, 0);
     for entry in entries {
@@ -235,10 +236,10 @@ fn widths<'a>(entries: impl Iterator<Item = &'a MatrixEntry>) -> [u8; 2] {
     [if u16::try_from(index).is_ok() { 2 } else { 4 }, value_bytes]
 }
 
-/// Writes a file, whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts do not go together.
+/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts contradict each other.
 pub fn save_bi_scale(file: &BiScaleFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_bi_scale(file, out))
 }
@@ -246,7 +247,7 @@ pub fn save_bi_scale(file: &BiScaleFile, path: &Path) -> Result<(), WriteError> 
 /// Writes the bytes of a file.
 ///
 /// # Errors
-/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts do not go together.
+/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
 pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()> {
     let invalid = |message: String| io::Error::new(io::ErrorKind::InvalidInput, message);
     if let Some((field, expected, found)) = file.fault() {

@@ -1,7 +1,7 @@
-//! The transfer matrix T: sparse, of whole numbers of a power of two.
+//! The transfer matrix T: sparse, with integer values in units of a power of two.
 //!
-//! Down-sampling 2^m x 2^m visibility samples leaves multiples of 2^-2m (section IV-A). As whole numbers they are
-//! subtracted from each other without error, so that "lossless" means equal.
+//! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A). As integers they are subtracted
+//! without rounding, so that "lossless" means equal.
 
 use thiserror::Error;
 
@@ -9,7 +9,7 @@ use crate::io::CoordinateMatrix;
 
 const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
 
-/// An entry of a line: its place along the line, and its value in units of the matrix.
+/// An entry of a row or column: its index along the line, and its value in units of the matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
@@ -27,31 +27,31 @@ pub struct SparseMatrix {
     entries: Vec<MatrixEntry>,
 }
 
-/// Why entries are no matrix. Rows and columns count from 0.
+/// Reasons for which entries make no matrix. Rows and columns count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SparseMatrixError {
-    /// More rows or columns than 32 bits can name, or none.
+    /// No rows or columns, or more than 32 bits can count.
     #[error("expected 1 to {} rows and columns, found {rows} x {columns}", u32::MAX)]
     Size { rows: usize, columns: usize },
-    /// A place outside.
+    /// A column outside the matrix.
     #[error("expected a column below {columns} in row {row}, found {column}")]
     Column { row: usize, column: u32, columns: usize },
-    /// Entries out of order, or two for one place.
+    /// Entries out of order, or two with the same row and column.
     #[error("expected increasing columns in row {row}, found {column} after {before}: is an entry given twice?")]
     Order { row: usize, column: u32, before: u32 },
     /// A value of 0.
     #[error("expected values other than 0, found 0 in row {row}, column {column}")]
     Zero { row: usize, column: u32 },
-    /// A value that is no whole number of a small power of two.
+    /// A value that is no multiple of 2^-[`SparseMatrix::MOST_FRACTION_BITS`].
     #[error(
         "expected multiples of 2^-{} in row {row}, column {column} (counted from 0), found {value}: residuals are \
          exact for these alone",
         SparseMatrix::MOST_FRACTION_BITS
     )]
     Fraction { row: u32, column: u32, value: f64 },
-    /// A value out of the range of whole numbers.
+    /// A value that does not fit 32 bits in the units of the matrix.
     #[error(
         "expected values that 32 bits hold in units of 2^-{bits}, the finest among them; found {value} in row {row}, \
          column {column} (counted from 0)"
@@ -60,17 +60,16 @@ pub enum SparseMatrixError {
 }
 
 impl SparseMatrix {
-    /// The largest number of bits behind the binary point: more than a difference of two numbers of single precision
-    /// between 0 and 1 needs.
+    /// The largest number of fraction bits: more than the difference of two f32 numbers in [0, 1] needs.
     pub const MOST_FRACTION_BITS: u32 = 30;
 
-    /// A matrix without rows yet, of this many columns and with units of 2^-`fraction_bits`.
+    /// A matrix without rows yet, with `columns` columns and units of 2^-`fraction_bits`.
     ///
     /// # Errors
-    /// [`SparseMatrixError::Size`] without columns, or with more than 32 bits can name.
+    /// [`SparseMatrixError::Size`] for 0 columns, or more than 32 bits can count.
     ///
     /// # Panics
-    /// If there are more than [`Self::MOST_FRACTION_BITS`].
+    /// If `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, SparseMatrixError> {
         assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
         if columns == 0 || u32::try_from(columns).is_err() {
@@ -79,20 +78,20 @@ impl SparseMatrix {
         Ok(Self { columns, fraction_bits, begins: vec![0], entries: Vec::new() })
     }
 
-    /// A matrix of real numbers, in the largest units that all of them are multiples of. Zeros are left out.
+    /// A matrix of real numbers, in the largest power-of-two unit of which all are multiples. Zeros are left out.
     ///
     /// # Errors
-    /// [`SparseMatrixError`] if it has no such units, or none in which its numbers fit 32 bits.
+    /// [`SparseMatrixError`] if there is no such unit, or its multiples do not fit 32 bits.
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, SparseMatrixError> {
         let finest = f64::from(1_u32 << Self::MOST_FRACTION_BITS);
         let mut fraction_bits = 0;
         for &(row, column, value) in &matrix.entries {
-            // Exact: a power of two, far from the ends of the range of what can be whole.
+            // Exact: the factor is a power of two, and integers are far from both ends of the exponent range.
             let scaled = value * finest;
             if scaled.fract() != 0.0 {
                 return Err(SparseMatrixError::Fraction { row, column, value });
             }
-            // Numbers beyond 64 bits are refused below, whatever the unit.
+            // Numbers beyond 64 bits are refused below, in any unit.
             let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
             fraction_bits = fraction_bits.max(Self::MOST_FRACTION_BITS.saturating_sub(zeros));
         }
@@ -116,10 +115,10 @@ impl SparseMatrix {
         Ok(sparse)
     }
 
-    /// Adds a row below the others.
+    /// Appends a row.
     ///
     /// # Errors
-    /// [`SparseMatrixError`]; the matrix is as before then.
+    /// [`SparseMatrixError`]; the matrix is then unchanged.
     pub fn push_row(&mut self, row: &[MatrixEntry]) -> Result<(), SparseMatrixError> {
         let (number, columns) = (self.rows(), self.columns);
         if u32::try_from(number + 1).is_err() {
@@ -143,22 +142,22 @@ impl SparseMatrix {
         Ok(())
     }
 
-    /// Number of rows: M n, local directions of all vertices, for a transfer matrix.
+    /// Number of rows: for a transfer matrix M n, the local directions of all n vertices.
     pub fn rows(&self) -> usize {
         self.begins.len() - 1
     }
 
-    /// Number of columns: N, light texels, for a transfer matrix.
+    /// Number of columns: for a transfer matrix N, the light texels.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Bits behind the binary point.
+    /// Number of fraction bits of the values.
     pub fn fraction_bits(&self) -> u32 {
         self.fraction_bits
     }
 
-    /// What a value of 1 stands for.
+    /// The unit of the integer values: 2^-`fraction_bits`.
     pub fn unit(&self) -> f64 {
         1.0 / f64::from(1_u32 << self.fraction_bits)
     }
@@ -168,7 +167,7 @@ impl SparseMatrix {
         self.entries.len()
     }
 
-    /// The entries of a row, columns increasing.
+    /// The entries of a row, with increasing columns.
     ///
     /// # Panics
     /// If there is no such row.
@@ -176,7 +175,7 @@ impl SparseMatrix {
         &self.entries[self.begins[row]..self.begins[row + 1]]
     }
 
-    /// All entries row by row, and where each row begins and the last one ends.
+    /// All entries row by row, and the start of each row followed by the end of the last.
     pub(super) fn to_rows(&self) -> (Vec<MatrixEntry>, Vec<usize>) {
         (self.entries.clone(), self.begins.clone())
     }

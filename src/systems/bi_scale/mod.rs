@@ -1,13 +1,13 @@
 //! System 6: all-frequency bi-scale radiance transfer by biclustering.
 //!
-//! - [`directions`]: the local directions that light is transferred to (section VI-A);
-//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of whole numbers;
+//! - [`directions`]: the local directions to which light is transferred (section VI-A);
+//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of integers;
 //! - [`mod@file`]: transfer and biclusters in `.prt` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
-//! - [`rivals`]: other ways to store transfer, beside which biclusters stand (section VI-B);
+//! - [`rivals`]: baselines, other ways to store transfer (section VI-B);
 //! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering);
-//! - [`texture`]: the bidirectional textures that local light falls on (section III);
+//! - [`texture`]: the bidirectional textures that local light illuminates (section III);
 //! - [`shade`]: pixels, their product (section III, equation 3).
 
 pub mod bicluster;

@@ -51,8 +51,8 @@ pub fn reference(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
 /// Rows that are summed together.
 const LANES: usize = 8;
 
-/// Biclusters as Algorithm 2 reads them: rows with as many biclusters stand together, so that no loop ends sooner or
-/// later than the one before, and lists of eight rows are interleaved, so that eight sums go side by side.
+/// Biclusters in the layout of Algorithm 2: rows with equal numbers of biclusters are adjacent, so that loops have
+/// equal lengths, and the lists of eight rows are interleaved, so that eight sums are computed in parallel.
 #[derive(Clone, Debug)]
 pub struct Gather {
     columns: usize,
@@ -62,7 +62,7 @@ pub struct Gather {
     columns_of: Vec<(u32, f32)>,
     /// Rows by the number of their biclusters, then by their own number.
     rows: Vec<u32>,
-    /// How many biclusters rows have, increasing, and how many rows have so many.
+    /// The numbers of biclusters per row, increasing, each with the number of such rows.
     lengths: Vec<[usize; 2]>,
     /// I_j: the biclusters of rows by their place in the buffer, in the order in which they were found; eight rows of
     /// one length interleaved, what is left over row by row.
@@ -74,7 +74,7 @@ impl Gather {
     pub fn new(biclusters: &Biclustering) -> Self {
         let [rows, columns] = biclusters.matrix_size();
         let unit = biclusters.unit();
-        // Sums of as many terms stand together, so that no loop ends sooner or later than the one before.
+        // Sums with equal numbers of terms are adjacent, so that loops have equal lengths.
         let mut stored: Vec<usize> = (0..biclusters.len()).collect();
         stored.sort_by_key(|&bicluster| biclusters.columns_of(bicluster).len());
         let mut places = vec![0; biclusters.len()];
@@ -106,7 +106,7 @@ impl Gather {
         Self { columns, column_begins, columns_of, rows, lengths, biclusters_of }
     }
 
-    /// Algorithm 2 in f32, for C lights or channels of one at once.
+    /// Algorithm 2 in f32, for C lights or color channels in parallel.
     ///
     /// # Panics
     /// If the light has not as many numbers as the matrix has columns.

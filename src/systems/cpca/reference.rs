@@ -1,7 +1,7 @@
-//! Reference solution: exit radiance of a vertex under a light of spherical harmonics, in f64, every ray against every
-//! triangle. No matrices, no rotation of coefficients, no compression, no card: section 3.1 as it stands.
+//! Reference solution: exit radiance of a vertex under a light of spherical harmonics, in f64, every ray tested against
+//! every triangle. Section 3.1 without matrices, rotation of coefficients, compression or a card.
 //!
-//! It shares the BRDF and the direction rule with what it checks, and no other arithmetic.
+//! It shares the BRDF and the direction rule with the code that it checks, and no other arithmetic.
 
 use std::f64::consts::PI;
 
@@ -13,27 +13,27 @@ use crate::sphere::DirectionRule;
 use crate::transfer::brdf::Brdf;
 use crate::transfer::{LocalFrame, Vertices};
 
-/// Rays start this far off the triangles at a vertex, as a share of the mesh's size.
+/// Distance of ray origins from the triangles at a vertex, relative to the mesh's size.
 const LIFT: f64 = 1e-7;
-/// The least height of a direction over a vertex's horizon, where a triangle is seen that its normal faces away from.
+/// The least z of a view direction at a vertex: a hit vertex whose normal faces away is seen at this height instead.
 const LEAST_HEIGHT: f64 = 1e-6;
 
-/// A scene for the reference: vertices, one BRDF per material, light in global coordinates.
+/// Input of the reference: vertices, one BRDF per material, light in global coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Reference<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
     /// A BRDF per material.
     pub brdfs: &'a [Brdf],
-    /// Directions over the hemisphere of each vertex.
+    /// Directions over each vertex's hemisphere.
     pub rule: &'a DirectionRule,
     /// Coefficients of the light, by index l (l + 1) + m.
     pub light: &'a [f64],
 }
 
 impl Reference<'_> {
-    /// The radiance that a vertex sends in a direction of its local frame, after at most so many bounces on the way.
-    /// Takes time with the power of the bounces: for small meshes.
+    /// The radiance that a vertex sends towards `view` in its local frame, after at most `bounces` interreflections.
+    /// The time is exponential in the number of bounces: for small meshes only.
     ///
     /// # Panics
     /// If there is no such vertex, or no BRDF of a material.
@@ -48,7 +48,7 @@ impl Reference<'_> {
         sum
     }
 
-    /// What arrives at a vertex from a local direction.
+    /// The radiance that arrives at a vertex from a local direction.
     fn incident_radiance(&self, vertex: usize, frame: &LocalFrame, local: DVec3, bounces: u32) -> f64 {
         let direction = frame.to_global(local);
         let Some((triangle, weights)) = self.first_hit(vertex, direction) else {
@@ -68,7 +68,7 @@ impl Reference<'_> {
             .sum()
     }
 
-    /// The first triangle on the way from a vertex, with the barycentric weights of the point.
+    /// The first triangle along a ray from a vertex, with barycentric weights of the hit.
     fn first_hit(&self, vertex: usize, direction: DVec3) -> Option<(usize, [f64; 3])> {
         let origin = self.origin(vertex);
         let mut first: Option<(f64, usize, [f64; 3])> = None;
@@ -91,7 +91,7 @@ impl Reference<'_> {
         first.map(|(_, triangle, weights)| (triangle, weights))
     }
 
-    /// The vertex, lifted off the triangles that meet there.
+    /// The vertex position, moved off the triangles that meet there.
     fn origin(&self, vertex: usize) -> DVec3 {
         let place = wide(self.vertices.positions()[vertex]);
         let mut towards = DVec3::ZERO;
@@ -111,8 +111,8 @@ impl Reference<'_> {
     }
 }
 
-/// The harmonic of an index l (l + 1) + m by its definition: sqrt(2) N P_l^|m|(z) times cos(m phi), or sin(|m| phi) for
-/// negative m, without Condon-Shortley sign.
+/// The harmonic of index l (l + 1) + m by its definition: sqrt(2) N P_l^|m|(z) times cos(m phi), or sin(|m| phi) for
+/// negative m, without the Condon-Shortley sign.
 fn harmonic(index: usize, direction: DVec3) -> f64 {
     let l = index.isqrt();
     let place = index - l * l;
@@ -129,8 +129,8 @@ fn harmonic(index: usize, direction: DVec3) -> f64 {
     norm * legendre(l, m, direction.z) * azimuth
 }
 
-/// The associated Legendre function P_l^m without sign: (1 - z^2)^(m/2) times the m-th derivative of P_l, by Rodrigues'
-/// sum of powers.
+/// The associated Legendre function P_l^m without sign: (1 - z^2)^(m/2) times the m-th derivative of P_l, as a sum of
+/// powers by Rodrigues' formula.
 fn legendre(l: usize, m: usize, z: f64) -> f64 {
     let factorial = |n: usize| (1..=n).map(|k| k as f64).product::<f64>();
     let power = |x: f64, n: usize| (0..n).fold(1.0, |product, _| product * x);

@@ -1,4 +1,4 @@
-//! Why no transfer can be computed.
+//! Errors of computing transfer.
 
 use thiserror::Error;
 
@@ -7,7 +7,7 @@ use crate::tracer::CastError;
 use crate::transfer::SignalError;
 use crate::transfer::brdf::BrdfError;
 
-/// Why no transfer can be computed.
+/// Errors of computing transfer.
 #[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -33,7 +33,7 @@ pub enum TransferError {
     /// A material that no response was given for.
     #[error("triangle {triangle} has material {material}, expected one below {responses} (counted from 0)")]
     Material { triangle: usize, material: u32, responses: usize },
-    /// Responses, rays or transfer that do not go together.
+    /// Responses, rays or transfer with different numbers of something.
     #[error("expected equal numbers of {what}, found {} and {}", found[0], found[1])]
     Differ { what: &'static str, found: [usize; 2] },
     /// Exit bases of different functions.

@@ -25,7 +25,7 @@ pub const LIGHT_MAP: CubeMap = CubeMap::new(LIGHT_SIDE);
 /// The fine texels, whose centers are the fine directions.
 pub const FINE_MAP: CubeMap = CubeMap::new(FINE_SIDE);
 
-/// How the cube is divided into squares, each with a Haar transform of its own.
+/// The division of the cube into squares, each with its own Haar transform.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Segmentation {
@@ -66,7 +66,7 @@ impl Segmentation {
         LIGHT_TEXELS / self.len()
     }
 
-    /// The segment of a light texel, and the texel's place in it, row by row.
+    /// The segment of a light texel, and the texel's index in it, row by row.
     ///
     /// # Panics
     /// If there is no such texel.
@@ -78,7 +78,7 @@ impl Segmentation {
         [segment, row % side * side + column % side]
     }
 
-    /// The light texel at a place of a segment.
+    /// The light texel at an index of a segment.
     ///
     /// # Panics
     /// If there is no such segment or place.

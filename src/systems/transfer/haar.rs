@@ -25,10 +25,10 @@ pub struct HaarSupport {
 }
 
 impl Haar {
-    /// Of squares with so many numbers along an edge: a power of two.
+    /// The transform of squares with `side` numbers along an edge, a power of two.
     ///
     /// # Panics
-    /// If it is none.
+    /// If `side` is no power of two.
     pub fn new(side: usize) -> Self {
         assert!(side.is_power_of_two(), "a power of two along an edge, not {side}");
         Self { side, scratch: vec![0.0; side * side] }
@@ -87,13 +87,13 @@ impl Haar {
         }
     }
 
-    /// Where a level of 2 x `half` rows keeps an average and its three differences.
+    /// The indices of an average and its three differences in a level of 2 x `half` rows.
     const fn places(&self, half: usize, row: usize, column: usize) -> [usize; 4] {
         let at = row * self.side + column;
         [at, at + half, at + half * self.side, at + half * self.side + half]
     }
 
-    /// Where the basis function of a coefficient is not 0.
+    /// The support of a coefficient's basis function.
     ///
     /// # Panics
     /// If there is no such coefficient.

@@ -1,17 +1,17 @@
-//! The hat functions of equation 10: how much each light texel counts in each fine direction.
+//! The hat functions of equation 10: the weight of each light texel in each fine direction.
 //!
-//! With a width of two texels the hat of a texel is bilinear on its face: 1 at its center, 0 at the centers of its
-//! neighbors. At a fine direction, a and b in 0..1/2 texel widths from the center of the texel that it lies in, four
-//! texels have the weights (1 - a)(1 - b), a (1 - b), (1 - a) b and a b.
+//! With a width of two texels the hat function of a texel is bilinear on its face: 1 at its center, 0 at the centers of
+//! its neighbors. In a fine direction at distances a and b in 0..1/2 texels from the center of the texel that contains
+//! it, four texels have the weights (1 - a)(1 - b), a (1 - b), (1 - a) b and a b.
 //!
 //! - *Across an edge of the cube* the texel beyond is the one of the next face that shares the edge: along an edge the
 //!   texels of both faces meet one to one.
-//! - *At the eight corners* only three texels meet. The weight a b of the one that is not there goes to the three in
-//!   equal parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hats are continuous over all three
-//!   edges and have the symmetry of the cube.
+//! - *At the eight corners* only three texels meet. The weight a b of the missing fourth goes to the three in equal
+//!   parts, as seamless cube maps are filtered (`GL_ARB_seamless_cube_map`): hat functions are continuous over all
+//!   three edges and have the symmetry of the cube.
 //!
-//! For every fine direction the weights sum to 1 (to rounding where a third is none of f64): light of radiance 1 in
-//! every texel is 1 in every direction. All hats together are what the texels' light is interpolated by.
+//! For every fine direction the weights sum to 1 (up to the rounding of thirds): light with radiance 1 in every texel
+//! is 1 in every direction. The hat functions interpolate the texels' light.
 //!
 //! `DIFFERENCE`: the text has the hat "centered at the sample" over "the cone of directions within one cube map texel",
 //! and says nothing of edges, corners or solid angles. Read as a bilinear hat, it reaches one texel from its center:
@@ -22,7 +22,7 @@ use super::grid::{
 };
 use crate::sphere::CUBE_FACES;
 
-/// How wide the hat of a light texel is.
+/// The width of the hat function of a light texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum HatWidth {
@@ -33,10 +33,10 @@ pub enum HatWidth {
     TwoTexels,
 }
 
-/// Texels that share a fine direction, at most.
+/// Largest number of texels with a weight in one fine direction.
 const SHARED: usize = 4;
 
-/// The light texels that count in a fine direction, with their weights, the texel that it lies in first.
+/// The light texels with a weight in a fine direction, the texel that contains it first, and the weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct HatWeights {
     texels: [u32; SHARED],
@@ -45,10 +45,10 @@ pub struct HatWeights {
 }
 
 impl HatWeights {
-    /// Of a fine direction by number.
+    /// The weights of a fine direction, given by its number.
     ///
     /// # Panics
-    /// If there is none.
+    /// If there is no such direction.
     pub fn of(width: HatWidth, fine: usize) -> Self {
         assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
         let [face, row, column] = face_row_column(fine, FINE_SIDE);
@@ -63,7 +63,7 @@ impl HatWeights {
         let beside = texel(face, [own[0], own[1] + towards_column]);
         let below = texel(face, [own[0] + towards_row, own[1]]);
         let across = texel(face, [own[0] + towards_row, own[1] + towards_column]);
-        // At a corner of the cube the fourth texel is none: a third of its weight for each of the others.
+        // At a corner of the cube there is no fourth texel: each of the others gets a third of its weight.
         let third = if across.is_none() { a * b / 3.0 } else { 0.0 };
         found.add(texel(face, own), (1.0 - a) * (1.0 - b) + third);
         found.add(beside, a * (1.0 - b) + third);
@@ -79,20 +79,21 @@ impl HatWeights {
         }
     }
 
-    /// Texels and weights. No texel stands twice.
+    /// Texels and weights. No texel occurs twice.
     pub fn iter(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.texels[..self.count].iter().map(|&texel| texel as usize).zip(self.weights[..self.count].iter().copied())
     }
 }
 
-/// Which neighbor a fine row or column of a texel is nearer to, and its distance from the texel's center in widths.
+/// The neighbor to which a fine row or column of a texel is nearer (-1 or 1), and its distance from the texel's center
+/// in texels.
 fn offset(fine: usize) -> (isize, f64) {
     let from_center = (2 * fine + 1) as f64 / (2 * SUPERSAMPLES) as f64 - 0.5;
     (if from_center < 0.0 { -1 } else { 1 }, from_center.abs())
 }
 
-/// The texel at a row and column of a face that may lie one beyond its border: then it is that of the next face which
-/// meets the border there. `None` beyond a corner.
+/// The texel at a row and column of a face that may lie one beyond its border: then the adjacent texel of the
+/// neighboring face. `None` beyond a corner.
 fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     let side = LIGHT_SIDE.cast_signed();
     let is_inside = |at: isize| (0..side).contains(&at);
@@ -102,8 +103,8 @@ fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     if !is_inside(row) && !is_inside(column) {
         return None;
     }
-    // In half texels from the cube's middle, whose faces are `side` away: whole numbers, exact in f64. The strip of
-    // texels beyond an edge is folded back by a quarter turn around it.
+    // Coordinates in half texels from the cube's center, whose faces are at `side`: integers, exact in f64. The strip
+    // of texels beyond an edge is folded over it by a quarter turn.
     let axes = CUBE_FACES[face];
     let half_texels = |at: isize| (2 * at + 1 - side) as f64;
     let [down, right] = [half_texels(row), half_texels(column)];
@@ -118,29 +119,29 @@ fn texel(face: usize, [row, column]: [isize; 2]) -> Option<usize> {
     Some((next * LIGHT_SIDE + row) * LIGHT_SIDE + column)
 }
 
-/// A fine direction as one segment of the light sees it.
+/// A fine direction's contribution to one segment of the light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SegmentSample {
     /// The fine direction.
     pub(crate) fine: u32,
-    /// Places within the segment, and the weights of their hats times the solid angle. Unused ones are 0.
+    /// Texels within the segment, and their hat functions' values times the solid angle. Unused ones are 0.
     pub(crate) places: [u16; SHARED],
     pub(crate) weights: [f64; SHARED],
     pub(crate) count: u8,
 }
 
-/// The hats of all texels of one segment: the fine directions in which any of them is not 0, in order.
+/// The hat functions of one segment's texels: the fine directions in which any of them is not 0, in order.
 #[derive(Clone, Debug)]
 pub(crate) struct SegmentHats {
     pub(crate) samples: Vec<SegmentSample>,
-    /// The words of visibility bits that the samples lie in: the word, the bits that count, and the first sample of
-    /// the word.
+    /// The words of visibility bits with samples: index of the word, mask of its samples, and index of the word's first
+    /// sample.
     pub(crate) words: Vec<(u32, u64, u32)>,
     /// See [`Hats::rim`].
     rim: Vec<u32>,
 }
 
-/// The hats of all segments.
+/// The hat functions of all segments.
 #[derive(Clone, Debug)]
 pub struct Hats {
     width: HatWidth,
@@ -148,7 +149,7 @@ pub struct Hats {
 }
 
 impl Hats {
-    /// Of all light texels, for the 24 segments.
+    /// The hat functions of all light texels, for 24 segments.
     pub fn new(width: HatWidth) -> Self {
         let segmentation = Segmentation::Quarters;
         let mut samples: Vec<Vec<SegmentSample>> = vec![Vec::new(); segmentation.count()];
@@ -168,12 +169,12 @@ impl Hats {
         Self { width, segments: samples.into_iter().map(SegmentHats::new).collect() }
     }
 
-    /// How wide they are.
+    /// Their width.
     pub const fn width(&self) -> HatWidth {
         self.width
     }
 
-    /// The fine directions in which a hat of a segment is not 0, in order.
+    /// The fine directions in which a hat function of the segment is not 0, in order.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -181,8 +182,8 @@ impl Hats {
         self.segments[segment].samples.iter().map(|sample| sample.fine as usize)
     }
 
-    /// Fine directions of a segment between which all of its others lie: if these are below a horizon, so are they.
-    /// On each face they are the corners of a rectangle.
+    /// Fine directions that enclose all others of a segment: if these are below a horizon, so are all. On each face
+    /// they are the corners of a rectangle.
     pub(crate) fn rim(&self, segment: usize) -> impl Iterator<Item = usize> + '_ {
         self.segments[segment].rim.iter().map(|&fine| fine as usize)
     }
@@ -208,12 +209,12 @@ impl SegmentHats {
         Self { samples, words, rim }
     }
 
-    /// Whether any fine direction that counts is among these bits.
+    /// True if any fine direction of the segment is set in these visibility bits.
     pub(crate) fn sees(&self, bits: &[u64]) -> bool {
         self.words.iter().any(|&(word, mask, _)| bits[word as usize] & mask != 0)
     }
 
-    /// The samples whose bits are set, in order.
+    /// Visits the samples whose visibility bits are set, in order.
     #[inline(always)]
     pub(crate) fn for_each_seen(&self, bits: &[u64], mut visit: impl FnMut(&SegmentSample)) {
         for &(word, mask, first) in &self.words {

@@ -8,7 +8,7 @@ use super::file::{self, MeshDigest, PrtFile, PrtFileError, PrtMeaning, parse_prt
 use super::{Signal, SignalError};
 use crate::io::{NumbersError, ReadError, number_table, parse_single_numbers, read_limited};
 
-/// Why a file is no signal.
+/// Errors of reading a signal.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -29,14 +29,14 @@ pub enum SignalFileError {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Numbers(#[from] NumbersError),
-    /// Its numbers are no signal.
+    /// The numbers make no signal.
     #[error("{}: {reason}", path.display())]
     #[diagnostic(code(crossbar::signal::numbers))]
     Signal { path: PathBuf, reason: SignalError },
 }
 
-/// Reads a signal from a file: the transfer of a `.prt` file, an array of NumPy's, or comma-separated values, told
-/// apart by how they begin. Its numbers are f32, as in `.prt` files.
+/// Reads a signal from a file: the transfer of a `.prt` file, a NumPy array, or comma-separated values, recognised by
+/// the first bytes. Its numbers are f32, as in `.prt` files.
 ///
 /// # Errors
 /// [`SignalFileError`].
@@ -44,7 +44,7 @@ pub fn load_signal(path: &Path) -> Result<Signal, SignalFileError> {
     load_signal_and_meaning(path).map(|(_, _, signal)| signal)
 }
 
-/// The same with what its numbers are, and the mesh whose vertices its points are.
+/// As [`load_signal`], with the meaning of the numbers, and the mesh whose vertices are the points.
 ///
 /// # Errors
 /// [`SignalFileError`].

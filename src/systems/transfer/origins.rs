@@ -1,5 +1,5 @@
-//! Where the rays of vertices start: lifted off all triangles that the vertex lies on, whether or not they have it as a
-//! corner.
+//! Origins of the rays from vertices: moved off all triangles on which the vertex lies, even where it is not a corner
+//! of them.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -9,25 +9,25 @@ use super::vertices::Vertices;
 use crate::geom::vector::{narrow, wide};
 use crate::tracer::offset::{SINGLE, SurfacePoint};
 
-/// Rounds after which an origin that is not yet clear of all triangles stays where it is.
+/// Largest number of rounds in which an origin is moved; after that it stays, even if it is not clear of all triangles.
 const MAX_ROUNDS: usize = 16;
-/// The largest distance at which a place can count as on a triangle, as a share of the triangle's size or the place's
-/// distance from the origin of coordinates: more than a few roundings.
+/// The largest distance at which a vertex can count as lying on a triangle, relative to the triangle's size or the
+/// vertex's coordinates: more than a few rounding errors.
 const SHARE: f64 = 1e-5;
 
-/// Where the rays of a vertex start, and the triangles that it lies on.
+/// The origin of a vertex's rays, and the triangles on which the vertex lies.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RayOrigin {
-    /// In the precision of rays.
+    /// The origin, in single precision as rays have it.
     pub(crate) at: [f32; 3],
     /// Unit normals of the triangles.
     pub(crate) planes: Vec<DVec3>,
-    /// Whether it lies in front of all of them.
+    /// True if it lies in front of all of them, at the required distance.
     pub(crate) is_clear: bool,
 }
 
 impl RayOrigin {
-    /// Whether a direction runs below the geometric horizon: behind every triangle that the vertex lies on.
+    /// True if a direction lies below the geometric horizon: behind every triangle on which the vertex lies.
     pub(crate) fn is_below_horizon(&self, direction: DVec3) -> bool {
         self.planes.iter().all(|plane| plane.dot(direction) < 0.0)
     }
@@ -38,11 +38,11 @@ pub(crate) fn origins(vertices: &Vertices, occluders: &Occluders) -> Vec<RayOrig
     vertices.positions().par_iter().map(|&at| origin(wide(at), occluders)).collect()
 }
 
-/// Moves the vertex in turn along the normal of each triangle that it is not yet clear of.
+/// Moves the vertex repeatedly along the normal of each triangle that it is not yet clear of.
 fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
     let mut planes: Vec<(DVec3, f64)> = Vec::new();
     occluders.around(place, SHARE, |corners| planes.extend(plane(corners, place)));
-    // In an order of their own, whatever that of the triangles.
+    // Sorted, so that the result does not depend on the order of the triangles.
     planes.sort_by(|(one, _), (other, _)| {
         let keys = one.to_array().into_iter().zip(other.to_array());
         keys.fold(std::cmp::Ordering::Equal, |order, (one, other)| order.then(one.total_cmp(&other)))
@@ -54,7 +54,7 @@ fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
             break;
         }
         for &(normal, clearance) in &planes {
-            // Twice the clearance, so that rounding to single precision does not eat it up.
+            // Twice the clearance, which leaves room for rounding to single precision.
             let missing = 2.0 * clearance - normal.dot(at - place);
             if missing > 0.0 {
                 at += missing * normal;
@@ -65,13 +65,14 @@ fn origin(place: DVec3, occluders: &Occluders) -> RayOrigin {
     RayOrigin { at: narrow(at), planes: planes.into_iter().map(|(normal, _)| normal).collect(), is_clear }
 }
 
-/// The normal of a triangle that a place lies on, and how far off it a ray must start; `None` if it lies elsewhere.
+/// The normal of a triangle on which `place` lies, and the distance from it at which rays must start; `None` if it lies
+/// elsewhere.
 fn plane(corners: [DVec3; 3], place: DVec3) -> Option<(DVec3, f64)> {
     let [a, b, c] = corners;
     let weights = DVec3::from([a, b, c].map(|corner| f64::from(u8::from(corner == place))));
     let point = SurfacePoint::of(corners, weights, SINGLE)?;
     let (normal, clearance) = (point.normal, point.clearance(place.distance(a)));
-    // A few roundings of the coordinates.
+    // The tolerance covers a few rounding errors of the coordinates.
     let largest = corners.iter().fold(place.abs().max_element(), |most, corner| most.max(corner.abs().max_element()));
     let reach = 8.0 * SINGLE * largest;
     let inside = |from: DVec3, to: DVec3| (to - from).cross(place - from).dot(normal) >= -reach * from.distance(to);

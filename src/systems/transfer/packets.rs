@@ -1,41 +1,40 @@
-//! The directions of a rule in packets: sixteen that lie close together, so that a packet goes through a hierarchy of
-//! boxes as one.
+//! The directions of a rule in packets of sixteen neighboring directions, which traverse a hierarchy of boxes together.
 
 use glam::DVec3;
 
 use super::frame::LocalFrame;
 use super::origins::RayOrigin;
 
-/// Directions of a packet.
+/// Number of directions in a packet.
 pub(super) const LANES: usize = 16;
 
-/// A number per direction of a packet.
+/// One number per direction of a packet.
 pub(super) type Lanes = [f32; LANES];
 
-/// What the radius of a packet is widened by: rounding.
+/// Rounding margin that is added to the radius of a packet.
 const MARGIN: f32 = 1e-6;
 
-/// All bits of a lane's mask.
+/// The mask of a lane that is set.
 pub(super) const ALL: u32 = u32::MAX;
 
 /// The directions of a rule, packet by packet. The last packet may have fewer than [`LANES`].
 #[derive(Clone, Debug)]
 pub(super) struct PacketedRule {
-    /// Places in the rule.
+    /// Index of each direction in the rule.
     order: Vec<u32>,
-    /// Local directions, by component.
+    /// Local directions, one vector per component.
     local: [Vec<f64>; 3],
 }
 
-/// A packet in global coordinates: unit directions as rays have them, and which lanes hold one above the horizon.
+/// A packet in global coordinates: unit directions in the precision of rays, and a mask of those above the horizon.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Packet {
     pub(super) direction: [Lanes; 3],
-    /// All bits set, or none.
+    /// Per lane all bits set, or none.
     pub(super) live: [u32; LANES],
     /// The mean of the live directions.
     pub(super) middle: [f32; 3],
-    /// No live direction is farther from it.
+    /// Upper bound of the distance of live directions from `middle`.
     pub(super) radius: f32,
 }
 
@@ -51,12 +50,12 @@ impl PacketedRule {
         Self { local: [0, 1, 2].map(along), order }
     }
 
-    /// The places in the rule of each packet's directions.
+    /// The indices within the rule of each packet's directions.
     pub(super) fn places(&self) -> impl DoubleEndedIterator<Item = &[u32]> {
         self.order.chunks(LANES)
     }
 
-    /// A packet as seen from a vertex: the bits of every direction are those of the ray that is traced alone.
+    /// A packet in the frame of a vertex: its directions have the same bits as those of single rays.
     #[inline(always)]
     pub(super) fn packet(&self, number: usize, frame: &LocalFrame, origin: &RayOrigin) -> Packet {
         let first = number * LANES;
@@ -93,7 +92,7 @@ impl PacketedRule {
 }
 
 impl Packet {
-    /// Finds the middle and the radius.
+    /// Computes the middle and the radius.
     #[inline(always)]
     fn enclose(&mut self) {
         let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -115,8 +114,8 @@ impl Packet {
     }
 }
 
-/// Brings places into an order in which runs of [`LANES`] lie close together: halves, again and again, along the axis
-/// in which they differ most, each but the last a whole number of packets.
+/// Sorts indices so that each run of [`LANES`] has neighboring directions: halves recursively along the axis of largest
+/// extent, where each part but the last has a multiple of [`LANES`].
 fn part(order: &mut [u32], directions: &[DVec3]) {
     if order.len() <= LANES {
         return;
@@ -127,7 +126,7 @@ fn part(order: &mut [u32], directions: &[DVec3]) {
     }
     let extent = high - low;
     let axis = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
-    // Of equal components the earlier place, so that the order does not depend on how it is found.
+    // Ties go to the lower index, so that the order is unique.
     order.sort_by(|&one, &other| {
         directions[one as usize][axis].total_cmp(&directions[other as usize][axis]).then(one.cmp(&other))
     });
@@ -142,7 +141,7 @@ pub(super) fn mask(condition: bool) -> u32 {
     if condition { ALL } else { 0 }
 }
 
-/// The smaller number: one instruction, where `f32::min` is several. Nothing here is NaN.
+/// The smaller number, in one instruction where `f32::min` needs several. The arguments are never NaN.
 #[inline(always)]
 pub(super) fn min(one: f32, other: f32) -> f32 {
     if one < other { one } else { other }

@@ -1,32 +1,32 @@
-//! The triangles of a leaf against a packet of rays from one point.
+//! Intersection of the triangles of a leaf with a packet of rays from one point.
 //!
-//! A triangle is three planes through the rays' origin, and a ray goes through it if it runs on the inner side of each.
-//! The side is the sign of a sum of products in f32; a sum below a bound of its error, and of the error of the test
-//! that a caster makes, says nothing. Planes are found for all triangles at once, and then held against all rays of a
+//! The edges of a triangle span three planes with the rays' origin, and a ray hits the triangle if it runs on the inner
+//! side of each. The side is the sign of a sum of products in f32; a sum below the bound of its own error and of that
+//! of the caster's test is inconclusive. Planes are computed for all triangles at once, then tested with all rays of a
 //! packet.
 //!
 //! **The bound.** Corners a, b, c and the origin are exact in f32, scaled by a power of two; a' = a - o and b - a are
 //! rounded once. With R the largest magnitude of a', b', c', L that of the edges, and a direction of length 1, the sum
-//! `(a' x (b - a)) . d` has products of magnitude at most R L, each of at most 7 roundings, and so is off by less than
-//! 14 R L u (u = 2^-24). `triangle_test.rs` computes the same figures with as many roundings. [`BOUND`] is 32 u: where
-//! all three sums exceed it both tests agree, and where one of them falls below it both see no hit there. The height of
-//! the origin over the triangle's plane is judged likewise by 32 L^2 u times the distance of the nearest corner, and
-//! whether a ray runs away from that plane by 32 L^2 u: so no ray that leaves a surface is stopped by the triangles
-//! around its vertex.
+//! `(a' x (b - a)) . d` has products of magnitude at most R L, each with at most 7 roundings, and so an error of less
+//! than 14 R L u (u = 2^-24). `triangle_test.rs` computes the same sums with as many roundings. [`BOUND`] is 32 u:
+//! where all three sums exceed it both tests agree, and where one of them falls below its negative both find no hit.
+//! The height of the origin over the triangle's plane is tested likewise against 32 L^2 u times the distance of the
+//! nearest corner, and the ray's direction away from that plane against 32 L^2 u: so no ray that leaves a surface is
+//! blocked by the triangles around its vertex.
 
 use glam::DVec3;
 
 use super::packets::{LANES, Packet, dot, mask, max, min, sub};
 use crate::geom::vector::narrow;
 
-/// The largest error of a plane's sum, in R L.
+/// Bound of the error of a plane's sum, in units of R L.
 const BOUND: f32 = 32.0 * f32::EPSILON / 2.0;
-/// What is added to bounds, so that what underflows is not certain. Lengths are shares of the mesh's extent.
+/// Added to bounds, so that underflow is inconclusive. Lengths are relative to the mesh's extent.
 const TINY: f32 = 1e-30;
-/// Triangles of a leaf at most.
+/// Largest number of triangles in a leaf.
 pub(super) const WIDTH: usize = 8;
 
-/// A number per triangle of a leaf.
+/// One number per triangle of a leaf.
 type Each = [f32; WIDTH];
 
 /// The triangles of a leaf, by corner and component.
@@ -34,21 +34,21 @@ type Each = [f32; WIDTH];
 #[repr(align(64))]
 pub(super) struct ShadowLeaf {
     corners: [[Each; 3]; 3],
-    /// The largest length of an edge.
+    /// Length of the longest edge.
     longest: Each,
     count: usize,
 }
 
-/// The rays of a packet on their way.
+/// State of the rays of a packet during traversal.
 pub(super) struct PacketState {
-    /// Those that nothing blocks yet.
+    /// Rays that nothing blocks yet.
     pub(super) live: [u32; LANES],
-    /// Those that a triangle neither certainly blocks nor certainly misses.
+    /// Rays for which the test of a triangle was inconclusive.
     pub(super) unclear: [u32; LANES],
 }
 
 impl ShadowLeaf {
-    /// Of at most [`WIDTH`] triangles, brought to a scale. Those that are points are left out: nothing hits them.
+    /// A leaf with at most [`WIDTH`] triangles, scaled. Triangles that are points are left out, since no ray hits them.
     pub(super) fn new(triangles: &[[DVec3; 3]], scale: f64) -> Self {
         let mut leaf = Self { corners: [[[0.0; WIDTH]; 3]; 3], longest: [0.0; WIDTH], count: 0 };
         for triangle in triangles {
@@ -67,7 +67,7 @@ impl ShadowLeaf {
         leaf
     }
 
-    /// Whether one of the triangles blocks a live ray.
+    /// Tests all triangles; true if one of them blocks a live ray.
     #[inline(always)]
     pub(super) fn test(&self, origin: [f32; 3], packet: &Packet, state: &mut PacketState) -> bool {
         let planes = self.planes(origin);
@@ -81,7 +81,7 @@ impl ShadowLeaf {
         blocks
     }
 
-    /// The planes of all triangles.
+    /// The planes of all triangles, relative to an origin.
     #[inline(always)]
     fn planes(&self, origin: [f32; 3]) -> LeafPlanes {
         let mut from = [[[0.0; WIDTH]; 3]; 3];
@@ -111,7 +111,7 @@ impl ShadowLeaf {
             let reach = max(max(squares[0][k], squares[1][k]), squares[2][k]).sqrt();
             bound[k] = BOUND * reach * self.longest[k] + TINY;
             front[k] = BOUND * self.longest[k] * self.longest[k] + TINY;
-            // The nearest corner has the height with the least error.
+            // The height over the nearest corner has the least error.
             let (mut nearest, mut least) = (heights[0][k], squares[0][k]);
             for corner in 1..3 {
                 nearest = if squares[corner][k] < least { heights[corner][k] } else { nearest };
@@ -131,19 +131,20 @@ impl ShadowLeaf {
     }
 }
 
-/// Planes of triangles through one point, their normals inwards, and their own planes with normals away from the point.
+/// Planes through the origin and the edges of each triangle, with normals inwards, and the triangle's own plane with
+/// the normal away from the origin.
 struct LeafPlanes {
     planes: [[Each; 3]; 4],
-    /// What a sum must exceed to be certain.
+    /// The magnitude above which the sign of a sum is certain.
     bound: Each,
     /// The same for the triangle's own plane.
     front: Each,
-    /// All bits of a triangle whose plane holds the point, as far as that can be told.
+    /// All bits set for a triangle whose plane contains the origin, within the error.
     flat: [u32; WIDTH],
 }
 
 impl LeafPlanes {
-    /// All bits of the triangles that no ray of a packet goes through: the packet lies on the outer side of a plane.
+    /// All bits set for triangles that no ray of the packet hits, because the whole packet is outside of a plane.
     #[inline(always)]
     fn passed(&self, packet: &Packet) -> [u32; WIDTH] {
         let [mx, my, mz] = packet.middle;
@@ -161,7 +162,7 @@ impl LeafPlanes {
 }
 
 impl PacketState {
-    /// Holds the rays of a packet against triangle `k` of a leaf; whether it blocks a live one.
+    /// Tests the rays of a packet with triangle `k` of a leaf; true if it blocks a live ray.
     #[inline(always)]
     fn judge(&mut self, leaf: &LeafPlanes, k: usize, packet: &Packet) -> bool {
         let [ab, bc, ca, own] = &leaf.planes;

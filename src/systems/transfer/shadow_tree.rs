@@ -1,53 +1,53 @@
-//! Shadow rays from one point, a packet of directions at a time: which are certainly blocked, which certainly free.
-//! What is neither is left to the caster ([`shadow_leaf`](super::shadow_leaf)).
+//! Shadow rays from one point, a packet of directions at a time: classified as certainly blocked, certainly unblocked,
+//! or unclear. Unclear rays are left to the caster ([`shadow_leaf`](super::shadow_leaf)).
 
 use super::packets::{LANES, Lanes, Packet, mask, max, min, sub};
 use super::shadow_leaf::{PacketState, ShadowLeaf, WIDTH};
 use super::skyline::Occluders;
 use crate::geom::vector::{narrow, wide};
 
-/// By how much parameters at the planes of a box may be off: a few roundings.
+/// Relative error of ray parameters at the planes of a box: a few roundings.
 const SLACK: f32 = 1.0 + 16.0 * f32::EPSILON;
-/// By how much boxes are grown, in shares of the mesh's extent: more than what rounding does to a direction.
+/// Growth of the boxes, relative to the mesh's extent: more than the rounding of a direction can move a ray.
 const GROWTH: f64 = 1e-6;
-/// The least extent of a mesh, 2^-100: meshes with smaller ones are left to the caster.
+/// The least extent of a mesh, 2^-100: the rays of smaller meshes are left to the caster.
 const LEAST_EXTENT: f64 = 1.0 / (1_u128 << 100) as f64;
-/// Direction components below this count as this: a ray moves by that share of its length.
+/// Lower bound of direction components in divisions: it moves a ray by this fraction of its length.
 const LEAST: f32 = 1e-18;
 
-/// What stands for the axis in a leaf.
+/// The axis value that marks a leaf.
 const LEAF: u32 = u32::MAX;
 
-/// A box over triangles.
+/// A bounding box of triangles.
 #[derive(Clone, Copy, Debug)]
 struct ShadowNode {
     low: [f32; 3],
     high: [f32; 3],
-    /// The second child, or the triangles of a leaf; the first child follows its parent.
+    /// Index of the second child, or of a leaf's triangles; the first child follows its parent.
     next: u32,
-    /// The axis along which the children were parted; [`LEAF`] for a leaf.
+    /// The axis along which the children were split; [`LEAF`] for a leaf.
     axis: u32,
 }
 
-/// The triangles of a mesh in a hierarchy of boxes, in shares of its extent.
+/// The triangles of a mesh in a hierarchy of boxes, in units of the mesh's extent.
 #[derive(Clone, Debug)]
 pub(super) struct ShadowTree {
     nodes: Vec<ShadowNode>,
     leaves: Vec<ShadowLeaf>,
-    /// A power of two.
+    /// Scale factor of the coordinates, a power of two.
     scale: f64,
 }
 
-/// What became of the rays of a packet: all bits of a lane, or none.
+/// Results for the rays of a packet, per lane all bits set or none.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shadowed {
     pub(super) blocked: [u32; LANES],
-    /// Neither certainly blocked nor certainly free.
+    /// Neither certainly blocked nor certainly unblocked.
     pub(super) unclear: [u32; LANES],
 }
 
 impl ShadowTree {
-    /// The triangles of `occluders`.
+    /// A tree over the triangles of `occluders`.
     pub(super) fn new(occluders: &Occluders) -> Self {
         let extent = extent(2.0 * occluders.nodes()[0].half.length());
         let mut tree = Self { nodes: Vec::new(), leaves: Vec::new(), scale: 1.0 / extent };
@@ -55,7 +55,7 @@ impl ShadowTree {
         tree
     }
 
-    /// Adds a node of `occluders` over a range of its triangles, and what is below it.
+    /// Adds a node of `occluders` over a range of its triangles, and its descendants.
     fn add(&mut self, occluders: &Occluders, index: usize, (first, count): (usize, usize), extent: f64) {
         let node = &occluders.nodes()[index];
         let half = node.half + GROWTH * (extent + node.middle.abs());
@@ -78,13 +78,13 @@ impl ShadowTree {
         self.add(occluders, node.next as usize, (first + count / 2, count - count / 2), extent);
     }
 
-    /// An origin in the tree's units.
+    /// An origin in the tree's coordinates.
     pub(super) fn origin(&self, at: [f32; 3]) -> [f32; 3] {
         narrow(self.scale * wide(at))
     }
 
-    /// What becomes of the live rays of a packet from an origin in the tree's units. `blocker` is a leaf to begin with,
-    /// and receives the one that blocked a ray last.
+    /// Traces the live rays of a packet from an origin in the tree's coordinates. `blocker` is the leaf to be tested
+    /// first; it is set to the leaf that blocked a ray last.
     #[inline(always)]
     pub(super) fn trace(
         &self,
@@ -96,9 +96,11 @@ impl ShadowTree {
         let [x, y, z] = &packet.direction;
         let inverse = [inverse(x), inverse(y), inverse(z)];
         let mut state = PacketState { live: packet.live, unclear: [0; LANES] };
+        // Neighboring packets are often blocked by the same leaf.
         if let Some(leaf) = *blocker {
             self.leaves[leaf as usize].test(origin, packet, &mut state);
         }
+        // The fourth entry is never read: with the mask below the index needs no bounds check.
         let forward = [packet.middle[0] >= 0.0, packet.middle[1] >= 0.0, packet.middle[2] >= 0.0, false];
         waiting.clear();
         waiting.push(0);
@@ -109,6 +111,7 @@ impl ShadowTree {
             }
             if node.axis != LEAF {
                 let (first, second) = (index + 1, node.next);
+                // The nearer child is pushed last, so that it is visited first.
                 waiting.extend(if forward[node.axis as usize & 3] { [second, first] } else { [first, second] });
             } else if self.leaves[node.next as usize].test(origin, packet, &mut state) {
                 *blocker = Some(node.next);
@@ -126,7 +129,7 @@ impl ShadowTree {
     }
 }
 
-/// A power of two from a length to twice that, or the least that there is for shorter ones.
+/// The least power of two that is not below `length`, and at least [`LEAST_EXTENT`].
 fn extent(length: f64) -> f64 {
     let mut extent = LEAST_EXTENT;
     while extent < length {
@@ -135,7 +138,7 @@ fn extent(length: f64) -> f64 {
     extent
 }
 
-/// Whether a live ray may go through a box.
+/// True if a live ray may intersect a box.
 #[inline(always)]
 fn meets(node: &ShadowNode, origin: [f32; 3], inverse: &[Lanes; 3], live: &[u32; LANES]) -> bool {
     let (low, high) = (sub(node.low, origin), sub(node.high, origin));
@@ -152,7 +155,7 @@ fn meets(node: &ShadowNode, origin: [f32; 3], inverse: &[Lanes; 3], live: &[u32;
     any != 0
 }
 
-/// Reciprocals, of no magnitude above that of the least component.
+/// Reciprocals of the components, bounded by 1 / [`LEAST`] in magnitude.
 #[inline(always)]
 fn inverse(components: &Lanes) -> Lanes {
     let mut inverse = [0.0; LANES];

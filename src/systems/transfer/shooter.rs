@@ -1,4 +1,4 @@
-//! The rays of a vertex, and what their hits are.
+//! Generation of the rays of a vertex, and classification of their hits.
 
 use glam::DVec3;
 
@@ -12,13 +12,13 @@ use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
 use refsim::exec::batch::SimdLevel;
 
-/// The largest length of a ray, 2^126: single precision ends at 2^128.
+/// The largest length of a ray, 2^126; the range of single precision ends at 2^128.
 const MAX_REACH: f64 = (1_u128 << 126) as f64;
 
-/// Where a blocked ray ends: on the front of a triangle.
+/// The end of a blocked ray on the front of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FrontHit {
-    /// The ray's direction, by its place in the rule.
+    /// The ray's direction, by its index in the rule.
     pub(crate) direction: u32,
     pub(crate) triangle: u32,
     /// Barycentric weights of the second and third corner.
@@ -33,14 +33,14 @@ impl FrontHit {
     }
 }
 
-/// The rays of a vertex that must be traced.
+/// The rays of a vertex that the caster must trace.
 pub(crate) struct Asked {
     pub(crate) directions: Vec<u32>,
     pub(crate) rays: Vec<Ray>,
     pub(crate) below_horizon: u64,
 }
 
-/// What makes the rays.
+/// Generator of the rays.
 pub(crate) struct Shooter<'a> {
     pub(crate) vertices: &'a Vertices,
     rule: DirectionRule,
@@ -67,9 +67,9 @@ impl<'a> Shooter<'a> {
         Ray::new(self.origins[vertex].at, narrow(self.reach * direction)).ok()
     }
 
-    /// The rays that must be traced; `bits` receives those that are blocked without.
+    /// The rays that the caster must trace; sets the `bits` of directions that are certainly blocked.
     pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> Asked {
-        // Sixteen lanes at once are no quicker than twice eight, and often slower.
+        // AVX-512 is no faster than AVX2 here, and often slower.
         let level = SimdLevel::widest().min(SimdLevel::Avx2);
         level.run(
             #[inline(always)]
@@ -102,7 +102,7 @@ impl<'a> Shooter<'a> {
         asked
     }
 
-    /// The rays of a vertex in some directions, without those below the horizon.
+    /// The rays of a vertex in some directions, without those below the geometric horizon.
     pub(crate) fn rays(&self, vertex: usize, directions: impl Iterator<Item = usize>) -> (Vec<u32>, Vec<Ray>) {
         let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
         let ray = |at: usize| {
@@ -113,7 +113,7 @@ impl<'a> Shooter<'a> {
         directions.filter_map(ray).unzip()
     }
 
-    /// The fronts that rays hit, and the number of backs.
+    /// The hits on front faces, and the number of hits on back faces.
     pub(crate) fn front_hits(&self, directions: &[u32], rays: &[Ray], hits: &[Option<Hit>]) -> (Vec<FrontHit>, u64) {
         let (mut front, mut behind) = (Vec::new(), 0);
         for ((&direction, ray), hit) in directions.iter().zip(rays).zip(hits) {
@@ -131,8 +131,8 @@ impl<'a> Shooter<'a> {
     }
 }
 
-/// The length of rays from the vertices of a mesh that end outside of it: a power of two, which changes no bit of a
-/// direction.
+/// A length with which rays from the vertices of a mesh end outside of it: a power of two, so that scaling does not
+/// round directions.
 pub fn ray_length(vertices: &Vertices) -> f64 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for &position in vertices.positions() {
@@ -146,7 +146,7 @@ pub fn ray_length(vertices: &Vertices) -> f64 {
     reach
 }
 
-/// The weights of the second and third corner at a point on or near a triangle, brought into the triangle.
+/// The weights of the second and third corner at a point on or near a triangle, clamped to the triangle.
 fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, at: DVec3) -> [f32; 2] {
     let part = |from: DVec3, to: DVec3| (from - at).cross(to - at).dot(normal).max(0.0);
     let parts = [part(b, c), part(c, a), part(a, b)];

@@ -1,15 +1,15 @@
-//! What is compressed: points of n numbers each.
+//! The data to be compressed: points with n numbers each.
 
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// Points per chunk of a sum over all points: part of the shape of the sum.
+/// Points per chunk of a sum over all points; it fixes the order of the additions.
 const CHUNK: usize = 1024;
 
 /// Points of n finite numbers each, point by point. There is at least one point, of at least one number.
 ///
-/// They are f32, as `.prt` files hold them: transfer is known to few digits, and is the largest thing in memory. What
-/// is computed from them is f64.
+/// Values are f32, as `.prt` files hold them: transfer has few significant digits, and is the largest object in memory.
+/// Results of computations are f64.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Signal {
     points: usize,
@@ -17,12 +17,12 @@ pub struct Signal {
     values: Vec<f32>,
 }
 
-/// Why numbers are no signal. Points and components count from 0.
+/// Reasons for which numbers make no signal. Points and components count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum SignalError {
-    /// No point, or points of no numbers.
+    /// No points, or 0 numbers per point.
     #[error("expected at least one point of at least one number, found {values} values at {dimension} per point")]
     Empty { values: usize, dimension: usize },
     /// The last point is incomplete.
@@ -31,7 +31,7 @@ pub enum SignalError {
     /// A NaN or an infinity.
     #[error("expected finite numbers, found {value} in component {component} of point {point} (counted from 0)")]
     NotFinite { point: usize, component: usize, value: f32 },
-    /// More points than 32 bits can name.
+    /// More points than 32 bits can count.
     #[error("expected at most {} points, found {points}", u32::MAX)]
     TooMany { points: usize },
 }
@@ -83,12 +83,12 @@ impl Signal {
         &self.values
     }
 
-    /// The squares of all numbers, summed.
+    /// The sum of the squares of all numbers.
     pub fn sum_of_squares(&self) -> f64 {
         self.sum(|point| self.point(point).iter().map(|&value| f64::from(value) * f64::from(value)).sum())
     }
 
-    /// The sum of a number per point. Its bits do not depend on the number of threads.
+    /// The sum over all points of `of_point`. Its bits do not depend on the number of threads.
     pub fn sum(&self, of_point: impl Fn(usize) -> f64 + Sync) -> f64 {
         let chunks = (0..self.points.div_ceil(CHUNK)).into_par_iter();
         let sums: Vec<f64> = chunks

@@ -1,10 +1,10 @@
-//! Which directions a vertex certainly sees the sky in, so that no ray need be traced there.
+//! Directions in which a vertex certainly sees the sky, so that no ray need be traced there.
 //!
-//! The hemisphere of a vertex is cut in [`RINGS`] x [`COLUMNS`] parts, rings narrow at the horizon. A hierarchy of
-//! boxes over the triangles marks the parts that a triangle may reach into: by the sphere around it, by its height over
-//! the vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the front. What is
-//! not marked is free in exact arithmetic; the margins are far larger than what rounding does to the origin and
-//! direction of a ray.
+//! The hemisphere of a vertex is divided into [`RINGS`] x [`COLUMNS`] parts, with narrow rings at the horizon. A
+//! hierarchy of boxes over the triangles marks the parts that a triangle may cover: by its bounding sphere, by its
+//! height over the vertex's tangent plane and, where it is near, by its own plane, which rays must approach from the
+//! front. Parts that are not marked are unblocked in exact arithmetic; the margins are far larger than the rounding
+//! errors of a ray's origin and direction.
 
 use glam::DVec3;
 
@@ -12,24 +12,24 @@ use super::frame::LocalFrame;
 use super::vertices::Vertices;
 use crate::elementary::{atan2, on_circle};
 
-/// Parts by z: ring k begins at z = (k / RINGS)^2.
+/// Number of rings by z: ring k begins at z = (k / RINGS)^2.
 const RINGS: usize = 24;
-/// Parts by azimuth; a word of bits holds a ring.
+/// Number of columns by azimuth; one 64-bit word holds a ring.
 const COLUMNS: usize = 64;
-/// Triangles of a leaf.
+/// Largest number of triangles in a leaf.
 const LEAF: usize = 4;
-/// A box seen under a smaller angle than this (its sine) is marked as a whole: at first, and if that marks little.
+/// Sines of angles: a box seen under a smaller one is marked as a whole; the second is used if the first marks little.
 const SMALL: [f64; 2] = [0.25, 0.08];
-/// The share of the hemisphere above which what was marked at first stays: there is little sky to be found.
+/// Marked fraction of the hemisphere above which the first marking is final, because little sky remains to be found.
 const MUCH: f64 = 0.5;
-/// A box seen under a larger angle than this (its sine) is opened without asking whether all that it covers is marked.
+/// Sine of an angle: a box seen under a larger one is descended without a test whether its region is already marked.
 const WIDE: f64 = 0.4;
-/// A sphere seen under a larger angle than this (its sine) is near.
+/// Sine of an angle: a sphere seen under a larger one is treated as near.
 const NEAR: f64 = 0.9;
-/// What angles are widened by, in radians: rays differ from their f64 directions by 1e-7.
+/// Margin by which angles are widened, in radians: rays differ from their f64 directions by 1e-7.
 const MARGIN: f64 = 1e-5;
 
-/// The parts of a hemisphere that something may be seen in, by local direction.
+/// The parts of a hemisphere in which something may be visible, by local direction.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Skyline([u64; RINGS]);
 
@@ -41,7 +41,7 @@ pub(crate) struct SkyPart {
 }
 
 impl SkyPart {
-    /// The part that a local direction with z >= 0 lies in.
+    /// The part that contains a local direction with z >= 0.
     pub(crate) fn of(local: DVec3) -> Self {
         Self { ring: ring(local.z) as u8, column: (turns(local) * COLUMNS as f64) as u8 % COLUMNS as u8 }
     }
@@ -52,7 +52,7 @@ impl SkyPart {
     }
 }
 
-/// The ring of a z; what lies beyond either end belongs to the last there.
+/// The ring that contains z, clamped to the first and the last.
 fn ring(z: f64) -> usize {
     ((z.max(0.0).sqrt() * RINGS as f64) as usize).min(RINGS - 1)
 }
@@ -70,18 +70,18 @@ fn at(z: f64, turns: f64) -> DVec3 {
 }
 
 impl Skyline {
-    /// Whether something may be seen in a part.
+    /// True if something may be visible in a part.
     pub(crate) fn is_marked(&self, part: SkyPart) -> bool {
         self.0[usize::from(part.ring)] >> part.column & 1 != 0
     }
 
-    /// Whether something may be seen within an angle, given by its sine, of a local direction of length 1, as far as
-    /// that lies above the horizon.
+    /// True if something may be visible within an angle, given by its sine, around a local direction of length 1, above
+    /// the horizon.
     pub(crate) fn may_block(&self, local: DVec3, sine: f64) -> bool {
         Region::of(local, 1.0, sine, f64::INFINITY).is_some_and(|region| self.meets(&region))
     }
 
-    /// The share of the hemisphere that is marked.
+    /// The marked fraction of the hemisphere.
     fn share(&self) -> f64 {
         let count = (1..).step_by(2).zip(&self.0).map(|(area, ring)| area * ring.count_ones()).sum::<u32>();
         f64::from(count) / (RINGS * RINGS * COLUMNS) as f64
@@ -100,21 +100,21 @@ impl Skyline {
     }
 }
 
-/// Consecutive rings, and columns as bits.
+/// A range of rings, and columns as bits.
 struct Region {
     rings: [usize; 2],
     columns: u64,
 }
 
 impl Region {
-    /// What a sphere at a local place covers, as far as it lies above the horizon and below `highest`, the largest z of
-    /// its directions; `None` if nothing. `sine` is that of half its angle, below 1.
+    /// The region that a sphere around `at` covers above the horizon and below `highest`, the largest z of its
+    /// directions; `None` if it covers nothing. `sine` is the sine of its angular radius, below 1.
     fn of(at: DVec3, distance: f64, sine: f64, highest: f64) -> Option<Self> {
         let sine = sine + MARGIN;
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         let z = at.z / distance;
         let across = (1.0 - z * z).max(0.0).sqrt();
-        // Heights of the lowest and highest points of the circle; 1 if it holds the pole.
+        // z of the lowest and the highest point of the circle; 1 if it contains the pole.
         let low = z * cosine - across * sine;
         let holds_pole = sine >= across && z > 0.0;
         let high = if holds_pole { 1.0 } else { z * cosine + across * sine };
@@ -127,7 +127,7 @@ impl Region {
         if ratio >= 1.0 || ratio.is_nan() {
             return Some(Self { rings, columns: u64::MAX });
         }
-        // The angle of this sine is at most ratio + (pi/2 - 1) ratio^3.
+        // The angle with this sine is at most ratio + (pi/2 - 1) ratio^3.
         let half = (ratio + 0.571 * ratio * ratio * ratio) / std::f64::consts::TAU + MARGIN;
         if half >= 0.5 {
             return Some(Self { rings, columns: u64::MAX });
@@ -141,22 +141,22 @@ impl Region {
     }
 }
 
-/// Azimuth in [0, 1].
+/// Azimuth in turns, in [0, 1].
 fn turns(local: DVec3) -> f64 {
     let turns = atan2(local.y, local.x) / std::f64::consts::TAU;
     if turns < 0.0 { turns + 1.0 } else { turns }
 }
 
-/// A box over triangles, and where its first child or triangle is.
+/// A bounding box of triangles, with the index of its children or triangles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxNode {
     pub(super) middle: DVec3,
     pub(super) half: DVec3,
-    /// The second child, or the first triangle of a leaf; the first child follows its parent.
+    /// Index of the second child, or of the first triangle of a leaf; the first child follows its parent.
     pub(super) next: u32,
-    /// Triangles of a leaf; 0 for a node with children.
+    /// Number of triangles of a leaf; 0 for an inner node.
     pub(super) count: u32,
-    /// The axis along which the children were parted: the first holds the lower ones.
+    /// The axis along which the children were split: the first has the lower triangles.
     pub(super) axis: u8,
 }
 
@@ -165,9 +165,9 @@ pub(super) struct BoxNode {
 pub(crate) struct Occluders {
     nodes: Vec<BoxNode>,
     triangles: Vec<[DVec3; 3]>,
-    /// The middles of all parts, ring by ring.
+    /// Center directions of all parts, ring by ring.
     middles: Vec<DVec3>,
-    /// By ring.
+    /// Largest distance of a direction from the center of its part, per ring, with the margin.
     part_radii: [f64; RINGS],
 }
 
@@ -182,7 +182,7 @@ impl Occluders {
         Self { nodes, triangles, middles, part_radii: std::array::from_fn(part_radius) }
     }
 
-    /// The boxes, each before those that it holds.
+    /// The boxes, parents before children.
     pub(super) fn nodes(&self) -> &[BoxNode] {
         &self.nodes
     }
@@ -235,7 +235,7 @@ impl Occluders {
         skyline
     }
 
-    /// The triangles that may lie within a share of their size, or of the place's coordinates, of a place.
+    /// Visits triangles that may lie within `share` of their size, or of the position's coordinates, from `place`.
     pub(crate) fn around(&self, place: DVec3, share: f64, mut visit: impl FnMut([DVec3; 3])) {
         let mut waiting = vec![0];
         while let Some(index) = waiting.pop() {
@@ -255,7 +255,7 @@ impl Occluders {
         }
     }
 
-    /// Marks what a triangle in local coordinates may cover.
+    /// Marks the parts that a triangle in local coordinates may cover.
     fn triangle(&self, small: f64, [a, b, c]: [DVec3; 3], skyline: &mut Skyline) {
         let top = a.z.max(b.z).max(c.z);
         if top <= 0.0 {
@@ -276,7 +276,7 @@ impl Occluders {
             skyline.mark(&region);
             return;
         }
-        // Rays from here meet the triangle only if they run towards its plane.
+        // Rays from the vertex hit the triangle only if they approach its plane.
         let across = (b - a).cross(c - a);
         let length = across.length();
         if length == 0.0 {
@@ -285,7 +285,7 @@ impl Occluders {
         let plane = if across.dot(a) > 0.0 { -across } else { across } / length;
         let slope = plane.truncate().length();
         for ring in region.rings[0]..=region.rings[1] {
-            // No column of the ring has a smaller product than this.
+            // A lower bound of this product over all columns of the ring.
             let (middle, radius) = (self.middles[ring * COLUMNS], self.part_radii[ring]);
             if plane.z * middle.z - slope * middle.truncate().length() >= radius + MARGIN {
                 continue;
@@ -299,14 +299,14 @@ impl Occluders {
     }
 }
 
-/// The largest distance of a direction from the middle of its part, in a ring, with the margin.
+/// The largest distance of a direction from the center of its part in a ring, with the margin.
 fn part_radius(ring: usize) -> f64 {
     let middle = SkyPart { ring: ring as u8, column: 0 }.middle();
     let ends = [lower_end(ring), lower_end(ring + 1)];
     ends.map(|z| at(z, 0.0).distance(middle)).into_iter().fold(0.0, f64::max) + MARGIN
 }
 
-/// The bits that are set, from the lowest up.
+/// The indices of the set bits, in increasing order.
 pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         (bits != 0).then(|| {
@@ -317,7 +317,7 @@ pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Appends the boxes over `triangles`, which stand from `first` on, and brings the triangles into the order of leaves.
+/// Appends the boxes over `triangles`, whose first has index `first`, and sorts the triangles leaf by leaf.
 fn build(nodes: &mut Vec<BoxNode>, triangles: &mut [[DVec3; 3]], first: u32) {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for corner in triangles.iter().flatten() {

@@ -11,10 +11,10 @@ use crate::geom::random::CounterRng;
 const RADIUS: f64 = 1.5;
 
 /// A signal over points of a torus that behaves like radiance transfer: each component is a wave, longer for the first
-/// components, that is cut off along an edge as if by a shadow. There must be a point and a component.
+/// components, that is cut off along an edge as if by a shadow. `points` and `dimension` must be at least 1.
 ///
-/// Points wind around the torus so that any number of them is spread evenly; neighbours in number are no neighbours in
-/// place.
+/// Points wind around the torus so that any number of them is distributed evenly; points with adjacent numbers are not
+/// adjacent in space.
 pub fn torus_signal(points: usize, dimension: usize, seed: u64) -> Signal {
     signal_at(points, dimension, seed, |at| place(at, points))
 }

@@ -1,4 +1,4 @@
-//! The vertices that transfer is computed at: unique positions, normals and tangents.
+//! The vertices at which transfer is computed: unique combinations of position, normal and tangent.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -10,16 +10,16 @@ use super::frame::LocalFrame;
 use crate::geom::Mesh;
 use crate::geom::vector::{unit, wide};
 
-/// Where tangents come from.
+/// The source of the tangents.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Tangents {
-    /// Any direction across the normal: for isotropic materials.
+    /// Any direction perpendicular to the normal, for isotropic materials.
     #[default]
     Any,
-    /// The direction in which the first texture coordinate grows, averaged over the triangles around a vertex, weighted
-    /// by area. Where the texture is mirrored, vertices are kept apart.
+    /// The direction in which the first texture coordinate increases, averaged over the triangles around a vertex with
+    /// weights by area. Where the texture is mirrored, vertices are separate.
     Texture,
-    /// The part of an axis that lies across the normal.
+    /// An axis, projected onto the plane perpendicular to the normal.
     Along(DVec3),
 }
 
@@ -33,8 +33,8 @@ impl fmt::Display for Tangents {
     }
 }
 
-/// A mesh whose vertices are told apart by position, normal, tangent and material, with the local frame of each. Its
-/// triangles are those of the mesh that it was made from, in the same order.
+/// A mesh with separate vertices for each combination of position, normal, tangent and material, and their local
+/// frames. Its triangles are those of the source mesh, in the same order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vertices {
     positions: Vec<[f32; 3]>,
@@ -42,13 +42,13 @@ pub struct Vertices {
     materials: Vec<u32>,
     triangles: Vec<[u32; 3]>,
     tangents: Tangents,
-    /// Vertices of the source that no triangle uses: they are left out.
+    /// Number of vertices of the source that no triangle uses, which are left out.
     pub unused: usize,
-    /// Vertices whose tangent had no direction across the normal, and got any.
+    /// Vertices whose tangent was parallel to the normal, and which got any other.
     pub replaced_tangents: Vec<u32>,
 }
 
-/// What tells vertices apart: bits of position and normal, the handedness of the texture, and the material.
+/// Key by which vertices are unique: bits of position and normal, handedness of the texture, and material.
 type VertexKey = ([u32; 3], [u64; 3], bool, u32);
 
 impl Vertices {
@@ -57,16 +57,16 @@ impl Vertices {
         (&self.positions, &self.triangles)
     }
 
-    /// The vertices of a mesh of one material. Normals are those of the mesh; where it has none, the mean over the
+    /// The vertices of a mesh with one material. Normals are those of the mesh; without them, the mean over the
     /// triangles at the same position, weighted by area.
     ///
     /// # Errors
-    /// [`TransferError`] for a mesh without triangles, a vertex without a normal, tangents that cannot be had.
+    /// [`TransferError`] for a mesh without triangles, a vertex without a normal, or tangents that cannot be computed.
     pub fn new(mesh: &Mesh, tangents: Tangents) -> Result<Self, TransferError> {
         Self::with_materials(mesh, &vec![0; mesh.len()], tangents)
     }
 
-    /// The same with a material per triangle.
+    /// As [`Self::new`], with a material per triangle.
     ///
     /// # Errors
     /// As [`Self::new`], and if there is not one material per triangle.
@@ -121,8 +121,8 @@ impl Vertices {
         Ok(Self { positions, frames, materials: materials_of, triangles, tangents, unused, replaced_tangents })
     }
 
-    /// These vertices and triangles, then others, each with the frame that it has: a scene of two meshes. Materials of
-    /// both are told apart by their meshes alone.
+    /// These vertices and triangles followed by those of `others`, with their frames: a scene of two meshes. Material
+    /// numbers of the two are not merged.
     #[must_use]
     pub fn joined(&self, others: &Self) -> Self {
         let first = self.positions.len() as u32;
@@ -173,7 +173,7 @@ impl Vertices {
         &self.triangles
     }
 
-    /// Where the tangents of the frames come from.
+    /// The source of the frames' tangents.
     pub fn tangents(&self) -> Tangents {
         self.tangents
     }
@@ -184,7 +184,7 @@ impl Vertices {
     }
 }
 
-/// Position as bits; -0 and +0 are one place.
+/// Position as bits, where -0 and +0 are equal.
 fn place(mesh: &Mesh, vertex: u32) -> [u32; 3] {
     mesh.positions()[vertex as usize].map(|value| (value + 0.0).to_bits())
 }
@@ -203,7 +203,7 @@ fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
         let normal = (b - a).cross(c - a);
         indices.iter().for_each(|&vertex| *sums.entry(place(mesh, vertex)).or_default() += normal);
     }
-    // -0 and +0 are one normal.
+    // Adding 0 makes -0 and +0 equal.
     let given = |vertex: usize| mesh.normals().and_then(|normals| unit(wide(normals[vertex]) + DVec3::ZERO));
     let around = |vertex: usize| sums.get(&place(mesh, vertex as u32)).copied().and_then(|sum| unit(sum + DVec3::ZERO));
     let normal = |(vertex, used)| match used {
@@ -213,8 +213,8 @@ fn normals(mesh: &Mesh) -> Result<Vec<DVec3>, TransferError> {
     used(mesh).into_iter().enumerate().map(normal).collect()
 }
 
-/// The direction in which the first texture coordinate grows on a triangle, as long as the triangle's area; and whether
-/// the texture is mirrored. Zero where the coordinates have no area.
+/// The direction in which the first texture coordinate increases on a triangle, scaled by the triangle's area; and true
+/// if the texture is mirrored. Zero where the texture coordinates are degenerate.
 fn gradient(mesh: &Mesh, indices: [u32; 3], texture: &[[f32; 2]]) -> (DVec3, bool) {
     let [a, b, c] = indices.map(|vertex| wide(mesh.positions()[vertex as usize]));
     let [ta, tb, tc] = indices.map(|vertex| texture[vertex as usize].map(f64::from));

@@ -1,4 +1,4 @@
-//! Random programs of every version, legal by construction as far as that is easy; the checker says no to the rest.
+//! Random programs of every version, legal by construction where that is easy; the checker rejects the rest.
 
 mod flow;
 mod fp;
@@ -12,20 +12,20 @@ use refsim::isa::Version;
 use refsim::texture::TextureKind;
 use std::fmt::Write as _;
 
-/// What a program may count on.
+/// The resources that a program may rely on.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
-    /// Which sampler (in ps_1_x: stage) has what kind of texture.
+    /// The samplers in use (in ps_1_x: stages), each with its texture kind.
     pub(crate) samplers: Vec<(usize, TextureKind)>,
-    /// Colour targets.
+    /// Number of colour targets.
     pub(crate) targets: usize,
-    /// Whether the limits of the version hold, and not those of the emulator alone.
+    /// True if the version's own limits hold; otherwise only the emulator's.
     pub(crate) limited: bool,
-    /// Whether most of the program reads textures.
+    /// True if most of the program reads textures.
     pub(crate) sampling: bool,
 }
 
-/// A program's text, one line an instruction, the version first. `size` 0 is the shortest, 3 the longest kind.
+/// A program's text, one line per instruction, the version first. `size` is 0 (shortest) to 3 (longest).
 pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Random) -> Vec<String> {
     let mut lines = vec![version.token().to_owned()];
     match version {
@@ -39,7 +39,7 @@ pub(crate) fn program(version: Version, layout: &Layout, size: usize, r: &mut Ra
     lines
 }
 
-/// Four values of a `def`, up to `range` either way; beyond 1 also special ones, by their bits.
+/// Four values of a `def`, within `range` of 0; if `range` exceeds 1, special values too, by their bits.
 fn values(r: &mut Random, range: f32) -> String {
     let mut text = String::new();
     for i in 0..4 {
@@ -61,7 +61,7 @@ fn component(r: &mut Random) -> &'static str {
     r.pick(&["x", "y", "z", "w"])
 }
 
-/// A swizzle with its point, or nothing; `any` of the 256, or only those that ps_2_0 has.
+/// A swizzle with its point, or nothing; with `any` one of all 256, otherwise one that ps_2_0 has.
 fn swizzle(r: &mut Random, any: bool) -> String {
     match r.below(8) {
         0 | 1 => format!(".{}", component(r)),
@@ -71,7 +71,7 @@ fn swizzle(r: &mut Random, any: bool) -> String {
     }
 }
 
-/// A write mask with its point, or nothing: any of the fifteen.
+/// A write mask with its point, or nothing; one of all fifteen.
 fn mask(r: &mut Random) -> String {
     if r.one_in(3) {
         return String::new();

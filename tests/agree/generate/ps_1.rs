@@ -4,14 +4,14 @@ use super::{Layout, values};
 use crate::random::Random;
 use refsim::isa::Version;
 
-/// A program under way.
+/// State of a program while it is written.
 struct Writer<'a> {
     version: Version,
     r: &'a mut Random,
     lines: &'a mut Vec<String>,
-    /// The texture registers that arithmetic can read.
+    /// Texture registers that arithmetic can read.
     loaded: Vec<usize>,
-    /// `cmp` and `dp4` instructions that may still come.
+    /// Number of `cmp` and `dp4` instructions still allowed.
     cmps: usize,
     dp4s: usize,
 }
@@ -33,7 +33,7 @@ impl Writer<'_> {
     fn textures(&mut self, layout: &Layout) {
         let later = self.version != Version::Ps1_1;
         let mut stage = 0;
-        // What a bump map was read from is read no more.
+        // A register from which a bump map was read may not be read again.
         let mut spent = Vec::new();
         while stage < 4 {
             let n = stage;
@@ -96,7 +96,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Both temporaries get a value.
+    /// Gives both temporaries a value.
     fn start(&mut self) {
         let first = match self.loaded.last() {
             Some(t) if self.r.one_in(2) => format!("t{t}"),
@@ -160,7 +160,7 @@ impl Writer<'_> {
             9 => format!("cnd{shift}{sat} {to}{mask}, r0.a, {a}, {b}"),
             10 if later && self.cmps > 0 => {
                 self.cmps -= 1;
-                // Never onto a source: the destination is the other temporary, the sources are no temporaries.
+                // The destination must not be a source: it is the other temporary, or no source is a temporary.
                 let free = |s: &str| !s.contains(&to);
                 let or = |s: String| if free(&s) { s } else { "v0".to_owned() };
                 format!("cmp{shift}{sat} {to}{mask}, {}, {}, {}", or(a), or(b), or(c))
@@ -174,7 +174,7 @@ impl Writer<'_> {
     }
 }
 
-/// What stands before and after a register: the source modifiers of every ps_1 version.
+/// Source modifiers of every ps_1 version, as text before and after the register; unmodified four times in ten.
 pub(super) const MODIFIERS: [(&str, &str); 10] = [
     ("", ""),
     ("", ""),

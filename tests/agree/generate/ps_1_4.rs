@@ -4,7 +4,7 @@ use super::ps_1::MODIFIERS;
 use super::{Layout, values};
 use crate::random::Random;
 
-/// What of each register is written.
+/// The registers whose components are written: red to blue, and all four.
 #[derive(Clone, Copy, Default)]
 struct Written {
     rgb: [bool; 6],
@@ -17,7 +17,7 @@ impl Written {
         self.all[n] = alpha;
     }
 
-    /// A register whose components that `alpha` asks for are written, if there is one.
+    /// A random register that is written, with its alpha if `alpha`; `None` if there is none.
     fn pick(&self, alpha: bool, r: &mut Random) -> Option<usize> {
         let list = if alpha { &self.all } else { &self.rgb };
         let ready: Vec<usize> = (0..6).filter(|&n| list[n]).collect();
@@ -25,12 +25,12 @@ impl Written {
     }
 }
 
-/// Where an instruction stands.
+/// Position of an instruction in the program.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Behind `phase`, or in a program without.
+    /// Behind `phase`, or in a program without one.
     second: bool,
-    /// The second half of a pair.
+    /// The second instruction of a pair.
     partner: bool,
 }
 
@@ -75,7 +75,7 @@ fn second_phase(
     for n in 0..if depth { 5 } else { 6 } {
         if !two || !r.one_in(3) {
             read(layout, r, lines, n, w, Some(&addresses), projections);
-            // What is loaded in this phase is no address in it.
+            // A register loaded in this phase is no address within it.
             addresses.rgb[n] = false;
         }
     }
@@ -115,14 +115,14 @@ fn read(
     projections: &mut usize,
 ) {
     let set = r.below(6);
-    // Of one coordinate set always the same selector: even sets .xyz, odd ones .xyw.
+    // A coordinate set must always have the same selector: even sets have .xyz, odd ones .xyw.
     let selector = if set.is_multiple_of(2) { "" } else { ".xyw" };
     let register = before.and_then(|b| b.pick(false, r));
     let kind = if layout.sampling { 3 + r.below(4) } else { r.below(9) };
     let (line, alpha) = match (kind, register) {
         (3, _) if set % 2 == 1 => (format!("texld r{n}, t{set}_dw.xyw"), true),
         (7, _) => (format!("texcrd r{n}.rgb, t{set}{selector}"), false),
-        // .rg alone is written; the whole register is used no more.
+        // Only .rg is written, so the whole register is no longer readable.
         (8, _) if set % 2 == 1 && !w.rgb[n] => {
             lines.push(format!("texcrd r{n}.rg, t{set}_dw.xyw"));
             return;

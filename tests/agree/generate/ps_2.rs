@@ -5,24 +5,24 @@ use crate::random::Random;
 use refsim::isa::Version;
 use refsim::texture::TextureKind;
 
-/// A program under way.
+/// State of a program while it is written.
 pub(super) struct Writer<'a> {
     pub(super) version: Version,
     pub(super) layout: &'a Layout,
     pub(super) r: &'a mut Random,
     pub(super) lines: &'a mut Vec<String>,
-    /// Temporaries in use.
+    /// Number of temporaries in use.
     pub(super) temps: usize,
-    /// Coordinate sets declared.
+    /// Number of coordinate sets declared.
     sets: usize,
-    /// Subroutines that something calls.
+    /// Number of subroutines that are called.
     pub(super) called: usize,
 }
 
-/// Where an instruction stands, for what may not stand everywhere.
+/// Restrictions by position in the program.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Place {
-    /// Neighbouring fragments may be elsewhere: no gradients.
+    /// Inside flow control that may diverge: no gradients.
     pub(super) parted: bool,
 }
 
@@ -83,7 +83,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Every temporary gets a value.
+    /// Gives every temporary a value.
     fn begin(&mut self) {
         for n in 0..self.temps {
             let from = match self.r.below(5) {
@@ -133,7 +133,7 @@ impl Writer<'_> {
         self.r.pick(&["", "", "_pp"])
     }
 
-    /// A source of arithmetic; of constants, and of inputs, one an instruction.
+    /// A source of arithmetic; an instruction may read one constant and one input only.
     fn source(&mut self, others: &mut usize) -> String {
         let negate = if self.r.one_in(4) { "-" } else { "" };
         let register = match self.r.below(14) {
@@ -156,7 +156,7 @@ impl Writer<'_> {
         format!("{negate}{register}{}", swizzle(self.r, any))
     }
 
-    /// A temporary other than these.
+    /// A temporary that is not among these.
     fn other(&mut self, not: &[&str]) -> String {
         for _ in 0..20 {
             let temp = self.temp();
@@ -240,7 +240,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What takes several steps may not write what it still reads.
+    /// An instruction that expands to several steps, whose destination may not be one of its sources.
     fn several_steps(&mut self) -> String {
         let (pp, sat) = (self.partial(), self.r.pick(&["", "", "_sat"]));
         let from = self.temp();

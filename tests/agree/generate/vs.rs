@@ -4,14 +4,14 @@ use super::{Layout, component, mask, swizzle, values};
 use crate::random::Random;
 use refsim::isa::Version;
 
-/// A program under way.
+/// State of a program while it is written.
 struct Writer<'a> {
     two: bool,
     limited: bool,
     temps: usize,
-    /// Attributes declared.
+    /// Number of attributes declared.
     inputs: usize,
-    /// Flow control instructions that may still come.
+    /// Number of flow control instructions still allowed.
     flow: usize,
     called: bool,
     r: &'a mut Random,
@@ -124,7 +124,7 @@ impl Writer<'_> {
         (0..self.temps).map(|n| format!("r{n}")).find(|t| !not.contains(&t.as_str())).unwrap_or_default()
     }
 
-    /// What instructions write: a temporary, now and then an output other than the position.
+    /// A destination: a temporary, at times an output other than the position.
     fn destination(&mut self) -> String {
         match self.r.below(12) {
             0 => format!("oT{}{}", self.r.below(8), mask(self.r)),
@@ -258,7 +258,7 @@ impl Writer<'_> {
     }
 
     fn outputs(&mut self) {
-        // The position stays a small change of the attribute, so that triangles stay in view.
+        // The position stays near the attribute, so that triangles stay in view.
         let position = self.r.pick(&["mov oPos, v0", "m4x4 oPos, v0, c8", "mad oPos, r0, c5, v0"]);
         self.lines.push(position.to_owned());
         for t in 0..8 {

@@ -1,4 +1,4 @@
-//! Commands of cargo held against what `cargo metadata` says of the workspace.
+//! Checks cargo commands against `cargo metadata` of the workspace.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -15,12 +15,12 @@ static PACKAGES: LazyLock<Vec<Value>> = LazyLock::new(|| {
     metadata["packages"].as_array().expect("a list").clone()
 });
 
-/// The packages that the command is about.
+/// The packages that a command selects: the one named `asked`, or all.
 fn packages(asked: Option<&str>) -> Vec<&'static Value> {
     PACKAGES.iter().filter(|package| asked.is_none_or(|asked| package["name"] == asked)).collect()
 }
 
-/// The source of a target of this kind and name.
+/// The source path of the target of this kind and name.
 fn target(packages: &[&Value], kind: &str, name: &str) -> Option<String> {
     let targets = packages.iter().flat_map(|package| package["targets"].as_array().into_iter().flatten());
     let is = |target: &&Value| {
@@ -29,7 +29,7 @@ fn target(packages: &[&Value], kind: &str, name: &str) -> Option<String> {
     targets.into_iter().find(is)?["src_path"].as_str().map(str::to_owned)
 }
 
-/// Whether `word` stands in a file of the target whose root is `source`.
+/// True if `word` occurs in a source file of the target whose root is `source`.
 fn mentions(source: &Path, word: &str) -> bool {
     fn within(folder: &Path, word: &str) -> bool {
         std::fs::read_dir(folder).into_iter().flatten().flatten().any(|entry| {
@@ -47,7 +47,7 @@ fn mentions(source: &Path, word: &str) -> bool {
     within(&source.with_extension(""), word) || std::fs::read_to_string(source).is_ok_and(|text| text.contains(word))
 }
 
-/// What the command names that does not exist, if it names any such thing.
+/// A message that names the package, target, feature or test in the command that does not exist; `None` if all exist.
 pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
     let split = command.arguments.iter().position(|word| word == "--").unwrap_or(command.arguments.len());
     let (own, handed_on) = command.arguments.split_at(split);
@@ -75,13 +75,13 @@ pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
             return say(format!("no feature `{feature}`"));
         }
     }
-    // Names of tests: what is no option and no option's value, before `--` and behind it.
+    // Names of tests: words that are no option and no option's value, before and behind `--`.
     let is_value = |index: usize| index > 0 && own[index - 1].starts_with('-') && !is_flag(&own[index - 1]);
     let before = own.iter().enumerate().skip(1).filter(|(index, _)| !is_value(*index)).map(|(_, word)| word);
     let names = before.chain(handed_on.iter().skip(1)).filter(|word| !word.starts_with('-'));
     if own.first().is_some_and(|command| command == "test") {
         for name in names {
-            // A suite's name is put together by macros: its parts stand in the source.
+            // A suite's name is assembled by macros, so its parts are looked for in the source.
             let found = sources.iter().any(|source| name.split("::").all(|part| mentions(Path::new(source), part)));
             if !found {
                 return say(format!("no test `{name}`"));
@@ -91,7 +91,7 @@ pub(crate) fn fault(command: &CargoCommand) -> Option<String> {
     None
 }
 
-/// Options of cargo without a value.
+/// True for cargo options without a value.
 fn is_flag(option: &str) -> bool {
     let flags =
         ["--release", "--workspace", "--all-features", "--no-default-features", "--all-targets", "--lib", "--doc"];

@@ -1,9 +1,9 @@
-//! Every command in README.md, docs and the help texts, as a reader would type it at the root of the repository.
+//! Every command in README.md, docs and the help texts, run as a reader would type it at the root of the repository.
 //!
-//! Commands of the program run, on copies of `fixtures` and `docs/examples`, and must end with 0 or with the exit code
-//! that `# exit code N` behind them states. [`CUT`] says how long work is made short: it changes sizes and counts,
-//! never which options there are. What cannot run here is listed in [`NOT_RUN`] with its reason, and its options are
-//! parsed all the same. Commands of cargo must name packages, targets, features and tests that exist.
+//! Commands of the program run on copies of `fixtures` and `docs/examples`, and must end with 0 or with the exit code
+//! that `# exit code N` behind them states. [`CUT`] shortens long work: it changes sizes and counts, never the set of
+//! options. Commands that cannot run here are listed in [`NOT_RUN`] with the reason, and their options are parsed all
+//! the same. Commands of cargo must name packages, targets, features and tests that exist.
 
 mod cargo;
 mod texts;
@@ -17,8 +17,8 @@ use rayon::prelude::*;
 use crate::{Ran, crossbar_in};
 use texts::Command;
 
-/// Sizes and counts of long work: command, option and the value that takes the place of the one in the text, or joins
-/// the command where the option is not in the text and `always` is true.
+/// Reduced sizes and counts of long work: command, option and the value that replaces the one in the text. Where
+/// `always` is true, the option is added if the text does not have it.
 const CUT: &[(&str, &str, &str, bool)] = &[
     ("atlas", "--size", "8x8", true),
     ("leaky-teapot", "--size", "16x16", true),
@@ -40,7 +40,7 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("timeline", "--rays", "8x8", false),
 ];
 
-/// Commands that do not run here, by what they begin with, and why.
+/// Commands that do not run here: their beginning, and the reason.
 const NOT_RUN: &[(&str, &str)] = &[
     ("alu mulAdd", "reads what TestFloat writes, which is not part of the repository"),
     ("devices --probe llvmpipe", "needs this adapter; tests/gpu probes the one that there is"),
@@ -54,7 +54,7 @@ const NOT_RUN: &[(&str, &str)] = &[
     ("reproduce cpca-table-1 --full-size", "takes hours; tests/papers runs the entry on reduced models"),
 ];
 
-/// A copy of the folders that commands read.
+/// A temporary copy of the folders that commands read.
 pub(crate) fn copy_of_the_repository() -> tempfile::TempDir {
     fn copy(from: &Path, to: &Path) {
         fs::create_dir_all(to).expect("a folder");
@@ -74,7 +74,7 @@ pub(crate) fn copy_of_the_repository() -> tempfile::TempDir {
     folder
 }
 
-/// The arguments with long work made short.
+/// The arguments with long work reduced as in [`CUT`].
 fn cut(arguments: &[String]) -> Vec<String> {
     let mut cut = arguments.to_vec();
     for (command, option, value, always) in CUT {
@@ -91,10 +91,10 @@ fn cut(arguments: &[String]) -> Vec<String> {
     cut
 }
 
-/// Whether the command is listed as one that does not run.
+/// The entry of [`NOT_RUN`] that the command begins with, if any.
 fn exemption(arguments: &[String]) -> Option<&'static str> {
     let text = arguments.join(" ");
-    // The list and single entries of `reproduce` are quick.
+    // The list and single entries of `reproduce` are quick, so only the bare command is exempt.
     let named = |start: &str| if start == "reproduce" { text == start } else { text.starts_with(start) };
     NOT_RUN.iter().map(|(start, _)| *start).find(|start| named(start))
 }
@@ -104,12 +104,12 @@ fn run(folder: &Path, arguments: &[String], input: &str) -> Ran {
     crossbar_in(folder, &words, input)
 }
 
-/// Why the command does not do what its text says, if it does not.
+/// A message if the command does not end as its text says; `None` if it does.
 fn fault(command: &Command) -> Option<String> {
     let root = copy_of_the_repository();
     let (arguments, expected) = match exemption(&command.arguments) {
         None => (cut(&command.arguments), command.code),
-        // Asked for help at the end, the program parses all that stands before it and does nothing.
+        // With `--help` at the end, the program parses all options before it and does nothing.
         Some(_) => ([&command.arguments[..], &["--help".to_owned()]].concat(), 0),
     };
     let ran = run(root.path(), &arguments, &command.input);
@@ -143,8 +143,7 @@ fn every_command_of_cargo_names_what_exists() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-/// What a page shows of a command's output, behind `<!-- output of: COMMAND -->`, is what the command says.
-/// `CROSSBAR_BLESS=1` writes it.
+/// Outputs on pages, behind `<!-- output of: COMMAND -->`, equal the command's output. `CROSSBAR_BLESS=1` writes them.
 #[test]
 fn outputs_on_pages_are_those_of_the_program() {
     let root = copy_of_the_repository();
@@ -166,7 +165,7 @@ fn outputs_on_pages_are_those_of_the_program() {
     }
 }
 
-/// A text with a mistake is found out: a file that is not there, an option that is not.
+/// Mistakes in a text are found: a missing file, an unknown option.
 #[test]
 fn mistakes_are_found() {
     for text in ["crossbar run docs/examples/none.toml", "crossbar devices --colour", "crossbar reproduce --all"] {

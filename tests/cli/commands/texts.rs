@@ -1,11 +1,11 @@
-//! Commands out of pages and help texts.
+//! Extracts commands from pages and help texts.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::crossbar;
 
-/// A command of the program: what is piped into it, its arguments, what it must end with, and where it is written.
+/// A command of the program: its standard input, its arguments, the expected exit code, and its place in the text.
 pub(crate) struct Command {
     pub(crate) place: String,
     pub(crate) input: String,
@@ -13,23 +13,23 @@ pub(crate) struct Command {
     pub(crate) code: i32,
 }
 
-/// A command of cargo: its arguments, and where it is written.
+/// A command of cargo: its arguments, and its place in the text.
 pub(crate) struct CargoCommand {
     pub(crate) place: String,
     pub(crate) arguments: Vec<String>,
 }
 
-/// What a page shows of a command's output.
+/// A command's output as quoted on a page.
 pub(crate) struct Output {
     pub(crate) place: String,
     pub(crate) page: PathBuf,
-    /// The comment that names the command.
+    /// The comment that names the command, as in the page.
     pub(crate) heading: String,
     pub(crate) arguments: Vec<String>,
     pub(crate) text: String,
 }
 
-/// A line of shell, its continuations joined, and the comment behind it.
+/// A shell line with its continuations joined, and its trailing comment.
 struct Line {
     place: String,
     words: Vec<String>,
@@ -37,7 +37,7 @@ struct Line {
 }
 
 impl Line {
-    /// `None` for a line that is no command of ours: what a program printed, for example.
+    /// `None` for a line without a command of ours, such as printed output.
     fn new(place: String, text: &str) -> Option<Self> {
         if !["crossbar ", "cargo "].iter().any(|program| text.contains(program)) {
             return None;
@@ -47,13 +47,13 @@ impl Line {
         Some(Self { place, words, comment: comment.to_owned() })
     }
 
-    /// The command behind variables that are set for it.
+    /// The command after leading variable assignments.
     fn command(&self) -> &[String] {
         let variables = self.words.iter().take_while(|word| word.contains('=') && !word.starts_with('-')).count();
         &self.words[variables..]
     }
 
-    /// The command of the program that this is, perhaps behind a pipe, of which `echo` is understood, perhaps by
+    /// The line as a command of the program, if it is one: perhaps behind a pipe from `echo`, perhaps run by
     /// `cargo run`.
     fn of_the_program(&self) -> Option<Command> {
         let words = self.command();
@@ -69,7 +69,7 @@ impl Line {
             }
             _ => return None,
         };
-        // Where the output goes is the shell's affair.
+        // The redirection of output is the shell's part.
         let arguments = arguments.split(|word| word == ">").next().unwrap_or_default().to_vec();
         let code = self.comment.split_once("exit code ").and_then(|(_, code)| code.split(' ').next()?.parse().ok());
         Some(Command { place: self.place.clone(), input, arguments, code: code.unwrap_or(0) })
@@ -81,7 +81,7 @@ impl Line {
     }
 }
 
-/// README.md, the READMEs of the other crates, and docs, but not the decisions, which are history.
+/// README.md, the READMEs of the other crates, and docs without the decisions, which are history.
 fn pages() -> Vec<(String, String)> {
     fn walk(folder: &Path, found: &mut Vec<PathBuf>) {
         for entry in fs::read_dir(folder).expect("a folder").flatten() {
@@ -108,7 +108,7 @@ fn pages() -> Vec<(String, String)> {
     found.iter().map(text).collect()
 }
 
-/// The lines of blocks between fences that are shell: those without a language.
+/// The lines of fenced blocks without a language, which are shell.
 fn lines_of_page(name: &str, text: &str) -> Vec<Line> {
     let (mut lines, mut language, mut joined) = (Vec::new(), None, String::new());
     for (number, line) in (1..).zip(text.lines()) {
@@ -131,7 +131,7 @@ fn lines_of_page(name: &str, text: &str) -> Vec<Line> {
     lines
 }
 
-/// The commands under `Examples:` in a help text: two columns in; what is wrapped goes on there.
+/// The commands under `Examples:` in a help text: indented by two; wrapped lines are joined.
 fn lines_of_help(name: &str, help: &str) -> Vec<Line> {
     let mut commands: Vec<String> = Vec::new();
     let examples = help.lines().skip_while(|line| *line != "Examples:").skip(1);
@@ -180,7 +180,7 @@ pub(crate) fn cargo_of_page(name: &str, text: &str) -> Vec<CargoCommand> {
     lines_of_page(name, text).iter().filter_map(Line::of_cargo).collect()
 }
 
-/// All outputs that pages show: a comment `<!-- output of: COMMAND -->` and a block of text behind it.
+/// All outputs that pages quote: a comment `<!-- output of: COMMAND -->` followed by a block of text.
 pub(crate) fn outputs() -> Vec<Output> {
     let mut found = Vec::new();
     for (name, text) in pages() {

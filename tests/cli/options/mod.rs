@@ -1,9 +1,9 @@
-//! Every option of every command changes what comes out or is refused: none is accepted and ignored.
+//! Every option of every command changes the output or is refused: none is accepted and ignored.
 //!
 //! The table has command lines and options with values; a new option that is not in it fails the test. Each option is
-//! added to each command line. What comes out are the exit code, both streams and all files, without what two equal
-//! runs do not have in common (times) and without the provenance, which names the options. The short form tries one in
-//! nine pairs of a line and an option, always the same ones; `CROSSBAR_FULL=1` tries all.
+//! added to each command line. The output consists of the exit code, both streams and all files, without parts that
+//! differ between two equal runs (times) and without the provenance, which names the options. The short form tries one
+//! in nine pairs of a line and an option, always the same ones; `CROSSBAR_FULL=1` tries all.
 
 mod table;
 
@@ -23,8 +23,8 @@ use crate::crossbar_in;
 use crate::tree::{self, command_of};
 use table::{TABLE, Tried};
 
-/// Options whose value here may be refused everywhere: it names what this test cannot have, or another model than the
-/// one that a file was made from.
+/// Options whose value here may be refused everywhere: it names something that this test cannot provide, or another
+/// model than that of the file.
 const NEVER_ACCEPTED: [&str; 8] =
     ["--adapter", "--probe", "--merl", "--model", "--model-up", "--strict", "--crease", "--switch"];
 
@@ -33,7 +33,7 @@ const NEVER_ACCEPTED: [&str; 8] =
 struct TriedOption {
     name: &'static str,
     value: Option<&'static str>,
-    /// The bases that it is tried on, if not on all.
+    /// The indices of the command lines that it is tried on; `None` for all.
     only: Option<Vec<usize>>,
     is_same: bool,
 }
@@ -98,11 +98,11 @@ fn every_option_changes_something_or_is_refused() {
     }
 }
 
-/// What a base said of its options.
+/// Results for one command line.
 #[derive(Debug, Default)]
 struct Told {
     faults: Vec<String>,
-    /// Row of the table and option.
+    /// Row of the table and name of the option.
     accepted: Vec<(usize, &'static str)>,
 }
 
@@ -121,7 +121,7 @@ fn tell(row: usize, at: usize, options: &[TriedOption]) -> Told {
     if fails && !base.contains("odd.obj") {
         told.faults.push(format!("`{base}` fails: {first:?}"));
     }
-    // What ends in an error heeds the options that are named for it, and need not heed others.
+    // A line that ends in an error need only heed the options that are named in it.
     let is_there = |option: &TriedOption| option.value.is_none() && base.split(' ').any(|word| word == option.name);
     for option in options.iter().filter(|option| (!fails || option.only.is_some()) && !is_there(option)) {
         let found = outcome(base, Some(option));
@@ -140,11 +140,11 @@ fn tell(row: usize, at: usize, options: &[TriedOption]) -> Told {
     told
 }
 
-/// The exit code in an outcome.
+/// Key of the exit code in an outcome.
 const CODE: &str = "exit code";
 
-/// The outcome of a line with an option in place of the same one in the line: leaves of the document, or lines of the
-/// streams, and a digest of each file.
+/// The outcome of a command line with the option added or replaced: leaves of the document, or lines of the streams,
+/// and a digest of each file.
 fn outcome(base: &str, option: Option<&TriedOption>) -> BTreeMap<String, String> {
     static NUMBER: AtomicUsize = AtomicUsize::new(0);
     let run = format!("run-{}", NUMBER.fetch_add(1, Ordering::Relaxed));
@@ -162,7 +162,7 @@ fn outcome(base: &str, option: Option<&TriedOption>) -> BTreeMap<String, String>
         words.extend(value);
     }
     words.push("--json");
-    // Every command makes the folders of what it writes.
+    // Every command creates the folders of its outputs.
     let placed = |word: &&str| {
         let own = ["OUT", "other", "kept", "trace.json"].iter().any(|name| word.starts_with(name));
         if own { format!("{run}/missing/{word}") } else { (*word).to_owned() }
@@ -195,7 +195,7 @@ fn leaves(key: String, value: &Value, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// Files by name and digest; of pages and lists of files, which name the options, their names alone.
+/// Files by name and digest; pages and lists of files, which name the options, by name only.
 fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let name = format!("{under}/{}", entry.file_name().to_string_lossy());
@@ -205,7 +205,7 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
         }
         let is_page = ["index.html", "study.json", ".crossbar_files"].iter().any(|page| name.ends_with(page));
         let bytes = if is_page { Vec::new() } else { fs::read(entry.path()).expect("a file") };
-        // A checksum would be the same for all files that end with their own. Of pictures, which name the options too,
+        // A CRC would be equal for all files that end with their own CRC. Of pictures, which name the options too, only
         // the channels count.
         let mut digest = DefaultHasher::new();
         match Picture::decode(&bytes) {
@@ -216,13 +216,13 @@ fn files(folder: &Path, under: &str, put: &mut impl FnMut(String, &str)) {
     }
 }
 
-/// A folder with what the lines read: the examples, and small files made for them.
+/// A folder with the inputs of the command lines: the examples, and small files made for them.
 fn inputs() -> &'static Path {
     static FOLDER: OnceLock<tempfile::TempDir> = OnceLock::new();
     let folder = FOLDER.get_or_init(|| {
         let folder = copy_of_the_repository();
         let put = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
-        // A material that reflects more than all light, and a triangle that is turned the other way.
+        // A material that reflects more than all light, and a triangle with the opposite winding.
         put(
             "odd.obj",
             "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 1 0.2 1\nv 0 0.1 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\n\

@@ -1,12 +1,12 @@
-//! What every option of every command is tried with.
+//! The command lines and option values of the options test.
 
 /// A command: lines to which its options are added, and its options with values.
 pub(super) struct Tried {
-    /// Command lines without the program's name; what follows ` < ` is standard input, `;` ends a line.
+    /// Command lines without the program's name; ` < ` precedes standard input, in which `;` ends a line.
     pub(super) bases: &'static [&'static str],
     /// Options as `--name=value` or `--name`, each tried on every base that succeeds; `@0,2` restricts it to these
-    /// bases, where the others rightly do not heed it. Behind `same:` the result must be the same: who computes, not
-    /// what.
+    /// bases, where the others rightly ignore it. With `same:` in front, the result must be the same: the option
+    /// selects who computes, not what.
     pub(super) options: &'static str,
 }
 

@@ -1,4 +1,4 @@
-//! Lights: flux, turns, decimation, truncation.
+//! Cube lights: flux, rotation, decimation, truncation.
 
 use std::f64::consts::PI;
 
@@ -51,7 +51,7 @@ fn a_constant_stays_a_constant() {
     }
 }
 
-/// Decimation by solid angles keeps the samples' flux; the plain mean does not.
+/// Decimation by solid angle keeps the flux of the samples; the plain mean does not.
 #[test]
 fn a_disk_keeps_its_flux_however_small() {
     for (at, towards) in random_directions(3, 6).chain(DVec3::AXES).chain([DVec3::ONE]).enumerate() {
@@ -63,7 +63,8 @@ fn a_disk_keeps_its_flux_however_small() {
             for (channel, factor) in [1.0, 2.0, 0.0].into_iter().enumerate() {
                 close(light.flux()[channel], factor * expected, 1e-12 * expected, &format!("disk {at} of {radius}"));
             }
-            // The shares of fine texels: a grid of eighths of the radius.
+            // The covered share of a fine texel is estimated on a grid of eighths of the radius, so it may exceed 1
+            // slightly.
             let brightest = light.texels().iter().map(|texel| texel[0]).fold(0.0, f64::max);
             assert!(brightest <= 1.02 || radius < 1e-3, "{brightest}");
         }
@@ -74,7 +75,7 @@ fn a_disk_keeps_its_flux_however_small() {
     assert!(ratio != 1.0 && (ratio - 1.0).abs() < 0.01, "{ratio}");
 }
 
-/// (R l)(R v) = l(v).
+/// Rotating light and direction together changes nothing: (R l)(R v) = l(v).
 #[test]
 fn lights_turn_with_their_matrix() {
     let wave = |v: DVec3| [1.0 + v.x, 1.0 + v.y * v.z, 2.0 - v.z];
@@ -93,7 +94,7 @@ fn lights_turn_with_their_matrix() {
     }
 }
 
-/// What pictures and generated lights send, against their harmonic of l = 0, which is exact.
+/// The flux of pictures and generated lights equals that of their l = 0 harmonic, which is exact.
 #[test]
 fn generated_lights_have_the_flux_of_their_harmonics() {
     let flux = |light: &HarmonicLight| light.channels().each_ref().map(|channel| channel[0] * (4.0 * PI).sqrt());
@@ -121,7 +122,7 @@ fn generated_lights_have_the_flux_of_their_harmonics() {
         for (light, harmonic) in made {
             let (found, expected) = (light.expect("a light").flux(), flux(&harmonic));
             for (found, expected) in found.into_iter().zip(expected) {
-                // Point samples of a jump at the horizon or between pixels.
+                // Point samples of a discontinuity at the horizon or between pixels.
                 assert!((found / expected - 1.0).abs() < 3e-3, "{found} {expected}");
             }
         }
@@ -150,7 +151,7 @@ fn truncation_keeps_what_was_asked_for() {
                 assert!((0..3).all(same));
                 close(truncated.kept_energy * truncated.energy, truncated.light.energy(), 1e-9, "kept energy");
             }
-            // Nothing keeps more energy than the largest magnitudes.
+            // No selection keeps more energy than that of the largest magnitudes.
             assert!(kept.iter().all(|other| other.kept_energy <= kept[0].kept_energy + 1e-12), "{keep}");
             if keep >= haar.nonzero() {
                 assert!(kept.iter().all(|all| all.light == haar && all.kept_energy == 1.0));
@@ -161,7 +162,7 @@ fn truncation_keeps_what_was_asked_for() {
     }
 }
 
-/// Figure 6: chosen on six faces, drawn in 24 segments. The light stays what it is.
+/// Figure 6: coefficients chosen on six faces, drawn in 24 segments. The light does not change.
 #[test]
 fn a_truncated_light_is_reprojected_without_change() {
     let light = CubeLight::from_disks(&sources(), &turn(), Decimation::SolidAngle).expect("a light");
@@ -172,7 +173,7 @@ fn a_truncated_light_is_reprojected_without_change() {
     let pairs = reprojected.radiances().into_iter().zip(truncated.radiances());
     let off = pairs.flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs())).fold(0.0, f64::max);
     assert!(off < 1e-12, "{off:e}");
-    // A function of a whole face is four of quarters: more coefficients for the same light.
+    // A wavelet of a whole face becomes up to four of quarters: more coefficients for the same light.
     assert!(reprojected.nonzero() >= truncated.nonzero());
     assert_eq!(faces.reprojected(Segmentation::Faces).segmentation(), Segmentation::Faces);
 }

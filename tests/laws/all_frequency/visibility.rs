@@ -24,7 +24,7 @@ fn differing(a: &VisibilityMaps, b: &VisibilityMaps, map: usize) -> Vec<usize> {
     (0..FINE_DIRECTIONS).filter(|&fine| a.is_visible(map, fine) != b.is_visible(map, fine)).collect()
 }
 
-/// How far a fine direction is from the nearest edge of a triangle, or from the plane of one, seen from an eye: in
+/// Distance of a fine direction from the nearest edge of a triangle, or from the plane of one that contains the eye, in
 /// pixels of the direction's face.
 fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
     let [face, row, column] = face_row_column(fine);
@@ -42,7 +42,7 @@ fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
             }
             let line = a.cross(b);
             if a.z > 0.0 && b.z > 0.0 {
-                // The part between two points of the face.
+                // The part of the edge between the two cut points.
                 let [p, q] = [a, b].map(|point| half * point.truncate() / point.z);
                 let at = pixel.truncate();
                 let along = ((at - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
@@ -51,7 +51,7 @@ fn pixels_to_edge(mesh: &Mesh, eye: DVec3, fine: usize) -> f64 {
                 nearest = nearest.min(to_line(line));
             }
         }
-        // The plane of a triangle that the eye all but touches is a line on the face.
+        // The plane of a triangle that nearly contains the eye projects to a line on the face.
         let plane = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         if plane.normalize().dot(corners[0]).abs() < 1e-5 && plane.truncate().length() > 0.0 {
             nearest = nearest.min(to_line(plane));
@@ -69,7 +69,7 @@ fn some(vertices: &Vertices) -> Vec<u32> {
     all(vertices).into_iter().filter(|vertex| vertices.len() < 40 || vertex % 13 == 0).collect()
 }
 
-/// What is not cast is free; any number of threads finds the same bits.
+/// Directions that are not cast are unblocked; any number of threads gives the same bits.
 #[test]
 fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
     for (name, mesh) in meshes() {
@@ -92,8 +92,8 @@ fn maps_are_those_of_casting_every_ray_in_any_number_of_threads() {
     }
 }
 
-/// Likewise with fewer directions, and without the plane of the normal as horizon: there vertices see more, and nothing
-/// else changes.
+/// Likewise with fewer directions, and without the plane of the vertex normal as horizon: vertices then see more, and
+/// nothing else changes.
 #[test]
 fn other_samplings_are_those_of_casting_every_ray() {
     for (name, mesh) in meshes() {
@@ -123,7 +123,7 @@ fn other_samplings_are_those_of_casting_every_ray() {
     }
 }
 
-/// Bits differ from those of the reference, in f64 and triangle by triangle, only where an edge passes within a
+/// Bits differ from those of the reference, which tests triangle by triangle in f64, only where an edge passes within a
 /// hundredth of a pixel.
 #[test]
 fn rays_see_what_the_reference_sees() {
@@ -154,11 +154,11 @@ fn rays_see_what_the_reference_sees() {
     assert!(differ < compared / 10_000, "{differ} of {compared}");
 }
 
-/// How far a corner is snapped: half of a sixteenth of a pixel in both directions; a little more for single precision.
+/// Snapping error of a corner: half of a sixteenth of a pixel along both axes, plus a margin for single precision.
 const SNAP: f64 = 0.0442 + 0.001;
 
-/// The card snaps corners to sixteenths of a pixel: its bits differ only so near to edges, and are those of the scalar
-/// executor.
+/// The card snaps corners to sixteenths of a pixel: its bits differ only within that distance of edges, and equal those
+/// of the scalar executor.
 #[test]
 fn the_card_draws_what_rays_see() {
     for (name, mesh) in meshes() {

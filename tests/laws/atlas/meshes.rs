@@ -1,11 +1,11 @@
-//! Meshes of every kind, small.
+//! Small meshes of many kinds.
 
 use crossbar::elementary::on_circle;
 use crossbar::geom::Mesh;
 use crossbar::geom::random::CounterRng;
 use proptest::prelude::*;
 
-/// What a mesh is like, as far as laws differ by it.
+/// A mesh with the properties on which laws depend.
 #[derive(Debug, Clone)]
 pub(super) struct Sample {
     pub(super) mesh: Mesh,
@@ -17,7 +17,7 @@ pub(super) struct Sample {
 
 type Shape = (Vec<[f32; 3]>, Vec<[u32; 3]>);
 
-/// A grid of so many quads, wrapped around in columns, in rows, or in neither. Its vertices go through `place`.
+/// A grid of `columns` x `rows` quads, each direction wrapped around or not. `place` maps grid to position.
 fn grid([columns, rows]: [u32; 2], wrapped: [bool; 2], place: impl Fn(f64, f64) -> [f64; 3]) -> Shape {
     let across = columns + u32::from(!wrapped[0]);
     let down = rows + u32::from(!wrapped[1]);
@@ -73,7 +73,7 @@ fn torus(size: [u32; 2], thin: f64) -> Shape {
     })
 }
 
-/// Triangles between random vertices: many share edges, some have no area, some repeat.
+/// Triangles between random vertices: many share edges, some are degenerate, some repeat.
 fn soup(vertices: u32, faces: u32, seed: u64) -> Shape {
     let random = CounterRng::new(seed);
     let position = |vertex: u32| [0, 1, 2].map(|axis| (random.unit(vertex.into(), 0, axis) * 4.0).floor() as f32 / 2.0);
@@ -105,7 +105,7 @@ fn sheet(size: [u32; 2], seed: u64) -> Shape {
     })
 }
 
-/// Closed, open, wound around a hole, in parts, and without any order. All have an area.
+/// Closed, open, with handles, in several parts, and unordered. All have a positive area.
 pub(super) fn samples() -> impl Strategy<Value = Sample> {
     let sized = |least: u32, most: u32| (least..most, least..most).prop_map(|(a, b)| [a, b]);
     let plain = |shape: Shape, sphere: bool| Sample { mesh: mesh_of(shape), manifold: true, sphere };
@@ -126,7 +126,7 @@ pub(super) fn samples() -> impl Strategy<Value = Sample> {
     ]
 }
 
-/// The least side that has a texel for each face.
+/// The least side, a power of two, with a texel for each face.
 pub(super) fn least_side(mesh: &Mesh) -> u32 {
     let mut side = 1_u32;
     while (side * side) < mesh.len() as u32 {
@@ -135,7 +135,7 @@ pub(super) fn least_side(mesh: &Mesh) -> u32 {
     side
 }
 
-/// A mesh with the side of an atlas: the least there is, or up to four times that.
+/// A mesh with the side of an atlas: the least that fits, or two or four times that.
 pub(super) fn atlases() -> impl Strategy<Value = (Sample, u32)> {
     (samples(), 0_u32..3).prop_map(|(sample, more)| {
         let side = least_side(&sample.mesh) << more;

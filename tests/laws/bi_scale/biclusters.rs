@@ -1,4 +1,4 @@
-//! Biclusters: the fast search against Algorithm 1 word by word, and what must hold of any matrix.
+//! Biclusters: the fast search against a literal Algorithm 1, and properties for any matrix.
 
 use crossbar::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
 use crossbar::bi_scale::matrix::MatrixEntry;
@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::{matrix, quietly};
 
-/// Rows of quarters that tend to form blocks: each row takes one of a few patterns and changes some of its values.
+/// Rows of multiples of a quarter that tend to form blocks: each takes one of a few patterns and changes some values.
 fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
     let value = || prop_oneof![5 => Just(0), 3 => Just(4), 1 => 1..4_i32];
     (1..15_usize, 1..12_usize).prop_flat_map(move |(rows, columns)| {
@@ -57,7 +57,7 @@ proptest! {
         let mut left = vec![matrix.nonzeros() as u64];
         let found = bicluster(&matrix, BiclusterOptions { seed, deletion, drop: 0 }, &mut |now| left.push(now)).unwrap();
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
-        // Each bicluster takes away at least half its cost in non-zeros, so the whole costs no more than the matrix.
+        // Each bicluster removes at least half its cost in non-zeros, so the total cost is at most twice the non-zeros.
         for (index, step) in left.windows(2).enumerate() {
             prop_assert!(2 * step[1] + found.get(index).cost() <= 2 * step[0], "bicluster {}", index);
         }
@@ -65,7 +65,7 @@ proptest! {
         prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
     }
 
-    /// What is left out is no larger than asked, place by place, however often biclusters cross there.
+    /// No entry of the residual exceeds `drop`, however many biclusters overlap there.
     #[test]
     fn what_is_lost_is_bounded(rows in prop_oneof![3 => blocks(), 1 => anything()], seed: u64, drop in 0..5_u32) {
         let matrix = matrix(&rows, 2);
@@ -86,7 +86,7 @@ proptest! {
         let light: Vec<f64> = light[..matrix.columns()].iter().map(|&texel| f64::from(texel)).collect();
         let expected = by_rows(&matrix, &light);
         prop_assert_eq!(&algorithm_2(&found, &light), &expected);
-        // Sums of whole quarters below 2^22 are exact in f32 too.
+        // Sums of multiples of a quarter below 2^22 are exact in f32 too.
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel as f32]).collect::<Vec<_>>());
         prop_assert_eq!(fast.into_iter().map(|[sum]| f64::from(sum)).collect::<Vec<f64>>(), expected);
     }
@@ -100,7 +100,7 @@ proptest! {
         let light = &light[..matrix.columns()];
         let fast = Gather::new(&found).multiply(&light.iter().map(|&texel| [texel]).collect::<Vec<_>>());
         let expected = algorithm_2(&found, &light.iter().map(|&texel| f64::from(texel)).collect::<Vec<f64>>());
-        // Per row the magnitudes that are added, and how many operations a term goes through at most.
+        // Per row the sum of magnitudes, and the largest number of operations on a term.
         let [rows, _] = found.matrix_size();
         let (mut magnitude, mut operations) = (vec![0.0; rows], vec![0; rows]);
         for index in 0..found.len() {
@@ -115,14 +115,15 @@ proptest! {
             }
         }
         for (row, ([fast], expected)) in fast.iter().zip(&expected).enumerate() {
-            // (1 + u)^n - 1 <= 2 n u for n u below a half; u = 2^-24. Twice: f64 errs less than as much again.
+            // (1 + u)^n - 1 <= 2 n u for n u below a half, with u = 2^-24. Doubled, because f64 has an error too,
+            // though less.
             let bound = 4.0 * operations[row] as f64 * f64::from(f32::EPSILON) / 2.0 * magnitude[row];
             prop_assert!((f64::from(*fast) - expected).abs() <= bound, "row {row}: {fast} for {expected}");
         }
     }
 }
 
-/// The example of section IV-C, whose second row is off by 2 in one place.
+/// The example of section IV-C, whose second row differs by 2 in one column.
 #[test]
 fn a_residual_is_left_for_later() {
     let rows = vec![vec![4, 3, 2, 1]; 6].into_iter().enumerate().map(|(row, mut values)| {
@@ -148,7 +149,7 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit.
+/// A residual of 2^31 units does not fit into i32.
 #[test]
 fn residuals_out_of_range_are_refused() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];

@@ -1,4 +1,4 @@
-//! The matrix T: which texels a vertex sees, and where their light goes.
+//! The matrix T: the texels that a vertex sees, and the local directions that receive their light.
 
 use approx::assert_relative_eq;
 use crossbar::bi_scale::directions::LocalDirections;
@@ -19,7 +19,7 @@ pub(super) fn center(texel: usize) -> DVec3 {
     (axes.center + place(texel % 32) * axes.right + place(texel / 32 % 32) * axes.down).normalize()
 }
 
-/// Texel by texel and direction by direction, as section IV-A has it.
+/// T by loops over texels and directions, as section IV-A defines it.
 #[test]
 fn texels_go_to_the_nearest_local_direction() {
     for (log2_samples, side, horizon) in [(0, 4, Horizon::Normal), (1, 8, Horizon::Geometry), (2, 5, Horizon::Normal)] {
@@ -55,7 +55,7 @@ fn texels_go_to_the_nearest_local_direction() {
     }
 }
 
-/// What arrives at a vertex is what it sees: the rows of a vertex sum to the flux of its visible texels.
+/// Energy is conserved: the rows of a vertex sum to the flux of its visible texels.
 #[test]
 fn light_arrives_once() {
     let (vertices, maps) = sight(1, Horizon::Normal);
@@ -72,8 +72,8 @@ fn light_arrives_once() {
     }
 }
 
-/// One texel of the light, straight above: its light arrives in a direction near the normal of level ground, and turned
-/// to the side of the texel.
+/// Light of a single texel straight above arrives in a local direction near the normal of level ground, on the side of
+/// the texel.
 #[test]
 fn a_texel_arrives_where_it_comes_from() {
     let (vertices, maps) = sight(0, Horizon::Normal);
@@ -88,7 +88,7 @@ fn a_texel_arrives_where_it_comes_from() {
             assert_eq!(arrives.len(), usize::from(sees), "texel {texel}, vertex {vertex}");
             for &local in &arrives {
                 let direction = frame.to_global(directions.directions()[local]);
-                // A cell of 8 x 8 is at most 0.6 rad long.
+                // A cell of 8 x 8 local directions is at most 0.6 rad long.
                 assert!(direction.dot(center(texel)) > 0.9, "texel {texel}, vertex {vertex}, direction {local}");
             }
         }

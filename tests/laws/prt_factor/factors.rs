@@ -1,4 +1,4 @@
-//! What singular values promise, and what reflectance keeps.
+//! Properties of the SVD, and of reflectance by few terms.
 
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ fn sampled(side: usize, product: &dyn ProductFunction) -> ProductTable {
     sampling.table(product, &mut |_, _| ()).expect("a table")
 }
 
-/// A table of random numbers, of which no two rows are alike.
+/// A table of random numbers in which no two rows are alike.
 fn random([views, lights]: [usize; 2]) -> ProductTable {
     let draw = CounterRng::new(7);
     let [rows, columns] = [views * views, lights * lights];
@@ -40,7 +40,7 @@ fn all_terms(table: &ProductTable) -> Factorization {
     Factorization::new(table, rank).expect("all terms")
 }
 
-/// Differences of the table and of terms at all pairs of texels.
+/// The table minus its approximation by `terms` terms, at all pairs of texels.
 fn differences(table: &ProductTable, found: &Factorization, terms: usize) -> Matrix {
     let (factors, mut values) = (found.factors(terms), table.values().clone());
     for view in 0..table.view().texels() {
@@ -68,8 +68,8 @@ fn as_many_terms_as_the_rank_are_the_table() {
     }
 }
 
-/// The error of m terms is the sum of the squared singular values that are left out, and no row is off by more than the
-/// first of them.
+/// The squared error of m terms is the sum of the squared singular values left out, and no row has an error larger than
+/// the first of these values.
 #[test]
 fn the_error_is_the_tail_of_the_spectrum() {
     for table in tables() {
@@ -88,7 +88,7 @@ fn the_error_is_the_tail_of_the_spectrum() {
     }
 }
 
-/// Nothing of rank m is nearer (Eckart and Young): here, the same table's factors moved a little.
+/// No matrix of rank m is nearer (Eckart and Young): here, small perturbations of the factors.
 #[test]
 fn no_neighbour_of_the_factors_is_nearer() {
     let table = sampled(6, &COOK_TORRANCE);
@@ -132,7 +132,7 @@ fn a_diffuse_surface_has_rank_1_whatever_lies_outside_of_the_disc() {
     }
 }
 
-/// View and light exchanged: the factors change sides, up to a sign that no product shows.
+/// Exchanging view and light exchanges the factors, up to a sign that cancels in products.
 #[test]
 fn exchanging_view_and_light_exchanges_the_factors() {
     for table in tables() {
@@ -158,7 +158,7 @@ fn exchanging_view_and_light_exchanges_the_factors() {
     }
 }
 
-/// Without its cosine and with the same samples for both, a reciprocal reflectance is a symmetric table.
+/// Without the cosine and with the same samples for both sides, a reciprocal reflectance is a symmetric table.
 #[test]
 fn reciprocity_makes_a_symmetric_table() {
     struct WithoutCosine(Lobe);
@@ -185,7 +185,7 @@ fn reciprocity_makes_a_symmetric_table() {
     }
 }
 
-/// The paper's size, with sums on more and fewer threads.
+/// At the paper's size, the same bits on any number of threads.
 #[test]
 fn bits_do_not_depend_on_threads() {
     let on = |threads: usize| {
@@ -205,8 +205,8 @@ fn bits_do_not_depend_on_threads() {
     assert!(on(2) == one && on(5) == one);
 }
 
-/// Light of radiance 1 from everywhere: what terms reflect is what the table reflects, but for at most the first
-/// singular value that is left out times the length of the weights.
+/// Under uniform radiance 1 the truncated sum reflects the same as the table, up to the first singular value left out
+/// times the length of the weights.
 #[test]
 fn a_white_furnace_shows_what_terms_lose() {
     for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {
@@ -228,14 +228,14 @@ fn a_white_furnace_shows_what_terms_lose() {
             }
         }
     }
-    // Exact for a diffuse surface: albedo.
+    // Exact for a diffuse surface: the albedo.
     let diffuse = DiffuseFactor { albedo: 0.6 };
     let reflected = diffuse.view() * DirectionRule::hemisphere(9).integral(DiffuseFactor::light);
     assert!((reflected - 0.6).abs() < 1e-14, "{reflected}");
     assert_eq!(diffuse.view(), 0.6 / PI);
 }
 
-/// Isotropic lobes have their singular values in pairs; a number of terms that parts one is reported, another is not.
+/// Singular values of isotropic lobes come in pairs: a number of terms that splits a pair is reported, others are not.
 #[test]
 fn split_pairs_are_found() {
     let bare = Lobe {
@@ -254,7 +254,7 @@ fn split_pairs_are_found() {
     assert_eq!(found.split_pair(0), None);
 }
 
-/// Means over finer and finer samples approach each other; a limit is kept.
+/// Means over finer samples converge; the clamp holds for each texel.
 #[test]
 fn more_samples_agree_and_the_limit_holds() {
     let table = |edge: usize, clamp: ProductClamp| {
@@ -272,7 +272,7 @@ fn more_samples_agree_and_the_limit_holds() {
         let cut = table(3, clamp);
         assert!(cut.values().rows().flatten().all(|&value| (0.0..=0.2).contains(&value)), "{clamp:?}");
     }
-    // A mean of values that are cut off is not above a mean that is cut off.
+    // The mean of clamped values does not exceed the clamped mean.
     let [samples, means] = [table(3, ProductClamp::Samples(0.2)), table(3, ProductClamp::Means(0.2))];
     assert!(samples.values().rows().flatten().zip(means.values().rows().flatten()).all(|(a, b)| *a <= b + 1e-15));
     assert_eq!(ParabolicMap::new(6).texels(), 36);

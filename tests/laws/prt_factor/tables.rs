@@ -6,7 +6,7 @@ use std::path::Path;
 use crossbar::all_frequency::factor::{Factorization, FactorizationError, load_product_table};
 use proptest::prelude::*;
 
-/// What a file of these contents is.
+/// Loads a file with these contents: the sides of the view and the light map, or the error message.
 fn load(bytes: &[u8]) -> Result<[usize; 2], String> {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = folder.path().join("q.csv");
@@ -31,7 +31,7 @@ proptest! {
         }
     }
 
-    /// Only square numbers of rows and columns are maps.
+    /// Only square numbers of rows and columns make maps.
     #[test]
     fn squares_are_maps_and_nothing_else(rows in 1..30_usize, columns in 1..30_usize) {
         let text = (vec!["0.5"; columns].join(",") + "\n").repeat(rows);
@@ -41,7 +41,7 @@ proptest! {
     }
 }
 
-/// The example is factored; a table of zeros is dark.
+/// The example has terms; a table of zeros has none.
 #[test]
 fn the_example_has_terms() {
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/reflectance.csv");

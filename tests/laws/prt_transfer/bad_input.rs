@@ -1,4 +1,4 @@
-//! What is wrong with a mesh is counted or refused.
+//! Defects of a mesh are counted or refused.
 
 use crossbar::cpca::transfer::{Bounces, Response, TracedRays, Transfer};
 use crossbar::geom::{Hit, Mesh, Ray};
@@ -17,7 +17,7 @@ fn buried_vertices_are_listed() {
     let mesh = soup.flat();
     let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
     let rays = TracedRays::trace(&vertices, DirectionRule::hemisphere(10), &mut caster(&mesh), false).expect("traced");
-    // The inner box sees the outer one from behind.
+    // The inner box sees back faces of the outer one.
     assert_eq!(rays.counts.dark, (0..24).collect::<Vec<u32>>());
     assert_eq!(rays.counts.buried, rays.counts.dark);
     assert_eq!(rays.counts.below_horizon, 0);
@@ -32,7 +32,7 @@ fn rays_into_the_surface_are_counted() {
     let mut soup = Soup::default();
     soup.quad(DVec3::ZERO, DVec3::X, DVec3::Y);
     let mesh = soup.mesh().welded();
-    // Normals that look down, and along the square.
+    // Normals that point down, and along the square.
     for (normal, share) in [([0.0, 0.0, -1.0], 1.0), ([1.0, 0.0, 0.0], 0.5)] {
         let tilted = mesh.clone().with_normals(vec![normal; 4]).expect("normals");
         let vertices = Vertices::new(&tilted, Tangents::Any).expect("vertices");
@@ -44,7 +44,7 @@ fn rays_into_the_surface_are_counted() {
 
 #[test]
 fn corners_that_no_origin_is_clear_of_are_listed() {
-    // Two squares back to back, no space between: what is in front of one is behind the other.
+    // Two coincident squares back to back: the front of one is the back of the other.
     let mut soup = Soup::default();
     soup.quad(DVec3::ZERO, DVec3::X, DVec3::Y);
     soup.quad(DVec3::ZERO, DVec3::Y, DVec3::X);
@@ -90,7 +90,7 @@ impl Caster for Broken {
 #[test]
 fn a_failing_caster_is_reported() {
     let vertices = Vertices::new(&step(), Tangents::Any).expect("vertices");
-    // Which triangle a blocked ray hits is always asked.
+    // The triangle of a blocked ray is always requested.
     let error = TracedRays::trace(&vertices, DirectionRule::hemisphere(6), &mut Broken, true).expect_err("refused");
     assert!(matches!(error, TransferError::Cast(_)));
 }

@@ -1,4 +1,4 @@
-//! Patches that something stands on: their form factors and radiosities are those of what is open of them.
+//! Partly covered patches: form factors and radiosities are those of their open parts.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ fn solved(patches: &Patches, factors: &FormFactors) -> Vec<[f64; 3]> {
     system.solve(Solver::GaussSeidel, &options, None).expect("a solution").radiosity()
 }
 
-/// Whether a point of the floor is under a block: on the same side of all sides of its foot.
+/// True if a point of the floor is under a block: inside one of the feet.
 fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
     FEET.iter().any(|foot| {
         (0..4).all(|i| {
@@ -46,7 +46,7 @@ fn under_a_block(DVec3 { x, y, .. }: DVec3) -> bool {
     })
 }
 
-/// Points of a patch that no block stands on, and the share of all that they are.
+/// Random points on the open part of a patch, and that part's share of the area.
 fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
     let random = CounterRng::new(seed);
     let (mut points, mut tried) = (Vec::new(), 0);
@@ -61,7 +61,7 @@ fn open_points(patch: &Patch, count: u64, seed: u64) -> (Vec<DVec3>, f64) {
     (points, share)
 }
 
-/// The radiosity around a point by paths: one pixel, looked at from just above.
+/// The radiosity at a point by path tracing: one pixel, seen from just above.
 fn radiosity_by_paths(
     scene: &Scene,
     caster: &mut dyn crossbar::tracer::Caster,
@@ -85,12 +85,12 @@ fn estimate(values: &[f64]) -> [f64; 2] {
     [mean, (square / n).sqrt()]
 }
 
-/// The open parts of the floor are the floor without the feet.
+/// The open area of the floor is its area without the feet.
 #[test]
 fn open_areas_are_what_the_feet_leave() {
     let scene = scene();
     let feet: f64 = FEET.iter().map(|foot| shoelace(foot).abs()).sum();
-    // Cuts nearer than four lifts (2^-16 of the diagonal) to a border are not made, along each foot at most.
+    // Cuts within four lifts (2^-16 of the diagonal) of a border are not made, at most along each foot.
     let perimeter: f64 = FEET.iter().flat_map(|foot| (0..4).map(|i| distance(foot[i], foot[(i + 1) % 4]))).sum();
     let finest = 4.0 * (3.0_f64 * 5.5 * 5.5).sqrt() / 65_536.0;
     for count in [20, 150, 700, 2000] {
@@ -130,8 +130,8 @@ fn enforcing_closure_hardly_changes_a_room_with_blocks() {
         worst = (0..3).map(|c| (closed[i][c] / found[i][c] - 1.0).abs()).fold(worst, f64::max);
         light = [light[0] + factors.areas()[i] * found[i][0], light[1] + factors.areas()[i] * closed[i][0]];
     }
-    // What closure takes away is the noise of nine rays a pair: 1.5 % of a patch at most here, and a fortieth of that
-    // of the room.
+    // Closure removes the noise of nine rays per pair: at most 1.5 % of a patch here, and a fortieth of that over the
+    // room.
     assert!(worst < 0.03, "a patch changes by {worst}");
     assert!(
         abs_diff_eq!(light[1] / light[0], 1.0, epsilon = 1e-3),
@@ -160,8 +160,8 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
             points.iter().map(|&p| radiosity_by_paths(&scene, &mut caster, [p, patch.normal()], 64)).collect();
         for c in 0..3 {
             let [truth, sigma] = estimate(&seen.iter().map(|b| b[c]).collect::<Vec<_>>());
-            // Four standard errors of the paths and points. A patch of this size is one radiosity in uneven light: a
-            // tenth.
+            // Four standard errors of the paths and points, plus a tenth: a patch of this size has one radiosity under
+            // uneven light.
             for (what, b) in [("found", found[i][c]), ("closed", closed[i][c])] {
                 let off = (b - truth).abs();
                 let message = format!("{what}: patch {i}, {share} open, channel {c}: {b} against {truth} +- {sigma}");
@@ -171,7 +171,7 @@ fn a_patch_mostly_under_a_block_is_as_bright_as_paths_say() {
         }
     }
     assert!(compared >= 5, "{compared}");
-    // Over all of them light is not uneven to one side.
+    // Over all patches the unevenness of the light averages out.
     for bias in bias {
         let mean = bias.iter().sum::<f64>() / bias.len() as f64;
         assert!(mean.abs() < 0.06, "{mean}: {bias:?}");

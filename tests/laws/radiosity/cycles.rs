@@ -1,4 +1,4 @@
-//! Where iterations on a card end: at a fixed point, in a cycle, or nowhere within their number.
+//! The end of an iteration on a card: a fixed point, a cycle, or the limit of iterations.
 
 use crossbar::radiosity::card_order::CardSystem;
 use crossbar::radiosity::on_card::{CardOptions, CardSolution, CardSolver, Cycle, Storage};
@@ -9,7 +9,7 @@ use refsim::machine::ExecutorKind;
 
 use super::{cornell, random_system};
 
-/// A tolerance that no iteration meets.
+/// Options with a tolerance of 0, which no iteration meets unless it reaches a fixed point.
 const ENDLESS: CardOptions = CardOptions { tolerance: 0.0, most_iterations: 400, check_every: 1 };
 
 fn card(system: &System, packing: Packing, storage: Storage) -> CardSolver {
@@ -32,8 +32,8 @@ fn small(size: usize, seed: u64) -> System {
     System::new(factors, vec![[0.9, 0.7, 0.3]; size], emittance).expect("a system")
 }
 
-/// All states by the host's loop, in the order of the card's passes, until one comes back; the iteration after which it
-/// came first.
+/// All states of the host's loop, in the order of the card's passes, up to the first repetition; and the iteration of
+/// the repeated state's first occurrence.
 fn orbit(system: &System) -> (Vec<Vec<[f32; 3]>>, usize) {
     let host = CardSystem::rgb(system, 254, 4096).expect("it fits");
     let (mut state, mut states) = (host.zero(), Vec::<Vec<[f32; 3]>>::new());
@@ -51,7 +51,7 @@ fn bits(state: &[[f32; 3]]) -> Vec<u32> {
     state.iter().flatten().map(|x| x.to_bits()).collect()
 }
 
-/// What an orbit says of its cycle, found by comparing all states with each other.
+/// The cycle of an orbit, found by comparing all states with each other.
 fn by_hand((states, entered): &(Vec<Vec<[f32; 3]>>, usize)) -> Cycle {
     let cycle = &states[*entered..];
     let (mut changing, mut largest_change) = (0, 0.0_f64);
@@ -75,7 +75,7 @@ fn cycles_and_fixed_points_are_those_of_the_hosts_loop() {
             let found = card(&system, Packing::Rgb, Storage::Fp32).solve(&system, &ENDLESS, &mut |_| ());
             let found = found.expect("a solution");
             if found.converged {
-                // Not a bit is missing: the residual is 0.
+                // At a fixed point the residual is exactly 0.
                 assert_eq!(found.history.last().map(|last| last.1), Some([0.0; 3]));
                 continue;
             }
@@ -88,7 +88,7 @@ fn cycles_and_fixed_points_are_those_of_the_hosts_loop() {
     assert!(periods[&1] > 0 && periods.keys().any(|&period| period > 1), "both kinds occur: {periods:?}");
 }
 
-/// In half floats the card's own states are compared with each other.
+/// In half floats, where the host's loop is no reference, the card's own states are compared with each other.
 #[test]
 fn half_floats_go_round_too() {
     let mut longest = 0;

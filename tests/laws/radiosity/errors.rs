@@ -1,4 +1,4 @@
-//! What makes no radiosity is refused, in words that help.
+//! Invalid input of a radiosity solution is refused with helpful messages.
 
 use crossbar::geom::Mesh;
 use crossbar::linalg::{MatrixError, Singular};

@@ -1,4 +1,4 @@
-//! Form factors against closed forms, and against what must hold of all of them.
+//! Form factors against closed forms, and against properties of all form factors.
 
 use approx::abs_diff_eq;
 use crossbar::geom::Mesh;
@@ -12,14 +12,14 @@ use glam::DVec3;
 
 use super::tracer;
 
-/// What quadrature leaves of the row sums of a cut room (docs/papers/radiosity.md derives it).
+/// Quadrature error of the row sums of a subdivided room (docs/papers/radiosity.md derives it).
 const QUADRATURE: f64 = 2e-7;
 
 fn cube(per_side: u32) -> Patches {
     Patches::new(&rooms::furnace(0.5), Subdivision::PerSide(per_side)).expect("patches")
 }
 
-/// The closed form for two patches of the unit cube.
+/// Closed form for two patches of the unit cube.
 fn closed_form(one: &[DVec3], other: &[DVec3]) -> Option<Bounded> {
     let span = |corners: &[DVec3], axis: usize| {
         let values = corners.iter().map(|corner| corner[axis]);
@@ -80,18 +80,18 @@ fn every_pair_of_a_cut_cube_agrees_with_the_corner_sums_within_their_error() {
 fn the_error_of_a_corner_sum_covers_what_cancels_and_says_not_much_more() {
     let side = |i: u32, n: u32| [f64::from(i) / f64::from(n), f64::from(i + 1) / f64::from(n)];
     for n in [16, 32, 64] {
-        // Far corners of opposite walls: a product rule without cancellation is the truth.
+        // Far corners of opposite walls: here a product rule, which has no cancellation, is the reference.
         let (one, other) = ([side(0, n); 2], [side(n - 1, n); 2]);
         let sum = parallel(one, other, 1.0);
         let truth = product_rule(one, other);
         let off = (sum.value - truth).abs();
         assert!(off <= sum.error + 1e-12 * truth, "{n}: {sum:?}, truth {truth}");
-        // Sixteen terms of order 1 leave the areas' product.
+        // Sixteen terms of order 1 cancel down to the product of the areas.
         assert!(sum.error < 1e-12 * f64::from(n * n * n * n) * truth, "{n}: {sum:?}");
     }
 }
 
-/// Simpson's rule on 9 x 9 points is good to 1e-12 this far away.
+/// Simpson's rule on 9 x 9 points has an error below 1e-12 at this distance.
 fn product_rule(one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> f64 {
     let weights = [1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0].map(|w| w / 24.0);
     let at = |[low, high]: [f64; 2], k: usize| low + (high - low) * k as f64 / 8.0;
@@ -121,7 +121,7 @@ fn closed_rooms_close_and_pairs_are_reciprocal() {
     }
 }
 
-/// A regular tetrahedron seen from inside: each wall sees the other three alike.
+/// A regular tetrahedron seen from inside: each wall sees the other three equally.
 fn tetrahedron() -> Scene {
     let corners = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
@@ -146,7 +146,7 @@ fn a_tetrahedron_shares_its_light_evenly() {
 fn enforcement_closes_rows_and_keeps_reciprocity() {
     let patches = Patches::new(&rooms::cornell(CornellBox::default()), Subdivision::AtMost(200)).expect("patches");
     let mut factors = FormFactors::unoccluded(&patches).expect("factors");
-    // Spoil them by up to a tenth.
+    // Perturb the factors by up to a tenth.
     let mut spoilt = factors.matrix().clone();
     for i in 0..spoilt.row_count() {
         for (j, value) in spoilt.row_mut(i).iter_mut().enumerate() {
@@ -165,7 +165,7 @@ fn a_point_sees_of_a_patch_what_rays_find() {
     let random = CounterRng::new(8);
     let patch = [[0.3, 2.0, -0.5], [1.4, 2.2, 0.6], [0.2, 1.9, 1.5], [-0.9, 1.7, 0.4]].map(DVec3::from);
     let factor = point_to_polygon(DVec3::ZERO, DVec3::Y, &patch);
-    // Uniform points of the disc are a cosine-distributed direction each (Nusselt's analogue).
+    // Uniform points of the unit disk give cosine-distributed directions (Nusselt's analogue).
     let (mut hits, mut all) = (0_u32, 0_u32);
     for i in 0..200_000 {
         let [x, z] = [0, 1].map(|d| 2.0 * random.unit(i, 0, d) - 1.0);
@@ -179,7 +179,7 @@ fn a_point_sees_of_a_patch_what_rays_find() {
     assert!(abs_diff_eq!(share, factor, epsilon = 5.0 * sigma), "{factor} against {share} of {all} rays");
 }
 
-/// Whether the direction is on the same side of all planes through the origin and a side.
+/// True if the direction lies on the same side of all planes through the origin and an edge.
 fn pierces(corners: &[DVec3; 4], d: DVec3) -> bool {
     (0..4).all(|i| corners[i].cross(corners[(i + 1) % 4]).dot(d) <= 0.0)
 }
@@ -240,9 +240,9 @@ fn a_closed_room_with_blocks_closes_but_for_what_is_wholly_under_them() {
     let parameters = VisibilityParameters { side: 2, ..VisibilityParameters::default() };
     let mut factors =
         FormFactors::with_visibility(&patches, &mut tracer(&scene), parameters, &mut |_, _| ()).expect("factors");
-    // A pair's share is the mean of side^2 samples of 0 or 1: it deviates by at most 1 / (2 side), a row by that times
-    // the root of the sum of its squares. Five deviations. What a block covers of a patch of the floor does not count;
-    // blind patches are wholly covered.
+    // The visibility of a pair is the mean of side^2 samples of 0 or 1: its standard deviation is at most 1 / (2 side),
+    // that of a row sum this times the root of the sum of its squares. Five deviations. The covered part of a floor
+    // patch does not count; blind patches are wholly covered.
     let covered = |i: usize| patches.open_parts(i).is_empty();
     for (i, (sum, row)) in factors.row_sums().into_iter().zip(open.matrix().rows()).enumerate() {
         let squares: f64 = row.iter().map(|f| f * f).sum();

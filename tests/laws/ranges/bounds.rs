@@ -1,10 +1,10 @@
-//! How far a card's rounding can move u, v, w, n.d, n.ao and t: forward error analysis of the programs, operation by
-//! operation, for formats whose range is never left. Every operation is charged a whole step, so that every rounding
-//! is covered.
+//! Bounds of the error of u, v, w, n.d, n.ao and t by a card's rounding: forward error analysis of the programs,
+//! operation by operation, for formats whose range is never left. Each operation is charged one whole step, which
+//! covers every rounding mode.
 //!
-//! What the host multiplies the scene and the edges by is not read from the program under test. Fixed-point errors are
-//! taken at the worst of the scales that the rule "as large as fits" leaves open: S within a factor of eight, k at
-//! least half of what coarse magnitudes allow.
+//! The scale factors of scene and edges are not read from the program under test. Fixed-point errors are taken at the
+//! worst of the scales that the rule "as large as fits" admits: S within a factor of eight, k at least half of the
+//! value that coarse magnitudes allow.
 
 use crossbar::geom::exact::Sides;
 use crossbar::geom::vector::wide;
@@ -16,12 +16,12 @@ use refsim::num::FormatKind;
 
 use super::power_of_two;
 
-/// Rounding errors of single precision in a few operations: the vertex programs.
+/// Relative error of a vertex program: a few operations in single precision.
 const SINGLE: f64 = 1.0 / (1 << 20) as f64;
-/// Below this share of the largest depth a hit is safe from the far end.
+/// Relative depth below which a hit surely lies before the far end.
 const LAST_DEPTH: f64 = 0.02;
 
-/// What a ray hits first, if that is beyond doubt.
+/// The first hit of a ray, where the error bounds leave no doubt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum First {
     Hit { triangle: u32, t: f64, error: f64 },
@@ -29,14 +29,14 @@ pub(crate) enum First {
     Unclear,
 }
 
-/// One triangle under one ray.
+/// The result for one triangle and one ray.
 enum Judgement {
     Hit {
         t: f64,
         error: f64,
     },
     Miss,
-    /// Perhaps a hit, but none before this t.
+    /// A hit or a miss within the error bounds; if a hit, at this t or beyond.
     Unclear {
         from: f64,
     },
@@ -45,18 +45,18 @@ enum Judgement {
 /// The bounds of a batch.
 pub(crate) struct Bounds {
     format: FormatKind,
-    /// Whether n.d is a divisor up to 1 only.
+    /// True if n.d is used as a divisor up to 1 only.
     min1: bool,
     one_origin: bool,
     /// The largest components of offsets, origins and corners.
     offset: f64,
     origin: f64,
     corner: f64,
-    /// The largest t for directions in range.
+    /// The largest t of a ray whose direction is in range.
     t: f64,
 }
 
-/// Exact values for a ray whose direction is in range, but for the rounding of f64.
+/// Exact values, up to the rounding of f64, for a ray whose direction is in range.
 struct Exact {
     edges: [DVec3; 3],
     offsets: [DVec3; 2],
@@ -68,14 +68,14 @@ struct Exact {
     n_ao: f64,
 }
 
-/// The errors of the same, and of t; and the smallest n.ao that still has its sign.
+/// Error bounds of the values of [`Exact`] and of t; and the smallest n.ao whose sign is certain.
 #[derive(Clone, Copy)]
 struct Errors {
     inside: [f64; 3],
     n_d: f64,
     n_ao: f64,
     t: f64,
-    /// The error of the depth as a share of its range.
+    /// Error of the depth, relative to its range.
     depth: f64,
 }
 
@@ -87,23 +87,23 @@ fn sum(v: DVec3) -> f64 {
     v.abs().element_sum()
 }
 
-/// The sum of the magnitudes of an inner product's terms.
+/// Sum of the magnitudes of the terms of an inner product.
 fn inner(a: DVec3, b: DVec3) -> f64 {
     a.abs().dot(b.abs())
 }
 
-/// The magnitudes of a cross product's terms.
+/// Sums of the magnitudes of the terms of a cross product.
 fn mixed(a: DVec3, b: DVec3) -> DVec3 {
     let (a, b) = (a.abs(), b.abs());
     a.yzx() * b.zxy() + a.zxy() * b.yzx()
 }
 
-/// The largest power of two not above a positive number.
+/// The largest power of two that does not exceed a positive number.
 fn power_below(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
 }
 
-/// A direction in range, and the power that brought it there.
+/// The direction scaled into range, and the power of two by which it was scaled.
 fn in_range(ray: &Ray) -> (DVec3, f64) {
     let d = wide(ray.direction());
     let power = 0.5 / power_below(largest(d));
@@ -184,7 +184,7 @@ impl Bounds {
             FormatKind::Float { exp_bits, man_bits } => self.float(&exact, (o, corners), exp_bits, man_bits),
         };
         let passes = |sign: f64| {
-            // Some number has the wrong sign for sure, or all have the right one.
+            // A certain miss has a value with a certainly wrong sign; in a certain hit all signs are certainly right.
             let margins = [
                 sign * exact.inside[0] / errors.inside[0],
                 sign * exact.inside[1] / errors.inside[1],
@@ -212,7 +212,7 @@ impl Bounds {
         match verdict {
             Some(true) => Judgement::Hit { t: -exact.n_ao / exact.n_d * power, error: errors.t * power },
             Some(false) => Judgement::Miss,
-            // In the plane or nearly so, t may be anything.
+            // With n.d near 0 the bound of t is useless: any t is possible.
             None if exact.n_d.abs() > 4.0 * errors.n_d && errors.depth < LAST_DEPTH => {
                 Judgement::Unclear { from: (-exact.n_ao / exact.n_d - errors.t) * power }
             }
@@ -220,7 +220,7 @@ impl Bounds {
         }
     }
 
-    /// At the worst of the scales that come into question.
+    /// Errors in fixed point, at the worst of the admissible scales.
     fn fixed(&self, exact: &Exact, end: f64, step: f64) -> Errors {
         let mut least = end / (4.0 * self.offset);
         if !self.one_origin {
@@ -237,7 +237,7 @@ impl Bounds {
         })
     }
 
-    /// With the scene at a scale: card units in a scene unit.
+    /// Errors in fixed point at one scale, in card units per scene unit.
     fn fixed_at(&self, exact: &Exact, end: f64, step: f64, scale: f64) -> Errors {
         let offset = (self.offset * scale).min(end);
         let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max) * scale;
@@ -282,13 +282,13 @@ impl Bounds {
     fn float(&self, exact: &Exact, (o, [a, b, _]): (DVec3, [DVec3; 3]), exp_bits: u8, man_bits: u8) -> Errors {
         let share = power_of_two(-i32::from(man_bits));
         let bias = (1 << (exp_bits - 1)) - 1;
-        // Below the smallest normal number errors are no shares; half the smallest scale is on the safe side.
+        // Below the smallest normal number errors are absolute; half the smallest scale is a safe bound.
         let (tiny, end) = (power_of_two(1 - bias), power_of_two(bias - 1));
         let most = end / 4.0;
         let scale = 0.5 * power_below((most.min(4.0) / self.corner).min(most / self.offset.max(self.origin)));
         let normal = largest(exact.n);
         let edge = exact.edges.map(largest).into_iter().fold(0.0, f64::max);
-        // What the card multiplies areas by: so much that the normal is near 1, unless the sums then grow too large.
+        // Factor of the areas: brings the normal near 1, or is smaller where sums would leave the range.
         let sums = (6.0 * edge * self.offset)
             .max(3.3 * normal)
             .max(3.0 * normal * self.offset * scale * 4.0)

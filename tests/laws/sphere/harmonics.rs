@@ -1,4 +1,4 @@
-//! Harmonics against their definition, orthonormality, the addition theorem and other people's constants.
+//! Spherical harmonics against their definition, orthonormality, the addition theorem and published constants.
 
 use std::f64::consts::PI;
 
@@ -22,8 +22,8 @@ fn functions_are_orthonormal_at_every_order() {
     }
 }
 
-/// Rodrigues: P_l is the l-th derivative of (z^2 - 1)^l / (2^l l!); y_lm has its m-th derivative, the real or imaginary
-/// part of (x + iy)^m, and a norm of factorials. All coefficients are whole numbers that f64 holds.
+/// y_lm by Rodrigues' formula: P_l is the l-th derivative of (z^2 - 1)^l / (2^l l!); y_lm is the m-th derivative of P_l
+/// times the real or imaginary part of (x + iy)^m and a normalising factor. All coefficients are integers exact in f64.
 fn by_definition(index: usize, v: DVec3) -> f64 {
     let (l, m) = function_band(index);
     let sine = m < 0;
@@ -63,7 +63,7 @@ proptest! {
         prop_assert_eq!(&functions(order, v)[..], &functions(MAX_ORDER, v)[..function_count(order)]);
     }
 
-    /// Of band l, the sum of y(a) y(b) is (2l + 1) / (4 pi) P_l(a . b).
+    /// Addition theorem: the sum over band l of y(a) y(b) is (2l + 1) / (4 pi) P_l(a . b).
     #[test]
     fn bands_obey_the_addition_theorem(a in direction(), b in direction()) {
         let [ya, yb] = [a, b].map(|v| functions(MAX_ORDER, v));
@@ -89,7 +89,7 @@ proptest! {
     fn signs_of_d3dx_twice_are_ours(c in coefficients(6), v in direction()) {
         let mut swapped = c.clone();
         swap_d3dx_signs(&mut swapped);
-        // D3DX's y_lm(x, y, z) is ours at (-x, -y, z).
+        // D3DX's y_lm(x, y, z) is our y_lm(-x, -y, z).
         let turned = DVec3::new(-v.x, -v.y, v.z);
         prop_assert!((evaluate(&swapped, turned) - evaluate(&c, v)).abs() < 1e-13);
         swap_d3dx_signs(&mut swapped);
@@ -117,7 +117,7 @@ fn d3dx_has_these_constants() {
     assert!(distance(&found, &expected) < 1e-15, "{found:?}");
 }
 
-/// What a signed 16-bit map of the functions needs: up to order 6 none exceeds 1.
+/// A signed 16-bit map of the functions needs values in [-1, 1]: up to order 6 none exceeds 1.
 #[test]
 fn functions_up_to_order_6_stay_below_1() {
     for (order, largest) in [(5, (9.0 / (4.0 * PI)).sqrt()), (6, 0.935_602_579), (7, 1.017_107_236)] {

@@ -29,7 +29,7 @@ fn the_gram_matrix_is_that_of_a_rule_over_the_hemisphere() {
     }
 }
 
-/// Rounding of the product alone is the condition times 2^-53, and the inverse loses only the root of the condition.
+/// Rounding of the product alone is the condition number times 2^-53; the inverse's own error is that of its root.
 #[test]
 fn the_inverse_is_one() {
     for order in 1..=MAX_ORDER {
@@ -41,7 +41,7 @@ fn the_inverse_is_one() {
     }
 }
 
-/// By exact fractions the diagonal of the inverse is whole. Those of l = 0, 1 and 2 with m = 0.
+/// In exact fractions the diagonal of the inverse consists of integers. Here: l = 0, 1 and 2 with m = 0.
 #[test]
 fn the_diagonal_of_the_inverse_is_whole() {
     for (order, expected) in [
@@ -60,7 +60,7 @@ fn the_diagonal_of_the_inverse_is_whole() {
     }
 }
 
-/// A is 1/2 plus a matrix that only couples functions of odd with those of even l + m.
+/// A is 1/2 I plus a matrix that couples functions of odd l + m with those of even l + m only.
 #[test]
 fn the_spectrum_is_symmetric_about_one_half() {
     for order in 1..=MAX_ORDER {
@@ -132,7 +132,7 @@ proptest! {
         prop_assert!(distance(&found, &c) < 1e-9, "{:e}", distance(&found, &c));
     }
 
-    /// What least squares leaves over is orthogonal to every function over the hemisphere.
+    /// The residual of least squares is orthogonal to every basis function over the hemisphere.
     #[test]
     fn residuals_of_least_squares_are_orthogonal(c in coefficients(8)) {
         let rule = DirectionRule::hemisphere(14);
@@ -141,7 +141,7 @@ proptest! {
         prop_assert!(distance(&left, &[0.0; 16]) < 1e-11);
     }
 
-    /// Dividing by z undoes it exactly where z f is odd in z and within the order: f even in z, one order lower.
+    /// Dividing by z inverts it exactly where z f is odd in z and within the order: f even in z, one order lower.
     #[test]
     fn scaled_odd_reflection_reproduces_even_functions_of_lower_order(mut c in coefficients(4)) {
         for (index, c) in c.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Pass 3 on a card: pixels against the formulas in f64, and no face that reads another's texels.
+//! Pass 3 on a card: pixels agree with the formulas in f64, and no face reads texels of another.
 
 use crossbar::atlas::Atlas;
 use crossbar::card::{MeshView, Texels};
@@ -31,7 +31,7 @@ fn options() -> SubsurfaceCardOptions {
     SubsurfaceCardOptions { light: LightStage::Texels, ..SubsurfaceCardOptions::default() }
 }
 
-/// Each face in a color of its own: every pixel has exactly one of them, whatever the view.
+/// Each face has a color of its own: every pixel has exactly one of these colors, in every view.
 #[test]
 fn no_face_reads_another() {
     let colors: Vec<[f64; 3]> = (0..12).map(|face| [1.0 + f64::from(face), 0.7 * f64::from(face), 0.3]).collect();
@@ -72,7 +72,7 @@ fn slivers() -> Mesh {
     Mesh::new(positions, faces).expect("a mesh")
 }
 
-/// What pass 3 computes on a flat face, in f64.
+/// Pass 3 for flat faces on the host, in f64.
 struct Host<'a> {
     atlas: &'a Atlas,
     mesh: &'a Mesh,
@@ -82,7 +82,7 @@ struct Host<'a> {
 }
 
 impl Host<'_> {
-    /// The color at a point of the picture if a face is seen there.
+    /// The color at a point of the picture; `None` if the ray does not meet this face.
     fn color(&self, x: f64, y: f64, face: u32) -> Option<[f64; 3]> {
         let (eye, direction) = (wide(self.view.mesh.camera.eye()), self.view.mesh.camera.direction_at(x, y));
         let [a, b, c] = self.mesh.corners(face)?.map(wide);
@@ -154,9 +154,9 @@ impl Host<'_> {
     }
 }
 
-/// Snapping to a sixteenth of a pixel moves a corner by a thirty-second along each axis: a pixel shows what lies within
-/// that. So each channel lies between the least and the largest of the formula at 5 x 5 points around the center, but
-/// for what a kink between two of them exceeds both by, a quarter of the range, and `error` of the brightest.
+/// Snapping to a sixteenth of a pixel moves a corner by up to a thirty-second along each axis. So each channel must lie
+/// between the least and the largest value of the formula at 5 x 5 points around the center, widened by a quarter of
+/// that range, because a kink may fall between two points, and by `error` relative to the brightest value.
 fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize {
     const STEPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
     let picture = card.view_texels(&host.view).expect("a picture");
@@ -165,7 +165,7 @@ fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize
     for (pixel, found) in picture.texels.iter().enumerate() {
         let [x, y] = [pixel % picture.width, pixel / picture.width].map(|at| at as f64 + 0.5);
         let around = || STEPS.into_iter().flat_map(|dx| STEPS.map(|dy| (x + dx / 16.0, y + dy / 16.0)));
-        // Where all points around see one face, that face is in front: a cube shows no face behind another.
+        // Where all points around see one face, it is in front: a cube has no front face behind another.
         let face = (0..host.mesh.len() as u32).find(|&face| host.color(x, y, face).is_some());
         let seen = face.and_then(|face| around().map(|(x, y)| host.color(x, y, face)).collect::<Option<Vec<_>>>());
         let Some(colors) = seen else { continue };
@@ -187,7 +187,7 @@ fn pixels_agree(card: &mut SubsurfaceCard, host: &Host<'_>, error: f64) -> usize
     compared
 }
 
-/// The table's errors: linear between 256 entries of 16 bits with weights of 8 bits, T' < 10, T'' < 40.
+/// Error of the table lookup: linear between 256 entries of 16 bits with weights of 8 bits, T' < 10, T'' < 40.
 const TABLE: f64 = 40.0 / 8.0 / (255.0 * 255.0) + 10.0 / 255.0 / 512.0 + 1.0 / 65536.0;
 
 #[test]
@@ -199,7 +199,7 @@ fn pixels_are_those_of_the_formulas() {
     let mut compared = 0;
     for kernel in ViewKernel::all() {
         for camera in cameras() {
-            // A highlight is not linear between vertices, nor is a point light.
+            // Highlights and point lights are not linear between vertices.
             let specular = if kernel.direct == DirectLight::ByFragment { [0.5, 0.4, 0.3] } else { [0.0; 3] };
             let lights = if kernel.direct == DirectLight::ByVertex { &all[..2] } else { &all[..] };
             card.light(lights).expect("light");
@@ -232,7 +232,7 @@ fn a_picture_of_8_bits_is_the_float_one_rounded() {
     }
 }
 
-/// By fragment 60 constants hold 15 lights, by vertex 256 instructions 11.
+/// By fragment, 60 constants hold 15 lights; by vertex, 256 instructions suffice for 11.
 #[test]
 fn more_direct_lights_than_a_program_takes_are_refused() {
     let atlas = atlas(2.0);

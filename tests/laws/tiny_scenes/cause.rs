@@ -1,24 +1,24 @@
-//! Why fp32 answers differently than exact arithmetic: the operation that rounding turned.
+//! Causes of wrong fp32 answers: the quantity that rounding changed.
 
 use crossbar::geom::exact;
 use crossbar::geom::{Hit, Mesh, Ray, Sides};
 use crossbar::oracle::{Disagreement, DisagreementKind};
 
-/// What rounding did.
+/// The quantity whose rounding made an fp32 answer wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Cause {
-    /// A sign of u, v or w: on which side of an edge the ray passes.
+    /// The sign of u, v or w: the side of an edge on which the ray passes.
     Edge,
-    /// The sign of n.d, or the normal itself: a triangle or a ray so nearly in a plane that fp32 sees another side, or
-    /// none.
+    /// The sign of n.d, or the normal itself: triangle and ray so nearly coplanar that fp32 finds the other side, or no
+    /// normal.
     Plane,
     /// The sign of t: the origin lies on the surface, or next to it.
     Start,
-    /// t by more than the tolerance, or the order of two t.
+    /// t by more than the tolerance, or the order of two values of t.
     Depth,
-    /// An infinity, or NaN from one, on the way.
+    /// An infinity, or a NaN from one, as an intermediate result.
     Overflow,
-    /// A number below the normal range on the way.
+    /// An intermediate result below the normal range.
     Underflow,
 }
 
@@ -27,7 +27,7 @@ impl Cause {
         [Self::Edge, Self::Plane, Self::Start, Self::Depth, Self::Overflow, Self::Underflow];
 }
 
-/// Equations (1) to (8) in one number format, the direction scaled by a power of two.
+/// Equations (1) to (8) in one number format, with the direction scaled by a power of two.
 macro_rules! equations {
     ($name:ident, $real:ty) => {
         pub(crate) struct $name {
@@ -95,7 +95,7 @@ pub(crate) fn scale(mesh: &Mesh) -> f64 {
     scale
 }
 
-/// A component of a direction, scaled by the power of two that brings the largest into [1/2, 1).
+/// A component of a direction, scaled by the power of two that brings the largest component into [1/2, 1).
 fn half_to_one(x: f32, largest: f32) -> f64 {
     let mut scaled = (f64::from(x), f64::from(largest));
     while scaled.1 >= 1.0 {
@@ -112,7 +112,7 @@ impl Single {
         !self.products.iter().chain(&[self.n_ao, self.n_d, self.t()]).all(|x| x.is_finite()) && self.n_d != 0.0
     }
 
-    /// A product that is no normal number though its factors are not zero: seen against f64.
+    /// True if a product of non-zero factors is subnormal or 0 in f32, by comparison with f64.
     fn underflows(&self, double: &Double) -> bool {
         let lost = |(single, double): (&f32, &f64)| {
             double.abs() > 0.0 && single.abs() < f32::MIN_POSITIVE && double.abs() < f64::from(f32::MIN_POSITIVE)
@@ -120,7 +120,7 @@ impl Single {
         self.products.iter().zip(&double.products).any(lost)
     }
 
-    /// Which of the three tests lets a ray past, or through.
+    /// The test of f32 that rejects the ray, among plane, edges and start.
     fn turned(&self, sides: Sides) -> Cause {
         if self.n == [0.0; 3] || !self.faces(sides) {
             Cause::Plane
@@ -133,7 +133,7 @@ impl Single {
 }
 
 impl Double {
-    /// Which test a triangle that the ray does not meet fails, as well as f64 can tell.
+    /// The test that a missed triangle fails in f64.
     fn fails(&self, sides: Sides) -> Cause {
         if self.outside() && self.n_d != 0.0 {
             Cause::Edge
@@ -147,7 +147,7 @@ impl Double {
     }
 }
 
-/// The f32 test of one triangle at a scale, said once more: t along the ray's direction in range.
+/// The f32 test of one triangle at a scale, written independently: t along the direction scaled into range.
 pub(crate) fn meets(ray: &Ray, corners: [[f32; 3]; 3], sides: Sides, scale: f64) -> bool {
     let single = Single::new(ray, corners, scale);
     let t = single.t();

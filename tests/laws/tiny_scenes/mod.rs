@@ -2,10 +2,10 @@
 //! planes, from surfaces, with zeros of both signs) through every path: no panic, no hang, no lost hit, and the same
 //! bits.
 //!
-//! **What is held.** The yardstick is the f32 test of the card among all pairs. Where its triangle is the right one in
-//! exact arithmetic, or rightly none, every path gives its bits. Where it is not, or t is off by a hundredth or more, a
-//! path may differ, but only in leaving out what fp32 sees where nothing is: whatever a path finds, the f32 test
-//! grants. How often fp32 is wrong, and by which rounding, is the table of docs/papers/ray_engine.md.
+//! **What is tested.** The baseline is the card's f32 test over all pairs. Where its answer is right in exact
+//! arithmetic, every path gives its bits. Where it is wrong, or t is off by a hundredth or more, a path may differ, but
+//! only by skipping triangles: every hit that a path reports passes the f32 test. How often fp32 is wrong, and by which
+//! rounding, is the table of docs/papers/ray_engine.md.
 
 mod cause;
 mod scene;
@@ -28,9 +28,9 @@ use refsim::machine::ExecutorKind;
 use scene::Scene;
 
 const SCENES: u64 = 10_000;
-/// Scenes of which one goes to the card; all with `CROSSBAR_FULL=1`.
+/// One scene in this many goes to the card; all with `CROSSBAR_FULL=1`.
 const ON_CARD: usize = 8;
-/// A t so many ULPs off, a hundredth of it or more, lies elsewhere.
+/// ULPs by which a t is off by a hundredth or more.
 const ASTRAY: u64 = 1 << 17;
 const TOLERANCE: Tolerance = Tolerance::ulps(4);
 
@@ -41,7 +41,7 @@ const OCTREES: [OctreeParameters; 4] = [
     OctreeParameters { most_triangles: 1, most_depth: 20 },
 ];
 
-/// What the f32 test says among all pairs, and where that is wrong.
+/// The answers of the f32 test over all pairs of a scene, and which of them are wrong.
 struct Yardstick {
     scene: Scene,
     hits: Vec<Option<Hit>>,
@@ -59,7 +59,8 @@ impl Yardstick {
         Self { scene, hits, wrong }
     }
 
-    /// Holds a path to it: the rays on which they differ, each explained.
+    /// Compares the hits of a path with the baseline: returns the number of rays that differ; panics at one without
+    /// excuse.
     fn hold(&self, name: &str, number: u64, hits: &[Option<Hit>]) -> usize {
         let bits = |hit: &Option<Hit>| hit.map(|hit| (hit.triangle, hit.t.to_bits()));
         assert_eq!(self.hits.len(), hits.len());
@@ -82,7 +83,7 @@ impl Yardstick {
         differing
     }
 
-    /// The f32 test of one triangle, in a mesh as large as the scene: points have no area and are not hit.
+    /// The f32 test of one triangle, in a mesh with the scene's bounds, which two degenerate triangles span.
     fn alone(&self, ray: &Ray, triangle: u32) -> Option<Hit> {
         let corners = self.scene.mesh.corners(triangle)?;
         let positions = corners.into_iter().chain(self.scene.mesh.bounds()?).collect();
@@ -91,12 +92,12 @@ impl Yardstick {
     }
 }
 
-/// The yardsticks of all scenes, which every test holds something to. A test names them before it starts work in
-/// parallel: a worker that waited for another one's yardsticks could be the one that is to make them.
+/// The baselines of all scenes, shared by the tests. Tests must use this before they start work in parallel: a worker
+/// that waits for the initialisation could be the one that has to run it.
 static YARDSTICKS: LazyLock<Vec<Yardstick>> =
     LazyLock::new(|| (0..SCENES).into_par_iter().map(Yardstick::new).collect());
 
-/// The sum of what `each` counts of one scene in `step`; scenes run in parallel.
+/// The sum of `each` over every `step`-th scene; scenes run in parallel.
 fn sum(step: usize, each: impl Fn(u64, &Yardstick) -> usize + Sync + Send) -> usize {
     let yardsticks: &[Yardstick] = &YARDSTICKS;
     yardsticks.par_iter().enumerate().step_by(step).map(|(number, yardstick)| each(number as u64, yardstick)).sum()
@@ -117,7 +118,7 @@ fn the_octree_finds_what_all_pairs_find() {
         }
         differing
     });
-    // Where fp32 is wrong. The page says 1 in 5,000 of these answers.
+    // Rays on which fp32 is wrong: 1 in 5,000 answers according to the page.
     assert!(differing < 400, "{differing} answers differ");
 }
 
@@ -128,8 +129,8 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
     sum(step, |number, yardstick| {
         let scene = &yardstick.scene;
         let mut differing = 0;
-        // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is none: scenes of one size
-        // have no such t.
+        // A t far below a batch's largest loses bits in the depth buffer, and one beyond it is lost: scenes of moderate
+        // size have no such t.
         if scene.moderate {
             let card = Crossbar::new(profile(), ExecutorKind::Batch).all_pairs(true);
             let hits = card.intersect_list(&scene.mesh, &scene.rays, scene.sides).expect("the card works");
@@ -153,7 +154,7 @@ fn the_card_and_the_engine_find_what_all_pairs_find() {
 /// Counts by kind, then by cause.
 type Counts = BTreeMap<(DisagreementKind, Cause), usize>;
 
-/// The table of the page: how often fp32 is wrong, in which way, and by which rounding.
+/// The table of the page: how often fp32 is wrong, by kind and by rounding.
 fn table([rays, hits]: [usize; 2], counts: &Counts) -> String {
     let mut out = format!("| of {rays} rays, {hits} truly hit |");
     for cause in Cause::ALL {
@@ -184,7 +185,7 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
                 let cause = cause::of(&scene.mesh, &scene.rays[wrong.ray], scene.sides, wrong);
                 *counts.entry((wrong.kind, cause)).or_default() += 1;
             }
-            // The test's own equations are those of the tracer.
+            // The equations here are those of the tracer.
             let scale = cause::scale(&scene.mesh);
             for (ray, hit) in scene.rays.iter().zip(hits) {
                 let any = scene.mesh.iter_corners().any(|corners| cause::meets(ray, corners, scene.sides, scale));

@@ -1,22 +1,22 @@
-//! Tiny scenes by number: everything that an intersector has to live with, in a dozen triangles.
+//! Tiny scenes by number: the special cases of an intersector within a dozen triangles.
 
 use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray, Sides};
 
-/// Rays of a scene.
+/// Number of rays of a scene.
 const RAYS: usize = 16;
 
-/// A mesh of 1 to 12 triangles and rays that ask for trouble.
+/// A mesh of 1 to 12 triangles, and rays that are hard for it.
 pub(crate) struct Scene {
     pub(crate) mesh: Mesh,
     pub(crate) rays: Vec<Ray>,
     pub(crate) sides: Sides,
-    /// Whether its coordinates, or those of its rays' origins, are of one moderate size: products neither overflow nor
-    /// vanish in f32.
+    /// True if all coordinates, those of ray origins included, have one moderate size: products neither overflow nor
+    /// underflow in f32.
     pub(crate) moderate: bool,
 }
 
-/// Dice of one scene, thrown one after the other.
+/// Consecutive random numbers for one scene.
 struct Dice {
     stream: CounterRng,
     scene: u64,
@@ -46,13 +46,13 @@ impl Dice {
     }
 }
 
-/// What the coordinates of a scene are made of.
+/// The kind of coordinates in a scene.
 #[derive(Clone, Copy, PartialEq)]
 enum Coordinates {
-    /// Few values, so that triangles are degenerate, coplanar and share corners, and planes of cells hold them.
+    /// Few values, so that triangles are degenerate, coplanar, share corners, and lie in the planes of octree cells.
     Grid,
     Free,
-    /// Both.
+    /// A mixture of both.
     Mixed,
 }
 
@@ -65,7 +65,7 @@ impl Scene {
     pub(crate) fn new(number: u64) -> Self {
         let mut dice = Dice { stream: CounterRng::new(2002), scene: number, throws: 0 };
         let kind = dice.one_of(&[Coordinates::Grid, Coordinates::Grid, Coordinates::Free, Coordinates::Mixed]);
-        // Sizes: mostly one; at times tiny or huge, at times mixed within the scene.
+        // Sizes: mostly one, at times tiny or huge, at times mixed within the scene.
         let scales: &[f32] = match dice.below(8) {
             0 => &[1e-30],
             1 => &[1e30],
@@ -89,7 +89,7 @@ impl Scene {
     }
 }
 
-/// A triangle: new corners, or corners of others, or an old one once more (either way round), or a needle.
+/// A triangle: new corners, corners of others, a copy of another (either winding), or a needle.
 fn triangle(dice: &mut Dice, kind: Coordinates, scale: f32, offset: f32, positions: &mut Vec<[f32; 3]>) -> [u32; 3] {
     let first = positions.len() as u32;
     let mut fresh = |dice: &mut Dice| {
@@ -102,7 +102,7 @@ fn triangle(dice: &mut Dice, kind: Coordinates, scale: f32, offset: f32, positio
         // Shares an edge, or a corner.
         0 | 1 if first > 1 => [old(dice), old(dice), fresh(dice)],
         2 if first > 1 => [old(dice), fresh(dice), fresh(dice)],
-        // A double, or degenerate.
+        // A copy, or degenerate.
         3 if first > 2 => [old(dice), old(dice), old(dice)],
         // A needle: two corners next to each other.
         4 => {

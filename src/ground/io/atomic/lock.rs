@@ -1,7 +1,7 @@
-//! The lock on a folder while files are put into it, and while what killed processes left is cleared away.
+//! The lock on a folder while files are moved into it, and while remains of killed processes are removed.
 //!
 //! It is an operating system's lock on the file `.crossbar_lock`, which ends with its process, however that ends; the
-//! file goes when the lock is given back.
+//! file is removed when the lock is released.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -10,34 +10,34 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 const FILE_NAME: &str = ".crossbar_lock";
-/// A set is put into its place in milliseconds; a process that was stopped holds its lock for as long as it likes.
+/// Moving a set of files takes milliseconds, but a suspended process holds its lock indefinitely.
 const PATIENCE: Duration = Duration::from_secs(60);
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// The staging folders of this process. Held while one is made, and while files are renamed out of one: whoever ends
-/// the process waits for that.
+/// The staging folders of this process. Locked while one is created, and while files are renamed out of one: the end of
+/// the process by a signal waits for that.
 static IN_USE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// The staging folders of this process, for as long as the guard lives.
+/// The staging folders of this process, locked while the guard lives.
 pub(super) fn in_use() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is right after any panic.
+    // A list of paths stays valid after a panic.
     IN_USE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// One process at a time has a folder's lock; within the process one at a time has any.
+/// The lock of a folder: one process at a time holds it, and within a process one thread at a time holds any.
 #[derive(Debug)]
 pub(super) struct FolderLock {
-    /// None where the system has no locks, or the folder belongs to somebody else: then nothing is cleared away.
+    /// `None` where the system has no locks, or the folder belongs to another user: then no remains are removed.
     file: Option<(PathBuf, File)>,
     /// The staging folders of this process.
     pub(super) folders: MutexGuard<'static, Vec<PathBuf>>,
 }
 
 impl FolderLock {
-    /// Waits for the lock of `folder`, which exists.
+    /// Waits for the lock of `folder`, which must exist.
     ///
     /// # Errors
-    /// [`io::ErrorKind::TimedOut`] if another process keeps it for a minute.
+    /// [`io::ErrorKind::TimedOut`] if another process holds it for a minute.
     pub(super) fn of(folder: &Path) -> io::Result<Self> {
         let path = folder.join(FILE_NAME);
         let start = Instant::now();
@@ -47,9 +47,10 @@ impl FolderLock {
                 return Ok(Self { file: None, folders });
             };
             match file.try_lock() {
-                // Whoever had it before may have removed the file that was opened here.
+                // The previous holder may have removed the file that was opened here.
                 Ok(()) if is_at(&file, &path) => return Ok(Self { file: Some((path, file)), folders }),
                 Ok(()) => {}
+                // Locks are not supported here.
                 Err(TryLockError::Error(_)) => {
                     let _ = fs::remove_file(&path);
                     return Ok(Self { file: None, folders });
@@ -61,13 +62,13 @@ impl FolderLock {
                 }
                 Err(TryLockError::WouldBlock) => {}
             }
-            // Others of this process go on meanwhile, and a signal may end it.
+            // Released while waiting, so that other threads proceed and a signal can end the process.
             drop((folders, file));
             std::thread::sleep(PAUSE);
         }
     }
 
-    /// Whether no other process puts files into the folder or makes a staging folder in it.
+    /// True if no other process can move files into the folder or create a staging folder in it.
     pub(super) fn is_exclusive(&self) -> bool {
         self.file.is_some()
     }
@@ -76,14 +77,14 @@ impl FolderLock {
 impl Drop for FolderLock {
     fn drop(&mut self) {
         if let Some((path, file)) = self.file.take() {
-            // While it is locked, so that nobody's lock is removed.
+            // Removed while it is locked, so that no lock of another process is removed.
             let _ = fs::remove_file(path);
             drop(file);
         }
     }
 }
 
-/// Whether the file is the one that the path names.
+/// True if the path still names this file.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -91,7 +92,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     file.metadata().map(identity).ok() == fs::metadata(path).map(identity).ok()
 }
 
-/// Elsewhere a name cannot be taken again while a removed file is open.
+/// On other systems a name cannot be reused while a removed file is open.
 #[cfg(not(unix))]
 fn is_at(_: &File, path: &Path) -> bool {
     path.exists()

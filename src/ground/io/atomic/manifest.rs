@@ -1,7 +1,7 @@
-//! The list in an output folder of who wrote what, by which a later run finds what is no longer written.
+//! The list of written files in an output folder, by which a later run finds files that are no longer written.
 //!
-//! One line per file: its length, its CRC-32, who wrote it, its name. Length and CRC tell a file that is as it was
-//! written from one that somebody has changed or replaced since, which is theirs and stays.
+//! One line per file: its length, its CRC-32, its writer, its name. Length and CRC distinguish unchanged files from
+//! those that the user has changed or replaced since, which are kept.
 
 use std::fmt;
 use std::fs::{self, File};
@@ -23,25 +23,25 @@ struct Written {
     name: PathBuf,
 }
 
-/// Files and who wrote them.
+/// A list of files with their writers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Manifest(Vec<Written>);
 
 impl Manifest {
-    /// The list at `path`. Lines that cannot be read are left out: the files that they were about stay.
+    /// The list at `path`. Lines that cannot be read are ignored, so that their files are kept.
     pub(super) fn read(path: &Path) -> Self {
         let text = fs::read_to_string(path).unwrap_or_default();
         Self(text.lines().filter_map(Written::parse).collect())
     }
 
-    /// Adds the file `name`, which `writer` has written to `staged`.
+    /// Adds the file `name`, which `writer` has written to the path `staged`.
     pub(super) fn add(&mut self, writer: &str, name: &Path, staged: &Path) -> io::Result<()> {
         let (length, crc) = length_and_crc(staged)?;
         self.0.push(Written { length, crc, writer: one_line(writer), name: name.into() });
         Ok(())
     }
 
-    /// This list after `writer` has written anew, and what it wrote before and no longer does.
+    /// This list after a new run of `writer`, and the list of its files that it no longer writes.
     pub(super) fn replaced(self, writer: &str, written: Self) -> (Self, Self) {
         let writer = one_line(writer);
         let gone = self.0.into_iter().filter(|old| written.0.iter().all(|new| new.name != old.name));
@@ -50,7 +50,7 @@ impl Manifest {
         (Self(list), Self(stale))
     }
 
-    /// Removes the files below `folder` that are still as they were written. One that cannot be removed stays.
+    /// Removes the files below `folder` that are unchanged since they were written. Failures are ignored.
     pub(super) fn remove_files(&self, folder: &Path) {
         for file in self.0.iter().filter(|file| file.is_unchanged(folder)) {
             let _ = fs::remove_file(folder.join(&file.name));
@@ -62,7 +62,7 @@ impl fmt::Display for Manifest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{HEAD}")?;
         for Written { length, crc, writer, name } in &self.0 {
-            // A name that is no text, or not on one line, is not listed: its file is never removed.
+            // A name that is no UTF-8, or has control characters, is not listed, so that its file is never removed.
             if let Some(name) = name.to_str().filter(|name| one_line(name) == *name) {
                 writeln!(f, "{length}\t{crc:08x}\t{writer}\t{name}")?;
             }
@@ -76,7 +76,7 @@ impl Written {
         let mut fields = line.split('\t');
         let mut field = || fields.next();
         let (length, crc, writer, name) = (field()?, field()?, field()?, PathBuf::from(field()?));
-        // Nothing above or beside the folder, whatever somebody has written into the list.
+        // Rejects paths outside the folder, in case the list was edited.
         let plain = name.components().all(|part| matches!(part, Component::Normal(_))) && name.file_name().is_some();
         let crc = u32::from_str_radix(crc, 16).ok()?;
         (plain && fields.next().is_none()).then_some(Self {
@@ -87,7 +87,7 @@ impl Written {
         })
     }
 
-    /// Whether the file still stands below `folder` as it was written, and is reached without a link.
+    /// True if the file below `folder` is unchanged since it was written, and no part of its path is a link.
     fn is_unchanged(&self, folder: &Path) -> bool {
         let mut path = folder.to_path_buf();
         let no_link = self.name.iter().all(|part| {
@@ -100,7 +100,7 @@ impl Written {
     }
 }
 
-/// Text without what separates fields and lines.
+/// The text with control characters, which separate fields and lines, replaced by spaces.
 fn one_line(text: &str) -> String {
     text.replace(|c: char| c.is_control(), " ")
 }

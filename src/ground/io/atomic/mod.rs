@@ -15,7 +15,7 @@ use self::manifest::Manifest;
 use self::staging::Staging;
 pub use self::staging::abandon;
 
-/// Why a file was not written.
+/// Errors of writing files.
 #[non_exhaustive]
 #[derive(Debug, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -31,11 +31,11 @@ pub enum WriteError {
     Name { name: PathBuf },
 }
 
-/// Writes one file through `fill`, and the folders that are missing on the way. On any error, whatever stood at `path`
-/// before still stands, and no folder was made.
+/// Writes one file through `fill`, and creates missing folders of its path. On any error the file at `path` is as
+/// before, and no folder was created.
 ///
-/// A link is followed, and stays. What is there but is no file, such as `/dev/stdout`, a pipe or a terminal, is written
-/// to and never replaced; it too gets everything or, when `fill` fails, nothing.
+/// A link is followed, and stays. An existing path that is no regular file, such as `/dev/stdout`, a pipe or a
+/// terminal, is written to and never replaced; it too gets everything or, when `fill` fails, nothing.
 pub fn write_file(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), WriteError> {
     match fs::metadata(path) {
         Ok(place) if place.is_dir() => {
@@ -106,7 +106,7 @@ pub struct FileSet {
     folder: PathBuf,
     /// The innermost folder on the way that exists.
     base: PathBuf,
-    /// From there to the folder: empty if it exists.
+    /// The path from there to the folder: empty if it exists.
     rest: PathBuf,
     staging: Staging,
     names: Vec<PathBuf>,
@@ -133,9 +133,9 @@ impl FileSet {
         Ok(set)
     }
 
-    /// A set for `folder` that takes the place of the one that `writer`, a command for example, wrote there before:
-    /// what that one had and this one has not is removed, if nobody has changed it since. A list in the folder,
-    /// `.crossbar_files`, says who wrote what.
+    /// A set for `folder` that replaces the one that `writer` (for example a command) wrote there before: files of the
+    /// old set that are not in the new one are removed, unless the user has changed them. A list in the folder,
+    /// `.crossbar_files`, holds the writer of each file.
     ///
     /// # Errors
     /// [`WriteError::Folder`].
@@ -147,7 +147,7 @@ impl FileSet {
         self.staging.new_files().join(&self.rest).join(name)
     }
 
-    /// Where the file `name` (relative, without `..`) is to be written now, for writers that want a path.
+    /// The path at which the file `name` (relative, without `..`) must be written now, for writers that need a path.
     ///
     /// # Errors
     /// [`WriteError::Name`] for a name that leaves the folder, [`WriteError::File`] when its subfolder cannot be made.
@@ -177,19 +177,19 @@ impl FileSet {
         fill_file(&staged, &self.folder.join(name), fill)
     }
 
-    /// Puts all files in their places and returns these, in the order of staging. What can fail (a file that was staged
-    /// but not written, a place taken by a folder, a subfolder that cannot be made) is looked at before the first
-    /// rename.
+    /// Moves all files to their places and returns these, in the order of staging. Likely failures (a file that was
+    /// staged but not written, a path that is a folder, a subfolder that cannot be created) are checked before the
+    /// first rename.
     ///
     /// # Errors
-    /// [`WriteError`]; unless a rename itself fails, nothing has then appeared.
+    /// [`WriteError`]; unless a rename itself fails, nothing has been moved then.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, WriteError> {
         let places = self.names.iter().map(|name| self.folder.join(name)).collect();
         self.commit_at_most(usize::MAX)?;
         Ok(places)
     }
 
-    /// Stages the list of who wrote what, if there is to be one, and adds its name to `names`; returns what is to be
+    /// Stages the list of writers, if there is to be one, and adds its name to `names`; returns the files to be
     /// removed.
     fn stage_manifest(&self, names: &mut Vec<PathBuf>) -> Result<Manifest, WriteError> {
         let Some(writer) = &self.writer else { return Ok(Manifest::default()) };
@@ -219,7 +219,7 @@ impl FileSet {
             let place = self.base.join(first);
             match self.staging.rename_folder(first.as_ref(), &place) {
                 Ok(()) => return Ok(()),
-                // Somebody else has made it meanwhile: file by file then.
+                // Another process has created the folder meanwhile: move file by file then.
                 Err(_) if place.is_dir() => {}
                 Err(source) => return Err(WriteError::Folder { path: self.folder.clone(), source }),
             }
@@ -227,7 +227,7 @@ impl FileSet {
         let made = missing_folders(&self.folder);
         let committed = self.commit_into_existing(most);
         if committed.is_err() {
-            // It fails, as it should, where something has come in.
+            // Fails, as it should, if the folder is no longer empty.
             made.iter().for_each(|folder| drop(fs::remove_dir(folder)));
         }
         committed
@@ -267,8 +267,8 @@ impl FileSet {
     }
 }
 
-/// The innermost existing folder on the way to `folder`, and plain names from there. Nothing that is missing can be a
-/// link, so `..` behind it means what it seems to.
+/// The innermost existing folder of the path `folder`, and plain names from there. Missing parts cannot be links, so
+/// that `..` after them has its literal meaning.
 fn split(folder: &Path) -> (PathBuf, PathBuf) {
     let mut base = PathBuf::new();
     let mut rest = PathBuf::new();

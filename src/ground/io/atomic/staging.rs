@@ -19,7 +19,7 @@ const WHOLE: &str = "whole";
 const STALE: &str = "stale";
 
 /// Removes the staging folders of this process for good: nothing can be staged or renamed afterwards. For a process
-/// that is about to end because a signal says so. Returns whether there was one, so that files are lost.
+/// that is about to end because of a signal. Returns true if there was one, so that files are lost.
 pub fn abandon() -> bool {
     let folders = in_use();
     let some = !folders.is_empty();
@@ -51,7 +51,7 @@ impl Staging {
         let folder = tempfile::Builder::new().prefix(PREFIX).tempdir_in(base)?.keep();
         let make = || {
             let lock = File::create(folder.join(LOCK))?;
-            // Where there are no locks nothing is ever cleared away, which is safe.
+            // Without locks nothing is ever removed, which is safe.
             let _ = lock.try_lock();
             fs::create_dir(folder.join(NEW))?;
             Ok(lock)
@@ -63,7 +63,7 @@ impl Staging {
                 Ok(Self { lock: Some(lock), folder })
             }
             Err(error) => {
-                // Without opening the folder: there may be no more files to open.
+                // Without opening the folder, because the process may have no file descriptors left.
                 let _ = fs::remove_file(folder.join(LOCK));
                 let _ = fs::remove_dir(&folder);
                 Err(error)
@@ -71,7 +71,7 @@ impl Staging {
         }
     }
 
-    /// The same files in a staging folder within `base`, to which `rest` leads.
+    /// The same files in a staging folder within `base`; `rest` is their path below it.
     pub(super) fn moved(&self, rest: &Path, base: &Path) -> io::Result<Self> {
         let moved = Self::within(base)?;
         fs::remove_dir(moved.new_files())?;
@@ -79,7 +79,7 @@ impl Staging {
         Ok(moved)
     }
 
-    /// Where files are written, by the paths that they are to have below the base.
+    /// The folder in which files are written, with the paths that they will have below the base.
     pub(super) fn new_files(&self) -> PathBuf {
         self.folder.join(NEW)
     }
@@ -90,9 +90,9 @@ impl Staging {
         fs::rename(self.new_files().join(name), place)
     }
 
-    /// Renames files, named as below `base`, to their places there, at most `most` of them; then removes those of
-    /// `stale`. Whoever comes after a process that was killed on the way does the rest. Returns the place that could
-    /// not be taken, if one could not.
+    /// Renames at most `most` files, named relative to `base`, to their places; then removes the `stale` ones. If the
+    /// process is killed in between, a later process does the rest. Returns the place that could not be written, if
+    /// any.
     pub(super) fn rename_files(
         &self,
         base: &Path,
@@ -134,7 +134,7 @@ impl Drop for Staging {
     }
 }
 
-/// Deals with the staging folders that killed processes left in `base`. What cannot be dealt with stays.
+/// Finishes or removes the staging folders that killed processes left in `base`. Failures are ignored.
 pub(super) fn sweep(base: &Path, held: &FolderLock) {
     if !held.is_exclusive() {
         return;
@@ -147,7 +147,7 @@ pub(super) fn sweep(base: &Path, held: &FolderLock) {
         }
         match File::options().read(true).write(true).open(folder.join(LOCK)) {
             Ok(lock) if lock.try_lock().is_ok() => {}
-            // Nobody is making it, since this has the lock of `base`: who made it was killed, or could not remove it.
+            // This process has the lock of `base`, so the process that created it was killed, or could not remove it.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             _ => continue,
         }
@@ -173,7 +173,7 @@ fn remove_tree(folder: &Path) -> io::Result<()> {
     fs::remove_dir(folder)
 }
 
-/// Renames all files below `from` to the same places below `to`; fine if there is no `from`.
+/// Renames all files below `from` to the same places below `to`; no error if `from` does not exist.
 fn finish(from: &Path, to: &Path) -> io::Result<()> {
     let entries = match fs::read_dir(from) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),

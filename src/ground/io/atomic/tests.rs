@@ -1,4 +1,4 @@
-//! What stands in a folder after failures, kills and commits.
+//! Contents of a folder after failures, kills and commits.
 
 use super::*;
 
@@ -39,7 +39,7 @@ fn a_link_stays_a_link_and_a_device_a_device() {
     assert_eq!(fs::read(&file).expect("read"), b"new");
     assert_eq!(listing(folder.path()), ["file", "link"]);
 
-    // A link of our own, so that a failure here does no harm to the machine.
+    // A link of its own to the null device, so that a failure of the test cannot harm the machine.
     let null = folder.path().join("null");
     symlink("/dev/null", &null).expect("linked");
     write_file(&null, |out| out.write_all(b"gone")).expect("written");
@@ -87,7 +87,7 @@ fn missing_folders_appear_with_their_file() {
     assert_eq!(listing(&root.path().join("d/e")), ["x"]);
 }
 
-/// Old files `a` and `b`, a file of the user's own, and a set of `a`, `b` and `sub/c` that is to replace them.
+/// Old files `a` and `b`, a file of the user, and a set of `a`, `b` and `sub/c` that is to replace them.
 fn set_over_old_files(folder: &Path) -> FileSet {
     for name in ["a", "b", "mine"] {
         fs::write(folder.join(name), b"old").expect("written");
@@ -159,7 +159,7 @@ fn names_stay_below_the_folder() {
     assert!(matches!(write_file(&file.join("x"), |_| Ok(())), Err(WriteError::Folder { .. })));
 }
 
-/// Commits the files with these names and contents in the name of `writer`.
+/// Commits files with these names and contents as `writer`.
 fn write_by(writer: &str, folder: &Path, files: &[(&str, &str)]) {
     staged_by(writer, folder, files).commit().expect("places");
 }
@@ -185,7 +185,7 @@ fn what_is_written_no_more_goes_and_nothing_else() {
     assert_eq!(listing(&folder), [".crossbar_files", "a", "changed", "d", "mine", "replaced", "sub"]);
     assert!(listing(&folder.join("sub")).is_empty());
     assert_eq!(fs::read(folder.join("a")).expect("read"), b"new");
-    // A file that another writer has taken over is that one's from then on.
+    // A file that another writer has replaced belongs to that writer from then on.
     write_by("other", &folder, &[("a", "new"), ("d", "d")]);
     write_by("study", &folder, &[("e", "e")]);
     assert_eq!(listing(&folder), [".crossbar_files", "a", "changed", "d", "e", "mine", "replaced", "sub"]);
@@ -215,7 +215,7 @@ fn a_list_that_somebody_has_written_harms_nothing() {
     write_by("study", &folder, &[("a", "a")]);
     assert_eq!(listing(&folder), [".crossbar_files", "a", "link", "old", "up", "y"]);
     assert!(outside.exists() && folder.join("old/x").exists());
-    // The same line does remove a file that stands where it says.
+    // The same line does remove a file at the path that it names.
     fs::write(folder.join(".crossbar_files"), format!("1\t{crc:08x}\tstudy\told/x\n")).expect("written");
     write_by("study", &folder, &[("a", "a")]);
     assert!(!folder.join("old/x").exists());
@@ -233,7 +233,7 @@ fn a_kill_amid_the_renames_leaves_the_removal_to_the_next() {
         drop(FileSet::new(root.path()).expect("a set"));
         assert_eq!(listing(root.path()), [".crossbar_files", "a"], "after {renames} renames");
     }
-    // One that was killed before has decided nothing.
+    // A process killed before that point has changed nothing.
     let root = tempfile::tempdir().expect("a folder");
     write_by("study", root.path(), &[("a", "old"), ("stale", "old")]);
     staged_by("study", root.path(), &[("a", "new")]).staging.leave();
@@ -241,7 +241,7 @@ fn a_kill_amid_the_renames_leaves_the_removal_to_the_next() {
     assert_eq!(listing(root.path()), [".crossbar_files", "a", "stale"]);
 }
 
-/// While another has the folder's lock nothing is put there; the lock of one that ended is nobody's.
+/// While another process holds the folder's lock no files are moved; the lock of an ended process is free.
 #[test]
 fn a_set_waits_for_the_lock_of_its_folder() {
     let root = tempfile::tempdir().expect("a folder");
@@ -259,7 +259,7 @@ fn a_set_waits_for_the_lock_of_its_folder() {
     assert_eq!(listing(root.path()), ["a", "b", "mine", "sub"], "no lock is left");
 }
 
-/// A set that was left half-way while another was made is finished before the other's files come, not after.
+/// A set left half-moved is completed before the files of a later set are moved, not after.
 #[test]
 fn what_was_left_is_older_than_what_comes() {
     let root = tempfile::tempdir().expect("a folder");

@@ -1,4 +1,4 @@
-//! Typed elements of buffers.
+//! Reads typed elements from buffers.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -11,11 +11,11 @@ use gltf::buffer::View;
 use super::super::error::ModelError;
 use super::buffers::Buffers;
 
-/// Most elements of an accessor.
+/// Largest number of elements of an accessor.
 pub(super) const MAX_ELEMENTS: usize = 1 << 26;
-/// Most elements of an accessor that no bytes of a buffer stand behind.
+/// Largest number of elements of an accessor without a buffer.
 const MAX_ZEROS: usize = 1 << 20;
-/// An element of which no bytes are given.
+/// The bytes of an element without a buffer.
 const ZEROS: &[u8] = &[0; 64];
 
 /// Reads accessors within the bounds of their buffers.
@@ -25,7 +25,7 @@ pub(super) struct AccessorReader<'a> {
 }
 
 impl AccessorReader<'_> {
-    /// Vectors of single precision; codes of unsigned fractions are divided by the largest.
+    /// Vectors in single precision; normalized unsigned integers are divided by the largest.
     pub(super) fn vectors<const N: usize>(&self, accessor: &Accessor<'_>) -> Result<Vec<[f32; N]>, ModelError> {
         let fits = accessor.dimensions().multiplicity() == N
             && !matches!(accessor.dimensions(), Dimensions::Mat2 | Dimensions::Mat3 | Dimensions::Mat4);
@@ -56,7 +56,7 @@ impl AccessorReader<'_> {
         }
     }
 
-    /// The bytes of each element.
+    /// The bytes of each element, as slices.
     fn elements(&self, accessor: &Accessor<'_>) -> Result<Vec<&[u8]>, ModelError> {
         let (count, size) = (accessor.count(), accessor.size());
         let outside = |what: &'static str| self.wrong(accessor, what, "bytes beyond it");
@@ -102,7 +102,7 @@ impl AccessorReader<'_> {
         Ok(elements)
     }
 
-    /// So many elements of so many bytes, one after the other or a stride apart; `None` if they do not fit the view.
+    /// `count` elements of a size in bytes, contiguous or with a stride; `None` if they exceed the view.
     fn packed(
         &self,
         view: &View<'_>,
@@ -126,7 +126,7 @@ impl AccessorReader<'_> {
     }
 }
 
-/// An unsigned number of 1, 2 or 4 bytes.
+/// An unsigned little-endian integer of 1, 2 or 4 bytes.
 fn whole(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
 }

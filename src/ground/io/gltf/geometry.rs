@@ -1,4 +1,4 @@
-//! The triangles of all placed meshes.
+//! The triangles of all mesh instances.
 
 use glam::{DMat3, DVec3};
 use gltf::mesh::Mode;
@@ -11,10 +11,10 @@ use super::nodes::Instance;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::geom::{Mesh, MeshError};
 
-/// Most vertices of a model with all its copies of meshes.
+/// Largest number of vertices of a model over all mesh instances.
 const MAX_VERTICES: usize = 1 << 24;
 
-/// Vertices and triangles so far. Vertices without normals or texture coordinates have zeros.
+/// Vertices and triangles so far. Missing normals or texture coordinates are zeros.
 #[derive(Default)]
 pub(super) struct Geometry {
     positions: Vec<[f32; 3]>,
@@ -24,12 +24,12 @@ pub(super) struct Geometry {
     /// One per triangle.
     pub(super) material_of: Vec<u32>,
     some_without: [bool; 2],
-    /// Corners that primitives have named, those of triangles that were left out among them.
+    /// Number of corners of all primitives, including those of omitted triangles.
     corners: usize,
 }
 
 impl Geometry {
-    /// Adds a part of a mesh; points and lines are passed over.
+    /// Adds a primitive of a mesh instance; points and lines are ignored.
     pub(super) fn add(
         &mut self,
         instance: &Instance<'_>,
@@ -88,7 +88,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// Normals at the corners of each triangle; zeros where one of them is not known.
+    /// Normals at the corners of each triangle; all zeros if one of them is missing.
     pub(super) fn corner_normals(&self) -> Vec<[[f32; 3]; 3]> {
         let of = |corners: &[u32; 3]| {
             let normals = corners.map(|index| self.normals[index as usize]);
@@ -97,7 +97,7 @@ impl Geometry {
         self.triangles.iter().map(of).collect()
     }
 
-    /// The mesh, with normals and texture coordinates if all of its parts have them.
+    /// The mesh, with normals and texture coordinates if all its primitives have them.
     pub(super) fn mesh(self) -> Result<Mesh, MeshError> {
         let mut mesh = Mesh::new(self.positions, self.triangles)?;
         if !self.some_without[0] {
@@ -117,7 +117,7 @@ fn attribute<T>(
     accessor.map(|accessor| read(&accessor)).transpose()
 }
 
-/// The triangles of indices. Those of strips and fans that only lead on, with a vertex twice, are left out.
+/// The triangles of a primitive's indices. Degenerate connecting triangles of strips and fans are omitted.
 fn triangles(mode: Mode, indices: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_ {
     let count = if mode == Mode::Triangles { indices.len() / 3 } else { indices.len().saturating_sub(2) };
     let corners = move |i: usize| match mode {
@@ -129,8 +129,8 @@ fn triangles(mode: Mode, indices: &[u32]) -> impl Iterator<Item = [u32; 3]> + '_
     (0..count).map(move |i| corners(i).map(|at| indices[at])).filter(move |corners| !leads_on(corners))
 }
 
-/// What takes normals along: the inverse transposed times the determinant, so that flat scales do no harm, turned
-/// outwards again where space is mirrored.
+/// The matrix for normals: the inverse transpose times the absolute determinant, which exists for flat scales too and
+/// keeps normals outwards under mirroring.
 fn cofactors(matrix: DMat3) -> DMat3 {
     let DMat3 { x_axis, y_axis, z_axis } = matrix;
     let across = DMat3::from_cols(y_axis.cross(z_axis), z_axis.cross(x_axis), x_axis.cross(y_axis));

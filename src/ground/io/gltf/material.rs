@@ -1,4 +1,4 @@
-//! What is read of glTF's materials: the base color as a diffuse reflectance, and what is emitted.
+//! Reads glTF's materials: the base color as diffuse reflectance, and the emission.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,19 +8,19 @@ use gltf::Document;
 use super::super::error::ModelError;
 use crate::scene::Material;
 
-/// What a primitive is made of that names no material.
+/// Name of the material of primitives without one.
 const DEFAULT: &str = "default";
-/// Its reflectance.
+/// Reflectance of this material.
 const GREY: f32 = 0.5;
 
-/// The materials of a file, by their places in it.
+/// The materials of a file, by their index.
 pub(super) struct Materials {
     pub(super) list: Vec<Material>,
     grey: Option<u32>,
 }
 
 impl Materials {
-    /// Reads them. Their names are those of the file, without white space, each once.
+    /// Reads the materials. Their names are those of the file without white space, made unique.
     pub(super) fn of(document: &Document, name: &Path) -> Result<Self, ModelError> {
         let (mut list, mut names) = (Vec::new(), BTreeSet::from([DEFAULT.to_owned()]));
         for (index, material) in document.materials().enumerate() {
@@ -50,10 +50,11 @@ impl Materials {
         Ok(Self { list, grey: None })
     }
 
-    /// The place of a primitive's material.
+    /// The index of a primitive's material.
     pub(super) fn place(&mut self, material: Option<usize>) -> u32 {
         match material {
             Some(index) => index as u32,
+            // Added on first use, so that a file that needs no default has none.
             None => *self.grey.get_or_insert_with(|| {
                 self.list.push(Material::diffuse(DEFAULT, [GREY; 3]));
                 self.list.len() as u32 - 1

@@ -29,8 +29,8 @@ use buffers::Buffers;
 use geometry::Geometry;
 use material::Materials;
 
-/// Reads a scene from the bytes of a glTF file; `name` stands for the file in messages, and `beside` gives the bytes of
-/// a file beside it. It has no views and no point lights. No input makes it panic.
+/// Reads a scene from the bytes of a glTF file; `name` is the file's name in messages, and `beside` reads a file in the
+/// same folder. It has no views and no point lights. Never panics.
 ///
 /// # Errors
 /// [`ModelError`], with the part of the file, counted from 0 as the format does.

@@ -1,4 +1,4 @@
-//! Where the meshes of the default scene stand.
+//! Transforms of the mesh instances of the default scene.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use gltf::{Document, Mesh, Node};
 
 use super::super::error::ModelError;
 
-/// y up to z up.
+/// Rotates y up to z up.
 const UPRIGHT: DMat4 = DMat4::from_cols(DVec4::X, DVec4::Z, DVec4::NEG_Y, DVec4::W);
 
 /// A mesh with its place in the scene.

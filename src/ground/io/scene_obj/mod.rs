@@ -25,8 +25,8 @@ use super::obj::within_limit;
 use crate::scene::Scene;
 use reader::SceneReader;
 
-/// Reads a scene from bytes; `name` stands for the file in messages, and `library` gives the bytes of a material
-/// library. No input makes it panic.
+/// Reads a scene from bytes; `name` is the file's name in messages, and `library` reads a material library. Never
+/// panics.
 ///
 /// # Errors
 /// [`ModelError`], with the line where there is one.

@@ -1,7 +1,7 @@
 //! Material libraries (MTL).
 //!
-//! A first pass of ours checks every statement that is used; tobj then reads the checked lines. Used are
-//! `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are passed over.
+//! A first pass checks every used statement; tobj then reads the checked lines. Used are
+//! `newmtl Kd Ks Ke Ns Ni Tf d Tr illum`; all others (ambient colours, textures) are ignored.
 //!
 //! | `illum` | surface |
 //! |---|---|
@@ -9,9 +9,10 @@
 //! | 3, 5, 8 | mirror `Ks` (1 where there is none) |
 //! | 4, 6, 7, 9 | glass of index `Ni` (1.5) that lets `Tf` pass (else 1 - `d`, else 1) |
 //!
-//! `Ke` is emission. A reflectance lies in [0, 1], and `Kd` + `Ks` of a glossy surface do too. `d` below 1 (`Tr` above
-//! 0) needs glass, and gloss an `Ns` above 0. Modellers write files that keep to none of these: a scene with notes
-//! scales `Kd` and `Ks` together, takes what is not glass as opaque, and says so.
+//! `Ke` is emission. A reflectance lies in [0, 1], and so does `Kd` + `Ks` of a glossy surface. Transparency (`d` below
+//! 1, `Tr` above 0) needs glass, and gloss needs an `Ns` above 0. Files of modelling tools often violate these rules:
+//! when a scene is read with notes, `Kd` and `Ks` are scaled together, materials that are no glass become opaque, and
+//! both are noted.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -22,16 +23,16 @@ use super::super::model_note::ModelNote;
 use super::super::{NumberError, quoted};
 use crate::scene::{Color, Material, Surface};
 
-/// Exponent of a glossy material that names none.
+/// Exponent of a glossy material without one.
 const EXPONENT: f32 = 10.0;
-/// The exponent that stands for `Ns 0`.
+/// The exponent that replaces `Ns 0`.
 const LEAST_EXPONENT: f32 = 1.0;
-/// Index of refraction of glass that names none.
+/// Index of refraction of glass without one.
 const INDEX: f32 = 1.5;
-/// How far `Kd` + `Ks` may lie above 1: what rounding makes of figures that sum to 1.
+/// Tolerance of `Kd` + `Ks` above 1, for the rounding of numbers that sum to 1.
 const ROUNDING: f32 = 1e-6;
 
-/// Reads the materials of a library in their order; `name` stands for the file in messages. No input makes it panic.
+/// Reads the materials of a library, in order; `name` is the file's name in messages. Never panics.
 ///
 /// # Errors
 /// [`ModelError`], with the line where there is one.
@@ -39,7 +40,7 @@ pub fn parse_mtl(bytes: &[u8], name: &Path) -> Result<Vec<Material>, ModelError>
     read_mtl(bytes, name, None)
 }
 
-/// [`parse_mtl`]; with a list of notes, what is no material of ours is changed into one and noted.
+/// [`parse_mtl`]; with a list of notes, unsupported materials are changed into supported ones and noted.
 pub(super) fn read_mtl(
     bytes: &[u8],
     name: &Path,
@@ -60,13 +61,13 @@ pub(super) fn read_mtl(
 struct MtlReader<'a> {
     name: &'a Path,
     clean: String,
-    /// Whether reflectances above 1 are left to be scaled.
+    /// True if reflectances above 1 are accepted, to be scaled later.
     lenient: bool,
     materials: Vec<(usize, String)>,
     seen: BTreeSet<String>,
 }
 
-/// A line of a library with its words.
+/// A line of a library, split into words.
 struct Statement<'a> {
     line: usize,
     text: &'a [u8],
@@ -104,7 +105,7 @@ impl MtlReader<'_> {
         if !self.seen.insert(text.into()) {
             return Err(ModelError::SecondMaterial(FilePlace::line(self.name, line), text.into()));
         }
-        // tobj gets a number for the name: it need not cope with all that a name may hold.
+        // tobj gets a number in place of the name, because names may hold characters that it cannot parse.
         self.clean.push_str(&format!("newmtl {}\n", self.materials.len()));
         self.materials.push((line, text.into()));
         Ok(())
@@ -118,7 +119,7 @@ impl MtlReader<'_> {
     ) -> Result<(), ModelError> {
         self.not_too_large(here)?;
         let channels: Vec<f32> = here.values.iter().filter_map(|word| number(word)).filter(|&v| allowed(v)).collect();
-        // One number stands for three.
+        // A single number stands for all three channels.
         let channels = match (here.values.len(), channels[..].len()) {
             (3, 3) => [channels[0], channels[1], channels[2]],
             (1, 1) => [channels[0]; 3],
@@ -141,7 +142,7 @@ impl MtlReader<'_> {
         }
     }
 
-    /// A number that single precision does not hold is no matter of what the key allows.
+    /// Refuses a number that overflows single precision, before the key's own range is checked.
     fn not_too_large(&self, here: &Statement<'_>) -> Result<(), ModelError> {
         let large = here.values.iter().find(|word| single(word) == Err(NumberError::TooLarge));
         large.map_or(Ok(()), |word| Err(self.syntax(here.line, NumberError::TooLarge.expected(), word)))
@@ -165,12 +166,12 @@ impl MtlReader<'_> {
     }
 }
 
-/// A finite number that is not negative.
+/// A finite number of at least 0.
 fn number(word: &[u8]) -> Option<f32> {
     single(word).ok().filter(|&value| value >= 0.0)
 }
 
-/// A material of what tobj has read.
+/// A material from the values that tobj has read.
 fn assemble(
     read: &tobj::Material,
     path: &Path,
@@ -197,7 +198,7 @@ fn assemble(
     let sum = largest_reflectance(model, diffuse, specular);
     if sum > 1.0 + ROUNDING && note(&|place, material| ModelNote::Scaled { place, material, sum }) {
         for channel in diffuse.iter_mut().chain(&mut specular).flatten() {
-            // Rounding up would reflect more than all.
+            // Rounded up, the surface would reflect more than all light.
             *channel = (*channel / sum).min(1.0);
         }
     }
@@ -244,7 +245,7 @@ fn assemble(
     Ok(Material { name: name.into(), surface, emission })
 }
 
-/// The largest share of light that a material of these reflects in any channel.
+/// The largest reflectance in any channel of a material with these colors.
 fn largest_reflectance(model: u8, diffuse: Option<Color>, specular: Option<Color>) -> f32 {
     let (diffuse, specular) = (diffuse.unwrap_or_default(), specular.unwrap_or_default());
     let of = |channel: usize| match model {

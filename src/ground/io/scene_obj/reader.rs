@@ -1,4 +1,4 @@
-//! What a scene's OBJ says beyond its geometry, line by line.
+//! Reads the parts of a scene's OBJ file beyond its geometry, line by line.
 
 use std::collections::BTreeMap;
 use std::io;
@@ -12,27 +12,27 @@ use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit, wide};
 use crate::scene::{Material, Scene};
 
-/// What a face is made of that names no material.
+/// Name of the material of faces without one.
 const DEFAULT: &str = "default";
-/// Reflectance of materials that are named nowhere.
+/// Reflectance of materials that no library defines.
 const GREY: f32 = 0.5;
-/// How far the square of a normal's length may lie from 1 before it is scaled.
+/// Largest difference of a normal's squared length from 1 at which it is not scaled.
 const SLACK: f64 = 1e-4;
 
-/// A scene's lines so far.
+/// State of the reader of a scene.
 #[derive(Default)]
 pub(super) struct SceneReader {
     name: PathBuf,
     geometry: ObjReader,
-    /// Of each face the index of its name in `used`; none before the first `usemtl`.
+    /// Per face the index of its material's name in `used`; `None` before the first `usemtl`.
     material_of: Vec<Option<usize>>,
     libraries: Vec<PathBuf>,
     materials: Vec<Material>,
-    /// Names that `usemtl` has named, in order.
+    /// Material names of `usemtl` lines, in order.
     used: Vec<String>,
     place_of: BTreeMap<String, usize>,
     current: Option<usize>,
-    /// What was changed in materials; `None` where they are refused instead.
+    /// Notes on changed materials; `None` if such materials are refused.
     notes: Option<Vec<ModelNote>>,
 }
 
@@ -86,7 +86,7 @@ impl SceneReader {
         library: &mut dyn FnMut(&Path) -> io::Result<Vec<u8>>,
     ) -> Result<(), ModelError> {
         let file = PathBuf::from(self.rest_of(line, rest, "the name of a library `mtllib name.mtl`")?);
-        // Exporters repeat the line for each object.
+        // Exporters repeat the line for every object.
         if self.libraries.contains(&file) {
             return Ok(());
         }
@@ -105,14 +105,14 @@ impl SceneReader {
         name.map(str::to_owned).ok_or_else(|| self.geometry.syntax(line, expected, rest.trim_ascii()))
     }
 
-    /// The whole scene, once everything has been read, and what was changed in it.
+    /// The scene, once all lines have been read, with notes on changes.
     pub(super) fn scene(self) -> Result<(Scene, Vec<ModelNote>), ModelError> {
         let Self { name, mut geometry, material_of: faces, mut materials, used, notes, .. } = self;
         let mesh = geometry.mesh(false)?;
         let list: Vec<[f32; 3]> = geometry.normals().iter().copied().map(of_length_one).collect();
         let mut place_of = BTreeMap::<String, u32>::new();
         for (place, material) in (0..).zip(&materials) {
-            // Of two libraries the first counts.
+            // Of two libraries with the same material, the first counts.
             place_of.entry(material.name.clone()).or_insert(place);
         }
         let mut of = |name: &str| {
@@ -129,7 +129,7 @@ impl SceneReader {
             for corner in 1..face.len() - 1 {
                 material_of.push(material);
                 let fan = [0, corner, corner + 1].map(|at| corners.get(at).copied().unwrap_or_default());
-                // A corner without direction leaves the triangle flat.
+                // If a corner has no normal, the triangle is flat.
                 normals.push(if fan.contains(&[0.0; 3]) { [[0.0; 3]; 3] } else { fan });
             }
         }
@@ -139,7 +139,7 @@ impl SceneReader {
     }
 }
 
-/// The scene of a mesh that names no material, with the normals of its vertices.
+/// The scene of a mesh without materials, with the normals of its vertices.
 pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, ModelError> {
     let normals = mesh.normals().map_or_else(Vec::new, |normals| {
         let corner = |&index: &u32| of_length_one(normals[index as usize]);
@@ -151,8 +151,8 @@ pub(in super::super) fn plain_scene(mesh: Mesh, name: &Path) -> Result<Scene, Mo
         .map_err(|reason| ModelError::Scene(name.into(), reason))
 }
 
-/// A normal that is near enough to length 1 stays as it is, to the bit; another is scaled. One without direction is
-/// zero.
+/// A normal whose length is close to 1 is kept, bit for bit; others are scaled to length 1. A normal without a
+/// direction is zero.
 fn of_length_one(normal: [f32; 3]) -> [f32; 3] {
     if (wide(normal).length_squared() - 1.0).abs() <= SLACK {
         return normal;

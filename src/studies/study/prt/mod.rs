@@ -26,8 +26,8 @@ pub use bi_scale::{
     BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface, creased,
 };
 pub use card::{
-    AllFrequencyCardError, AllFrequencyOnCard, BiScaleCardStudyError, BiScaleOnCard, CardError, FactoredPrecision,
-    OnCard, PixelErrors, factored_precision, factored_precision_table,
+    AllFrequencyOnCard, BiScaleOnCard, CardPictureError, CardSetting, OnCard, PictureVariant, PixelErrors,
+    factored_precision, variants_table,
 };
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;

@@ -5,7 +5,7 @@ use super::quantise::quantise;
 use super::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer, SparseRows};
 
 impl CodedTransfer {
-    /// The numbers that the code stands for, coded again. Rounded twice, a number is off by half a step of each code.
+    /// The decoded numbers, coded again. A number that is rounded twice has an error of up to half a step of each code.
     ///
     /// # Errors
     /// [`CodeOptionsError`].

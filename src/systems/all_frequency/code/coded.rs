@@ -1,4 +1,4 @@
-//! Coded transfer of a mesh.
+//! Quantised (coded) transfer of a mesh.
 
 use rayon::prelude::*;
 
@@ -10,68 +10,68 @@ use crate::transfer::clustering::Clustering;
 /// The transfer of one lighting segment, coded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodedSegment {
-    /// The segment, counted from 0.
+    /// The segment's index, from 0.
     pub segment: usize,
-    /// The vertices at which it is not 0, increasing.
+    /// The vertices at which the segment's transfer is not 0, increasing.
     pub vertices: Vec<u32>,
-    /// Per vertex its cluster.
+    /// The cluster of each of these vertices.
     pub cluster_of: Vec<u16>,
-    /// Representatives of each cluster; those of one cluster follow those of the one before.
+    /// Number of representatives of each cluster; they are stored cluster by cluster.
     pub counts: Vec<u8>,
-    /// The representatives, a row each.
+    /// The representatives, one row each.
     pub representatives: SparseRows,
-    /// Per representative what 1 of its integers is worth.
+    /// Per representative the quantisation step of its numbers.
     pub representative_steps: Vec<f32>,
-    /// Vertex by vertex the weights on its cluster's representatives.
+    /// Vertex by vertex the weights of its cluster's representatives.
     pub weights: Vec<i16>,
-    /// Per representative what 1 of the integers of its weights is worth.
+    /// Per representative the quantisation step of its weights.
     pub weight_steps: Vec<f32>,
 }
 
 /// Coded transfer of a mesh.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodedTransfer {
-    /// The rows m of a transfer matrix.
+    /// The number m of rows of a transfer matrix.
     pub rows: usize,
-    /// Light coefficients per segment n.
+    /// The number n of light coefficients per segment.
     pub coefficients: usize,
-    /// Vertices of the mesh.
+    /// Number of vertices of the mesh.
     pub vertices: usize,
-    /// How it is coded.
+    /// Options of the quantisation.
     pub options: CodeOptions,
-    /// The segments that are not 0 at all vertices, by increasing number.
+    /// The segments that are not 0 at all vertices, in increasing order.
     pub segments: Vec<CodedSegment>,
 }
 
-/// What coded transfer takes, in bytes. Integers of fewer than 16 bits are counted as packed.
+/// The size of coded transfer in bytes. Integers of fewer than 16 bits are counted as packed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CodeSize {
-    /// The numbers of representatives that are not 0: a byte for the row, and the value.
+    /// Non-zero numbers of the representatives: one byte for the row, and the value.
     pub representatives: u64,
-    /// The counts of a block's columns.
+    /// Counts of non-zeros per column of a block.
     pub columns: u64,
     /// Weights.
     pub weights: u64,
-    /// Steps.
+    /// Quantisation steps.
     pub steps: u64,
-    /// Which vertices a segment has, a bit each, and their clusters, 2 bytes each.
+    /// The set of vertices of each segment, one bit each, and their clusters, 2 bytes each.
     pub clusters: u64,
 }
 
 impl CodeSize {
-    /// All bytes.
+    /// The sum of all parts.
     pub fn total(&self) -> u64 {
         self.as_the_paper_counts() + self.columns + self.steps + self.clusters
     }
 
-    /// Representatives and weights alone, by which the paper's columns can be matched (docs/papers/all_frequency.md).
+    /// Representatives and weights alone, which match the paper's columns (docs/papers/all_frequency.md).
     pub fn as_the_paper_counts(&self) -> u64 {
         self.representatives + self.weights
     }
 }
 
 impl CodedTransfer {
-    /// Codes compressed transfer.
+    /// Quantises compressed transfer.
     ///
     /// # Errors
     /// [`CodeOptionsError`].
@@ -85,7 +85,7 @@ impl CodedTransfer {
         Ok(Self { rows, coefficients, vertices: transfer.vertices, options, segments })
     }
 
-    /// Whether all parts go together: else the first that does not.
+    /// The first part that contradicts the others; `None` if all are consistent.
     pub fn fault(&self) -> Option<&'static str> {
         if self.options.check().is_err() {
             return Some("bits");
@@ -114,12 +114,12 @@ impl CodedTransfer {
         size
     }
 
-    /// Clusters of all segments.
+    /// Number of clusters of all segments.
     pub fn clusters(&self) -> usize {
         self.segments.iter().map(|part| part.counts.len()).sum()
     }
 
-    /// Numbers of representatives that are not 0, and all.
+    /// Number of non-zero numbers of the representatives, and of all.
     pub fn nonzeros(&self) -> (usize, usize) {
         let count = |part: &CodedSegment| {
             let rows = &part.representatives;
@@ -130,7 +130,7 @@ impl CodedTransfer {
 }
 
 impl CodedSegment {
-    /// Codes a compressed segment.
+    /// Quantises a compressed segment.
     ///
     /// # Errors
     /// [`CodeOptionsError`].
@@ -197,7 +197,7 @@ impl CodedSegment {
         (self.weights.len() != weights).then_some("weights")
     }
 
-    /// The number of each cluster's first representative.
+    /// The index of each cluster's first representative.
     pub(in crate::all_frequency) fn firsts(&self) -> Vec<usize> {
         firsts(&self.counts)
     }
@@ -216,7 +216,7 @@ fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
     values.fold(0.0, |largest, value| largest.max(value.abs()))
 }
 
-/// Per representative the largest weight on it.
+/// The largest magnitude of a weight on each representative.
 fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Vec<f64> {
     let mut most = vec![0.0_f64; rows];
     for (point, &cluster) in clustering.of_point().iter().enumerate() {
@@ -226,7 +226,7 @@ fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Ve
     most
 }
 
-/// Per representative the step for numbers up to a magnitude.
+/// The quantisation step of each representative, whose largest magnitude is in `most`.
 pub(super) fn steps(most: &[f64], bits: u8, scale: ScaleOf) -> Vec<f32> {
     match scale {
         ScaleOf::Representative => most.iter().map(|&most| step(most, bits)).collect(),
@@ -260,12 +260,12 @@ mod tests {
         }
     }
 
-    /// Half a step of each factor, and of rounding what the sums of some 4 terms leave.
+    /// Error bound: half a step of each factor, plus rounding in sums of about 4 terms.
     fn bound(part: &CompressedSegment, code: &CodedSegment, point: usize) -> f64 {
         let first = code.firsts()[part.clustering.of_point()[point] as usize];
         let terms = part.clustering.weights(point).iter().enumerate().map(|(k, weight)| {
             let steps = [&code.representative_steps, &code.weight_steps].map(|steps| 0.5 * f64::from(steps[first + k]));
-            // No number of a representative is above 1, the length of the vector.
+            // Representatives have length 1, so none of their numbers exceeds 1.
             weight.abs() * steps[0] + steps[1] * (1.0 + steps[0])
         });
         terms.sum::<f64>() * (1.0 + 1e-9) + 1e-12

@@ -1,4 +1,4 @@
-//! What a coded segment stands for.
+//! Decoding of a coded segment.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -8,7 +8,7 @@ use super::CodedSegment;
 use crate::transfer::Signal;
 
 impl CodedSegment {
-    /// Where each vertex's weights begin.
+    /// The index of each vertex's first weight.
     fn weight_begins(&self) -> Vec<usize> {
         let mut begin = 0;
         let next = self.cluster_of.iter().map(|&cluster| {
@@ -18,8 +18,8 @@ impl CodedSegment {
         next.collect()
     }
 
-    /// The transfer of all vertices as it is decoded: `into` is called with each vertex of the segment, counted from 0,
-    /// and its numbers, from several threads.
+    /// Decodes the transfer of all vertices: `into` is called with the index of each vertex within the segment and its
+    /// numbers, from several threads.
     pub fn decode(&self, into: impl Fn(usize, &[f64]) + Sync) {
         let (codes, columns) = (self.representatives.decode(), self.representatives.columns());
         let (firsts, begins) = (self.firsts(), self.weight_begins());
@@ -40,7 +40,7 @@ impl CodedSegment {
         );
     }
 
-    /// Vertex by vertex the weights on its cluster's representatives.
+    /// Vertex by vertex the decoded weights of its cluster's representatives.
     pub fn decoded_weights(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         let (firsts, begins) = (self.firsts(), self.weight_begins());
         self.cluster_of.iter().zip(begins).map(move |(&cluster, begin)| {
@@ -50,7 +50,7 @@ impl CodedSegment {
         })
     }
 
-    /// The transfer of one vertex of the segment, counted from 0, as it is decoded.
+    /// The decoded transfer of one vertex, by its index within the segment.
     ///
     /// # Panics
     /// If there is no such vertex.
@@ -66,10 +66,10 @@ impl CodedSegment {
         sum
     }
 
-    /// Squared differences from the transfer that was coded, vertex by vertex.
+    /// Squared differences from the original transfer, vertex by vertex.
     ///
     /// # Panics
-    /// If the signal has other points or numbers.
+    /// If the signal has another number of points or dimensions.
     pub fn squared_errors(&self, signal: &Signal) -> Vec<f64> {
         let shape = (self.vertices.len(), self.representatives.columns());
         assert_eq!((signal.points(), signal.dimension()), shape, "the signal's shape");

@@ -1,10 +1,10 @@
-//! Coding of compressed transfer (section 4 of the paper): weights and representatives as integers of a few bits, and
-//! of the representatives, which are mostly 0 in the Haar basis, those numbers alone that are not.
+//! Coding of compressed transfer (section 4 of the paper): weights and representatives as integers of a few bits, with
+//! the non-zero numbers of the representatives only, which are mostly 0 in the Haar basis.
 //!
-//! - [`CodedTransfer`]: all of it, with its size in bytes;
-//! - [`SparseRows`]: rows of integers in blocks of 256, column by column, a row number and a value for each number that
-//!   is not 0;
-//! - [`CodeOptions`]: bits, and what shares a scale, of which the paper says nothing.
+//! - [`CodedTransfer`]: coded transfer of a mesh, with its size in bytes;
+//! - [`SparseRows`]: rows of integers in blocks of 256, column by column, with a row number and a value for each
+//!   non-zero number;
+//! - [`CodeOptions`]: bits, and the numbers that share a scale, which the paper leaves open.
 
 mod coarser;
 mod coded;

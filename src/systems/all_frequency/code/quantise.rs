@@ -1,39 +1,39 @@
-//! Numbers as multiples of a step.
+//! Quantisation: numbers as integer multiples of a step.
 
 use thiserror::Error;
 
-/// How numbers become integers. The paper codes both in 16 bits.
+/// Options of the quantisation. The paper uses 16 bits for both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CodeOptions {
-    /// Bits of a representative's number, its sign among them: 2 to 16.
+    /// Bits of a representative's numbers, including the sign: 2 to 16.
     pub representative_bits: u8,
-    /// Bits of a weight, its sign among them: 2 to 16.
+    /// Bits of a weight, including the sign: 2 to 16.
     pub weight_bits: u8,
-    /// Which numbers share a step.
+    /// The numbers that share a step.
     pub scale: ScaleOf,
 }
 
-/// Which numbers share a step; the paper says nothing.
+/// The numbers that share a step, which the paper leaves open.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum ScaleOf {
-    /// Those of a representative; the weights on it share another.
+    /// Each representative has a step, and the weights of that representative have another.
     Representative,
-    /// All representatives of a segment; all weights there share another.
+    /// All representatives of a segment share a step, and all its weights another.
     Segment,
 }
 
-/// Why numbers cannot be coded so.
+/// Reasons for which the options are refused.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum CodeOptionsError {
     /// Too few or too many bits.
     #[error("expected 2 to 16 bits for {what}, the sign among them, found {found}")]
     Bits {
-        /// What was to be coded.
+        /// The quantity to be coded.
         what: &'static str,
-        /// The number asked for.
+        /// The requested number of bits.
         found: u8,
     },
 }
@@ -55,16 +55,16 @@ impl CodeOptions {
     }
 }
 
-/// The step with which numbers up to a magnitude fill signed integers of so many bits: a single, so that a file holds
-/// it; 0 for no magnitude, and where a single holds none so small.
+/// The step with which numbers up to `largest` fill signed integers of `bits` bits, as an f32, because files store it;
+/// 0 if `largest` is 0 or the step underflows.
 pub(super) fn step(largest: f64, bits: u8) -> f32 {
     let most = f64::from((1_u32 << (bits - 1)) - 1);
     let step = (largest / most) as f32;
-    // A step that was rounded down would push the largest number past the last integer.
+    // A step rounded down would let the largest number exceed the largest integer.
     if f64::from(step) * most < largest { step.next_up() } else { step }
 }
 
-/// The nearest multiple of a step, the even one of two as near; 0 without a step.
+/// The nearest multiple of a step, ties to even; 0 if the step is 0.
 pub(super) fn quantise(value: f64, step: f32) -> i16 {
     if step == 0.0 { 0 } else { (value / f64::from(step)).round_ties_even() as i16 }
 }
@@ -83,7 +83,7 @@ mod tests {
                     let code = quantise(value, step);
                     assert!(i32::from(code).abs() < 1 << (bits - 1), "{bits} bits: {code}");
                     let back = f64::from(code) * f64::from(step);
-                    // The quotient rounds by at most 2^-53 of 2^15.
+                    // The quotient has a rounding error of at most 2^-53 times 2^15.
                     let most = f64::from(step) * (0.5 + 1e-11);
                     assert!((back - value).abs() <= most, "{bits} bits of {largest}: {value} to {back}");
                 }

@@ -23,10 +23,10 @@ pub(in crate::all_frequency) struct SparseColumn<'a> {
 }
 
 impl SparseRows {
-    /// Rows of so many numbers each, one after another.
+    /// Encodes rows of `columns` numbers each, concatenated.
     ///
     /// # Panics
-    /// If there is no column, or the last row is incomplete.
+    /// If `columns` is 0, or the last row is incomplete.
     pub fn encode(values: &[i16], columns: usize) -> Self {
         assert!(columns > 0 && values.len().is_multiple_of(columns), "whole rows");
         let mut sparse = Self { rows: values.len() / columns, columns, ..Self::default() };
@@ -44,8 +44,9 @@ impl SparseRows {
         sparse
     }
 
-    /// Of its parts: per column of each block how many numbers there are; all row numbers; all values. `None` if they
-    /// do not go together: a row beyond its block or out of order, a 0 among the values, too many numbers or too few.
+    /// Rows from their parts: per column of each block the number of values; all row numbers; all values. `None` if
+    /// these contradict each other: a row beyond its block or out of order, a 0 among the values, too many or too few
+    /// numbers.
     pub fn from_parts(
         rows: usize,
         columns: usize,

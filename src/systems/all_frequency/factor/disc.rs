@@ -1,4 +1,4 @@
-//! Errors of approximations, over the texels whose directions lie above the horizon.
+//! Errors of approximations, over texels whose directions lie above the horizon.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,22 +10,22 @@ use crate::elementary::on_circle;
 use crate::linalg::{Matrix, dot};
 use crate::sphere::ParabolicMap;
 
-/// How far an approximation of f is off, over pairs of view and light.
+/// The error of an approximation of f, over pairs of view and light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProductErrors {
     /// Root mean square difference.
     pub rms: f64,
     /// Largest difference.
     pub max: f64,
-    /// The sum of squared differences by the sum of squares.
+    /// The sum of squared differences divided by the sum of squares of f.
     pub relative_squared_error: f64,
-    /// The least value of the approximation: sums of terms may be negative where f is not.
+    /// The least value of the approximation: truncated sums may be negative where f is not.
     pub least: f64,
-    /// The share of pairs where the approximation is below 0.
+    /// The fraction of pairs for which the approximation is negative.
     pub negative: f64,
 }
 
-/// What is gathered of a row of pairs.
+/// Sums and extremes over one row of pairs.
 #[derive(Clone, Copy, Default)]
 struct RowErrors {
     squared: f64,
@@ -36,8 +36,8 @@ struct RowErrors {
 }
 
 impl ProductErrors {
-    /// Of `rows` views by `columns` lights; `row` gives f and the approximation at all lights of a view. Rows are added
-    /// in order.
+    /// Errors over `rows` views and `columns` lights; `row` writes f and the approximation at all lights of a view.
+    /// Rows are summed in order.
     fn over([rows, columns]: [usize; 2], row: impl Fn(usize, &mut [f64], &mut [f64]) + Sync) -> Self {
         let of_row = |at: usize| {
             let [mut f, mut found] = [vec![0.0; columns], vec![0.0; columns]];
@@ -66,8 +66,8 @@ impl ProductErrors {
         }
     }
 
-    /// Of factors at the directions of [`Self::directions`] for both, against f itself cut off at `limit`: what
-    /// interpolation, the means over texels and the terms that are left out lose together.
+    /// Errors of factors at [`Self::directions`] for both view and light, against f clamped to `limit`: the combined
+    /// loss by interpolation, by means over texels and by omitted terms.
     pub fn between_texels(product: &dyn ProductFunction, limit: f64, factors: &ProductFactors) -> Self {
         let directions = Self::directions();
         let read = |of: &dyn Fn(DVec3, &mut [f64])| -> Vec<f64> {
@@ -89,11 +89,11 @@ impl ProductErrors {
         })
     }
 
-    /// 1,024 directions of equal solid angles above the horizon, along a spiral: "1024 samples in both light direction
-    /// and view direction sampled over the hemisphere", where the paper does not say which.
+    /// 1,024 directions with equal solid angles above the horizon, along a spiral: "1024 samples in both light
+    /// direction and view direction sampled over the hemisphere"; the paper does not specify them.
     pub fn directions() -> Vec<DVec3> {
         const COUNT: usize = 1024;
-        /// The golden section.
+        /// The golden ratio minus 1.
         const TURN: f64 = 0.618_033_988_749_894_9;
         let direction = |at: usize| {
             let z = (at as f64 + 0.5) / COUNT as f64;
@@ -114,7 +114,7 @@ pub struct DiscSamples {
 }
 
 impl DiscSamples {
-    /// Of a table.
+    /// The samples of a table.
     pub fn new(table: &ProductTable) -> Self {
         let maps = [table.view(), table.light()];
         let [view, light] = maps.map(inside);
@@ -123,12 +123,12 @@ impl DiscSamples {
         Self { view, light, maps, values }
     }
 
-    /// Texels of the view's and of the light's map.
+    /// Number of texels of the view's and of the light's map.
     pub fn counts(&self) -> [usize; 2] {
         [self.view.len(), self.light.len()]
     }
 
-    /// f, a row per view, a column per light.
+    /// f, one row per view, one column per light.
     pub const fn values(&self) -> &Matrix {
         &self.values
     }
@@ -150,7 +150,7 @@ impl DiscSamples {
         [along(self.maps[0], &self.view), along(self.maps[1], &self.light)]
     }
 
-    /// Errors of factors at the texels.
+    /// Errors of factors at these texels.
     pub fn errors(&self, factors: &ProductFactors) -> ProductErrors {
         ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));
@@ -161,7 +161,7 @@ impl DiscSamples {
         })
     }
 
-    /// Errors of other values at the same pairs.
+    /// Errors of other values for the same pairs.
     pub(super) fn errors_of(&self, values: &Matrix) -> ProductErrors {
         ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));
@@ -170,7 +170,7 @@ impl DiscSamples {
     }
 }
 
-/// Texels with their centers above the horizon.
+/// Texels with centers above the horizon.
 fn inside(map: ParabolicMap) -> Vec<usize> {
     (0..map.texels()).filter(|texel| map.direction(texel % map.side(), texel / map.side()).z > 0.0).collect()
 }

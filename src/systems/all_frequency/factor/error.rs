@@ -1,11 +1,11 @@
-//! Why there are no factors.
+//! Errors of factorization.
 
 use thiserror::Error;
 
 use crate::linalg::{FactorError, MatrixError};
 use crate::transfer::brdf::BrdfError;
 
-/// Why there are no factors.
+/// Errors of factorization.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -22,7 +22,7 @@ pub enum FactorizationError {
     #[error("expected a reflectance with a formula below the horizon, found {what}")]
     #[diagnostic(code(crossbar::factor::continued), help("take 0 for texels outside the disc, or its rim"))]
     NotContinued { what: &'static str },
-    /// More terms than the table has singular values that are told from 0, or none.
+    /// A number of terms that is 0, or above the number of singular values distinguishable from 0.
     #[error("expected 1 to {rank} terms, the rank of the table, found {found}")]
     #[diagnostic(code(crossbar::factor::terms), help("ask for fewer terms"))]
     Terms { found: usize, rank: usize },

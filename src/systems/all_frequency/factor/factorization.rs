@@ -6,8 +6,8 @@ use super::table::ProductTable;
 use crate::linalg::LeadingSvd;
 use crate::sphere::ParabolicMap;
 
-/// Two singular values whose difference is less than this share of the larger count as a pair. A lobe that is symmetric
-/// around the normal has its values in such pairs, told apart by rounding, or by the square of texels: to 4e-4 in a map
+/// Two singular values whose relative difference is less than this count as a pair. A lobe that is symmetric around the
+/// normal has its values in such pairs, which differ by rounding, or by the square of a texel's size: by 4e-4 in a map
 /// of 32 x 32.
 pub const PAIR_DISTANCE: f64 = 1e-3;
 
@@ -30,7 +30,7 @@ pub struct Factorization {
 }
 
 impl Factorization {
-    /// Of a table, with vectors for up to so many terms. The bits do not depend on the number of threads.
+    /// Factors a table, with vectors for up to `terms` terms. The bits do not depend on the number of threads.
     ///
     /// # Errors
     /// [`FactorizationError`] for no terms, for more than the table's rank, and for a table of zeros.
@@ -42,7 +42,7 @@ impl Factorization {
         Ok(found)
     }
 
-    /// The same with fewer terms where the rank is less.
+    /// As [`Self::new`], with fewer terms where the rank is lower.
     ///
     /// # Errors
     /// [`FactorizationError`] for a table of zeros.
@@ -59,7 +59,7 @@ impl Factorization {
         &self.svd.values
     }
 
-    /// How many of them are told from 0.
+    /// Number of singular values distinguishable from 0.
     pub const fn rank(&self) -> usize {
         self.svd.rank
     }
@@ -85,11 +85,11 @@ impl Factorization {
         is_pair.then_some(SplitPair { terms, values })
     }
 
-    /// The factors of the largest singular values, the root of each in both (equation 9). The component of F_k of
-    /// largest magnitude is positive.
+    /// The factors of the largest singular values, whose square roots are multiplied into both (equation 9). The
+    /// component of F_k of largest magnitude is positive.
     ///
     /// # Panics
-    /// If there are no vectors for so many terms.
+    /// If there are no vectors for this many terms.
     pub fn factors(&self, terms: usize) -> ProductFactors {
         assert!((1..=self.terms()).contains(&terms), "1 to {} terms, not {terms}", self.terms());
         let by_texel = |vectors: &crate::linalg::Matrix| {

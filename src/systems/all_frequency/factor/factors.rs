@@ -19,7 +19,7 @@ pub struct ProductFactors {
 #[derive(Clone, Debug, PartialEq)]
 struct FactorMap {
     map: ParabolicMap,
-    /// All terms of a texel, then the next texel's.
+    /// All terms of a texel, followed by those of the next.
     values: Vec<f64>,
 }
 
@@ -40,7 +40,7 @@ impl ProductFactors {
     /// Factors of this many terms from two maps, each with the values of its texels, term by term.
     ///
     /// # Panics
-    /// If a map has not `terms` values a texel.
+    /// If a map does not have `terms` values per texel.
     pub fn new(terms: usize, view: (ParabolicMap, Vec<f64>), light: (ParabolicMap, Vec<f64>)) -> Self {
         let of = |(map, values): (ParabolicMap, Vec<f64>)| FactorMap { map, values };
         let (view, light) = (of(view), of(light));
@@ -70,7 +70,7 @@ impl ProductFactors {
         [&self.view.values, &self.light.values]
     }
 
-    /// G at a texel, row times side plus column.
+    /// G at a texel, by row times side plus column.
     ///
     /// # Panics
     /// If there is no such texel.

@@ -1,11 +1,11 @@
-//! The same table by spherical harmonics, the output basis of earlier work: the lower part of the table of section 3.
+//! The same table in spherical harmonics, the output basis of earlier work: the lower part of the table of section 3.
 
 use super::disc::{DiscSamples, ProductErrors};
 use super::error::FactorizationError;
 use crate::linalg::{Matrix, Svd};
 use crate::sphere::{function_count, harmonics};
 
-/// How f above the horizon becomes coefficients.
+/// The projection of f above the horizon onto harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HarmonicFit {
     /// Integrals with the functions, f being 0 below the horizon.
@@ -14,7 +14,7 @@ pub enum HarmonicFit {
     LeastSquares,
 }
 
-/// Which direction of f is expanded.
+/// The sides of f that are expanded in harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HarmonicSides {
     /// The view: rows of a transfer matrix are its functions.
@@ -48,7 +48,7 @@ pub fn harmonic_errors(
     Ok(disc.errors_of(&values))
 }
 
-/// From values at texels to coefficients, and back.
+/// Converts values at texels to coefficients, and back.
 struct Expansion {
     /// A row per function.
     analysis: Matrix,

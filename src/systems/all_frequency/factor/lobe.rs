@@ -1,7 +1,7 @@
 //! Microfacet lobes in the forms that the paper leaves open.
 //!
-//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three figures each, and prints errors; it does
-//! not say which factors of these models it took. [`Lobe`] has each factor as an option.
+//! The paper names Cook and Torrance 1982 and Schlick 1994 with two or three parameters each, and prints errors; it
+//! does not say which factors of these models it used. [`Lobe`] has each factor as an option.
 
 use std::f64::consts::PI;
 
@@ -15,24 +15,23 @@ use crate::transfer::brdf::facets::{
 use crate::transfer::brdf::fresnel::{dielectric, schlick};
 use crate::transfer::brdf::{Brdf, BrdfError};
 
-/// What stands in front of distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
+/// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Denominators {
-    /// 1 / (4 pi v_z s_z): facets that reflect what they receive; Schlick 1994, and Cook and Torrance's model in
-    /// textbooks.
+    /// 1 / (4 pi v_z s_z): facets conserve energy; Schlick 1994, and Cook and Torrance's model in textbooks.
     #[default]
     Normalised,
-    /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times as much.
+    /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times the above.
     #[strum(to_string = "printed-1982")]
     Printed1982,
-    /// 1: neither pi nor cosines.
+    /// 1: without pi and cosines.
     Product,
     /// 1/4: Schlick's factor without pi and cosines.
     Quarter,
 }
 
-/// Fresnel reflectance by the reflectance at normal incidence and the angle to the half vector.
+/// Fresnel reflectance from the reflectance at normal incidence and the angle to the half vector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum FresnelForm {
@@ -40,22 +39,22 @@ pub enum FresnelForm {
     Dielectric,
     /// Schlick's approximation.
     Schlick,
-    /// The reflectance at normal incidence at all angles.
+    /// The reflectance at normal incidence, for all angles.
     Constant,
 }
 
-/// Light that facets take from each other.
+/// Shadowing and masking between facets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum Shadowing {
-    /// By the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
+    /// That of the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
     #[default]
     Model,
     /// None.
     None,
 }
 
-/// The w of Schlick's azimuth factor.
+/// Definition of w in Schlick's azimuth factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum TangentCosine {
@@ -63,25 +62,25 @@ pub enum TangentCosine {
     /// Schlick defines it.
     #[default]
     Projected,
-    /// The half vector's own component along the tangent, not divided by the length of the projection.
+    /// The half vector's component along the tangent, not divided by the length of the projection.
     HalfVector,
 }
 
-/// How many facets face a direction.
+/// Distribution of the facets' normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FacetDistribution {
-    /// Beckmann's, of Cook and Torrance.
+    /// Beckmann's, as used by Cook and Torrance.
     Beckmann {
         /// Root mean square slope.
         roughness: f64,
     },
     /// Schlick's Z(t) A(w).
     Schlick {
-        /// From 0 excluded to 1.
+        /// In (0, 1].
         roughness: f64,
-        /// From 0 excluded to 1, isotropic.
+        /// In (0, 1]; 1 is isotropic.
         isotropy: f64,
-        /// What w is.
+        /// The definition of w.
         tangent: TangentCosine,
     },
 }
@@ -97,9 +96,9 @@ pub struct Lobe {
     pub normal_incidence: f64,
     /// Fresnel reflectance at other angles.
     pub fresnel: FresnelForm,
-    /// Light that facets take from each other.
+    /// Shadowing and masking between facets.
     pub shadowing: Shadowing,
-    /// What stands in front.
+    /// The factor before distribution, shadowing and Fresnel reflectance.
     pub denominators: Denominators,
 }
 
@@ -128,10 +127,10 @@ impl Lobe {
         }
     }
 
-    /// Whether all figures are in range.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] names the first that is not.
+    /// [`BrdfError::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), BrdfError> {
         let Self { albedo, normal_incidence, .. } = *self;
         match self.distribution {
@@ -145,7 +144,7 @@ impl Lobe {
             FacetDistribution::Schlick { roughness, isotropy, .. } => {
                 Brdf::Schlick { albedo, specular: 1.0, roughness, isotropy, normal_incidence }.check()?;
                 match self.fresnel {
-                    // An index of infinity has no formula.
+                    // Reflectance 1 would need an infinite index of refraction.
                     FresnelForm::Dielectric => {
                         Brdf::CookTorrance { albedo, specular: 1.0, roughness, normal_incidence }.check()
                     }
@@ -188,7 +187,7 @@ impl Lobe {
 }
 
 impl ProductFunction for Lobe {
-    /// Below the horizon the formula with its signs; 0 where no facet can face the half vector.
+    /// Below the horizon the formula is continued with its signs; 0 where no facet can face the half vector.
     fn value(&self, view: DVec3, light: DVec3) -> f64 {
         let sum = view + light;
         let half = sum / sum.length();
@@ -256,7 +255,7 @@ mod tests {
         close(with(Denominators::Printed1982), 4.0 * normalised);
         close(with(Denominators::Product), 4.0 * PI * VIEW.z * LIGHT.z * normalised);
         close(with(Denominators::Quarter), PI * VIEW.z * LIGHT.z * normalised);
-        // Head on nothing is in shadow, and all forms of Fresnel's term agree.
+        // At normal incidence nothing is in shadow, and all forms of Fresnel's term agree.
         let head_on = |fresnel, shadowing| Lobe { fresnel, shadowing, ..lobe }.value(DVec3::Z, DVec3::Z);
         for fresnel in [FresnelForm::Dielectric, FresnelForm::Schlick, FresnelForm::Constant] {
             for shadowing in [Shadowing::Model, Shadowing::None] {

@@ -1,8 +1,8 @@
 //! Measured reflectance in the files of Matusik, Pfister, Brand and McMillan 2003 (MERL): `.binary`.
 //!
-//! Three 32-bit integers, 90, 90 and 180, then three channels of as many 64-bit floats, all little-endian: by the
-//! angles of the half vector from the normal (denser near it), of the light from the half vector, and around that, 180
-//! degrees.
+//! Three 32-bit integers, 90, 90 and 180, then three channels of 90 x 90 x 180 64-bit floats, all little-endian. The
+//! dimensions are the angle of the half vector from the normal (denser near it), that of the light from the half
+//! vector, and the azimuth around the half vector over 180 degrees.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
@@ -15,16 +15,16 @@ use super::product::ProductFunction;
 use crate::elementary::{acos, atan2};
 use crate::io::{ReadError, read_limited};
 
-/// Cells by half angle, difference angle and azimuth.
+/// Number of cells by half angle, difference angle and azimuth.
 pub const MERL_CELLS: [usize; 3] = [90, 90, 180];
 
-/// Cells of a channel.
+/// Number of cells of a channel.
 const CELLS: usize = MERL_CELLS[0] * MERL_CELLS[1] * MERL_CELLS[2];
 /// Bytes of the three integers.
 const HEADER: usize = 12;
 /// Bytes of a file.
 const BYTES: usize = HEADER + 3 * CELLS * 8;
-/// What the numbers of red, green and blue are multiplied by.
+/// Factors of the stored numbers of red, green and blue.
 const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
 
 /// A channel of a measurement.
@@ -43,16 +43,16 @@ pub enum MerlChannel {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MerlBrdf {
     cells: Vec<f64>,
-    /// Cells below 0, of all channels: where nothing was measured. They count as 0.
+    /// Number of negative cells over all channels, which were not measured. They count as 0.
     pub invalid: usize,
 }
 
-/// Why a file is no measurement.
+/// Reasons for which a file is no measurement.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MerlError {
-    /// The file is not there, or too long.
+    /// The file cannot be read, or is too long.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Read(#[from] ReadError),
@@ -60,23 +60,23 @@ pub enum MerlError {
     #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
     #[diagnostic(code(crossbar::merl::short), help("the file is cut; fetch it again"))]
     Short { path: PathBuf, expected: usize, found: usize },
-    /// More bytes than the cells take.
+    /// The file is longer than its cells.
     #[error("{}: expected {expected} bytes of a MERL measurement, found {found}", path.display())]
     #[diagnostic(code(crossbar::merl::long), help("is it a measurement of another kind?"))]
     TooLong { path: PathBuf, expected: usize, found: usize },
-    /// Other numbers of cells.
+    /// Other numbers of cells than 90 x 90 x 180.
     #[error(
         "{}: expected 90 x 90 x 180 cells, found {} x {} x {}", path.display(), found[0], found[1], found[2]
     )]
     #[diagnostic(code(crossbar::merl::cells), help("only isotropic measurements of this size are read"))]
     Dimensions { path: PathBuf, found: [i32; 3] },
-    /// A cell that is infinite or no number.
+    /// A cell that is infinite or NaN.
     #[error("{}: expected finite numbers, found {found} in cell {cell} of channel {channel} (both from 0)", path.display())]
     #[diagnostic(code(crossbar::merl::number), help("cells that were not measured are below 0"))]
     NotFinite { path: PathBuf, channel: usize, cell: usize, found: f64 },
 }
 
-/// Reads a measurement from bytes; `name` stands for the file in messages.
+/// Reads a measurement from bytes; `name` is the file's name in messages.
 ///
 /// # Errors
 /// [`MerlError`].
@@ -122,23 +122,23 @@ pub fn load_merl(path: &Path) -> Result<MerlBrdf, MerlError> {
 }
 
 impl MerlBrdf {
-    /// A channel, to be factored.
+    /// One channel, as a product function.
     pub const fn channel(&self, channel: MerlChannel) -> MerlProduct<'_> {
         MerlProduct { brdf: self, channel }
     }
 
-    /// The reflectance of a channel, per steradian: that of the nearest cell, as the measurement's own reader has it,
-    /// not interpolated. Both directions have length 1 and lie above the horizon.
+    /// The reflectance of a channel, in 1/sr: that of the nearest cell, not interpolated, as in the reader published
+    /// with the measurements. Both directions have length 1 and lie above the horizon.
     pub fn value(&self, channel: MerlChannel, view: DVec3, light: DVec3) -> f64 {
         let half = (view + light).normalize_or(DVec3::Z);
         let radius = (half.x * half.x + half.y * half.y).sqrt();
         let [cosine, sine] = if radius > 0.0 { [half.x / radius, half.y / radius] } else { [1.0, 0.0] };
-        // The light with the half vector turned to the normal.
+        // Rotate the light so that the half vector coincides with the normal.
         let around = DVec3::new(-sine, cosine, 0.0);
         let along = DVec3::new(half.z * cosine, half.z * sine, -radius);
         let [x, y, z] = [along.dot(light), around.dot(light), half.dot(light)];
         let azimuth = atan2(y, x);
-        // Light and view may be exchanged: half a turn.
+        // By reciprocity light and view may be exchanged, which rotates the azimuth by half a turn.
         let azimuth = if azimuth < 0.0 { azimuth + PI } else { azimuth };
         let share = |angle: f64| acos(angle.clamp(-1.0, 1.0)) / FRAC_PI_2;
         let at = [share(half.z).sqrt(), share(z), azimuth / PI];

@@ -2,10 +2,10 @@
 //!
 //! - [`ProductFunction`]: f of a reflectance; [`Lobe`] has the forms that the paper leaves open, [`Brdf`] are those of
 //!   `transfer::brdf`, [`MerlBrdf`] measured ones;
-//! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`], with what the paper leaves open as named options;
+//! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`]; choices that the paper leaves open are named options;
 //! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
 //!   texels;
-//! - [`ProductErrors`], [`harmonic_errors`]: how far approximations are off, by terms and by spherical harmonics.
+//! - [`ProductErrors`], [`harmonic_errors`]: errors of approximations by terms and by spherical harmonics.
 //!
 //! Directions are local: z is the normal, x the tangent.
 

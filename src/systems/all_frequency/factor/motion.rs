@@ -1,6 +1,6 @@
 //! Motions of a square of texels under which a product function keeps its values.
 
-/// Which motions of both maps at once leave f as it is. What is left of the work is a share of it.
+/// Motions of both maps that leave f unchanged. Only one row of each orbit must be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProductSymmetry {
     /// None is known.
@@ -39,7 +39,7 @@ impl ProductSymmetry {
     }
 }
 
-/// Where a texel, row times side plus column, goes.
+/// The texel (row times side plus column) to which a motion takes `texel`.
 pub(super) fn moved(motion: Motion, side: usize, texel: usize) -> usize {
     let last = side.cast_signed() - 1;
     // Twice the distance from the middle.
@@ -48,7 +48,7 @@ pub(super) fn moved(motion: Motion, side: usize, texel: usize) -> usize {
     row * side + column
 }
 
-/// Where it comes from.
+/// The texel that a motion takes to `texel`.
 pub(super) fn moved_back(motion: Motion, side: usize, texel: usize) -> usize {
     let [[a, b], [c, d]] = motion;
     moved([[a, c], [b, d]], side, texel)

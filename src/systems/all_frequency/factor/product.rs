@@ -10,16 +10,16 @@ use crate::transfer::brdf::Brdf;
 
 /// The BRDF product function f(v, s) = b(v, s) s_z (section 2), per steradian, in local coordinates.
 pub trait ProductFunction: Sync {
-    /// f at two directions of length 1, both above the horizon; below it too where [`Self::continues`] says so.
+    /// f for two directions of length 1 above the horizon; also below it where [`Self::continues`] is true.
     fn value(&self, view: DVec3, light: DVec3) -> f64;
 
-    /// Whether there is a formula that continues below the horizon.
+    /// True if the formula can be evaluated below the horizon too.
     fn continues(&self) -> bool;
 
-    /// Which motions leave f as it is.
+    /// Rotations and mirrorings that leave f unchanged.
     fn symmetry(&self) -> ProductSymmetry;
 
-    /// What it is, for messages.
+    /// Its name in messages.
     fn name(&self) -> &'static str;
 }
 

@@ -1,4 +1,4 @@
-//! f on parabolic maps (section 3, its second and third paragraph).
+//! Sampling of f on parabolic maps (section 3, second and third paragraph).
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,19 +10,19 @@ use super::table::{MAX_MAP_SIDE, ProductTable};
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
 
-/// Samples along an edge of a texel, at most.
+/// Largest number of samples along an edge of a texel.
 pub const MAX_SUPERSAMPLES: usize = 16;
 
-/// Views whose rows are computed between two reports of progress.
+/// Number of views whose rows are computed between two reports of progress.
 const BATCH: usize = 16;
 
-/// Samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor of 16 x
-/// 16" may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
+/// Numbers of samples along an edge of a texel of each map. "We supersample each pair of view/light samples by a factor
+/// of 16 x 16" may mean [`Self::FOUR_EACH`], [`Self::VIEW`], [`Self::LIGHT`] or [`Self::SIXTEEN_EACH`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Supersamples {
     /// Along an edge of the view's texel.
     pub view: usize,
-    /// Along an edge of the light's.
+    /// Along an edge of the light's texel.
     pub light: usize,
 }
 
@@ -39,46 +39,46 @@ impl Supersamples {
     pub const SIXTEEN_EACH: Self = Self { view: 16, light: 16 };
 }
 
-/// What samples beyond the disc of a map hold, whose directions lie below the horizon: 212 of 1,024 texels of a map of
-/// 32 x 32 have their centers there, and more have some of their samples.
+/// Values of samples outside the disc of a map, whose directions lie below the horizon: 212 of 1,024 texels of a map of
+/// 32 x 32 have their centers there, and others have some of their samples there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum OutsideDisc {
     /// 0.
     #[default]
     Zero,
-    /// The formula of f continued below the horizon, with its signs; 0 where that is no finite number.
+    /// The formula of f continued below the horizon, with its signs; 0 where it is not finite.
     Continued,
-    /// f at the same azimuth half a texel inside of the rim.
+    /// f at the same azimuth, half a texel inside the rim.
     Rim,
 }
 
-/// Where f is cut off, "bigger than 3" in the paper. Values below minus the limit, which only
-/// [`OutsideDisc::Continued`] makes, are cut off there.
+/// Clamping of f, where it is "bigger than 3" in the paper. Values below the negative limit, which only
+/// [`OutsideDisc::Continued`] causes, are clamped to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ProductClamp {
-    /// Nowhere.
+    /// No clamping.
     None,
-    /// Each sample, before the mean over a pair of texels is taken.
+    /// Each sample is clamped, before the mean over a pair of texels.
     Samples(f64),
-    /// The mean.
+    /// The mean over a pair of texels is clamped.
     Means(f64),
 }
 
-/// How f is sampled.
+/// Options of the sampling of f.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorSampling {
     /// Texels along an edge of both maps, 1 to [`MAX_MAP_SIDE`].
     pub side: usize,
     /// Samples per texel, 1 to [`MAX_SUPERSAMPLES`] along an edge.
     pub supersamples: Supersamples,
-    /// What samples beyond the disc hold.
+    /// Values of samples outside the disc.
     pub outside: OutsideDisc,
-    /// Where f is cut off.
+    /// Clamping of f.
     pub clamp: ProductClamp,
 }
 
-/// The paper's figures, and of what it leaves open the first reading.
+/// The paper's parameters; where it is ambiguous, the first reading.
 impl Default for FactorSampling {
     fn default() -> Self {
         Self {
@@ -91,7 +91,7 @@ impl Default for FactorSampling {
 }
 
 impl ProductClamp {
-    /// The limit; infinite without one.
+    /// The limit; infinity for [`Self::None`].
     pub const fn limit(self) -> f64 {
         match self {
             Self::None => f64::INFINITY,
@@ -101,10 +101,10 @@ impl ProductClamp {
 }
 
 impl FactorSampling {
-    /// Whether all figures are in range.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`FactorizationError::OutOfRange`] names the first that is not.
+    /// [`FactorizationError::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), FactorizationError> {
         let of = |what, expected, found: f64, fits: bool| {
             if fits { Ok(()) } else { Err(FactorizationError::OutOfRange { what, expected, found }) }
@@ -119,11 +119,12 @@ impl FactorSampling {
         of("limit of f", "a number above 0", limit, limit > 0.0)
     }
 
-    /// The table of f: each value the mean over the samples of a pair of texels, added view by view, light by light.
-    /// `progress` hears how many views are done, of how many. The bits do not depend on the number of threads.
+    /// The table of f: each value is the mean over the samples of a pair of texels, summed view by view, light by
+    /// light. `progress` is called with the number of finished views and their total. The bits do not depend on
+    /// threads.
     ///
     /// # Errors
-    /// [`FactorizationError`] for figures out of range, and for a continuation that f does not have.
+    /// [`FactorizationError`] for parameters out of range, or a continuation that f does not have.
     pub fn table(
         &self,
         product: &dyn ProductFunction,
@@ -144,6 +145,7 @@ impl FactorSampling {
             let rows: Vec<Vec<f64>> = texels.par_iter().map(|&view| self.row(product, &views[view], &lights)).collect();
             texels.iter().zip(rows).for_each(|(&view, row)| values.row_mut(view).copy_from_slice(&row));
         }
+        // Rows of the other views follow from the symmetry of f: only their lights are permuted.
         for texel in 0..map.texels() {
             let (from, motion) = whole.first(texel);
             if from != texel {
@@ -168,7 +170,7 @@ impl FactorSampling {
             for &view in views {
                 for &light in lights {
                     let value = product.value(view, light);
-                    // The continued formula has poles below the horizon.
+                    // The continued formula has poles below the horizon, which count as 0.
                     sum += if value.is_finite() { value.clamp(-sample_limit, sample_limit) } else { 0.0 };
                 }
             }
@@ -177,7 +179,7 @@ impl FactorSampling {
         lights.iter().map(mean).collect()
     }
 
-    /// Per texel the directions at which f is asked for; what is missing counts as 0.
+    /// Per texel the directions at which f is sampled; samples left out count as 0.
     fn directions(&self, edge: usize) -> Vec<Vec<DVec3>> {
         let (coarse, fine) = (self.side, ParabolicMap::new(self.side * edge));
         let of_texel = |texel: usize| {
@@ -206,14 +208,14 @@ impl FactorSampling {
     }
 }
 
-/// A map under a group of motions.
+/// A map with a group of motions: rotations and mirrorings of its texels.
 struct Whole {
     motions: &'static [Motion],
     side: usize,
 }
 
 impl Whole {
-    /// The first texel that motions take to this one, and such a motion.
+    /// The first texel that a motion of the group takes to `texel`, and that motion.
     fn first(&self, texel: usize) -> (usize, Motion) {
         let from = |&motion: &Motion| (moved_back(motion, self.side, texel), motion);
         let mut all = self.motions.iter().map(from);
@@ -230,7 +232,7 @@ mod tests {
     use crate::all_frequency::factor::{FresnelForm, Lobe, ProductSymmetry};
     use crate::transfer::brdf::Brdf;
 
-    /// A product function without its symmetry.
+    /// A product function that declares no symmetry.
     struct Plain(Lobe);
 
     impl ProductFunction for Plain {
@@ -268,7 +270,7 @@ mod tests {
                     let supersamples = Supersamples { view: 2, light: 3 };
                     let sampling = FactorSampling { side, supersamples, outside, ..FactorSampling::default() };
                     let difference = largest_difference(&table(sampling, &lobe), &table(sampling, &Plain(lobe)));
-                    // Poles of the continued formulas magnify rounding.
+                    // Poles of the continued formulas amplify rounding.
                     assert!(difference < 1e-11, "{lobe:?} {outside:?} {side}: {difference}");
                 }
             }
@@ -283,7 +285,7 @@ mod tests {
         let sampling = FactorSampling { side: 4, supersamples, clamp, outside: OutsideDisc::Zero };
         let found = table(sampling, &lobe);
         let (fine, mut sum) = (ParabolicMap::new(8), 0.0);
-        // View texel (1, 2), light texel (3, 2), of which a part lies below the horizon.
+        // View texel (1, 2) and light texel (3, 2), part of which lies below the horizon.
         for (a, b, c, d) in (0..16).map(|at| (at & 1, at >> 1 & 1, at >> 2 & 1, at >> 3 & 1)) {
             let [view, light] = [fine.direction(2 + a, 4 + b), fine.direction(6 + c, 4 + d)];
             sum += if light.z > 0.0 { lobe.value(view, light).min(0.1) } else { 0.0 };

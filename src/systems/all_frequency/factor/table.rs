@@ -19,16 +19,16 @@ pub struct ProductTable {
     values: Matrix,
 }
 
-/// Why a file is no table of f.
+/// Errors of reading a table of f.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum ProductTableError {
-    /// There are no numbers.
+    /// The numbers cannot be read.
     #[error(transparent)]
     #[diagnostic(transparent)]
     Numbers(#[from] NumbersError),
-    /// Rows or columns that are no square map.
+    /// A number of rows or columns that is not that of a square map.
     #[error(
         "{}: expected a square number of {what} up to {most}, a texel of a square map each, found {found}", path.display(),
         most = MAX_MAP_SIDE * MAX_MAP_SIDE
@@ -38,7 +38,7 @@ pub enum ProductTableError {
         help("a map of 32 x 32 texels has 1024; rows are views, columns lights, texels row by row")
     )]
     NotSquare { path: PathBuf, what: &'static str, found: usize },
-    /// A number that is no product of reflectance and cosine.
+    /// A number that cannot be a product of reflectance and cosine.
     #[error(
         "{}: expected finite numbers of at least 0, found {found} in row {row}, column {column} (counted from 0)",
         path.display()
@@ -48,20 +48,20 @@ pub enum ProductTableError {
 }
 
 impl ProductTable {
-    /// From values by texels of the view's map (rows) and of the light's (columns).
+    /// A table from values, with one row per texel of the view's map and one column per texel of the light's.
     ///
     /// # Panics
-    /// If there is not a row per texel of the first map and a column per texel of the second.
+    /// If the numbers of rows and columns differ from those of the maps' texels.
     pub(super) fn new([view, light]: [ParabolicMap; 2], values: Matrix) -> Self {
         assert_eq!([values.row_count(), values.column_count()], [view.texels(), light.texels()], "a value per texel");
         Self { view, light, values }
     }
 
-    /// From rows of numbers; `name` stands for the file in messages.
+    /// A table from rows of numbers; `name` is the file's name in messages.
     ///
     /// # Errors
-    /// [`ProductTableError`] if rows or columns are not as many as a square map has texels, or a number is below 0, NaN
-    /// or infinite.
+    /// [`ProductTableError`] if the number of rows or columns is not that of a square map's texels, or a number is
+    /// below 0, NaN or infinite.
     pub fn of_numbers(table: &NumberTable<f64>, name: &Path) -> Result<Self, ProductTableError> {
         let columns = table.columns.max(1);
         let map = |what: &'static str, found: usize| {
@@ -103,7 +103,7 @@ impl ProductTable {
     }
 }
 
-/// Reads a table from a file: comma-separated values or an array of NumPy's, told apart by how they begin.
+/// Reads a table from a file: comma-separated values or a NumPy array, recognised by the first bytes.
 ///
 /// # Errors
 /// [`ProductTableError`].
@@ -128,7 +128,7 @@ mod tests {
         let table = table(4, 9, &[1.0, 2.0, 3.0]).expect("a table");
         assert_eq!([table.view().side(), table.light().side()], [2, 3]);
         assert_eq!(table.values().row(1)[5], 3.0);
-        // In the middle of the light's map stands texel 4, of value 2, whatever the view is.
+        // At the center of the light's map is texel 4, with value 2 for any view.
         assert_eq!(table.interpolated(DVec3::Z, DVec3::Z), 2.0);
     }
 

@@ -1,20 +1,20 @@
-//! Where the numbers of a vertex stand among sets of texture coordinates.
+//! The layout of a vertex's numbers in texture coordinate sets.
 
-/// What is interpolated for the view (section 6 says "compute the local view direction", not where).
+/// The representation of the view that is interpolated (section 6 says "compute the local view direction", not where).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "kebab-case")]
 pub enum ViewNumbers {
-    /// The two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.
+    /// Two coordinates in the parabolic map, computed at the vertices: nothing is normalised per pixel.
     #[default]
     Coordinates,
     /// The local view vector, not normalised at the vertices. The pixel program divides by its length plus z, so that
-    /// on a flat triangle of one frame the direction is exact.
+    /// the direction is exact on a flat triangle with a constant frame.
     Vector,
 }
 
 impl ViewNumbers {
-    /// How many there are.
+    /// The number of interpolated numbers.
     pub fn count(self) -> usize {
         match self {
             Self::Coordinates => 2,
@@ -23,43 +23,43 @@ impl ViewNumbers {
     }
 }
 
-/// Components of a set.
+/// Components of a coordinate set.
 pub(super) const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
 
-/// The places of m numbers of some channels and of the view: per channel whole sets of four, then the view, then what
-/// is left of each channel.
+/// The layout of m terms for each channel, and of the view: first full sets of four terms per channel, then the view,
+/// then the remaining terms of each channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SetLayout {
-    /// Terms m.
+    /// The number m of terms.
     pub terms: usize,
-    /// Channels in a pass: 1 or 3.
+    /// Channels per pass: 1 or 3.
     pub channels: usize,
-    /// What is interpolated for the view.
+    /// The representation of the view.
     pub view: ViewNumbers,
 }
 
 impl SetLayout {
-    /// Whole sets per channel.
+    /// Number of full sets per channel.
     pub fn quads(&self) -> usize {
         self.terms / 4
     }
 
-    /// Terms of a channel that fill no set.
+    /// Number of remaining terms per channel, which fill no set.
     pub fn loose(&self) -> usize {
         self.terms % 4
     }
 
-    /// Numbers that are interpolated.
+    /// Number of interpolated numbers.
     pub fn numbers(&self) -> usize {
         self.channels * self.terms + self.view.count()
     }
 
-    /// Sets of coordinates.
+    /// Number of coordinate sets.
     pub fn sets(&self) -> usize {
         self.numbers().div_ceil(4)
     }
 
-    /// The set in whose first components the view stands.
+    /// The set whose first components hold the view.
     pub fn view_set(&self) -> usize {
         self.channels * self.quads()
     }
@@ -99,7 +99,7 @@ mod tests {
         }
     }
 
-    /// "30 numbers and the 2 coordinates fill eight sets"; a view vector is one number too many.
+    /// "30 numbers and the 2 coordinates fill eight sets"; a view vector would be one number too many.
     #[test]
     fn ten_terms_of_three_channels_fill_eight_sets() {
         let layout = |view| SetLayout { terms: 10, channels: 3, view };

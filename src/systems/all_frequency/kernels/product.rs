@@ -1,9 +1,9 @@
-//! The pixel program of section 6's proposal: G(v) . T_p, with G from textures and T_p interpolated.
+//! The pixel program that section 6 proposes: G(v) . T_p, with G from textures and T_p interpolated.
 //!
-//! - t0 on: the numbers of [`SetLayout`].
-//! - s0 on: G in parabolic maps, four or two terms per map. Of two, every second map has its terms exchanged, so that
-//!   one instruction joins it with the one before.
-//! - Out: the product; in a pass of one channel in all components. Alpha is 1.
+//! - t0 and up: the numbers of [`SetLayout`].
+//! - s0 and up: G in parabolic maps, four or two terms per map. With two, every second map stores its terms in reverse
+//!   order, so that one instruction combines it with the one before.
+//! - Output: the product; in a pass of one channel in all components. Alpha is 1.
 
 use std::fmt::Write as _;
 
@@ -13,30 +13,30 @@ use refsim::exec::CheckedProgram;
 use super::layout::{COMPONENTS, SetLayout, ViewNumbers};
 use crate::card::{KernelError, checked};
 
-/// Who interpolates between texels of G.
+/// The interpolation between texels of G.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum MapFilter {
-    /// The sampler, whose weights have few bits.
+    /// By the sampler, whose weights have few bits.
     #[default]
     Sampler,
-    /// The program: four reads per map, three interpolations.
+    /// By the program: four reads per map and three interpolations.
     Program,
 }
 
-/// A program for products.
+/// A pixel program for the products.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ProductKernel {
-    /// The places of the numbers.
+    /// The layout of the interpolated numbers.
     pub layout: SetLayout,
-    /// Terms in a texel: 4 or 2.
+    /// Terms per texel: 4 or 2.
     pub terms_per_texel: usize,
-    /// Who interpolates; two terms in a texel are the sampler's.
+    /// The interpolation; for two terms per texel only the sampler's is possible.
     pub filter: MapFilter,
     /// Texels along an edge of a map.
     pub side: usize,
-    /// Whether instructions ask for the device's partial precision.
+    /// True if instructions request the device's partial precision.
     pub is_partial: bool,
 }
 
@@ -46,12 +46,12 @@ impl ProductKernel {
         self.layout.terms.div_ceil(self.terms_per_texel)
     }
 
-    /// Texture reads.
+    /// Number of texture reads.
     pub fn reads(&self) -> usize {
         self.maps() * if self.filter == MapFilter::Program { 4 } else { 1 }
     }
 
-    /// A name for messages.
+    /// The name used in messages.
     pub fn name(&self) -> String {
         let SetLayout { terms, channels, view } = self.layout;
         let precision = if self.is_partial { ", partial precision" } else { "" };
@@ -63,7 +63,7 @@ impl ProductKernel {
         )
     }
 
-    /// The program.
+    /// The program's assembly text.
     pub fn text(&self) -> String {
         let pp = if self.is_partial { "_pp" } else { "" };
         let mut text = format!("ps_2_0\n; {}\ndef c0, 1, 0.5, 0.00000095367431640625, 0\n", self.name());
@@ -95,7 +95,7 @@ impl ProductKernel {
         text
     }
 
-    /// Where the coordinates stand.
+    /// The register with the map coordinates.
     fn coordinates(&self) -> String {
         match (self.layout.view, self.filter) {
             (ViewNumbers::Coordinates, MapFilter::Sampler) => format!("t{}", self.layout.view_set()),
@@ -103,8 +103,8 @@ impl ProductKernel {
         }
     }
 
-    /// Coordinates stay in full precision. They are taken apart into the center of the upper left of four texels and
-    /// weights, so that reads of the nearest texel are sure of theirs.
+    /// Writes the map coordinates, in full precision. For interpolation by the program they are split into the center
+    /// of the upper left of four texels and weights, so that reads of the nearest texel are certain to get that texel.
     fn push_coordinates(&self, text: &mut String) {
         let view = format!("t{}", self.layout.view_set());
         let given = match self.layout.view {
@@ -129,7 +129,7 @@ impl ProductKernel {
         }
     }
 
-    /// Four terms of G into r5.
+    /// Reads four terms of G into r5.
     fn push_terms(&self, text: &mut String, quad: usize, pp: &str) {
         if self.filter == MapFilter::Program {
             for (register, coordinates) in [(5, 0), (6, 2), (7, 3), (8, 4)] {
@@ -149,7 +149,7 @@ impl ProductKernel {
         }
     }
 
-    /// The component of the sum that belongs to a channel; all of them if there is one channel.
+    /// The component of the sum for a channel; all components if there is one channel.
     fn channel(&self, channel: usize) -> String {
         if self.layout.channels == 1 { String::new() } else { format!(".{}", COMPONENTS[channel]) }
     }
@@ -180,7 +180,7 @@ impl ProductKernel {
         }
     }
 
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if it breaks a rule of the device.

@@ -1,14 +1,14 @@
-//! Equation 13 as a program: four numbers of T_p of a vertex, sixteen representatives of a segment at once.
+//! Equation 13 as a program: four numbers of a vertex's T_p, over sixteen representatives of a segment per pass.
 //!
-//! A fragment is a vertex. TEX0 counts texels of the textures of vertices.
+//! A fragment is a vertex. TEX0 addresses texels of the textures of vertices.
 //!
-//! - texture 0: x, y of the texel of the first representative of the vertex's cluster;
-//! - textures 1 to 4: the weights on the sixteen, four per texel;
-//! - texture 5: four numbers of T of each representative, those of a cluster side by side;
+//! - texture 0: x and y of the texel with the first representative of the vertex's cluster;
+//! - textures 1 to 4: the weights of the sixteen, four per texel;
+//! - texture 5: four numbers of T for each representative, with those of a cluster side by side;
 //! - texture 6: the sum so far; not in the first program.
 //!
-//! All textures are rectangles. Sums run from the first representative to the last. Addresses are made before the first
-//! read that needs one, so that reads depend on one another over two levels.
+//! All textures are rectangles. Sums run from the first representative to the last. Addresses are computed before the
+//! first read that needs one, so that texture reads depend on one another over only two levels.
 
 use std::fmt::Write as _;
 
@@ -18,32 +18,32 @@ use refsim::exec::CheckedProgram;
 use super::layout::COMPONENTS;
 use crate::card::{KernelError, checked};
 
-/// Representatives of a pass.
+/// Number of representatives per pass.
 pub const SUMMED: usize = 16;
-/// The texture of the representatives.
+/// Sampler of the representatives.
 pub const OF_REPRESENTATIVES: usize = 5;
-/// The texture of the sum so far.
+/// Sampler of the sum so far.
 pub const OF_SUM: usize = 6;
 
 /// A program for weighted sums.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SumKernel {
-    /// Whether sums begin.
+    /// True if the sums begin at 0; otherwise they continue the sum so far.
     pub is_first: bool,
 }
 
 impl SumKernel {
-    /// Textures that it reads.
+    /// Number of textures that it reads.
     pub const fn samplers(&self) -> usize {
         if self.is_first { OF_SUM } else { OF_SUM + 1 }
     }
 
-    /// A name for messages.
+    /// The name used in messages.
     pub const fn name(&self) -> &'static str {
         if self.is_first { "sum_first" } else { "sum_next" }
     }
 
-    /// The program.
+    /// The program's assembly text.
     pub fn text(&self) -> String {
         let mut text = format!("!!ARBfp1.0\n# {}\nTEMP base, sum, w0, w1, w2, w3;\n", self.name());
         let names: Vec<String> = (0..SUMMED).map(|k| format!("m{k}")).collect();
@@ -70,7 +70,7 @@ impl SumKernel {
         text
     }
 
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if it breaks a rule of the device.

@@ -1,9 +1,9 @@
-//! The vertex program of section 6's proposal: transferred radiance goes through, and the local view is added.
+//! The vertex program that section 6 proposes: it passes transferred radiance on and adds the local view.
 //!
-//! - v0 position, w = 1; v1 on the numbers of [`SetLayout`], a set each; where the program computes the view: then
-//!   tangent and normal.
+//! - v0: position, w = 1; v1 and up: the numbers of [`SetLayout`], one set each; if the program computes the view, then
+//!   the tangent and the normal follow.
 //! - c0 to c3 rows of the projection; c4 the eye.
-//! - oT0 on: the sets.
+//! - oT0 and up: the sets.
 
 use std::fmt::Write as _;
 
@@ -14,39 +14,39 @@ use refsim::isa::Version;
 use super::layout::{COMPONENTS, SetLayout, ViewNumbers};
 use crate::card::{KernelError, checked};
 
-/// |v| + z is taken to be at least this, in units of the body's frame: so that views along -z have coordinates.
+/// Lower bound of |v| + z, in units of the body's frame, so that views along -z have coordinates.
 pub const LEAST_DENOMINATOR: f64 = 1.0 / 1_048_576.0;
 
-/// A vertex program that hands transferred radiance on.
+/// A vertex program that passes transferred radiance on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct TransferredVertexKernel {
-    /// The places of the numbers.
+    /// The layout of the numbers.
     pub layout: SetLayout,
-    /// Whether the program computes the view; otherwise the host has put it in its place.
+    /// True if the program computes the view; otherwise the host has stored it in its place.
     pub computes_view: bool,
     /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
     pub version: Version,
 }
 
 impl TransferredVertexKernel {
-    /// Attributes of a vertex.
+    /// Number of vertex attributes.
     pub fn attributes(&self) -> usize {
         1 + self.layout.sets() + if self.computes_view { 2 } else { 0 }
     }
 
-    /// Instruction slots.
+    /// Number of instruction slots.
     pub fn slots(&self) -> usize {
         self.text().lines().filter(|line| !line.starts_with([';', 'v', 'd']) || line.starts_with("dp")).count()
     }
 
-    /// A name for messages.
+    /// The name used in messages.
     pub fn name(&self) -> String {
         let SetLayout { terms, channels, view } = self.layout;
         let who = if self.computes_view { "program" } else { "host" };
         format!("transferred_{terms}x{channels}, {view} by the {who}, {}", self.version)
     }
 
-    /// The program.
+    /// The program's assembly text.
     pub fn text(&self) -> String {
         let sets = self.layout.sets();
         let mut text = format!("{}\n; {}\n", self.version, self.name());
@@ -75,7 +75,7 @@ impl TransferredVertexKernel {
         text
     }
 
-    /// The components of a set that the view leaves, as a mask; `None`: none.
+    /// Mask of the components of a set that do not hold the view; `None` if there are none.
     fn rest_of(&self, set: usize) -> Option<&'static str> {
         match self.layout.view {
             _ if !self.computes_view || set != self.layout.view_set() => Some(""),
@@ -85,7 +85,7 @@ impl TransferredVertexKernel {
         }
     }
 
-    /// The view along tangent, bitangent and normal.
+    /// Writes the view vector along tangent, bitangent and normal.
     fn push_view(&self, text: &mut String) {
         let (tangent, normal, set) =
             (1 + self.layout.sets(), 2 + self.layout.sets(), format!("oT{}", self.layout.view_set()));
@@ -106,7 +106,7 @@ impl TransferredVertexKernel {
         }
     }
 
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if it breaks a rule of the device.

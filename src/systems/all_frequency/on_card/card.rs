@@ -22,7 +22,7 @@ use crate::all_frequency::shade::Multiplies;
 use crate::card::{Attribute, BILINEAR, KeptFragments, MeshDraw, MeshOnCard, MeshView, Texels, attribute, slots};
 use crate::geom::UnitFrame;
 
-/// The write masks of passes of one channel; alpha marks what is covered.
+/// Write masks of the passes of one channel each; alpha marks covered pixels.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1 | 8), WriteMask(2), WriteMask(4)];
 
 /// A mesh with transferred radiance on a card.
@@ -32,26 +32,26 @@ pub struct FactoredCard<'a> {
     transferred: TransferredMesh<'a>,
     place: ProductPlace,
     mesh: MeshOnCard,
-    /// Tangents and normals, where the vertex program makes the view.
+    /// Tangents and normals, if the vertex program computes the view.
     axes: Vec<Attribute>,
     indices: Vec<u32>,
     programs: Programs,
     maps: Option<FactorMaps>,
 }
 
-/// What a frame sends, pass by pass.
+/// The vertex streams of a frame, pass by pass.
 struct FrameStreams {
-    /// Attributes between positions and axes.
+    /// Per pass the attributes between positions and tangents.
     passes: Vec<Vec<Attribute>>,
     counts: FactoredCounts,
 }
 
 impl<'a> FactoredCard<'a> {
-    /// Uploads a mesh, and maps of G.
+    /// Uploads a mesh, and the maps of G.
     ///
     /// # Errors
-    /// [`FactoredCardError`] if the device lacks programs, coordinates, samplers or a way to filter, or the parts of
-    /// the mesh do not go together.
+    /// [`FactoredCardError`] if the device lacks programs, coordinate sets, samplers or filtering of the format, or the
+    /// parts of the mesh have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -97,16 +97,17 @@ impl<'a> FactoredCard<'a> {
         slots(&self.programs.pixel)
     }
 
-    /// A frame as the target holds it. Pixels that show nothing are 0, alpha is 1 elsewhere.
+    /// The target of a frame. Background pixels are 0, alpha is 1 elsewhere.
     ///
     /// # Errors
-    /// [`FactoredCardError`] for an exposure out of range, radiance that its format does not hold, and draws that the
-    /// card refuses.
+    /// [`FactoredCardError`] for an exposure out of range, radiance outside its format's range, and draws that the card
+    /// refuses.
     pub fn view_texels(&mut self, view: &MeshView) -> Result<Texels, FactoredCardError> {
         Ok(self.show((view, false))?.0)
     }
 
-    /// The same, with what the frame asks of host and card, for [`time`]: steps 2 and 3 multiply what `host` says.
+    /// As [`Self::view_texels`], with the log of host and card for [`time`]; `host` are the multiplications of steps 2
+    /// and 3.
     ///
     /// # Errors
     /// As [`Self::view_texels`].
@@ -139,6 +140,7 @@ impl<'a> FactoredCard<'a> {
                     indices: Some(&self.indices),
                     pixel: (&programs.pixel, Vec::new()),
                     textures: textures.clone(),
+                    // The first pass fills the depth buffer; the others write their channel at the same depths.
                     fragments: if number == 0 { KeptFragments::Nearest } else { KeptFragments::Visible },
                     mask: if streams.passes.len() == 1 { WriteMask::ALL } else { CHANNELS[number] },
                 })?;
@@ -148,7 +150,7 @@ impl<'a> FactoredCard<'a> {
         Ok((texels, counts, log))
     }
 
-    /// A target of floats that the device has, to see what others clamp.
+    /// A floating-point target format of the device, which shows values that other targets clamp.
     pub(super) fn float_target(&self) -> Option<TexelFormat> {
         let has = |format: &TexelFormat| {
             self.machine.profile().limits.target_formats.iter().any(|name| name == format.name())
@@ -157,7 +159,7 @@ impl<'a> FactoredCard<'a> {
     }
 }
 
-/// What the host sends for a view.
+/// The vertex streams that the host sends for a view.
 fn streams(
     (mesh, place, maps): (&TransferredMesh<'_>, &ProductPlace, Option<&FactorMaps>),
     view: &MeshView,

@@ -1,14 +1,14 @@
-//! Colors that a picture cannot show.
+//! Counts of colors out of a target's range.
 
-/// What happened to colors. Truncated factors have negative lobes: targets and vertices of fractions clamp them, so
-/// they are counted.
+/// Counts of clamped colors. Truncated factors have negative lobes, which targets and vertex colors in fractions clamp
+/// to 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FactoredCounts {
-    /// Pixels that show the mesh; `None`: the device has no target of floats to count in.
+    /// Pixels that show the mesh; `None` if the device has no floating-point target by which to count.
     pub covered: Option<u64>,
-    /// Of them those with a channel below 0 before the target clamps.
+    /// Covered pixels with a negative channel before clamping.
     pub below_zero: Option<u64>,
-    /// Vertices with a channel below 0; `None` where products are made per pixel.
+    /// Vertices with a negative channel; `None` if products are computed per pixel.
     pub vertices_below_zero: Option<u64>,
     /// Vertices with a channel above 1, which bytes clamp.
     pub vertices_above_one: Option<u64>,

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::card::{KernelError, MeshError};
 
-/// Why a card does not draw all-frequency transfer. Vertices count from 0.
+/// Errors of drawing all-frequency transfer on a card. Vertices count from 0.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -41,7 +41,7 @@ pub enum FactoredCardError {
     /// A format of maps that cannot hold G.
     #[error("expected maps in floats or signed fractions of two or four components, found {found}")]
     MapFormat { found: TexelFormat },
-    /// Two terms in a texel, and a program that filters.
+    /// Two terms per texel together with filtering by the program.
     #[error("maps of two terms per texel are filtered by the sampler alone, found {found} filtered by the program")]
     TwoTerms { found: TexelFormat },
     /// A size or a figure that does not fit, or a draw that the card refuses.
@@ -50,7 +50,7 @@ pub enum FactoredCardError {
     /// The device does not run a language, or refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
-    /// The card refuses a resource or a draw, or does not open.
+    /// The card refused a resource or a draw, or could not be opened.
     #[error(transparent)]
     Machine(#[from] MachineError),
 }

@@ -1,4 +1,4 @@
-//! A picture with what was counted.
+//! A picture with its counts.
 
 use std::sync::Arc;
 
@@ -14,22 +14,22 @@ use super::subject::TransferredMesh;
 use crate::all_frequency::shade::Multiplies;
 use crate::card::{MeshView, Texels};
 
-/// A picture, and what it took.
+/// A picture, its counts and its log.
 #[derive(Clone, Debug)]
 pub struct FactoredDrawing {
-    /// What the target holds.
+    /// The texels of the target.
     pub texels: Texels,
-    /// The same in floats, where negative pixels can be seen; `None` if the device has no such target.
+    /// The same in floating point, which shows negative pixels; `None` if the device has no such target.
     pub signed: Option<Texels>,
-    /// Counts.
+    /// Counts of clamped colors.
     pub counts: FactoredCounts,
     /// Texture reads and arithmetic slots of the pixel program.
     pub pixel_slots: [u32; 2],
-    /// What the frame asks of host and card, for [`frame_time`](crate::card::frame_time::frame_time).
+    /// The log of host and card, for [`frame_time`](crate::card::frame_time::frame_time).
     pub log: Vec<Event>,
 }
 
-/// Draws a mesh on a device. `host` is what steps 2 and 3 multiplied.
+/// Draws a mesh on a device. `host` are the multiplications of steps 2 and 3.
 ///
 /// # Errors
 /// [`FactoredCardError`].

@@ -1,9 +1,9 @@
 //! All-frequency transfer on an emulated card (section 6 of the paper, "Per-Vertex Computation").
 //!
-//! A [`FactoredCard`] holds a mesh. For each frame the host sends what [`ProductPlace`] says: colors of vertices, as
-//! the authors did, or transferred radiance, of which the card makes the product with G per pixel, as they proposed.
-//! A [`SumCard`] takes step 3 from the host too. [`draw`] makes a picture with counts and log; [`mod@reference`] is
-//! step 4 in f64; [`time`] says how long a frame takes.
+//! A [`FactoredCard`] holds a mesh. For each frame the host sends the vertex data that [`ProductPlace`] selects: vertex
+//! colors, as the authors did, or transferred radiance, which the card multiplies with G per pixel, as they proposed. A
+//! [`SumCard`] also takes over step 3 from the host. [`draw`] makes a picture with counts and log; [`mod@reference`] is
+//! step 4 in f64; [`time`] models the time of a frame.
 
 mod card;
 mod counts;

@@ -1,4 +1,4 @@
-//! Ways to draw all-frequency transfer.
+//! Options of drawing all-frequency transfer.
 
 use refsim::device::Profile;
 use refsim::isa::Version;
@@ -8,29 +8,29 @@ use super::error::FactoredCardError;
 use crate::all_frequency::kernels::{MapFilter, SetLayout, ViewNumbers};
 use crate::card::{MeshError, require_versions};
 
-/// Where step 4, G(v) . T_p, is computed.
+/// The place of step 4, G(v) . T_p.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ProductPlace {
-    /// By the host for each vertex; the card interpolates colors. What the authors did.
+    /// At each vertex, by the host; the card interpolates colors. This is the authors' implementation.
     Vertices(VertexColors),
-    /// By the card for each pixel. What they proposed. The one term of a diffuse surface does not depend on the view:
-    /// then colors of vertices are the same, and are drawn.
+    /// At each pixel, by the card. This is the authors' proposal. A diffuse surface has one term that does not depend
+    /// on the view: vertex colors give the same picture, and are drawn instead.
     Pixels(ProductOptions),
 }
 
-/// What a vertex holds its color in.
+/// The format of vertex colors.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
 pub enum VertexColors {
-    /// Four bytes, as Direct3D's `D3DCOLOR`: fractions of 8 bits from 0 to 1. Runs on every card.
+    /// Four bytes, as Direct3D's `D3DCOLOR`: 8-bit fractions in [0, 1]. Runs on every card.
     #[default]
     Bytes,
-    /// Three floats as texture coordinates, of any sign and size; needs ps_2_0.
+    /// Three floats as texture coordinates, of any sign and magnitude; needs ps_2_0.
     Floats,
 }
 
-/// Who computes the view of a vertex.
+/// The processor that computes the view at the vertices.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
 #[strum(serialize_all = "lowercase")]
@@ -42,7 +42,7 @@ pub enum ViewMaker {
     Host,
 }
 
-/// What a vertex holds transferred radiance in.
+/// The format of transferred radiance in vertices.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
@@ -50,12 +50,12 @@ pub enum RadianceFormat {
     /// Single precision.
     #[default]
     Fp32,
-    /// Half precision, the numbers of the view too where the host computes them.
+    /// Half precision; also for the numbers of the view if the host computes them.
     Fp16,
 }
 
 impl RadianceFormat {
-    /// Bytes of a number.
+    /// Bytes per number.
     pub const fn bytes(self) -> usize {
         match self {
             Self::Fp32 => 4,
@@ -64,27 +64,27 @@ impl RadianceFormat {
     }
 }
 
-/// Variants of products per pixel.
+/// Options of products per pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProductOptions {
-    /// What is interpolated for the view.
+    /// The representation of the view that is interpolated.
     pub view: ViewNumbers,
-    /// Who computes it at the vertices.
+    /// The processor that computes the view at the vertices.
     pub view_maker: ViewMaker,
-    /// Whether a pass draws one channel, so that fewer numbers are interpolated, or all three.
+    /// True if a pass draws one channel, with fewer interpolated numbers; otherwise it draws all three.
     pub is_pass_per_channel: bool,
-    /// The format of the maps of G. Signed fractions are of the largest magnitude of each term; the factors are worked
-    /// into T_p.
+    /// The format of the maps of G. Signed fractions are relative to the largest magnitude of each term; T_p is
+    /// multiplied by these magnitudes.
     pub map_format: TexelFormat,
-    /// Who interpolates between their texels.
+    /// The interpolation between texels of G.
     pub filter: MapFilter,
-    /// G is rounded to signed fractions of so many bits (2 to 24) before it is stored; `None`: by its format alone.
+    /// G is rounded to signed fractions of this many bits (2 to 24) before it is stored; `None`: only by its format.
     pub map_bits: Option<u32>,
-    /// What vertices hold T_p in.
+    /// The format of T_p in vertices.
     pub radiance: RadianceFormat,
-    /// Whether the pixel program asks for the device's partial precision.
+    /// True if the pixel program requests the device's partial precision.
     pub is_partial: bool,
-    /// The language of the vertex program; `None`: vs_2_0 where the device has it, else vs_1_1.
+    /// The version of the vertex program; `None`: vs_2_0 where the device has it, else vs_1_1.
     pub vertex_version: Option<Version>,
 }
 
@@ -105,17 +105,17 @@ impl Default for ProductOptions {
 }
 
 impl ProductOptions {
-    /// Terms in a texel.
+    /// Number of terms per texel.
     pub(super) fn terms_per_texel(&self) -> usize {
         usize::from(self.map_format.record().channel_count)
     }
 
-    /// The places of so many terms.
+    /// The layout of `terms` terms.
     pub fn layout(&self, terms: usize) -> SetLayout {
         SetLayout { terms, channels: if self.is_pass_per_channel { 1 } else { 3 }, view: self.view }
     }
 
-    /// Refuses what a device has no room for.
+    /// Refuses options that the device cannot satisfy.
     pub(super) fn check(&self, profile: &Profile, terms: usize) -> Result<(), FactoredCardError> {
         require_versions(profile, &[Version::Ps2_0], "the product per pixel")?;
         if let Some(found) = self.map_bits.filter(|bits| !(2..=24).contains(bits)) {

@@ -1,4 +1,4 @@
-//! The programs for a way of drawing on a device.
+//! The programs for the drawing options on a device.
 
 use refsim::device::Profile;
 use refsim::exec::CheckedProgram;
@@ -12,10 +12,10 @@ use crate::all_frequency::kernels::{ProductKernel, TransferredVertexKernel};
 use crate::card::kernels::{COLOR, FLOAT_COLOR, SHADE, SHADE_COLOR};
 use crate::card::{require_versions, vertex_version};
 
-/// What the programs draw.
+/// The kind of drawing that the programs do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Drawing {
-    /// Colors of vertices.
+    /// Vertex colors.
     Colors,
     /// Products per pixel.
     Products(ProductKernel),
@@ -73,7 +73,7 @@ impl Programs {
         Ok(Self { drawing: Drawing::Products(kernel), vertex, pixel, makes_view: computes_view })
     }
 
-    /// Whether the vertex program makes the view.
+    /// True if the vertex program computes the view.
     pub(super) fn makes_view(&self) -> bool {
         self.makes_view
     }

@@ -34,8 +34,8 @@ pub fn pixel_of_colors(colors: &[[f64; 3]], corners: [u32; 3], weights: [f64; 3]
     pixel
 }
 
-/// G(v) . T_p of a pixel: transferred radiance times the surface's color is interpolated between three vertices, and
-/// with it what `view` says. Below the horizon G continues as its map does.
+/// G(v) . T_p of a pixel: transferred radiance times the surface's color, and the view in the representation `view`,
+/// are interpolated between three vertices. Below the horizon G continues as its map does.
 pub fn pixel_of_products(
     mesh: &TransferredMesh<'_>,
     (view, eye): (ViewNumbers, [f32; 3]),

@@ -1,4 +1,4 @@
-//! What is sent for the vertices of a frame.
+//! The vertex streams of a frame.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,18 +13,18 @@ use crate::geom::UnitFrame;
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 
-/// Colors of vertices, and what happened to them.
+/// Vertex colors, and counts of those out of range.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColorStream {
     pub(super) colors: Attribute,
-    /// Vertices of which a channel was below 0.
+    /// Number of vertices with a channel below 0.
     pub(super) below_zero: u64,
-    /// Vertices of which a channel was above 1, which bytes cannot hold.
+    /// Number of vertices with a channel above 1, which bytes cannot hold.
     pub(super) above_one: u64,
 }
 
 impl ColorStream {
-    /// G(v) . T_p, times exposure, in a format.
+    /// Colors G(v) . T_p, times exposure, in a format.
     pub(super) fn new(
         mesh: &TransferredMesh<'_>,
         (camera, exposure): (&Camera, f64),
@@ -33,7 +33,7 @@ impl ColorStream {
         Self::of(&radiance(mesh, camera.eye()), exposure, format)
     }
 
-    /// The one term of a diffuse surface, whose G does not depend on the view.
+    /// Colors from the one term of a diffuse surface, whose G does not depend on the view.
     pub(super) fn diffuse(mesh: &TransferredMesh<'_>, exposure: f64) -> Result<Self, MeshError> {
         let mut g = [0.0];
         Reflectance::Diffuse.view(DVec3::Z, &mut g);
@@ -63,7 +63,7 @@ impl ColorStream {
     }
 }
 
-/// Refuses numbers beyond single precision.
+/// Refuses numbers that overflow single precision.
 fn finite(attribute: &[[u32; 4]]) -> Result<(), MeshError> {
     let mut numbers = attribute.as_flattened().iter().map(|&bits| f32::from_bits(bits));
     match numbers.find(|value| !value.is_finite()) {
@@ -77,14 +77,13 @@ fn finite(attribute: &[[u32; 4]]) -> Result<(), MeshError> {
 pub(super) struct RadianceStream<'a> {
     pub(super) mesh: TransferredMesh<'a>,
     pub(super) options: &'a ProductOptions,
-    /// Per term what T_p is multiplied by, because texels are divided by it.
+    /// Per term the factor of T_p that compensates the scale of G's texels.
     pub(super) scales: &'a [f64],
     pub(super) frame: &'a UnitFrame,
 }
 
 impl RadianceStream<'_> {
-    /// The sets of a pass, register by register: T_p times exposure, color and scales, and the view if the host makes
-    /// it.
+    /// The coordinate sets of a pass: T_p times exposure, color and scales, and the view if the host computes it.
     pub(super) fn sets(&self, camera: &Camera, exposure: f64, pass: usize) -> Result<Vec<Attribute>, MeshError> {
         let layout = self.options.layout(self.mesh.terms());
         let eye = self.frame.of_scene(wide(camera.eye()));
@@ -117,7 +116,7 @@ impl RadianceStream<'_> {
         Ok(sets)
     }
 
-    /// The view of a vertex as the vertex program computes it.
+    /// The view of a vertex, by the vertex program's formula in f64.
     fn view(&self, vertex: usize, eye: DVec3) -> [f64; 3] {
         let position = self.frame.of_scene(wide(self.mesh.vertices.positions()[vertex]));
         let local = self.mesh.vertices.frames()[vertex].to_local(eye - position);
@@ -131,7 +130,7 @@ impl RadianceStream<'_> {
     }
 }
 
-/// Step 4 per vertex, as colors of vertices are made.
+/// Step 4 per vertex, for vertex colors.
 fn radiance(mesh: &TransferredMesh<'_>, eye: [f32; 3]) -> Vec<[f64; 3]> {
     let transferred = |vertex: usize, row: usize| mesh.transferred.of(vertex)[row].map(f64::from);
     exit_radiance(mesh.vertices, mesh.reflectance, &|vertex| mesh.color(vertex), &transferred, wide(eye))

@@ -1,4 +1,4 @@
-//! What is drawn: a mesh whose vertices have transferred radiance.
+//! The drawn object: a mesh whose vertices have transferred radiance.
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::shade::TransferredRadiance;
@@ -10,9 +10,9 @@ use crate::transfer::Vertices;
 pub struct TransferredMesh<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
-    /// What its transfer was computed for.
+    /// The reflectance for which its transfer was computed.
     pub reflectance: &'a Reflectance,
-    /// Per material the surface's color.
+    /// The surface color of each material.
     pub colors: &'a [[f64; 3]],
     /// T_p of each vertex.
     pub transferred: &'a TransferredRadiance,
@@ -29,7 +29,7 @@ impl TransferredMesh<'_> {
         self.colors[self.vertices.materials()[vertex] as usize]
     }
 
-    /// Checks that the parts go together.
+    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let materials = self.vertices.materials().iter().max().map_or(0, |&most| most as usize + 1);
         let transferred = self.transferred;

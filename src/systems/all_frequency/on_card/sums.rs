@@ -1,10 +1,10 @@
-//! Step 3 of section 6 by an emulated card: T_p of all vertices as weighted sums of their clusters' T (equation 13),
-//! "dense rather than sparse" and therefore "suitable for GPU implementation", as the paper says and did not do.
+//! Step 3 of section 6 by an emulated card: T_p of all vertices as weighted sums of their clusters' T (equation 13).
+//! The paper calls it "dense rather than sparse" and "suitable for GPU implementation", but did not do it.
 //!
-//! A texel is a vertex. Weights and the places of clusters stay on the card; T of the representatives is sent for each
-//! light. A pass adds sixteen representatives of a segment to four numbers of T_p; ten terms of three channels are
-//! eight passes per segment. What is read back goes to the vertices that [`FactoredCard`](super::FactoredCard) draws:
-//! cards of ps_2_0 have no vertices from textures.
+//! A texel is a vertex. Weights and the addresses of clusters stay on the card; T of the representatives is sent for
+//! each light. A pass adds sixteen representatives of a segment to four numbers of T_p; ten terms of three channels
+//! take eight passes per segment. T_p is read back and sent with the vertices that
+//! [`FactoredCard`](super::FactoredCard) draws, because cards of ps_2_0 cannot read vertices from textures.
 
 use std::sync::Arc;
 
@@ -24,30 +24,30 @@ use crate::all_frequency::shade::{LightSizeError, Representatives, Shader, Trans
 use crate::card::frame_time::host_work;
 use crate::card::{FullScreenPass, MeshError, PingPong, ReadTexture, Texels, constants, nearest, require_versions};
 
-/// Everything is in single precision: weights are the integers of the code, and their steps are in T.
+/// Everything is in single precision: weights are the integers of the code, whose steps are multiplied into T.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
-/// Vertices in a row of texels.
+/// Vertices per row of texels.
 const ROW: usize = 1024;
-/// Numbers of a texel.
+/// Numbers per texel.
 const NUMBERS: usize = 4;
 
-/// Sixteen representatives of a segment's clusters.
+/// A slice of up to sixteen representatives of each cluster of a segment.
 #[derive(Debug)]
 struct SumPart {
-    /// The number of the segment's first representative among those of all.
+    /// The index of the segment's first representative among those of all segments.
     first: usize,
-    /// Per cluster its first representative in the segment, and how many of the sixteen there are.
+    /// Per cluster the index of its first representative in the slice, within the segment, and their number.
     clusters: Vec<(usize, usize)>,
-    /// Of the first slice of a segment too.
+    /// Addresses of clusters, shared by all slices of a segment.
     places: TextureId,
     weights: [TextureId; SUMMED / NUMBERS],
-    /// T of the representatives, replaced group by group.
+    /// T of the representatives, replaced for each group of four numbers.
     representatives: TextureId,
-    /// Extents of that texture.
+    /// Width and height of that texture.
     size: [usize; 2],
 }
 
-/// Coded transfer on a card that sums it.
+/// Coded transfer on a card, which computes its weighted sums.
 #[derive(Debug)]
 pub struct SumCard {
     machine: Machine,
@@ -60,25 +60,25 @@ pub struct SumCard {
     targets: PingPong,
 }
 
-/// What the sums of a light ask of host and card.
+/// The work of host and card for one light.
 #[derive(Clone, Debug, Default)]
 pub struct SumLog {
-    /// For [`frame_time`](crate::card::frame_time::frame_time): step 2 on the host, T on its way, passes, T_p on its
-    /// way back.
+    /// For [`frame_time`](crate::card::frame_time::frame_time): step 2 on the host, the upload of T, passes, and the
+    /// read-back of T_p.
     pub events: Vec<Event>,
-    /// Passes.
+    /// Number of passes.
     pub passes: usize,
-    /// Bytes that are sent for a light.
+    /// Bytes sent for a light.
     pub sent: u64,
-    /// Bytes that come back.
+    /// Bytes read back.
     pub returned: u64,
 }
 
 impl SumCard {
-    /// Uploads weights and the places of clusters.
+    /// Uploads weights and the addresses of clusters.
     ///
     /// # Errors
-    /// [`FactoredCardError`] if the device lacks the language, samplers, texture formats or size.
+    /// [`FactoredCardError`] if the device lacks the program version, samplers, texture formats or sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -159,6 +159,7 @@ impl SumCard {
         self.machine.record(true);
         for group in 0..numbers.div_ceil(NUMBERS) {
             let summed = self.group(group, &products, &mut log);
+            // Recording ends with an error too, so that later work of the card is not logged.
             if summed.is_err() {
                 self.machine.record(false);
             }
@@ -173,7 +174,7 @@ impl SumCard {
         Ok((TransferredRadiance::new(self.rows, values), log))
     }
 
-    /// Four numbers of all vertices.
+    /// Four numbers of T_p for all vertices.
     fn group(&mut self, group: usize, products: &[f32], log: &mut SumLog) -> Result<Texels, FactoredCardError> {
         let none = constants([]);
         for (pass, part) in self.parts.iter().enumerate() {
@@ -208,7 +209,7 @@ impl SumCard {
 }
 
 impl SumPart {
-    /// Four numbers of T of each representative.
+    /// Four numbers of T for each representative.
     fn texels(&self, shader: &Shader, products: &[f32], group: usize, numbers: usize) -> Texels {
         let columns = self.size[0] / SUMMED;
         Texels::from_fn(self.size, |x, y| {
@@ -223,7 +224,7 @@ impl SumPart {
     }
 }
 
-/// Refuses more rows of texels than a texture has.
+/// Refuses more rows of texels than a texture can have.
 fn within(
     what: &'static str,
     count: usize,
@@ -236,7 +237,7 @@ fn within(
     Err(FactoredCardError::TextureSize { what, count, needed, device: profile.name.clone(), found })
 }
 
-/// Per vertex the texel of its cluster's first representative: the first texel where the segment is empty.
+/// Per vertex the texel of its cluster's first representative; the first texel for a vertex outside the segment.
 fn places(part: &CodedSegment, columns: usize, size: [usize; 2]) -> Texels {
     let mut texels = Texels::from_fn(size, |_, _| [0.5, 0.5, 0.0, 0.0]);
     for (&vertex, &cluster) in part.vertices.iter().zip(&part.cluster_of) {
@@ -247,7 +248,7 @@ fn places(part: &CodedSegment, columns: usize, size: [usize; 2]) -> Texels {
     texels
 }
 
-/// Per vertex the integers of its weights on sixteen representatives: 0 where there are fewer, or none.
+/// Per vertex the integer weights of a slice's sixteen representatives; 0 for those that it does not have.
 fn weights(part: &CodedSegment, slice: usize, size: [usize; 2]) -> [Texels; SUMMED / NUMBERS] {
     let mut texels = [0, 1, 2, 3].map(|_| Texels::from_fn(size, |_, _| [0.0; NUMBERS]));
     let mut begin = 0;
@@ -262,7 +263,7 @@ fn weights(part: &CodedSegment, slice: usize, size: [usize; 2]) -> [Texels; SUMM
     texels
 }
 
-/// Per cluster the representatives of a slice: the number of the first in the segment, and how many.
+/// Per cluster the representatives of a slice: the index of the first within the segment, and their number.
 fn slices(part: &CodedSegment, slice: usize) -> Vec<(usize, usize)> {
     let counts = part.counts.iter().zip(part.firsts());
     let of = |(&count, first): (&u8, usize)| {

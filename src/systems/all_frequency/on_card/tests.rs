@@ -1,4 +1,4 @@
-//! Pictures against f64 pixel by pixel, what is counted, and what does not fit.
+//! Pictures against f64 pixel by pixel, counts, and refusals.
 
 use glam::DVec3;
 use refsim::device::Profile;
@@ -21,7 +21,7 @@ fn device(name: &str) -> Profile {
     Profile::named(name).expect("a device")
 }
 
-/// Hills with made-up transferred radiance of as many terms as their reflectance has.
+/// Hills with synthetic transferred radiance, with as many terms as their reflectance has.
 struct FactoredHills {
     vertices: Vertices,
     reflectance: Reflectance,
@@ -57,7 +57,7 @@ impl FactoredHills {
             .unwrap_or_else(|e| panic!("{name}, {place:?}: {e}"))
     }
 
-    /// The largest difference of a picture from step 4 in f64, as a share of the largest radiance, with the number of
+    /// The largest difference of a picture from step 4 in f64, relative to the largest radiance, and the number of
     /// pixels.
     fn error(&self, name: &str, place: ProductPlace, drawing: &Texels) -> (f64, usize) {
         let seen = seen_pixels(&device(name), self.vertices.geometry(), &camera()).expect("pixels");
@@ -87,7 +87,7 @@ fn camera() -> Camera {
     Camera::new([0.6, -2.2, 1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera")
 }
 
-/// G in floats, filtered by the program: all that is left is rounding.
+/// G in floats, filtered by the program, which leaves rounding errors only.
 fn exact() -> ProductOptions {
     ProductOptions { map_format: TexelFormat::Rgba32f, filter: MapFilter::Program, ..ProductOptions::default() }
 }
@@ -118,7 +118,7 @@ fn products_per_pixel_are_step_4_of_what_is_interpolated() {
     }
 }
 
-/// What each card can do, from the best to the worst.
+/// The error on each card lies in a range that follows from its number formats.
 #[test]
 fn cards_come_as_near_as_their_bits() {
     let hills = FactoredHills::glossy(10);

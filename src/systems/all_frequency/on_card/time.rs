@@ -1,4 +1,4 @@
-//! How long a frame takes (Table 1): the host's steps by one constant, numbers on their way, vertices and pixels.
+//! The time of a frame (Table 1): the host's steps by one calibrated rate, transfer over the bus, vertices and pixels.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ use crate::card::kernels::SHADE;
 
 /// Channels of light.
 const CHANNELS: u64 = 3;
-/// Representatives of a cluster, in all of Table 1.
+/// Representatives per cluster, the same throughout Table 1.
 const REPRESENTATIVES: u64 = 16;
-/// Lighting segments, and coefficients of each.
+/// Number of lighting segments, and of coefficients per segment.
 const SEGMENTS: u64 = 24;
 const COEFFICIENTS: u64 = 256;
 
@@ -28,13 +28,13 @@ pub struct PrintedModel {
     pub name: &'static str,
     /// Vertices, in hundreds.
     pub vertex_hundreds: u64,
-    /// Terms m.
+    /// The number m of terms.
     pub terms: u64,
-    /// Clusters of all segments.
+    /// Number of clusters over all segments.
     pub clusters: u64,
-    /// omega, in thousandths.
+    /// omega, the mean fraction of segments in which a vertex has transfer, in thousandths.
     pub omega_thousandths: u64,
-    /// Frames in ten seconds, drawn and not drawn.
+    /// Frames in ten seconds, with and without drawing.
     pub frames_in_ten_seconds: [u64; 2],
 }
 
@@ -59,7 +59,7 @@ pub const TABLE_1: [PrintedModel; 6] = [
 ];
 
 impl PrintedModel {
-    /// Multiplications of a frame, no representative's zeros skipped: 3 n m 256 per cluster, 24 omega 3 n m per vertex.
+    /// Multiplications of a frame, without skipping zeros: 3 n m 256 per cluster, and 24 omega 3 n m per vertex.
     pub fn multiplies(&self) -> Multiplies {
         let per_row = CHANNELS * REPRESENTATIVES * self.terms;
         Multiplies {
@@ -68,18 +68,18 @@ impl PrintedModel {
         }
     }
 
-    /// Multiplications a second that the printed rate without drawing is.
+    /// Multiplications per second that follow from the printed frame rate without drawing.
     pub fn multiplies_per_second(&self) -> f64 {
         let Multiplies { per_cluster, per_vertex } = self.multiplies();
         (per_cluster + per_vertex) as f64 * self.frames_in_ten_seconds[1] as f64 / 10.0
     }
 }
 
-/// The host of section 7 (two processors of 3 GHz), calibrated on one figure: a frame of each model of Table 1, one
-/// after the other, without drawing.
+/// The host of section 7 (two processors of 3 GHz), calibrated by one figure: the time of one frame of each model of
+/// Table 1 without drawing, summed.
 ///
 /// # Errors
-/// None for the figures as printed.
+/// None for the printed figures.
 pub fn host_of_table_1() -> Result<HostModel, HostError> {
     let work = |model: &PrintedModel| {
         let Multiplies { per_cluster, per_vertex } = model.multiplies();
@@ -87,15 +87,15 @@ pub fn host_of_table_1() -> Result<HostModel, HostError> {
     };
     let seconds: f64 = TABLE_1.iter().map(|model| 10.0 / model.frames_in_ten_seconds[1] as f64).sum();
     let work = TABLE_1.iter().map(work).sum::<u64>();
-    // Whole seconds: as many frames as take a thousand times as long.
+    // The model takes whole seconds, so the work and its time are multiplied by a thousand.
     let counts = HostCounts::default().with(HostOperation::MultiplyAdd, 1000 * work);
     HostModel::calibrate(&counts, (1000.0 * seconds).round() as u64, 1)
 }
 
-/// Vertex streams are no resource of the emulated card; in logs this number stands for the one of a frame.
+/// Vertex streams are no resource of the emulated card; this number stands for a frame's stream in logs.
 const VERTEX_STREAM: ResourceId = ResourceId::Texture(1 << 20);
 
-/// Bytes that a frame sends per vertex.
+/// Bytes per vertex that a frame sends.
 pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
     match place {
         ProductPlace::Vertices(VertexColors::Bytes) => 4,
@@ -108,8 +108,8 @@ pub fn streamed_bytes(place: &ProductPlace, terms: usize) -> usize {
     }
 }
 
-/// The host's share of a frame: steps 2 and 3 by what they multiply, 3 m more per vertex (the product with G, or with
-/// what texels of G are divided by), vertices handed over, and their way to the card.
+/// The host's work in a frame: the multiplications of steps 2 and 3, 3 m more per vertex (the product with G, or with
+/// the scales of G's texels), the submission of vertices, and their upload.
 pub(super) fn host_log(mesh: &TransferredMesh<'_>, place: &ProductPlace, host: Multiplies) -> Vec<Event> {
     share_of_host(mesh.vertices.len() as u64, mesh.terms(), place, host)
 }
@@ -123,7 +123,7 @@ fn share_of_host(vertices: u64, terms: usize, place: &ProductPlace, host: Multip
     ]
 }
 
-/// What decides a frame, beside its pixels.
+/// The parameters of a frame's time, without its pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactoredFrame {
     /// Vertices of the mesh.
@@ -132,20 +132,20 @@ pub struct FactoredFrame {
     pub triangles: u64,
     /// Terms m.
     pub terms: usize,
-    /// What steps 2 and 3 multiply.
+    /// Multiplications of steps 2 and 3.
     pub host: Multiplies,
-    /// Vertices that are run for a triangle, by the order of the mesh and the card's cache of finished vertices.
+    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
     pub run_per_triangle: f64,
 }
 
-/// Constants of a frame: rows of the projection, and the eye.
+/// Number of constants of a frame: rows of the projection, and the eye.
 const VERTEX_CONSTANTS: u32 = 5;
-/// Instructions, and attributes, of the programs for colors of vertices.
+/// Numbers of instructions and of attributes of the programs for vertex colors.
 const COLOR_SLOTS: u64 = 5;
 const COLOR_ATTRIBUTES: u64 = 2;
 
 impl FactoredFrame {
-    /// The log of such a frame: pixels take no time.
+    /// The log of such a frame, in which pixels take no time.
     pub fn log(&self, place: &ProductPlace) -> Vec<Event> {
         let run = (self.triangles as f64 * self.run_per_triangle).round() as u64;
         let program = refsim::asm::assemble(SHADE.text).expect("a program of the project");

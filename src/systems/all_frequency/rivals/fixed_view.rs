@@ -12,7 +12,8 @@ use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 pub struct FixedView<'a>(pub RivalSubject<'a>);
 
 impl FixedView<'_> {
-    /// The row of a map's vertex: what each light texel of radiance 1 adds to its radiance towards a local direction.
+    /// The row of a map's vertex: the contribution of each light texel of radiance 1 to its radiance towards a local
+    /// view.
     ///
     /// # Panics
     /// If there is no such map.

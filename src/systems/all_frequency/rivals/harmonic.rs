@@ -11,9 +11,9 @@ use crate::transfer::hats::HatWeights;
 /// The degree of the rule that reflectance is projected by: exact for polynomials, a degree or two per direction else.
 const DEGREE: usize = 44;
 
-/// \[SKS02\]: light of n x n harmonics, and matrices that take it to n x n harmonics of the radiance that arrives. What
-/// a vertex sends to the eye is as in \[KSS02\], by the coefficients of reflectance times cosine for the very direction
-/// of the eye, so that the harmonics' order alone stands between it and the truth.
+/// \[SKS02\]: light of n x n harmonics, and matrices that map it to n x n harmonics of incident radiance. The exit
+/// radiance is computed as in \[KSS02\], by the coefficients of reflectance times cosine for the exact direction of the
+/// eye, so that the order of the harmonics is the only approximation.
 ///
 /// Everything is in the global frame: rotating both sides of a sum over whole bands changes nothing.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ pub struct HarmonicTransfer<'a> {
 }
 
 impl<'a> HarmonicTransfer<'a> {
-    /// Of an order: 5 in the paper.
+    /// Baseline of an order; 5 in the paper.
     ///
     /// # Panics
     /// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
@@ -42,7 +42,7 @@ impl<'a> HarmonicTransfer<'a> {
         &self.functions[fine * count..(fine + 1) * count]
     }
 
-    /// The light's coefficients: of its texels' radiances, interpolated by their hats.
+    /// The light's coefficients: of its texels' radiances, interpolated by their hat functions.
     ///
     /// # Panics
     /// If the light does not have 6,144 texels.

@@ -1,4 +1,4 @@
-//! What rivals are compared on.
+//! The common input of the baselines.
 
 use glam::DVec3;
 
@@ -8,14 +8,14 @@ use crate::transfer::Vertices;
 use crate::transfer::hats::Hats;
 use crate::transfer::visibility::VisibilityMaps;
 
-/// Vertices with what they see, and a reflectance that is not factored.
+/// Vertices with their visibility, and a reflectance that is not factored.
 #[derive(Clone, Copy)]
 pub struct RivalSubject<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
-    /// Visibility of the vertices that radiance is wanted of.
+    /// Visibility maps of the vertices whose radiance is computed.
     pub maps: &'a VisibilityMaps,
-    /// The hats of the light's texels.
+    /// Hat functions of the light's texels.
     pub hats: &'a Hats,
     /// f(v, s) = b(v, s) s_z.
     pub product: &'a dyn ProductFunction,
@@ -28,8 +28,7 @@ impl std::fmt::Debug for RivalSubject<'_> {
 }
 
 impl RivalSubject<'_> {
-    /// The direction of a map's vertex towards an eye, in its local frame; `None` below the horizon, where there is
-    /// nothing to see.
+    /// The direction from a map's vertex to an eye, in its local frame; `None` if it lies below the horizon.
     pub(super) fn view(&self, map: usize, eye: DVec3) -> Option<DVec3> {
         let vertex = self.maps.vertices()[map] as usize;
         let view = (eye - wide(self.vertices.positions()[vertex])).normalize_or_zero();

@@ -7,9 +7,8 @@ use crate::all_frequency::Reflectance;
 use crate::geom::vector::wide;
 use crate::transfer::Vertices;
 
-/// G(v) . T_p times the surface's color, per vertex: `color` says it of a vertex, `transferred` a vertex's row of T_p.
-/// `eye` is in the frame of the mesh. Truncated factors have negative lobes: what comes out below 0
-/// stays.
+/// G(v) . T_p times the surface's color for every vertex: `color` returns the color of a vertex, `transferred` a row of
+/// its T_p. `eye` is in the frame of the mesh. Truncated factors have negative lobes: negative results are kept.
 pub fn exit_radiance(
     vertices: &Vertices,
     reflectance: &Reflectance,

@@ -38,7 +38,7 @@ pub fn transferred(transfer: &CompressedTransfer, light: &[[f64; 3]]) -> Result<
     Ok(radiance)
 }
 
-/// The same from coded transfer: integers times their steps.
+/// The same from coded transfer, decoded as integers times steps.
 ///
 /// # Errors
 /// [`LightSizeError`].

@@ -1,8 +1,8 @@
 //! Coded transfer laid out for rendering.
 //!
 //! All sums run in a fixed order in f32: those of a representative over the light's coefficients, those of a vertex
-//! over its segments and their representatives. So bits depend neither on threads nor on vector instructions, and
-//! sparse representatives give those of plain ones: what is left out would have added 0.
+//! over its segments and their representatives. So the bits depend neither on threads nor on vector instructions, and
+//! sparse representatives give the same bits as dense ones, because the omitted terms would have added 0.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -10,16 +10,16 @@ use refsim::exec::batch::SimdLevel;
 use super::{LightSizeError, Multiplies, TransferredRadiance};
 use crate::all_frequency::code::{BLOCK_ROWS, CodedSegment, CodedTransfer, SparseColumn};
 
-/// Numbers that vector instructions take together.
+/// Numbers processed together by vector instructions.
 const LANES: usize = 8;
-/// Vertices per task.
+/// Vertices per parallel task.
 const VERTICES: usize = 256;
 
-/// How representatives are held while rendering.
+/// Storage of representatives while rendering.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Representatives {
-    /// As they are coded: the numbers that are not 0.
+    /// Non-zero numbers only, as they are coded.
     Sparse,
     /// All numbers, in f32.
     Dense,
@@ -31,11 +31,11 @@ pub struct Shader {
     rows: usize,
     coefficients: usize,
     segments: Vec<ShaderSegment>,
-    /// Where each vertex's entries begin, and the last end.
+    /// The start of each vertex's entries, followed by the end of the last.
     begins: Vec<u32>,
     entries: Vec<Entry>,
     weights: Vec<i16>,
-    /// Representatives of all segments.
+    /// Number of representatives of all segments.
     representatives: usize,
 }
 
@@ -44,31 +44,31 @@ pub struct Shader {
 struct ShaderSegment {
     segment: usize,
     blocks: Vec<Block>,
-    /// Per representative what the product of its integers with those of its weights is worth.
+    /// Per representative the product of its own step and its weights' step.
     steps: Vec<f32>,
 }
 
-/// Up to 256 representatives.
+/// A block of up to 256 representatives.
 #[derive(Clone, Debug)]
 enum Block {
-    /// Per column how many numbers are not 0; their rows and values.
+    /// Per column the number of non-zeros; then their rows and values.
     Sparse { counts: Vec<u16>, rows: Vec<u8>, values: Vec<i16> },
     /// All numbers, column by column.
     Dense { height: usize, values: Vec<f32> },
 }
 
-/// A segment at a vertex.
+/// A segment's part of a vertex.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
-    /// The number of its cluster's first representative among those of all segments.
+    /// The index of its cluster's first representative among those of all segments.
     first: u32,
-    /// Where its weights begin, and their number.
+    /// The index of its first weight, and the number of weights.
     weights: u32,
     count: u32,
 }
 
 impl Shader {
-    /// Lays coded transfer out.
+    /// Lays out coded transfer.
     pub fn new(transfer: &CodedTransfer, representatives: Representatives) -> Self {
         let mut entries: Vec<Vec<Entry>> = vec![Vec::new(); transfer.vertices];
         let (mut weights, mut total) = (Vec::new(), 0);
@@ -102,12 +102,12 @@ impl Shader {
         }
     }
 
-    /// Numbers per vertex or representative: 3 per row, one more that a write of 4 reaches, and what fills the lanes.
+    /// Numbers per vertex or representative: 3 per row, one more for stores of 4, padded to a multiple of [`LANES`].
     fn stride(&self) -> usize {
         (3 * self.rows + 1).next_multiple_of(LANES)
     }
 
-    /// T_p of all vertices under light: its coefficients (red, green, blue), segment by segment.
+    /// T_p of all vertices under a light, given by its coefficients (red, green, blue), segment by segment.
     ///
     /// # Errors
     /// [`LightSizeError`].
@@ -115,7 +115,7 @@ impl Shader {
         Ok(self.weighted(&self.per_cluster(light)?))
     }
 
-    /// M^i L of all representatives, times the steps of both codes: step 2 of section 6.
+    /// M^i L for all representatives, times the steps of both codes: step 2 of section 6.
     ///
     /// # Errors
     /// [`LightSizeError`].
@@ -143,15 +143,16 @@ impl Shader {
         Ok(products)
     }
 
-    /// Of [`Shader::per_cluster`]'s products those of one representative, counted over all segments: 3 per row.
+    /// The products of one representative, by its index over all segments, from those of [`Shader::per_cluster`]: 3 per
+    /// row.
     ///
     /// # Panics
-    /// If there is no such representative, or the products are others.
+    /// If there is no such representative, or `products` has another size.
     pub fn product_of<'a>(&self, products: &'a [f32], representative: usize) -> &'a [f32] {
         &products[representative * self.stride()..][..3 * self.rows]
     }
 
-    /// The weighted sums of [`Shader::per_cluster`]'s products: step 3.
+    /// The weighted sums of the products of [`Shader::per_cluster`]: step 3 of section 6.
     pub fn weighted(&self, products: &[f32]) -> TransferredRadiance {
         let (stride, level) = (self.stride(), SimdLevel::widest());
         let mut values = vec![0.0; (self.begins.len() - 1) * stride];
@@ -175,7 +176,7 @@ impl Shader {
         TransferredRadiance { rows: self.rows, stride, values }
     }
 
-    /// What rendering under a light multiplies.
+    /// The multiplications of rendering under a light.
     pub fn multiplies(&self, light: &[[f32; 3]]) -> Multiplies {
         let lit = |segment: usize, column: usize| {
             let at = segment * self.coefficients + column % self.coefficients;
@@ -192,7 +193,7 @@ impl Shader {
         }
     }
 
-    /// Bytes of representatives and weights as they are held.
+    /// Bytes of representatives and weights in memory.
     pub fn bytes(&self) -> usize {
         let of_block = |block: &Block| match block {
             Block::Sparse { counts, rows, values } => 2 * counts.len() + rows.len() + 2 * values.len(),
@@ -250,11 +251,11 @@ impl Block {
         }
     }
 
-    /// The products of the rows with light, `stride` numbers each. A column's light is skipped if it is black.
+    /// Adds the products of the rows with light to `into`, `stride` numbers each. Columns with black light are skipped.
     #[inline(always)]
     fn times(&self, light: &[[f32; 3]], stride: usize, steps: &[f32], into: &mut [f32]) {
         let mut add = |row: usize, value: f32, at: usize, light: [f32; 4]| {
-            // The fourth number is 0, and adds nothing to the next row's first.
+            // The fourth number is 0, and adds nothing to the first of the next row.
             let into: &mut [f32] = &mut into[row * stride + at..][..4];
             (0..4).for_each(|c| into[c] += value * light[c]);
         };
@@ -329,11 +330,11 @@ mod tests {
             let most = expected.iter().flatten().fold(0.0_f64, |most, value| most.max(value.abs()));
             for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
                 for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {
-                    // 16 bits of representatives and weights: some 2^-15 of the largest number each.
+                    // Rounding to 16 bits of representatives and weights: about 2^-15 of the largest number each.
                     assert!((f64::from(*found) - expected).abs() < 2e-4 * most, "{vertex}: {found} for {expected}");
                 }
             }
-            // Of the same code, only rounding of f32 is left.
+            // Compared with the same code in f64, only rounding of f32 remains.
             let expected = plain::transferred_of_code(&coded, &exact).expect("radiance");
             for (vertex, expected) in expected.chunks_exact(rows).enumerate() {
                 for (found, expected) in found.of(vertex).iter().flatten().zip(expected.iter().flatten()) {

@@ -1,27 +1,27 @@
-//! What comes out of transfer.
+//! The result of transfer: transferred radiance.
 
 use thiserror::Error;
 
-/// Transferred radiance T_p: per vertex m rows of 3 channels.
+/// Transferred radiance T_p: m rows of 3 channels per vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransferredRadiance {
     pub(super) rows: usize,
-    /// Numbers per vertex: 3 m, and zeros.
+    /// Numbers per vertex: 3 m, and zeros as padding.
     pub(super) stride: usize,
     pub(super) values: Vec<f32>,
 }
 
 impl TransferredRadiance {
-    /// From numbers: per vertex its rows of 3 channels.
+    /// Transferred radiance from `rows` rows of 3 channels per vertex, one vertex after another.
     ///
     /// # Panics
-    /// If there are no rows, or not whole vertices.
+    /// If `rows` is 0 or does not divide the number of values.
     pub fn new(rows: usize, values: Vec<[f32; 3]>) -> Self {
         assert!(rows > 0 && values.len().is_multiple_of(rows), "{} numbers are no rows of {rows}", values.len());
         Self { rows, stride: 3 * rows, values: values.into_flattened() }
     }
 
-    /// The rows m.
+    /// The number m of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -40,24 +40,24 @@ impl TransferredRadiance {
     }
 }
 
-/// Multiplications of numbers that are not skipped, all channels.
+/// Multiplications that are executed, over all channels; those by skipped zeros do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Multiplies {
-    /// By the light coefficients, step 2 of section 6.
+    /// By light coefficients: step 2 of section 6.
     pub per_cluster: u64,
-    /// By the weights, step 3.
+    /// By weights: step 3.
     pub per_vertex: u64,
 }
 
-/// Light of another size than transfer needs.
+/// The light has fewer coefficients than transfer needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("expected at least {expected} light coefficients, {per_segment} per segment, found {found}")]
 pub struct LightSizeError {
-    /// Coefficients up to the last segment.
+    /// Number of coefficients up to the last segment.
     pub expected: usize,
-    /// Coefficients of a segment.
+    /// Coefficients per segment.
     pub per_segment: usize,
-    /// Those given.
+    /// Number of coefficients given.
     pub found: usize,
 }
 

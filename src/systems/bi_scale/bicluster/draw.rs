@@ -1,8 +1,8 @@
-//! Where biclusters start.
+//! Random choice of the elements at which biclusters start.
 
 use crate::geom::random::CounterRng;
 
-/// The element, by its number row by row, that a bicluster starts at: one of `count`, all alike.
+/// The start element of a bicluster, by its index among the non-zeros row by row: uniformly one of `count`.
 pub(super) fn start(seed: u64, bicluster: u64, count: u64) -> u64 {
     let bits = CounterRng::new(seed).bits(bicluster, 0, 0);
     ((u128::from(bits) * u128::from(count)) >> 64) as u64

@@ -1,8 +1,8 @@
-//! Rows or columns as lists of entries that grow and shrink.
+//! Rows or columns as lists of entries of variable length.
 
 use crate::bi_scale::matrix::MatrixEntry;
 
-/// Lists of entries in no order, one per line, in one block of memory. A list that outgrows its room moves to the end.
+/// Unordered lists of entries, one per line, in one array. A list that outgrows its capacity moves to the end.
 #[derive(Debug)]
 pub(super) struct Lines {
     entries: Vec<MatrixEntry>,
@@ -11,18 +11,18 @@ pub(super) struct Lines {
     rooms: Vec<u32>,
 }
 
-/// What takes the place of rooms that were left.
+/// Filler of unused capacity.
 const NOTHING: MatrixEntry = MatrixEntry { index: u32::MAX, value: 0 };
 
 impl Lines {
-    /// Entries line by line, and where each line begins and the last one ends.
+    /// Entries line by line, and the start of each line followed by the end of the last.
     pub(super) fn new(entries: Vec<MatrixEntry>, mut begins: Vec<usize>) -> Self {
         let lengths: Vec<u32> = begins.windows(2).map(|ends| (ends[1] - ends[0]) as u32).collect();
         begins.pop();
         Self { entries, begins, rooms: lengths.clone(), lengths }
     }
 
-    /// The same entries by the lines across, of which there are `across`: columns from rows.
+    /// The transposed lists, with `across` lines: columns from rows.
     pub(super) fn transposed(&self, across: usize) -> Self {
         let mut begins = vec![0; across + 1];
         self.entries.iter().for_each(|entry| begins[entry.index as usize + 1] += 1);
@@ -49,7 +49,7 @@ impl Lines {
         &self.entries[self.begins[line]..][..self.lengths[line] as usize]
     }
 
-    /// Replaces each entry of a line by what `change` makes of it; by none where that is `None`.
+    /// Replaces each entry of a line by `change` of it, or removes it where that is `None`.
     pub(super) fn change(&mut self, line: usize, mut change: impl FnMut(MatrixEntry) -> Option<MatrixEntry>) {
         let begin = self.begins[line];
         let mut kept = begin;

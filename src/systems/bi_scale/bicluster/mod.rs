@@ -4,13 +4,13 @@
 //! - [`mod@reference`]: Algorithm 1 on a dense matrix, every operation tried by equation 9;
 //! - [`bicluster`]: the same decisions by influence values in queues (section V, Precomputation Optimization).
 //!
-//! What the paper leaves open is settled so, for both:
-//! - The non-zeros of what is left are numbered row by row; the n-th bicluster starts at the one that a seeded random
-//!   number picks, all alike.
-//! - The operation that gains most is done. Insertions and deletions of rows gain odd numbers, those of columns even
-//!   ones; of equal gains the line of the lowest number is taken.
+//! Choices that the paper leaves open, the same for both:
+//! - The remaining non-zeros are numbered row by row; the n-th bicluster starts at one chosen uniformly by a seeded
+//!   random number.
+//! - The operation with the largest gain is applied. Gains of rows are odd numbers, those of columns even ones; among
+//!   equal gains the line with the lowest number wins.
 //! - The value of a column is chosen when it is inserted, and kept: the most frequent value other than 0 in the rows,
-//!   of equally frequent ones the lowest.
+//!   the lowest among equally frequent ones.
 //! - The last row and the last column are not deleted.
 
 mod draw;

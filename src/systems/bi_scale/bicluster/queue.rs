@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Lines by key; of equal keys the lowest line comes first. An entry whose line has another key by now, or is no longer
-/// waited for, is passed over when it comes up, so that a line may be in several buckets.
+/// Lines ordered by key; of equal keys the lowest line comes first. Outdated entries, whose line has another key by now
+/// or is no longer a candidate, are skipped when they come up, so that a line may be in several buckets.
 #[derive(Debug, Default)]
 pub(super) struct BucketQueue {
     buckets: Vec<BinaryHeap<Reverse<u32>>>,
@@ -24,7 +24,8 @@ impl BucketQueue {
         self.end = self.end.max(key + 1);
     }
 
-    /// The line of the highest key, with the key. `is_current` tells whether a line has this key and is waited for.
+    /// The line with the highest key, and the key. `is_current` returns true if a line still has this key and is a
+    /// candidate.
     pub(super) fn highest(&mut self, is_current: impl Fn(u32, u32) -> bool) -> Option<(u32, u32)> {
         while self.end > self.lowest {
             let key = self.end - 1;

@@ -1,4 +1,4 @@
-//! Algorithm 1 as it stands in the paper: a dense matrix, every operation tried, each judged by equation 9.
+//! Algorithm 1 literally: a dense matrix, every operation tried, each evaluated by equation 9.
 
 use std::collections::BTreeSet;
 
@@ -6,7 +6,7 @@ use super::draw::start;
 use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
-/// A submatrix T_b: its rows, and its columns with the values t that they have in the bicluster.
+/// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
 struct Submatrix {
     rows: Vec<usize>,
@@ -40,7 +40,7 @@ impl Submatrix {
         Some(changed)
     }
 
-    /// The same for a column. `None` also if a column is 0 in all rows, and so has no value.
+    /// The same for a column. Also `None` if a column is 0 in all rows, and so has no value.
     fn with_column_changed(&self, column: usize, matrix: &[Vec<i64>]) -> Option<Self> {
         let mut changed = self.clone();
         match changed.columns.iter().position(|&(inside, _)| inside == column) {

@@ -1,9 +1,9 @@
-//! Algorithm 1 by influence values (section V, Precomputation Optimization): each row and column knows what its
-//! insertion or deletion would gain, and an operation changes what it touches alone.
+//! Algorithm 1 by influence values (section V, Precomputation Optimization): the gain of each insertion or deletion is
+//! kept up to date, and an operation changes only the lines that it crosses.
 //!
-//! With r rows and l columns inside, inserting a row gains 2 (matches + non-zeros) - 2l - 1, inserting a column
-//! 2 (most frequent + non-zeros) - 2r - 2, and a deletion loses that. So a line's key is the number in brackets, which
-//! changes with the entries that cross it, not with r or l.
+//! With r rows and l columns inside, inserting a row gains 2 (matches + non-zeros) - 2l - 1, inserting a column 2 (most
+//! frequent + non-zeros) - 2r - 2, and a deletion gains the negative of that. So the key of a line is the sum in
+//! brackets, which depends on the entries that cross the line, not on r or l.
 
 use std::collections::BTreeSet;
 
@@ -14,9 +14,8 @@ use super::tally::ColumnTally;
 use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
-/// Makes biclusters of a matrix: the same ones, one by one, as
-/// [`reference::bicluster`](super::reference::bicluster). `found` is called after each with the non-zeros that are
-/// left.
+/// Biclusters of a matrix, identical to those of [`reference::bicluster`](super::reference::bicluster). `found` is
+/// called after each with the number of remaining non-zeros.
 ///
 /// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters.
 ///
@@ -38,20 +37,21 @@ pub fn bicluster(
     Ok(biclustering)
 }
 
-/// What is known of the lines of one direction: rows or columns.
+/// State of the lines of one direction: rows or columns.
 #[derive(Debug)]
 struct SearchSide {
     lines: Lines,
-    /// Matches or most frequent values, and non-zeros, within the submatrix.
+    /// Key of each line within the submatrix: matches (for a column outside, its most frequent value's count) plus
+    /// non-zeros.
     keys: Vec<u32>,
-    /// The line's place in `inside`, or [`OUTSIDE`].
+    /// Index of the line in `inside`, or [`OUTSIDE`].
     places: Vec<u32>,
     inside: Vec<u32>,
-    /// Lines whose key may be other than 0.
+    /// Lines whose key may differ from 0.
     touched: Vec<u32>,
     insertions: BucketQueue,
     deletions: BucketQueue,
-    /// Which lines across were met, by their place; entries that come into being.
+    /// Scratch of [`Self::subtract`]: crossing lines that were met, by index in `inside`; new entries.
     met: Vec<bool>,
     more: Vec<MatrixEntry>,
 }
@@ -66,7 +66,7 @@ struct Operation {
 }
 
 impl Operation {
-    /// The better of two on lines of one direction: more gain, then the lower line.
+    /// The better of two operations on lines of one direction: the larger gain, then the lower line.
     fn better(first: Option<Self>, second: Option<Self>) -> Option<Self> {
         match (first, second) {
             (Some(a), Some(b)) => Some(if (b.gain, a.line) > (a.gain, b.line) { b } else { a }),
@@ -91,7 +91,7 @@ impl SearchSide {
         }
     }
 
-    /// Sets the key of a line. A line outside with a key of `least` or more may gain by its insertion.
+    /// Sets the key of a line, and queues the line; outside only if its insertion may gain (`key` at least `least`).
     #[inline]
     fn set_key(&mut self, line: u32, key: u32, least: u32) {
         let old = std::mem::replace(&mut self.keys[line as usize], key);
@@ -119,7 +119,8 @@ impl SearchSide {
         }
     }
 
-    /// Puts all lines outside whose key is `least` or more in the queue: after a deletion across, which lowers `least`.
+    /// Queues all lines outside with a key of `least` or more again, after the deletion of a crossing line has lowered
+    /// `least`.
     fn queue_again(&mut self, least: u32) {
         self.insertions.clear();
         for &line in &self.touched {
@@ -129,13 +130,14 @@ impl SearchSide {
         }
     }
 
-    /// The best operation on a line, where a key of `cost / 2` gains nothing.
+    /// The best operation on a line of this direction, where a key of `cost / 2` gains nothing.
     fn best(&mut self, cost: i64, deletion: bool) -> Option<Operation> {
         let (keys, places) = (&self.keys, &self.places);
         let is_outside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] == OUTSIDE;
         let is_inside = |key: u32, line: u32| keys[line as usize] == key && places[line as usize] != OUTSIDE;
         let gain = |key: u32| 2 * i64::from(key) - cost;
         let insertion = self.insertions.highest(is_outside).map(|(key, line)| Operation { gain: gain(key), line });
+        // The last line stays, because a bicluster has at least one row and one column.
         if !deletion || self.inside.len() == 1 {
             return insertion;
         }
@@ -143,9 +145,9 @@ impl SearchSide {
         Operation::better(insertion, deletion)
     }
 
-    /// Takes the bicluster's entries away from a line that is inside: `all` of them, where `places` are those of the
-    /// lines across and `t` their values. Gives how many more entries the line has then, or the place and value of a
-    /// residual that leaves 32 bits. What `goes` is left out.
+    /// Subtracts the bicluster's entries from a line inside: `all` entries of the line; `places` are the crossing
+    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or the crossing
+    /// line and value of a residual that does not fit 32 bits. Residuals for which `goes` is true are dropped.
     fn subtract(
         &mut self,
         line: u32,
@@ -175,7 +177,7 @@ impl SearchSide {
         if let Some(residual) = too_large {
             return Err(residual);
         }
-        // Where the line was 0 it is -t now.
+        // Elements of the line that were 0 become -t.
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
         self.more.clear();
         for entry in all.filter(is_new) {
@@ -189,7 +191,7 @@ impl SearchSide {
         Ok(self.lines.get(line as usize).len().cast_signed() as i64 - before)
     }
 
-    /// Sets all back but the lines' entries.
+    /// Resets everything but the entries.
     fn reset(&mut self) {
         self.touched.iter().for_each(|&line| self.keys[line as usize] = 0);
         self.inside.iter().for_each(|&line| self.places[line as usize] = OUTSIDE);
@@ -205,13 +207,13 @@ struct Search {
     options: BiclusterOptions,
     rows: SearchSide,
     columns: SearchSide,
-    /// Per column what its rows hold.
+    /// Per column the counts of its values in the rows inside.
     tallies: Vec<ColumnTally>,
-    /// Per column inside its value.
+    /// The value of each column inside.
     values: Vec<i32>,
-    /// Non-zeros per row of what is left.
+    /// Remaining non-zeros per row.
     left: Counts,
-    /// Rows and columns of residuals that were left out.
+    /// Row and column of each dropped residual.
     dropped: BTreeSet<(u32, u32)>,
 }
 
@@ -237,12 +239,12 @@ impl Search {
         })
     }
 
-    /// The least key of a row, or of a column, whose insertion may gain.
+    /// The least key of a row, and of a column, whose insertion may gain.
     fn least_keys(&self) -> [u32; 2] {
         [self.columns.inside.len() as u32 + 1, self.rows.inside.len() as u32 + 2]
     }
 
-    /// Lines 5 and 6: a submatrix of one element.
+    /// Lines 5 and 6 of Algorithm 1: a submatrix of one element.
     fn begin(&mut self, element: u64) {
         let (row, number) = self.left.find(element);
         let mut columns: Vec<u32> = self.rows.lines.get(row).iter().map(|entry| entry.index).collect();
@@ -251,13 +253,14 @@ impl Search {
         self.insert_column(column);
     }
 
-    /// Lines 7 to 20: the best operation, if one gains.
+    /// Lines 7 to 20: applies the best operation; false if none gains.
     fn step(&mut self) -> bool {
         let (r, l) = (self.rows.inside.len().cast_signed() as i64, self.columns.inside.len().cast_signed() as i64);
         let row = self.rows.best(2 * l + 1, self.options.deletion).filter(|operation| operation.gain > 0);
         let column = self.columns.best(2 * r + 2, self.options.deletion).filter(|operation| operation.gain > 0);
         let gain = |operation: Option<Operation>| operation.map_or(0, |operation| operation.gain);
         match (row, column) {
+            // Gains of rows are odd and those of columns even, so that two operations never tie.
             (Some(Operation { line, .. }), _) if gain(row) > gain(column) => {
                 if self.rows.places[line as usize] == OUTSIDE { self.insert_row(line) } else { self.delete_row(line) }
             }
@@ -281,11 +284,12 @@ impl Search {
     fn delete_row(&mut self, row: u32) {
         self.rows.delete(row);
         self.cross_columns(row, ColumnTally::remove);
+        // With one row less inside, columns may gain that were not worth queueing before.
         let [_, least] = self.least_keys();
         self.columns.queue_again(least);
     }
 
-    /// Changes the tallies and keys of the columns that a row crosses by its values.
+    /// Updates the tallies and keys of the columns that a row crosses.
     #[inline(always)]
     fn cross_columns(&mut self, row: u32, change: impl Fn(&mut ColumnTally, i32)) {
         let [_, least] = self.least_keys();
@@ -307,7 +311,7 @@ impl Search {
     fn delete_column(&mut self, column: u32) {
         self.columns.delete(column);
         let [least, least_column] = self.least_keys();
-        // It may gain again with another value.
+        // Inserted again, the column may gain with another value.
         self.columns.set_key(column, self.tallies[column as usize].most_and_nonzeros(), least_column);
         self.cross_rows(column, u32::wrapping_sub);
         self.rows.queue_again(least);
@@ -323,12 +327,13 @@ impl Search {
         }
     }
 
-    /// Lines 15 and 16: the bicluster, taken away from what is left.
+    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix.
     fn end(&mut self) -> Result<Bicluster, BiclusterError> {
         let bicluster = self.bicluster();
         let (drop, dropped) = (self.options.drop, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
+            // Columns come first and only look residuals up; the rows below drop the same ones and record them.
             let goes = |row, value: i32| value.unsigned_abs() <= drop && !dropped.contains(&(row, column));
             self.columns
                 .subtract(column, all, &self.rows.places, |_| t, goes)
@@ -359,7 +364,7 @@ impl Search {
     }
 }
 
-/// Matches or most frequent values, and non-zeros, of a column: by its value if it is inside.
+/// Key of a column: for a column inside by its value, otherwise by its most frequent value.
 #[inline]
 fn column_key(tally: &ColumnTally, place: u32, value: i32) -> u32 {
     if place == OUTSIDE { tally.most_and_nonzeros() } else { tally.matches_and_nonzeros(value) }

@@ -1,9 +1,9 @@
-//! What the rows of a submatrix hold in each column.
+//! Counts of the values of each column within the rows of a submatrix.
 
-/// Values other than 0 of one column in the rows of a submatrix, each with how often it stands there.
+/// The non-zero values of one column in the rows of a submatrix, each with its count.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ColumnTally {
-    /// In no order; counts may have come down to 0.
+    /// Unordered; counts may be 0 again.
     values: Vec<(i32, u32)>,
     nonzeros: u32,
     /// The highest count.
@@ -26,7 +26,7 @@ impl ColumnTally {
         self.most = self.most.max(count);
     }
 
-    /// Takes back an [`Self::add`].
+    /// Reverts an [`Self::add`].
     pub(super) fn remove(&mut self, value: i32) {
         self.nonzeros -= 1;
         let known = self.values.iter_mut().find(|(known, _)| *known == value);
@@ -34,17 +34,17 @@ impl ColumnTally {
         self.most = self.values.iter().map(|(_, count)| *count).max().unwrap_or(0);
     }
 
-    /// Most frequent values and non-zeros: what a column gains by half, before its own cost, when it is inserted.
+    /// Count of the most frequent value plus number of non-zeros: half the gain, before costs, of inserting the column.
     pub(super) fn most_and_nonzeros(&self) -> u32 {
         self.most + self.nonzeros
     }
 
-    /// The same for a column that has a value.
+    /// Count of `value` plus number of non-zeros: the same for a column inside.
     pub(super) fn matches_and_nonzeros(&self, value: i32) -> u32 {
         self.values.iter().find(|(known, _)| *known == value).map_or(0, |(_, count)| *count) + self.nonzeros
     }
 
-    /// The most frequent value, the lowest of equally frequent ones.
+    /// The most frequent value; among equally frequent ones the lowest.
     ///
     /// # Panics
     /// If there is none.

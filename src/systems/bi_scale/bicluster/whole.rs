@@ -3,7 +3,7 @@
 use super::BiclusterError;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
-/// A constant-column bicluster: in each of its columns all of its rows have the column's value (equation 4).
+/// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
     /// Its rows j_1 ... j_r, increasing.
@@ -13,12 +13,12 @@ pub struct Bicluster {
 }
 
 impl Bicluster {
-    /// W = r + 2l - 1: multiplications and additions of its product (equation 7).
+    /// Cost W = r + 2l - 1: multiplications and additions of its product (equation 7).
     pub fn cost(&self) -> u64 {
         self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
     }
 
-    /// Whether it is one of a matrix of this size: rows and columns there, increasing, no value 0.
+    /// True if it fits a matrix of this size: rows and columns in range and increasing, no value 0.
     pub(crate) fn fits(&self, matrix_rows: usize, matrix_columns: usize) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
@@ -40,7 +40,7 @@ pub struct Biclustering {
 }
 
 impl Biclustering {
-    /// No bicluster of a matrix of this size: one of zeros.
+    /// No biclusters, for a zero matrix of this size.
     pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
@@ -59,7 +59,7 @@ impl Biclustering {
         self.row_begins.len() - 1
     }
 
-    /// Whether there is none: the matrix is 0.
+    /// True if there are none, so that the matrix is 0.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -69,12 +69,12 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Bits behind the binary point of values.
+    /// Number of fraction bits of the values.
     pub fn fraction_bits(&self) -> u32 {
         self.fraction_bits
     }
 
-    /// What a value of 1 stands for.
+    /// The unit of the integer values: 2^-`fraction_bits`.
     pub fn unit(&self) -> f64 {
         1.0 / f64::from(1_u32 << self.fraction_bits)
     }
@@ -95,7 +95,7 @@ impl Biclustering {
         &self.columns[self.column_begins[bicluster]..self.column_begins[bicluster + 1]]
     }
 
-    /// A bicluster by itself.
+    /// One bicluster, copied.
     ///
     /// # Panics
     /// If there is no such bicluster.
@@ -103,23 +103,23 @@ impl Biclustering {
         Bicluster { rows: self.rows_of(bicluster).to_vec(), columns: self.columns_of(bicluster).to_vec() }
     }
 
-    /// Entries of rows in all biclusters: the sum of r.
+    /// The sum of r over all biclusters.
     pub fn row_entries(&self) -> usize {
         self.rows.len()
     }
 
-    /// Entries of columns in all biclusters: the sum of l.
+    /// The sum of l over all biclusters.
     pub fn column_entries(&self) -> usize {
         self.columns.len()
     }
 
-    /// The cost of light times all biclusters, in floating-point operations: the sum of r + 2l - 1.
+    /// The cost of the product of light and all biclusters, in floating-point operations: the sum of r + 2l - 1.
     pub fn cost(&self) -> u64 {
         (self.rows.len() + 2 * self.columns.len() - self.len()) as u64
     }
 
-    /// I_j of all rows one after the other, increasing in each; and where each row's biclusters begin, the last ones
-    /// end.
+    /// The biclusters I_j of each row j, increasing within a row, one row after the other; the first vector holds the
+    /// start of each row followed by the end of the last.
     pub fn by_row(&self) -> (Vec<usize>, Vec<u32>) {
         let mut begins = vec![0; self.matrix_rows + 1];
         self.rows.iter().for_each(|&row| begins[row as usize + 1] += 1);
@@ -135,7 +135,7 @@ impl Biclustering {
         (begins, of_row)
     }
 
-    /// The sum of the biclusters: the matrix that they were made from, exactly.
+    /// The sum of the biclusters, which is exactly the original matrix.
     ///
     /// # Errors
     /// As [`Self::sum_by_rows`].
@@ -145,10 +145,10 @@ impl Biclustering {
         Ok(matrix)
     }
 
-    /// The same row by row: `take` is called with each row and its entries.
+    /// As [`Self::sum`], row by row: `take` is called with each row and its entries.
     ///
     /// # Errors
-    /// [`BiclusterError::Residual`] if a value leaves 32 bits, as it may for biclusters that are of no matrix.
+    /// [`BiclusterError::Residual`] if a value does not fit 32 bits, which can happen for biclusters from elsewhere.
     pub fn sum_by_rows(&self, take: &mut dyn FnMut(usize, &[MatrixEntry])) -> Result<(), BiclusterError> {
         let (begins, of_row) = self.by_row();
         let mut sums = vec![0_i64; self.matrix_columns];

@@ -1,7 +1,7 @@
-//! A bidirectional texture in a volume (Figure 4): a layer for each view, and in it a block of texels for each
-//! direction of light, the blocks in rows as the directions lie in their square.
+//! A bidirectional texture as a volume (Figure 4): one layer per view, which holds one block of texels per direction of
+//! light, in rows as the directions lie in their square.
 
-/// How the blocks of a layer meet.
+/// Borders between the blocks of a layer.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
@@ -11,26 +11,26 @@ pub enum BlockEdges {
     /// Reads stay half a texel inside, so that nothing is interpolated between the last texel's center and the first
     /// one's of the next repetition.
     Touching,
-    /// A texel around each block repeats the opposite edge, so that the patch repeats without a seam.
+    /// A border of one texel around each block repeats the opposite edge, so that the patch repeats without a seam.
     #[default]
     Wrapped,
 }
 
-/// The places of blocks in a volume.
+/// The layout of blocks in a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct BlockGrid {
     /// Texels along an edge of the patch.
     pub size: usize,
-    /// Directions of light along an edge of their square.
+    /// Directions of light along an edge of the square of directions.
     pub lights: usize,
-    /// Directions of the view along an edge of theirs.
+    /// Views along an edge of the square of directions.
     pub views: usize,
-    /// How blocks meet.
+    /// Borders between blocks.
     pub edges: BlockEdges,
 }
 
 impl BlockGrid {
-    /// Texels around a block.
+    /// Width of the border around a block, in texels.
     pub const fn border(&self) -> usize {
         match self.edges {
             BlockEdges::Touching => 0,
@@ -38,27 +38,27 @@ impl BlockGrid {
         }
     }
 
-    /// Texels from block to block.
+    /// Distance from block to block, in texels.
     pub const fn pitch(&self) -> usize {
         self.size + 2 * self.border()
     }
 
-    /// Width, height and depth of the volume.
+    /// Width, height and depth of the volume, in texels.
     pub const fn extents(&self) -> [usize; 3] {
         let side = self.pitch() * self.lights;
         [side, side, self.views * self.views]
     }
 
-    /// The first texel of a direction's block, with what is around it: column and row.
+    /// Column and row of the first texel of a direction's block, border included.
     pub const fn origin(&self, light: usize) -> [usize; 2] {
         [self.pitch() * (light % self.lights), self.pitch() * (light / self.lights)]
     }
 
-    /// What a texel of a layer shows: the direction of light, and row and column of the patch.
+    /// The direction of light, and the row and column of the patch, for a texel of a layer.
     pub const fn shown(&self, column: usize, row: usize) -> (usize, [usize; 2]) {
         let pitch = self.pitch();
         let light = self.lights * (row / pitch) + column / pitch;
-        // A texel of the border is that of the opposite edge.
+        // A texel of the border repeats the opposite edge.
         let back = self.size - self.border();
         (light, [(row % pitch + back) % self.size, (column % pitch + back) % self.size])
     }

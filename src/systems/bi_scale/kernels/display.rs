@@ -1,15 +1,15 @@
 //! The pixel program of the display (equation 3; section V, Rendering): b(u, e) times local light, for the directions
-//! of a pass. The four samples of the view around e are found by the program, in the square that their directions are
-//! mapped from: "we map the view direction back to the direction sphere and retrieve the four adjacent samples".
+//! of a pass. The program finds the four samples of the view around e in the square from which directions are mapped:
+//! "we map the view direction back to the direction sphere and retrieve the four adjacent samples".
 //!
-//! - t0 on: the numbers of [`LocalLayout`].
+//! - t0 and up: the numbers of [`LocalLayout`].
 //! - s0: the bidirectional texture in a volume ([`BlockGrid`]), filtered by the sampler within a block. Layers are read
-//!   at their middles, so that a read is of one layer alone.
-//! - c[`FIRST_ORIGIN`] on: where the block of each direction of the pass begins, in coordinates of the volume.
-//! - Out: the sum over the directions of the pass; alpha is 1.
+//!   at their centers, so that a read is not interpolated between layers.
+//! - c[`FIRST_ORIGIN`] and up: the origin of each direction's block, in coordinates of the volume.
+//! - Output: the sum over the directions of the pass; alpha is 1.
 //!
-//! The arc tangent of the map from the sphere to the square is an odd polynomial of degree 15, which is off by less
-//! than 5e-8 of a quarter turn's half.
+//! The arc tangent of the map from the sphere to the square is an odd polynomial of degree 15, whose error is below
+//! 5e-8 of an eighth of a turn.
 
 use std::fmt::Write as _;
 
@@ -21,7 +21,7 @@ use super::blocks::{BlockEdges, BlockGrid};
 use super::layout::LocalLayout;
 use crate::card::{KernelError, checked};
 
-/// The constant of the first direction's block.
+/// The constant register of the first direction's block origin.
 pub const FIRST_ORIGIN: usize = 8;
 
 /// atan(t) / (pi / 4) for t of 0 to 1 as t times a polynomial in t^2: the coefficients of least largest error.
@@ -109,7 +109,7 @@ impl DisplayKernel {
         );
     }
 
-    /// The view's point of the square into r4.xy. What lies below the horizon is taken for the horizon.
+    /// Writes the view's point of the square into r4.xy. Views below the horizon are moved onto it.
     fn push_square(&self, text: &mut String) {
         let last = self.layout.last();
         let _ = write!(

@@ -1,4 +1,4 @@
-//! Where the light of local directions stands among sets of texture coordinates.
+//! The layout of local light in texture coordinate sets.
 
 /// The last set holds texture coordinates u, v and the view along bitangent and tangent; the fourth component of the
 /// first set is the view along the normal. Every other set has a direction's red, green and blue in its first three
@@ -13,12 +13,12 @@ pub struct LocalLayout {
 const BESIDE: usize = 5;
 
 impl LocalLayout {
-    /// The directions of a pass: three numbers each of what u, v and the view leave.
+    /// Number of directions per pass: three numbers each of those that u, v and the view leave free.
     pub const fn directions(self) -> usize {
         (4 * self.sets).saturating_sub(BESIDE) / 3
     }
 
-    /// Passes for so many directions.
+    /// Number of passes for `directions` directions.
     ///
     /// # Panics
     /// If there are fewer than three sets.

@@ -1,16 +1,18 @@
-//! Sums over lists of places (section V, Algorithm 2): of light over the columns of a bicluster, weighted by their
-//! values, or of biclusters over those of a row. A fragment is a sum; red, green and blue are summed side by side.
+//! Sums over lists of texels (section V, Algorithm 2): of light over the columns of a bicluster, weighted by their
+//! values, or of biclusters over those of a row. A fragment computes one sum for red, green and blue in parallel.
 //!
-//! - t0: where the first texel of its list stands in texture 0; t1: its own place, for the sum so far.
-//! - c0: 1 / width and 1 / (width x height) of texture 1, which are powers of two; c1: from texel to texel of a list.
-//! - texture 0: lists. A texel holds four places, or two places each with its value; a place is that of a texel of
+//! - t0: coordinates in texture 0 of the first texel of the fragment's list; t1: the fragment's own, for the sum so
+//!   far.
+//! - c0: 1 / width and 1 / (width x height) of texture 1, which are powers of two; c1: the step between texels of a
+//!   list.
+//! - texture 0: lists. A texel holds four places, or two places with a value each; a place is the number of a texel of
 //!   texture 1, counted row by row, plus one half.
-//! - texture 1: what is summed, repeated along its rows: its two coordinates are products of one number with c0,
-//!   without rounding while places have 23 bits.
+//! - texture 1: the summands, repeated along its rows: both coordinates are the place times c0, which is exact while
+//!   places have at most 23 bits.
 //! - texture 2: the sum so far; not in the first program.
 //!
-//! One addition after the other, beginning with 0, as the host's sums. Places that fill up a texel are those of a texel
-//! of 0, which changes no sum.
+//! Additions run one after the other, beginning with 0, as in the host's sums. Unused places of a list's last texel
+//! point at a texel of 0, which changes no sum.
 
 use std::fmt::Write as _;
 
@@ -20,46 +22,46 @@ use refsim::isa::Version;
 
 use crate::card::{KernelError, checked};
 
-/// The texture of lists.
+/// Sampler of the lists.
 pub const LISTS: usize = 0;
-/// The texture of what is summed.
+/// Sampler of the summands.
 pub const SOURCE: usize = 1;
-/// The texture of the sum so far.
+/// Sampler of the sum so far.
 pub const SUM: usize = 2;
 
-/// A program for sums.
+/// A program that sums over lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ListSumKernel {
-    /// Texels of lists that it reads.
+    /// Number of list texels that it reads per fragment.
     pub texels: usize,
-    /// Whether each place has a value.
+    /// True if each place has a value by which its texel is multiplied.
     pub is_weighted: bool,
-    /// Whether sums begin.
+    /// True if the sums begin at 0; otherwise they continue texture 2.
     pub is_first: bool,
     /// [`Version::Ps2B`] or [`Version::Ps2A`].
     pub version: Version,
 }
 
-/// Instructions beside those for texels: the sum's beginning or its read, coordinates, the result.
+/// Instructions that do not depend on the number of texels: the first value, coordinates, the result.
 const BESIDE: usize = 3;
 
 impl ListSumKernel {
-    /// Places in a texel.
+    /// Number of places in a texel.
     pub const fn places_per_texel(is_weighted: bool) -> usize {
         if is_weighted { 2 } else { 4 }
     }
 
-    /// Instructions for a texel: its read, the way to the next; each place's coordinates, read, product and sum.
+    /// Instructions per texel: its read, the step to the next; and for each place coordinates, read, product and sum.
     const fn per_texel(is_weighted: bool) -> usize {
         2 + Self::places_per_texel(is_weighted) * if is_weighted { 4 } else { 3 }
     }
 
-    /// The most texels that so many instructions hold.
+    /// The largest number of texels for a number of instructions.
     pub const fn most_texels(is_weighted: bool, instructions: usize) -> usize {
         instructions.saturating_sub(BESIDE) / Self::per_texel(is_weighted)
     }
 
-    /// A name for messages.
+    /// The name used in messages.
     pub fn name(&self) -> String {
         let Self { texels, is_weighted, is_first, version } = *self;
         let what = if is_weighted { "weighted sum" } else { "sum" };
@@ -67,7 +69,7 @@ impl ListSumKernel {
         format!("{what} over {texels} texels of lists {from}, {version}")
     }
 
-    /// The program.
+    /// The program's assembly text.
     pub fn text(&self) -> String {
         let mut text = format!("{}\n; {}\ndef c2, 0, 0, 0, 0\ndcl t0\n", self.version, self.name());
         if !self.is_first {
@@ -117,7 +119,7 @@ impl ListSumKernel {
         }
     }
 
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if it breaks a rule of the device.

@@ -70,7 +70,7 @@ mod tests {
         }
     }
 
-    /// The display asks for volume reads and for no instruction beyond those of ps_2_0.
+    /// The display needs volume textures, but no instruction beyond those of ps_2_0.
     #[test]
     fn nine_directions_take_a_third_of_a_program() {
         let grid = BlockGrid { size: 64, lights: 8, views: 12, edges: BlockEdges::Wrapped };

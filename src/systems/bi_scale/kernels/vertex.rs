@@ -23,7 +23,7 @@ pub struct LocalVertexKernel {
 }
 
 impl LocalVertexKernel {
-    /// Attributes of a vertex: position, sets, texture coordinates, tangent, normal.
+    /// Number of vertex attributes: position, sets, texture coordinates, tangent, normal.
     pub const fn attributes(&self) -> usize {
         1 + self.layout.last() + 3
     }

@@ -1,6 +1,6 @@
-//! The display of bi-scale transfer by an emulated card (section V): passes over the mesh, each with as many directions
-//! as its interpolated numbers hold, added up by blending. The depth buffer is filled first, so that a pass adds what
-//! is nearest and nothing else.
+//! Display of bi-scale transfer by an emulated card (section V): passes over the mesh, each with as many directions as
+//! fit its interpolated coordinates, added up by blending. The depth buffer is filled first, so that passes add the
+//! nearest surface only.
 
 use std::sync::Arc;
 
@@ -22,28 +22,28 @@ use crate::card::{
     slots, vertex_version,
 };
 
-/// Red, green and blue: passes after the first leave alpha, which marks what is covered.
+/// Red, green and blue: later passes leave alpha, which marks covered pixels.
 const COLORS: WriteMask = WriteMask(7);
-/// Sets of coordinates of ps_2_x, and the fewest that hold a direction.
+/// Texture coordinate sets of ps_2_x, and the least number that can hold a direction.
 const SETS: usize = 8;
 const LEAST_SETS: usize = 3;
 
-/// What a frame takes, whatever is in it.
+/// Counts of a frame, which do not depend on its light and view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplayCounts {
-    /// Draws, beside that into the depth buffer: passes for each texture.
+    /// Draws, without that into the depth buffer: the passes of all textures.
     pub draws: usize,
-    /// Passes for a texture.
+    /// Passes per texture.
     pub passes: usize,
-    /// Directions of a whole pass.
+    /// Directions in a full pass.
     pub directions_per_pass: usize,
-    /// Texture reads and arithmetic slots of a whole pass's pixel program.
+    /// Texture reads and arithmetic slots of a full pass's pixel program.
     pub pixel_slots: [u32; 2],
-    /// Slots of the vertex program, and attributes of a vertex.
+    /// Slots of the vertex program, and attributes per vertex.
     pub vertex: [usize; 2],
     /// Bytes of the volumes.
     pub volume_bytes: u64,
-    /// Vertices of the card: corners of different texture coordinates are apart.
+    /// Vertices on the card: corners with different texture coordinates are separate.
     pub vertices: usize,
     /// Triangles.
     pub triangles: usize,
@@ -60,7 +60,7 @@ pub struct BiScaleCard<'a> {
     mesh: MeshOnCard,
     /// Texture coordinates, tangents, normals.
     beside: [Attribute; 3],
-    /// Of each texture that triangles name.
+    /// One part per texture that triangles use.
     parts: Vec<CardPart>,
     depth: DepthPrograms,
     vertex: CheckedProgram,
@@ -70,9 +70,8 @@ pub struct BiScaleCard<'a> {
 impl<'a> BiScaleCard<'a> {
     /// Uploads a mesh and its textures.
     ///
-    /// # Errors
-    /// [`BiScaleCardError`] if the device lacks programs, coordinates, volumes of the size or their format, or the
-    /// parts of the mesh do not go together.
+    /// [`BiScaleCardError`] if the device lacks programs, texture coordinates, the volumes' size or their format, or
+    /// the parts of the mesh have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -120,12 +119,12 @@ impl<'a> BiScaleCard<'a> {
         &mut self.machine
     }
 
-    /// Width, height and depth of each texture's volume in texels.
+    /// Width, height and depth of each texture's volume, in texels.
     pub fn volumes(&self) -> impl Iterator<Item = [usize; 3]> {
         self.parts.iter().map(|part| part.volume.grid.extents())
     }
 
-    /// What a frame takes.
+    /// Counts of a frame.
     pub fn counts(&self) -> DisplayCounts {
         let whole = self.parts.first().and_then(|part| part.pixels.first());
         let passes = self.layout.passes(self.textured.directions());
@@ -142,18 +141,18 @@ impl<'a> BiScaleCard<'a> {
         }
     }
 
-    /// A frame as the target holds it, from local light: of each vertex M times red, green, blue. Pixels that show
-    /// nothing are 0, alpha is 1 elsewhere.
+    /// The target of a frame from local light, which is M times red, green and blue for each vertex. Background pixels
+    /// are 0, alpha is 1 elsewhere.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] for an exposure out of range, light of another size or that its format does not hold, and
+    /// [`BiScaleCardError`] for an exposure out of range, light of another size or outside its format's range, and
     /// draws that the card refuses.
     pub fn view_texels(&mut self, local: &[[f32; 3]], view: &MeshView) -> Result<Texels, BiScaleCardError> {
         Ok(self.show(local, (view, false))?.0)
     }
 
-    /// The same, with what the frame asks of the card: no read-back, and no numbers on their way, as local light is on
-    /// the card.
+    /// As [`Self::view_texels`], with the log of the frame's work: without read-back, and without upload of local
+    /// light, which the paper keeps on the card.
     ///
     /// # Errors
     /// As [`Self::view_texels`].
@@ -165,7 +164,7 @@ impl<'a> BiScaleCard<'a> {
         self.show(local, (view, true))
     }
 
-    /// Draws a frame: the mesh into the depth buffer, then each texture's directions, added up pass by pass.
+    /// Draws a frame: the mesh into the depth buffer, then the directions of each texture, added up pass by pass.
     fn show(&mut self, local: &[[f32; 3]], view: (&MeshView, bool)) -> Result<(Texels, Vec<Event>), BiScaleCardError> {
         let Self { vertices, layout, options, .. } = self;
         let directions = self.textured.directions();

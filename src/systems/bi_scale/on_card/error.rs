@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::card::{KernelError, MeshError};
 
-/// Why a card does not multiply or show bi-scale transfer.
+/// Errors of multiplying or displaying bi-scale transfer on a card.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -51,7 +51,7 @@ pub enum BiScaleCardError {
     /// An image that there cannot be.
     #[error(transparent)]
     Texture(#[from] TextureError),
-    /// The card refuses a resource or a draw, or does not open.
+    /// The card refused a resource or a draw, or could not be opened.
     #[error(transparent)]
     Machine(#[from] MachineError),
 }

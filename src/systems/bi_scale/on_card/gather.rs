@@ -1,9 +1,9 @@
-//! Light times biclusters by a card (section V, Algorithm 2): the bicluster buffer, then the sums of rows, both as
-//! sums over lists in textures. Red, green and blue go side by side.
+//! Product of light and biclusters on a card (section V, Algorithm 2): first the bicluster buffer, then the sums of
+//! rows, both as sums over lists in textures. Red, green and blue are computed in parallel.
 //!
-//! The sums are those of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), one addition after the
-//! other in the same order, so that a card of single precision gives its bits where none of them is subnormal, which
-//! `gt200` flushes. Lists are about as large as in the paper: four bytes for a row of a bicluster, eight for a column.
+//! The sums are those of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), with additions in the same
+//! order, so that a card with single precision gives its bits unless one of them is subnormal, which `gt200` flushes.
+//! Lists have about the paper's size: four bytes for a row of a bicluster, eight for a column.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -27,11 +27,11 @@ use crate::card::{FullScreenPass, KernelError, MeshError, Texels, constants, req
 
 /// Lists and sums are in single precision.
 const FORMAT: TexelFormat = TexelFormat::Rgba32f;
-/// Textures whose size the device leaves open.
+/// Largest texture side where the device states no limit.
 const SIDE: usize = 8192;
-/// Instructions where the device leaves them open: those of ps_2_b.
+/// Instructions where the device states no limit: those of ps_2_b.
 const INSTRUCTIONS: usize = 512;
-/// Texels are addressed row by row through one number.
+/// Wraps in u, because a texel is addressed by its number alone.
 const BY_NUMBER: SamplerState = SamplerState { address_u: AddressMode::Wrap, ..SamplerState::NEAREST_CLAMP };
 
 /// Sums over lists of places in a texture.
@@ -42,22 +42,22 @@ struct Stage {
     order: Vec<u32>,
     passes: Vec<ListPass>,
     sheets: Vec<(TextureId, usize)>,
-    /// The first holds the sums, the second those so far.
+    /// The first holds the final sums, the second intermediate ones.
     targets: [TextureId; 2],
 }
 
-/// What a product reads and draws.
+/// Counts of a product's reads and draws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GatherCounts {
-    /// Passes for the bicluster buffer, and for rows.
+    /// Passes for the bicluster buffer, and for the rows.
     pub passes: [usize; 2],
-    /// Places read for them, those that fill up lists among them.
+    /// Places read in these passes, padding included.
     pub places: [u64; 2],
-    /// Bytes of lists.
+    /// Bytes of the lists of each.
     pub list_bytes: [u64; 2],
 }
 
-/// Biclusters on a card that multiplies light with them.
+/// Biclusters on a card, which multiplies them with light.
 #[derive(Debug)]
 pub struct GatherCard {
     machine: Machine,
@@ -65,13 +65,13 @@ pub struct GatherCard {
     rows: usize,
     light: (TextureId, [usize; 2]),
     format: LightFormat,
-    /// The bicluster buffer, and rows.
+    /// The bicluster buffer, and the rows.
     stages: [Stage; 2],
     programs: BTreeMap<ListSumKernel, CheckedProgram>,
     version: Version,
 }
 
-/// The language of both kinds of programs on a device.
+/// The shader version used for both kinds of programs on a device.
 pub(super) fn version(profile: &Profile, what: &str) -> Result<Version, KernelError> {
     let has_ps_2_b = profile.limits.versions.contains(&Version::Ps2B);
     let version = if has_ps_2_b { Version::Ps2B } else { Version::Ps2A };
@@ -83,7 +83,7 @@ impl GatherCard {
     /// Uploads the lists of biclusters.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the device lacks the language, texture formats or size.
+    /// [`BiScaleCardError`] if the device lacks the shader version, texture format or texture size.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -126,7 +126,7 @@ impl GatherCard {
         &mut self.machine
     }
 
-    /// What a product reads and draws.
+    /// Counts of a product's reads and draws.
     pub fn counts(&self) -> GatherCounts {
         let places = |stage: &Stage| {
             let of = |pass: &ListPass| (pass.rows[1] * stage.size[0] * pass.texels) as u64;
@@ -140,11 +140,11 @@ impl GatherCard {
         }
     }
 
-    /// Local light of each row: red, green, blue.
+    /// Local light of each row in red, green and blue, from one color per column.
     ///
     /// # Errors
-    /// [`BiScaleCardError`]: light of another size, numbers that are negative or not finite, draws that the card
-    /// refuses.
+    /// [`BiScaleCardError`]: light of another size, numbers that are not finite, or negative in [`LightFormat::Bytes`],
+    /// draws that the card refuses.
     pub fn multiply(&mut self, light: &[[f32; 3]]) -> Result<Vec<[f32; 3]>, BiScaleCardError> {
         let scale = self.draw(light)?;
         let texels = Texels::read_back(&self.machine, self.stages[1].targets[0])?.texels;
@@ -155,8 +155,8 @@ impl GatherCard {
         Ok(local)
     }
 
-    /// The same, with what it asks of host and card: light on its way, passes, no read-back, as the paper leaves local
-    /// light on the card.
+    /// As [`Self::multiply`], with the log of the work of host and card: upload of light and passes, without the
+    /// read-back, because the paper leaves local light on the card.
     ///
     /// # Errors
     /// As [`Self::multiply`].
@@ -166,10 +166,11 @@ impl GatherCard {
         self.machine.record(false);
         let log = self.machine.take_log();
         drawn?;
+        // Drawn a second time without recording, because reading the result back must not enter the log.
         Ok((self.multiply(light)?, log))
     }
 
-    /// Draws the sums; what they are to be multiplied by.
+    /// Draws the sums; returns the factor by which they must be multiplied.
     fn draw(&mut self, light: &[[f32; 3]]) -> Result<f32, BiScaleCardError> {
         if light.len() != self.columns {
             let (expected, found) = (self.columns, light.len());
@@ -215,7 +216,7 @@ impl Stage {
         ListSumKernel { texels: pass.texels, is_weighted: self.is_weighted, is_first: pass.pass[0] == 0, version }
     }
 
-    /// A pass. The last of some rows writes the first target.
+    /// Draws a pass. The last pass over a range of rows writes the first target.
     fn draw(
         &self,
         machine: &mut Machine,
@@ -254,7 +255,7 @@ impl Stage {
     }
 }
 
-/// The lists of the bicluster buffer: columns with their values, increasing. The texel after the last column is 0.
+/// The lists of the bicluster buffer: columns, increasing, with their values. The texel after the last column is 0.
 fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
     let [_, columns] = biclusters.matrix_size();
     let none = columns as f32 + 0.5;
@@ -272,7 +273,7 @@ fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result
     Lists::new("biclusters", (&lengths, &texel), [none, 0.0, none, 0.0], limits)
 }
 
-/// The lists of rows: their biclusters' places in the buffer, in the order in which they were found. The place after
+/// The lists of rows: the buffer places of their biclusters, in the order in which these were found. The place after
 /// the last one is 0.
 fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
     let mut places = vec![0; biclusters.len()];
@@ -287,7 +288,7 @@ fn row_lists(biclusters: &Biclustering, buffer: &Lists, limits: (ListLimits, &st
     Lists::new("rows", (&lengths, &texel), [none; 4], limits)
 }
 
-/// Light as texels, row by row, and zeros after it.
+/// Light as texels, row by row, padded with zeros.
 fn light_image(
     light: &[[f32; 3]],
     size: [usize; 2],

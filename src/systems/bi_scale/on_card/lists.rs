@@ -1,61 +1,62 @@
-//! Lists of places as textures, for sums of as many texels each.
+//! Lists of places as textures, grouped into passes that sum the same number of texels per fragment.
 //!
-//! Sums stand in the order of their lists' lengths, so that rows of the target have lists about as long: a pass covers
-//! the rows whose longest lists have as many texels, and reads that many for each of its fragments. A list that is
-//! shorter is filled up with places of 0.
+//! Sums are sorted by the lengths of their lists, so that the lists within a row of the target have similar lengths: a
+//! pass covers rows whose longest lists have the same number of texels, and reads that many for each fragment. Shorter
+//! lists are padded with places of 0.
 
 use super::error::BiScaleCardError;
 use crate::card::Texels;
 
-/// Places that single precision tells apart with one half added: 23 bits.
+/// The number of places that remain distinct in single precision after one half is added: 23 bits.
 pub(super) const MOST_PLACES: usize = 1 << 23;
 
-/// Width and height of the texture for so many texels: powers of two, the width the larger.
+/// Width and height of a texture with at least `count` texels: powers of two, width at least height.
 pub(super) fn extents(count: usize) -> [usize; 2] {
     let bits = count.max(1).next_power_of_two().ilog2();
     [1 << bits.div_ceil(2), 1 << (bits / 2)]
 }
 
-/// What one program can take.
+/// Limits of a pass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ListLimits {
-    /// Texels of a list in a pass.
+    /// Largest number of list texels per fragment.
     pub(super) texels: usize,
-    /// Texels along an edge of a texture.
+    /// Largest side of a texture, in texels.
     pub(super) side: usize,
 }
 
-/// A pass: rows of the target, and the texels of their lists that it reads.
+/// A pass: a range of rows of the target, and the list texels that it reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ListPass {
-    /// First row of the target, and how many.
+    /// The first row of the target, and the number of rows.
     pub(super) rows: [usize; 2],
-    /// The texture of lists, and the row in it where those of the first texel begin.
+    /// The index of the texture of lists, and its first row for this pass.
     pub(super) sheet: usize,
     pub(super) sheet_row: usize,
-    /// Texels of each list.
+    /// Number of texels per list.
     pub(super) texels: usize,
-    /// Its number among the passes over these rows, and how many there are.
+    /// The index of this pass among those over the same rows, and their number.
     pub(super) pass: [usize; 2],
 }
 
 /// Lists in textures.
 #[derive(Clone, Debug)]
 pub(super) struct Lists {
-    /// Which sum stands at each place.
+    /// The sum at each place of the target.
     pub(super) order: Vec<u32>,
-    /// Extents of the target.
+    /// Width and height of the target.
     pub(super) size: [usize; 2],
     pub(super) passes: Vec<ListPass>,
     pub(super) sheets: Vec<Texels>,
 }
 
 impl Lists {
-    /// The lists of `lengths.len()` sums, each of so many texels; `texel` gives the n-th texel of a list, `filler` one
-    /// of places of 0. The target has a place more than there are sums, which stays 0.
+    /// The lists of `lengths.len()` sums with `lengths[i]` texels each; `texel(i, n)` gives the n-th texel of a list,
+    /// and `filler` is a texel of places of 0. The target has at least one place more than there are sums, which stays
+    /// 0.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the target is larger than a texture can be, or has more places than can be told apart.
+    /// [`BiScaleCardError`] if the target exceeds the largest texture, or has more places than remain distinct.
     pub(super) fn new(
         what: &'static str,
         (lengths, texel): (&[usize], &dyn Fn(usize, usize) -> [f32; 4]),
@@ -75,7 +76,7 @@ impl Lists {
         let mut order: Vec<u32> = (0..count as u32).collect();
         order.sort_by_key(|&sum| lengths[sum as usize]);
         let mut lists = Self { order, size, passes: Vec::new(), sheets: Vec::new() };
-        // Lists grow from row to row, so that the last of a row is its longest.
+        // Lists are sorted by length, so that the last one of a row is its longest.
         let longest = |row: usize| lengths[lists.order[((row + 1) * width).min(count) - 1] as usize];
         let rows: Vec<usize> = (0..count.div_ceil(width)).map(longest).collect();
         let mut first = 0;
@@ -87,7 +88,7 @@ impl Lists {
         Ok(lists)
     }
 
-    /// The passes of rows whose lists have as many texels.
+    /// Adds the passes over rows whose longest lists have the same number of texels.
     fn push_class(&mut self, ([first, count], texels): ([usize; 2], usize), limits: ListLimits) {
         if texels == 0 {
             return;
@@ -104,7 +105,7 @@ impl Lists {
         }
     }
 
-    /// Rows of a sheet: of the last one, if it has them left.
+    /// Reserves rows in the last sheet if they fit, otherwise in a new one; returns the sheet and its first row.
     fn reserve(&mut self, rows: usize, side: usize) -> (usize, usize) {
         if self.sheets.last().is_none_or(|last| last.height + rows > side) {
             self.sheets.push(Texels { width: self.size[0], height: 0, texels: Vec::new() });

@@ -1,16 +1,16 @@
-//! Ways to hold the numbers of a frame.
+//! Number formats of light, local light and bidirectional textures on the card.
 
 use refsim::texture::TexelFormat;
 
 use crate::bi_scale::kernels::BlockEdges;
 use crate::card::through_half;
 
-/// What the card holds light in, before it is multiplied.
+/// Format of the light on the card, before it is multiplied.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum LightFormat {
-    /// Fractions of 8 bits of the largest number.
+    /// 8-bit fractions of the largest number.
     Bytes,
     /// Half precision, as fractions of the largest number.
     Fp16,
@@ -20,7 +20,7 @@ pub enum LightFormat {
 }
 
 impl LightFormat {
-    /// The texels.
+    /// The texel format.
     pub const fn texels(self) -> TexelFormat {
         match self {
             Self::Bytes => TexelFormat::Rgba8,
@@ -29,18 +29,18 @@ impl LightFormat {
         }
     }
 
-    /// What numbers are divided by, of which this is the largest.
+    /// The divisor of numbers whose largest magnitude is `largest`.
     pub(super) fn scale(self, largest: f32) -> f32 {
         if self == Self::Fp32 || largest == 0.0 { 1.0 } else { largest }
     }
 }
 
-/// What vertices hold local light in.
+/// Format of local light in vertices.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum LocalFormat {
-    /// Fractions of 8 bits of the frame's largest number.
+    /// 8-bit fractions of the frame's largest number.
     Bytes,
     /// Half precision.
     Fp16,
@@ -50,7 +50,7 @@ pub enum LocalFormat {
 }
 
 impl LocalFormat {
-    /// A number as the format holds it, where this is the largest of the frame.
+    /// A number rounded to the format, for a frame whose largest number is `largest`.
     pub(super) fn rounded(self, value: f64, largest: f64) -> f32 {
         match self {
             Self::Fp32 => value as f32,
@@ -60,7 +60,7 @@ impl LocalFormat {
         }
     }
 
-    /// Bytes of a number.
+    /// Bytes per number.
     pub const fn bytes(self) -> usize {
         match self {
             Self::Bytes => 1,
@@ -70,14 +70,14 @@ impl LocalFormat {
     }
 }
 
-/// Variants of the display.
+/// Options of the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplayOptions {
-    /// How the blocks of the volume meet.
+    /// Borders between the blocks of the volume.
     pub edges: BlockEdges,
-    /// What it holds samples in: `rgba8`, of the largest sample, `rgba16f` or `rgba32f`.
+    /// Texel format of the volume: `rgba8`, scaled by the largest sample, `rgba16f` or `rgba32f`.
     pub texture: TexelFormat,
-    /// What vertices hold local light in.
+    /// Format of local light in vertices.
     pub local: LocalFormat,
 }
 

@@ -12,7 +12,7 @@ use super::subject::{CardVertices, TexturedMesh};
 use super::volume::VolumeTexture;
 use crate::bi_scale::kernels::{DisplayKernel, FIRST_ORIGIN, LocalLayout};
 
-/// The pixel program for so many directions.
+/// The pixel program for a number of directions.
 #[derive(Clone, Debug)]
 pub(super) struct PixelProgram {
     pub(super) directions: usize,
@@ -24,12 +24,12 @@ pub(super) struct PixelProgram {
 pub(super) struct CardPart {
     pub(super) indices: Vec<u32>,
     pub(super) volume: VolumeTexture,
-    /// Of a whole pass, and of the last one if that has fewer directions.
+    /// Those of a full pass, and of the last one if it has fewer directions.
     pub(super) pixels: Vec<PixelProgram>,
 }
 
 impl CardPart {
-    /// The pixel program for so many directions, of a whole pass or of the last one.
+    /// The pixel program for `directions`, which are those of a full pass or of the last one.
     pub(super) fn program(&self, directions: usize) -> &CheckedProgram {
         let known = self.pixels.iter().find(|known| known.directions == directions);
         &known.expect("a program for each number of directions").program

@@ -7,12 +7,12 @@ use super::subject::CardVertices;
 use crate::bi_scale::kernels::LocalLayout;
 use crate::card::{Attribute, MeshError};
 
-/// Local light of a frame, and how it is handed over.
+/// Local light of a frame, and its format for the card.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LocalStream<'a> {
     pub(super) vertices: &'a CardVertices,
     pub(super) layout: LocalLayout,
-    /// Of each vertex M times red, green, blue.
+    /// M times red, green and blue for each vertex.
     pub(super) local: &'a [[f32; 3]],
     pub(super) directions: usize,
     /// Exposure, and what texels are to be multiplied by.

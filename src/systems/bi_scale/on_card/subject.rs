@@ -1,4 +1,4 @@
-//! What is shown: a mesh with a bidirectional texture and the light of its vertices' local directions.
+//! The displayed object: a mesh with bidirectional textures.
 
 use std::collections::BTreeMap;
 
@@ -8,20 +8,20 @@ use crate::card::MeshError;
 use crate::geom::Mesh;
 use crate::transfer::Vertices;
 
-/// A mesh that bidirectional textures cover.
+/// A mesh covered by bidirectional textures.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedMesh<'a> {
     /// The mesh, with local frames.
     pub vertices: &'a Vertices,
-    /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
+    /// Texture coordinates of each corner, triangle by triangle; a patch has length 1.
     pub coordinates: &'a [[[f32; 2]; 3]],
-    /// The textures, of the same directions of light.
+    /// The textures, all with the same directions of light.
     pub textures: &'a [BidirectionalTexture],
-    /// The number of each triangle's texture.
+    /// The index of each triangle's texture.
     pub texture_of: &'a [u32],
 }
 
-/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that is repeated so many times.
+/// Texture coordinates of the corners of a mesh's triangles, in units of a patch that repeats `repeat` times.
 ///
 /// # Errors
 /// [`BiScaleCardError::NoTextureCoordinates`].
@@ -34,14 +34,14 @@ pub fn corner_coordinates(mesh: &Mesh, repeat: [f32; 2]) -> Result<Vec<[[f32; 2]
     Ok(mesh.triangles().iter().map(|corners| corners.map(corner)).collect())
 }
 
-/// A mesh's corners as vertices of a card: those of one vertex and the same texture coordinates are one.
+/// A mesh's corners as vertices of a card: corners with the same vertex and texture coordinates are shared.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CardVertices {
-    /// The mesh's vertex of each.
+    /// The mesh's vertex for each vertex of the card.
     pub(super) vertices: Vec<u32>,
-    /// Their texture coordinates.
+    /// The texture coordinates of each.
     pub(super) coordinates: Vec<[f32; 2]>,
-    /// Three of them for each triangle.
+    /// Three indices per triangle.
     pub(super) indices: Vec<u32>,
 }
 
@@ -64,7 +64,7 @@ impl CardVertices {
 }
 
 impl TexturedMesh<'_> {
-    /// The directions of light M.
+    /// The number M of directions of light.
     pub(super) fn directions(&self) -> usize {
         self.textures.first().map_or(0, |texture| texture.light().directions().len())
     }
@@ -74,7 +74,7 @@ impl TexturedMesh<'_> {
         &self.textures[self.texture_of[triangle as usize] as usize]
     }
 
-    /// Checks that the parts go together.
+    /// Checks that the parts have matching sizes.
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let triangles = self.vertices.triangles().len();
         MeshError::check_size("triangles with texture coordinates", triangles, self.coordinates.len())?;

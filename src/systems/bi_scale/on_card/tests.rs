@@ -181,7 +181,7 @@ fn value(image: &Image, at: [u32; 4]) -> [f64; 3] {
     [red, green, blue].map(|bits| f64::from(f32::from_bits(bits)))
 }
 
-/// At weights that the sampler has and samples of few bits nothing is rounded.
+/// With weights that the sampler can represent and samples of few bits nothing is rounded.
 #[test]
 fn blocks_repeat_as_the_hosts_patch_does() {
     let random = CounterRng::new(9);
@@ -264,7 +264,7 @@ fn camera() -> Camera {
     Camera::new([0.6, -2.2, 1.6], [0.0; 3], [0.0, 0.0, 1.0], 0.5, 44, 36).expect("a camera")
 }
 
-/// Of the same color throughout a patch: what is left is the view, light and their sums.
+/// A texture with one color throughout a patch, so that only view, light and their sums matter.
 fn flat(views: usize, lights: usize) -> BidirectionalTexture {
     let random = CounterRng::new(22);
     texture(4, views, lights, |at| [0, 1, 2].map(|channel| random.unit((at / 16) as u64, channel, 0) as f32))

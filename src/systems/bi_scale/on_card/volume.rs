@@ -13,11 +13,11 @@ use crate::card::MeshError;
 /// The largest number of half precision.
 const HALF_MOST: f32 = 65_504.0;
 
-/// The image of a volume, and what its texels are to be multiplied by.
+/// The image of a volume, and the factor by which its texels must be multiplied.
 ///
 /// # Errors
-/// [`BiScaleCardError`] for another format than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
-/// has no volume of the size, and samples that the format does not hold.
+/// [`BiScaleCardError`] for a format other than `rgba8`, `rgba16f` and `rgba32f`, a device that does not filter it or
+/// has no volumes of the size, and samples outside the format's range.
 pub fn volume_image(
     profile: &Profile,
     texture: &BidirectionalTexture,
@@ -49,7 +49,7 @@ pub fn volume_image(
     Ok((image, grid, scale))
 }
 
-/// Refuses what a device cannot hold or filter.
+/// Refuses a volume that the device cannot store or filter.
 fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(), BiScaleCardError> {
     if ![TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f].contains(&format) {
         let (what, expected) = ("a bidirectional texture", "rgba8, rgba16f or rgba32f");
@@ -73,9 +73,9 @@ fn check(profile: &Profile, grid: &BlockGrid, format: TexelFormat) -> Result<(),
 pub struct VolumeTexture {
     /// The volume.
     pub id: TextureId,
-    /// The places of its blocks.
+    /// The layout of its blocks.
     pub grid: BlockGrid,
-    /// What its texels are to be multiplied by.
+    /// The factor by which its texels must be multiplied.
     pub scale: f64,
 }
 

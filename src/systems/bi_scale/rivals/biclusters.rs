@@ -1,10 +1,10 @@
-//! Biclusters as one way to store transfer among others.
+//! Biclusters as one of the storage methods that are compared.
 
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::product;
 
-/// Bytes of a row's number; of the number and the value of a column: what the paper's sizes come to.
+/// Bytes of a row number, and of a column's number and value, which agree with the paper's sizes.
 const PER_ROW: usize = 4;
 const PER_COLUMN: usize = 8;
 

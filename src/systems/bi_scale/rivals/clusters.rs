@@ -9,23 +9,23 @@ use crate::linalg::dot;
 use crate::transfer::Signal;
 use crate::transfer::clustering::{CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 
-/// How rows are compressed.
+/// Options of the compression of rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowClusterOptions {
-    /// Clusters; the paper has 32.
+    /// Number of clusters; 32 in the paper.
     pub clusters: usize,
-    /// Vectors per cluster; the paper has 8.
+    /// Number of vectors per cluster; 8 in the paper.
     pub vectors: usize,
-    /// With a mean or without.
+    /// Affine (with a mean) or linear subspaces.
     pub form: CpcaForm,
-    /// Rows that the first clusters are found from, drawn without repetition from those that are not 0. A row takes
-    /// 4 bytes per column: 4,096 rows of 6,144 take 100 MB.
+    /// Number of rows for the initial clusters, drawn without repetition from the non-zero rows. A row takes 4 bytes
+    /// per column: 4,096 rows of 6,144 columns take 100 MB.
     pub sample: usize,
-    /// Iterations at most for each number of vectors, on the sample.
+    /// Largest number of iterations for each number of vectors, on the sample.
     pub iterations: usize,
-    /// Rounds in which all rows take part afterwards.
+    /// Number of rounds over all rows afterwards.
     pub rounds: usize,
-    /// Draws the sample, and the first representatives.
+    /// Random seed of the sample and of the first representatives.
     pub seed: u64,
 }
 
@@ -36,7 +36,7 @@ impl Default for RowClusterOptions {
 }
 
 impl RowClusterOptions {
-    /// With as many vectors as go into so many bytes with the same clusters, at least one.
+    /// These options with the largest number of vectors that fits into `bytes`, at least one.
     #[must_use]
     pub fn within(self, bytes: u64, [rows, columns]: [usize; 2]) -> Self {
         let means = if self.form == CpcaForm::Affine { self.clusters * columns } else { 0 };
@@ -47,33 +47,33 @@ impl RowClusterOptions {
     }
 }
 
-/// Bytes of a number.
+/// Bytes per number.
 const NUMBER: usize = 4;
 
-/// Bytes of a cluster's number.
+/// Bytes of a cluster index.
 fn name_bytes(clusters: usize) -> usize {
     if clusters > 256 { 2 } else { 1 }
 }
 
-/// Rows as a mean and a few vectors of their cluster, all in f32.
+/// Rows as a mean and a few vectors per cluster, all in f32.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowClusters {
     columns: usize,
     form: CpcaForm,
-    /// Cluster by cluster.
+    /// One mean per cluster, cluster by cluster.
     means: Vec<f32>,
-    /// Per cluster its vectors, one after another.
+    /// Per cluster its vectors, concatenated.
     vectors: Vec<Vec<f32>>,
     of_row: Vec<u32>,
-    /// Row by row, as many as the row's cluster has vectors.
+    /// Row by row, with as many weights as the row's cluster has vectors.
     weights: Vec<f32>,
-    /// The squared error of all rows before each round and after the last: it does not grow but for rounding.
+    /// The squared error over all rows before each round and after the last: it does not grow, up to rounding.
     pub history: Vec<f64>,
 }
 
 impl RowClusters {
-    /// The clusters of a matrix's rows: first those of a sample as [`compress`] finds them, then rounds with all rows.
-    /// `observe` is told how many rounds are done.
+    /// Clusters the rows of a matrix: first a sample by [`compress`], then rounds over all rows. `observe` is called
+    /// with the number of finished rounds.
     ///
     /// # Errors
     /// [`RivalError::Dark`], [`RivalError::Sample`], [`RivalError::Clusters`].
@@ -106,7 +106,7 @@ impl RowClusters {
         })
     }
 
-    /// The approximation of a row, a number per column.
+    /// The approximation of a row, one number per column.
     ///
     /// # Panics
     /// If there is no such row.
@@ -121,7 +121,7 @@ impl RowClusters {
         sum
     }
 
-    /// Per row its cluster.
+    /// The cluster of each row.
     pub fn of_row(&self) -> &[u32] {
         &self.of_row
     }
@@ -163,7 +163,7 @@ impl StoredTransfer for RowClusters {
     }
 }
 
-/// The clusters of a sample of rows.
+/// The initial clusters, from a sample of rows.
 fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSubspace>, RivalError> {
     let rows = sample(matrix, options.sample, options.seed);
     if rows.is_empty() {
@@ -193,7 +193,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
     Ok(subspaces.map(|s| RowSubspace { mean: s.mean.clone(), vectors: s.vectors.clone() }).collect())
 }
 
-/// So many rows at most of those that are not 0, increasing: those that draw the lowest numbers.
+/// At most `most` rows of those that are not 0, in increasing order: those with the lowest random numbers.
 fn sample(matrix: &SparseMatrix, most: usize, seed: u64) -> Vec<usize> {
     let random = CounterRng::new(seed);
     let lit = (0..matrix.rows()).filter(|&row| !matrix.row(row).is_empty());

@@ -8,15 +8,15 @@ use crate::bi_scale::matrix::SparseMatrix;
 pub trait RowColumn: Copy + Send + Sync {
     /// The largest.
     const MOST: u32;
-    /// Of a column; `None` beyond [`Self::MOST`].
+    /// The number of a column; `None` beyond [`Self::MOST`].
     fn of(column: u32) -> Option<Self>;
-    /// As a place in the light.
+    /// The index into the light.
     fn place(self) -> usize;
 }
 
 /// A value as a layout keeps it.
 pub trait RowValue: Copy + Send + Sync {
-    /// Of a number of units; `None` if it has no room.
+    /// The value of a number of units; `None` if it is out of range.
     fn of(units: i32, unit: f64) -> Option<Self>;
     /// The value in f32; exact up to 24 bits.
     fn single(self, unit: f32) -> f32;

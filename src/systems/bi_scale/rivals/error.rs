@@ -1,16 +1,16 @@
-//! Why transfer cannot be stored so.
+//! Errors of storing transfer.
 
 use thiserror::Error;
 
 use crate::transfer::clustering::CpcaError;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Why transfer cannot be stored so. Rows and columns count from 0.
+/// Errors of storing transfer. Rows and columns count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RivalError {
-    /// A matrix whose columns are no light texels.
+    /// A matrix whose columns are not the light texels.
     #[error("expected a matrix of {LIGHT_TEXELS} columns, a light texel each, found {found}")]
     Columns { found: usize },
     /// Rows that are not those of the vertices.

@@ -1,4 +1,4 @@
-//! Each row by a few of its wavelet coefficients (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
+//! Rows by a few Haar wavelet coefficients each (section VI-B, Figure 6; \[NRH03\]'s non-linear approximation).
 
 use rayon::prelude::*;
 
@@ -8,43 +8,43 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
 use crate::transfer::haar::Haar;
 
-/// Coefficients of a face.
+/// Number of coefficients of a face.
 pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
-/// The largest value of a byte.
+/// The largest value of a signed byte.
 const BYTE: f64 = 127.0;
 
-/// By what coefficients of a row are chosen; of equal ones the first by number.
+/// The criterion by which a row's coefficients are chosen; among equal ones the lowest number comes first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientPriority {
-    /// Magnitude times the number of texels under the basis function, as the paper has it.
+    /// Magnitude times the number of texels under the basis function, as in the paper.
     #[default]
     Area,
     /// Magnitude: the least squared error of the row itself.
     Magnitude,
 }
 
-/// What a coefficient is stored as, beside its number of two bytes.
+/// Storage of a coefficient's value, next to its number of two bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientStorage {
     /// A byte, in steps of 1/127 of the largest coefficient of all rows.
     ///
-    /// Three bytes per coefficient come to the paper's 37.1 MB.
+    /// Three bytes per coefficient agree with the paper's 37.1 MB.
     #[default]
     Byte,
     /// Four bytes, an f32.
     Single,
 }
 
-/// How rows are cut.
+/// Options of the approximation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HaarRowOptions {
-    /// Coefficients of a row at most; the paper has 12.
+    /// Largest number of coefficients per row; 12 in the paper.
     pub keep: usize,
-    /// Which.
+    /// The criterion by which they are chosen.
     pub priority: CoefficientPriority,
-    /// How they are stored.
+    /// The storage of their values.
     pub storage: CoefficientStorage,
 }
 
@@ -55,7 +55,7 @@ impl Default for HaarRowOptions {
 }
 
 impl HaarRowOptions {
-    /// As many coefficients as go into so many bytes with the same number for each row, one at least.
+    /// These options with the largest number of coefficients per row that fits into `bytes`, at least one.
     #[must_use]
     pub fn within(self, bytes: u64, rows: usize) -> Self {
         let each = self.storage.bytes() as u64 * rows.max(1) as u64;
@@ -73,19 +73,19 @@ impl CoefficientStorage {
     }
 }
 
-/// Rows in wavelets of the six faces of 32 x 32 texels: the largest coefficients of each.
+/// Rows in Haar wavelets over the six faces of 32 x 32 texels: the most important coefficients of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HaarRows {
     options: HaarRowOptions,
     begins: Vec<usize>,
-    /// Face 1024 + place in the face's pyramid.
+    /// Coefficient numbers: 1024 x face + index in the face's pyramid.
     coefficients: Vec<u16>,
-    /// Rounded as they are stored.
+    /// Values, rounded as they are stored.
     values: Vec<f32>,
 }
 
 impl HaarRows {
-    /// The largest coefficients of each row of a matrix.
+    /// The most important coefficients of each row of a matrix.
     ///
     /// # Errors
     /// [`RivalError::Columns`], [`RivalError::Coefficients`].
@@ -121,12 +121,12 @@ impl HaarRows {
         Ok(rows)
     }
 
-    /// How many coefficients are stored: fewer than asked for where rows have no more.
+    /// Number of stored coefficients; rows with few non-zero coefficients store fewer than requested.
     pub fn stored(&self) -> usize {
         self.coefficients.len()
     }
 
-    /// A row's coefficients, by increasing number, with their values.
+    /// A row's coefficients by increasing number, with their values.
     ///
     /// # Panics
     /// If there is no such row.
@@ -165,7 +165,7 @@ pub(super) fn transformed(vector: &[f64]) -> Vec<f64> {
     all
 }
 
-/// What a coefficient's magnitude is weighed by, over a face.
+/// Weight of each coefficient's magnitude, for one face.
 fn weights(priority: CoefficientPriority) -> Vec<f64> {
     let haar = Haar::new(LIGHT_SIDE);
     let weight = |at: usize| match priority {
@@ -175,7 +175,7 @@ fn weights(priority: CoefficientPriority) -> Vec<f64> {
     (0..FACE).map(weight).collect()
 }
 
-/// All coefficients of a row other than 0, by increasing number: of those faces alone that have an entry.
+/// All non-zero coefficients of a row, by increasing number; only faces with an entry are transformed.
 fn coefficients(entries: &[MatrixEntry], unit: f64, haar: &mut Haar, square: &mut [f64]) -> Vec<(u16, f64)> {
     let face = |entry: &MatrixEntry| entry.index as usize / FACE;
     let mut all = Vec::new();
@@ -190,7 +190,7 @@ fn coefficients(entries: &[MatrixEntry], unit: f64, haar: &mut Haar, square: &mu
     all
 }
 
-/// Leaves the coefficients of largest weighed magnitude, by increasing number.
+/// Keeps the coefficients of largest weighted magnitude, by increasing number.
 fn keep_largest(all: &mut Vec<(u16, f64)>, keep: usize, weights: &[f64]) {
     if all.len() > keep {
         let priority = |&(at, value): &(u16, f64)| weights[usize::from(at) % FACE] * value.abs();

@@ -9,7 +9,7 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::sphere::{MAX_ORDER, function_count, harmonics};
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, LIGHT_TEXELS, face_row_column, texel_center};
 
-/// Which sides of transfer are in harmonics.
+/// The sides of transfer that are in harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
 #[strum(serialize_all = "kebab-case")]
 pub enum HarmonicSides {
@@ -84,7 +84,7 @@ impl HarmonicRows {
         Ok(Self { order, sides: HarmonicSides::Both, height: count, values, cells })
     }
 
-    /// Which sides are in harmonics.
+    /// The sides that are in harmonics.
     pub fn sides(&self) -> HarmonicSides {
         self.sides
     }

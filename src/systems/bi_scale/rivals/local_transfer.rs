@@ -7,8 +7,8 @@ use crate::sphere::{function_count, harmonics};
 use crate::transfer::LocalFrame;
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Cells of the square that stand for one local direction's, along an edge, where its part of the hemisphere is
-/// integrated over.
+/// Number of cells along an edge by which the part of the square of one local direction is divided, for integrating
+/// over its part of the hemisphere.
 const CELLS: usize = 16;
 
 /// A transfer matrix, the frames of its vertices, and its local directions.
@@ -54,7 +54,7 @@ impl<'a> LocalTransfer<'a> {
         self.directions.directions().len()
     }
 
-    /// The visible share of each light texel at a vertex: a column has one entry per vertex at most.
+    /// The visible fraction of each light texel at a vertex: a column has at most one entry per vertex.
     pub(super) fn visibility(&self, vertex: usize) -> Vec<f64> {
         let mut shares = vec![0.0; LIGHT_TEXELS];
         for row in vertex * self.local()..(vertex + 1) * self.local() {

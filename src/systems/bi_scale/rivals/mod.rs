@@ -1,15 +1,16 @@
-//! Other ways to store transfer, which the paper compares biclusters with or rejects (sections II, IV-A and VI-B):
+//! Baselines: other ways to store transfer, which the paper compares with biclusters or rejects (sections II, IV-A,
+//! VI-B):
 //!
-//! - [`CompressedRows`]: rows of columns and values, three or eight bytes an entry; nothing is lost;
+//! - [`CompressedRows`]: rows of columns and values, three or eight bytes per entry; lossless;
 //! - [`RowClusters`]: clustered principal components of rows (Figure 6, c);
 //! - [`HaarRows`]: a few wavelet coefficients of each row (Figure 6, d);
 //! - [`HarmonicRows`]: transfer of spherical harmonics, on one side or on both (Figures 1 and 5);
 //! - [`ReshuffledVisibility`]: visibility of few texels and a shuffle of them in place of a rotation (section IV-A);
-//! - [`StoredTransfer`]: what they share with biclusters: sizes, and light times them; [`LocalLightError`]: how far the
-//!   light that arrives is off;
+//! - [`StoredTransfer`]: their common interface with biclusters: sizes, and products with light; [`LocalLightError`]:
+//!   the error of local light;
 //! - [`mod@reference`]: wavelets and clusters by plain loops.
 //!
-//! Products are taken in f64 of numbers as they are stored, so that an error is that of what is stored.
+//! Products are computed in f64 from the stored numbers, so that errors are those of the storage.
 
 mod biclusters;
 mod clusters;

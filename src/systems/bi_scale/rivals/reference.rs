@@ -6,7 +6,7 @@ use crate::transfer::haar::Haar;
 
 use super::haar_rows::CoefficientPriority;
 
-/// A row of a matrix with all its zeros.
+/// A row of a matrix, including all zeros.
 ///
 /// # Panics
 /// If there is no such row.

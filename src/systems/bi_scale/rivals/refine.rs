@@ -1,11 +1,11 @@
-//! Clusters of sparse rows made better with all rows taking part, a round at a time.
+//! Refinement of clusters of sparse rows by rounds over all rows.
 //!
-//! Dense rows of a whole transfer matrix would take 25 GB for a million rows; their inner products with the clusters'
-//! vectors need the entries alone. A round sends each row to the cluster that approximates it best, of equal ones the
-//! first; then each cluster takes the mean of its rows, and its vectors are multiplied with the covariance of its rows
-//! and made orthonormal again (orthogonal iteration). No step adds error: means and nearest clusters are best, and
+//! Dense rows of a whole transfer matrix would take 25 GB for a million rows; inner products with the clusters' vectors
+//! need the entries alone. A round assigns each row to the cluster that approximates it best, the first among equal
+//! ones; then each cluster takes the mean of its rows, and its vectors are multiplied with the covariance of its rows
+//! and orthonormalised (orthogonal iteration). No step increases the error: means and nearest clusters are optimal, and
 //! for a positive semidefinite C and orthonormal V the trace of U^T C U is at least that of V^T C V where U spans C V,
-//! since U is the best for the tangent of this convex function at V.
+//! since U maximises the tangent of this convex function at V.
 
 use rayon::prelude::*;
 
@@ -13,17 +13,17 @@ use crate::bi_scale::matrix::SparseMatrix;
 use crate::linalg::dot;
 use crate::transfer::clustering::CpcaForm;
 
-/// What is left of a vector beside others, relative to its length, below which it has no direction of its own.
+/// Relative length below which the part of a vector orthogonal to the others counts as rounding error.
 const NOTHING: f64 = 1e-12;
 
-/// The subspace of a cluster of rows: a mean, and orthonormal vectors one after another, as long each.
+/// The subspace of a cluster of rows: a mean, and orthonormal vectors concatenated, all with one number per column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RowSubspace {
     pub(super) mean: Vec<f64>,
     pub(super) vectors: Vec<f64>,
 }
 
-/// A row in its cluster.
+/// A row's cluster, weights and error.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PlacedRow {
     pub(super) cluster: u32,
@@ -31,13 +31,13 @@ pub(super) struct PlacedRow {
     pub(super) squared_error: f64,
 }
 
-/// All means and vectors by column, so that a row's entries read what stands side by side.
+/// All means and vectors interleaved by column, so that each entry of a row reads contiguous numbers.
 struct ByColumn {
-    /// Per cluster where its mean stands; its vectors follow.
+    /// Per cluster the index of its mean; its vectors follow.
     begins: Vec<usize>,
     stride: usize,
     values: Vec<f64>,
-    /// Per place the inner product with the cluster's mean.
+    /// Per index the inner product with the cluster's mean.
     with_mean: Vec<f64>,
 }
 
@@ -61,7 +61,7 @@ impl ByColumn {
         Self { begins, stride, values, with_mean }
     }
 
-    /// Inner products of a row with all lines, and with itself.
+    /// Inner products of a row with all means and vectors, into `sums`; returns that with itself.
     fn products(&self, matrix: &SparseMatrix, row: usize, sums: &mut [f64]) -> f64 {
         sums.fill(0.0);
         let mut square = 0.0;
@@ -74,7 +74,7 @@ impl ByColumn {
         square
     }
 
-    /// The best cluster of a row.
+    /// Assigns a row to its best cluster.
     fn place(&self, matrix: &SparseMatrix, row: usize, sums: &mut [f64]) -> PlacedRow {
         let square = self.products(matrix, row, sums);
         let along = |at: usize| sums[at] - self.with_mean[at];
@@ -88,18 +88,19 @@ impl ByColumn {
         }
         let (cluster, squared_error) = best;
         let weights = (self.begins[cluster] + 1..self.begins[cluster + 1]).map(along).collect();
+        // The expanded square may round below 0.
         PlacedRow { cluster: cluster as u32, weights, squared_error: squared_error.max(0.0) }
     }
 }
 
-/// Each row in its best cluster, of equal ones the first.
+/// Assigns each row to its best cluster, the first among equal ones.
 pub(super) fn placed(matrix: &SparseMatrix, subspaces: &[RowSubspace]) -> Vec<PlacedRow> {
     let lines = ByColumn::new(subspaces);
     let rows = (0..matrix.rows()).into_par_iter();
     rows.map_init(|| vec![0.0; lines.stride], |sums, row| lines.place(matrix, row, sums)).collect()
 }
 
-/// The subspaces that the rows of each cluster ask for. A cluster without rows stays.
+/// The subspaces fitted to the rows of each cluster. A cluster without rows keeps its own.
 pub(super) fn refitted(
     matrix: &SparseMatrix,
     (before, form): (Vec<RowSubspace>, CpcaForm),
@@ -139,7 +140,7 @@ fn refit(matrix: &SparseMatrix, before: &RowSubspace, form: CpcaForm, rows: &[us
     }
     let mut vectors = Vec::with_capacity(images.len());
     for (image, vector) in images.chunks_exact(length).zip(before.vectors.chunks_exact(length)) {
-        // Rows that have nothing along a vector leave it as it is.
+        // A vector to which all rows are orthogonal stays as it is.
         if !add_orthonormal(&mut vectors, image) {
             add_orthonormal(&mut vectors, vector);
         }
@@ -147,17 +148,17 @@ fn refit(matrix: &SparseMatrix, before: &RowSubspace, form: CpcaForm, rows: &[us
     RowSubspace { mean, vectors }
 }
 
-/// Adds a row times a number.
+/// Adds `scale` times a row to `into`.
 fn add(matrix: &SparseMatrix, row: usize, scale: f64, into: &mut [f64]) {
     let scale = scale * matrix.unit();
     matrix.row(row).iter().for_each(|entry| into[entry.index as usize] += scale * f64::from(entry.value));
 }
 
-/// Adds a vector to orthonormal ones, made orthogonal to them and of length 1, if anything is left of it.
+/// Appends a vector to orthonormal ones after orthonormalising it; false if it is linearly dependent on them.
 fn add_orthonormal(vectors: &mut Vec<f64>, vector: &[f64]) -> bool {
     let mut vector = vector.to_vec();
     let mut before = dot(&vector, &vector).sqrt();
-    // Twice against rounding.
+    // Two passes of orthogonalisation against rounding.
     for _ in 0..2 {
         for earlier in vectors.chunks_exact(vector.len()) {
             let along = dot(earlier, &vector);
@@ -179,7 +180,7 @@ mod tests {
     use super::*;
     use crate::bi_scale::matrix::MatrixEntry;
 
-    /// Rows along two directions from a mean, and one that is far off.
+    /// Rows along two directions from a mean, and one outlier.
     fn matrix() -> SparseMatrix {
         let mut matrix = SparseMatrix::new(5, 0).unwrap();
         for (a, b) in [(1, 5), (3, 5), (2, 7), (2, 3), (9, 1)] {

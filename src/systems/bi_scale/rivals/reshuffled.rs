@@ -1,10 +1,10 @@
-//! The form that section IV-A rejects: down-sample first, rotate afterwards.
+//! The variant that section IV-A rejects: down-sample first, rotate afterwards.
 //!
-//! Visibility is kept at few texels of a coarse cube in the global frame; a rotation into a vertex's frame becomes a
-//! list that says, for each local direction, which coarse texel lies there. That is small, and L~ takes one product per
-//! local direction; but the order of down-sampling and rotation is swapped. A coarse texel goes whole to all the local
-//! directions whose nearest it is, and to no others; its light and its visibility are means, so that what hides a part
-//! of a texel dims its light instead.
+//! Visibility is stored at few texels of a coarse cube in the global frame; a rotation into a vertex's frame becomes a
+//! list with the coarse texel of each local direction. That is small, and L~ takes one product per local direction; but
+//! the order of down-sampling and rotation is swapped. A coarse texel contributes as a whole to all local directions
+//! nearest to it, and to no others; its light and its visibility are means, so that an occluder of a part of a texel
+//! dims its light instead.
 
 use rayon::prelude::*;
 
@@ -14,7 +14,7 @@ use super::stored::{StoredSize, StoredTransfer};
 use crate::sphere::CubeMap;
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS, face_row_column};
 
-/// Visibility of a coarse cube's texels and a shuffle of them, per vertex.
+/// Visibility of a coarse cube's texels, and its shuffle, per vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReshuffledVisibility {
     cube: CubeMap,
@@ -22,13 +22,13 @@ pub struct ReshuffledVisibility {
     visibility: Vec<f32>,
     /// Per vertex and local direction the coarse texel that it lies in.
     shuffle: Vec<u16>,
-    /// Per local direction the solid angle that it stands for.
+    /// The solid angle of each local direction.
     solid_angles: Vec<f64>,
 }
 
 impl ReshuffledVisibility {
-    /// Of coarse cubes with so many texels along an edge: a power of two up to 32. With 4 they have 96 texels, about as
-    /// many over the hemisphere as there are local directions of 8 x 8.
+    /// Baseline with coarse cubes of `side` texels along an edge, a power of two up to 32. With 4 they have 96 texels,
+    /// about as many over the hemisphere as there are local directions of 8 x 8.
     ///
     /// # Errors
     /// [`RivalError::CoarseSide`].

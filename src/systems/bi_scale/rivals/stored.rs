@@ -1,42 +1,42 @@
-//! What all ways to store transfer have in common, and how far the light that one of them gives is off.
+//! The common interface of stored transfer, and the error of the local light that it gives.
 
-/// Transfer, stored in some way.
+/// Transfer stored by one of the compression methods.
 pub trait StoredTransfer {
-    /// Bytes by layout. The first layout holds the numbers that [`Self::multiply`] computes with.
+    /// Bytes per layout. The first layout holds the numbers with which [`Self::multiply`] computes.
     fn sizes(&self) -> Vec<StoredSize>;
 
-    /// L~: a number per row of T, from a number per column, in f64.
+    /// Local light L~ in f64: one number per row of T, from `light` with one number per column.
     ///
     /// # Panics
-    /// If the light has not as many numbers as T has columns.
+    /// If the light does not have one number per column of T.
     fn multiply(&self, light: &[f64]) -> Vec<f64>;
 }
 
-/// How many bytes a layout takes.
+/// Size of a layout.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StoredSize {
-    /// The layout, in a few words.
+    /// A short name of the layout.
     pub layout: &'static str,
     /// Bytes of everything that depends on the transfer.
     pub bytes: u64,
 }
 
-/// How far light that arrives is from T L, over all rows.
+/// Error of local light against T L, over all rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalLightError {
-    /// The root of the mean square of differences, in the unit of the light.
+    /// Root mean square of the differences, in the unit of the light.
     pub root_mean_square: f64,
     /// The largest difference, in the unit of the light.
     pub largest: f64,
-    /// The first as a share of the root mean square of T L; 0 where nothing differs.
+    /// `root_mean_square` relative to the root mean square of T L; 0 where nothing differs.
     pub relative: f64,
 }
 
 impl LocalLightError {
-    /// Of light found and light expected, row by row.
+    /// The error of found light against expected light, row by row.
     ///
     /// # Panics
-    /// If there are not as many of both, or none.
+    /// If the numbers of rows differ, or are 0.
     pub fn new(found: &[f64], expected: &[f64]) -> Self {
         assert!(!expected.is_empty() && found.len() == expected.len(), "a number per row");
         let (mut squares, mut whole, mut largest) = (0.0, 0.0, 0.0_f64);

@@ -1,5 +1,5 @@
-//! Equation 3 for many pixels: the texture laid out so that all directions of light of a texel stand together, pixels
-//! in parallel. Sums have the reference's shape, so that the bits are its own, in any number of threads.
+//! Equation 3 for many pixels: the texture laid out so that all directions of light of a texel are adjacent, and pixels
+//! in parallel. Sums have the order of the reference, so that the bits are equal, on any number of threads.
 
 use rayon::prelude::*;
 
@@ -38,7 +38,8 @@ impl TextureLookup {
         self.lights
     }
 
-    /// Equation 3 for a pixel: [`reference::radiance`](super::reference::radiance). `b` is room for M samples.
+    /// Equation 3 for a pixel: [`reference::radiance`](super::reference::radiance). `b` is scratch memory for M
+    /// samples.
     ///
     /// # Panics
     /// If a corner has no row.

@@ -1,4 +1,4 @@
-//! What equation 3 needs to know of a pixel.
+//! Inputs of equation 3 for a pixel.
 
 use glam::DVec3;
 
@@ -9,16 +9,16 @@ use crate::transfer::{LocalFrame, Vertices};
 pub struct ShadedPixel {
     /// The vertices of the triangle.
     pub corners: [u32; 3],
-    /// Their weights, which sum to 1.
+    /// Their barycentric weights, which sum to 1.
     pub weights: [f64; 3],
-    /// u: texture coordinates, 1 being the whole patch.
+    /// u: texture coordinates; the patch has length 1.
     pub place: [f64; 2],
     /// e: the direction to the eye in the pixel's local frame, of length 1.
     pub view: DVec3,
 }
 
-/// The local frame of a pixel: normals and tangents of the vertices, interpolated and made orthogonal again. Where they
-/// cancel, the frame of the vertex that weighs most.
+/// The local frame of a pixel: normals and tangents of the vertices, interpolated and orthonormalised. If they cancel,
+/// the frame of the vertex with the largest weight.
 pub fn pixel_frame(vertices: &Vertices, corners: [u32; 3], weights: [f64; 3]) -> LocalFrame {
     let frames = corners.map(|corner| vertices.frames()[corner as usize]);
     let mix = |axis: fn(&LocalFrame) -> DVec3| -> DVec3 {
@@ -30,22 +30,22 @@ pub fn pixel_frame(vertices: &Vertices, corners: [u32; 3], weights: [f64; 3]) ->
     frame.unwrap_or(frames[heaviest])
 }
 
-/// The four texels around texture coordinates of a patch that repeats, and their weights, which sum to 1.
+/// The four texels around texture coordinates of a repeating patch, and their weights, which sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelSamples {
-    /// Texels, row by row.
+    /// Texel numbers, row by row.
     pub numbers: [usize; 4],
     /// Bilinear weights.
     pub weights: [f64; 4],
 }
 
 impl TexelSamples {
-    /// In a patch of `size` x `size` texels, whose centers are at (texel + 1/2) / `size`.
+    /// For a patch of `size` x `size` texels, whose centers are at (texel + 1/2) / `size`.
     pub fn around(size: usize, place: [f64; 2]) -> Self {
         let along = |at: f64| {
             let texels = (at - at.floor()) * size as f64 - 0.5;
             let low = texels.floor();
-            // -1 is the last texel of the patch before.
+            // -1 is the last texel of the previous repetition.
             let index = (low as isize).rem_euclid(size.cast_signed()).cast_unsigned();
             (index, (index + 1) % size, texels - low)
         };

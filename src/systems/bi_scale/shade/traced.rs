@@ -1,8 +1,8 @@
-//! A pixel by rays (the paper's reference pictures), and by the same with one thing after the other done as transfer
-//! does it, so that the error of a picture can be told apart by its causes.
+//! A pixel by ray tracing (the paper's reference pictures), and the same with the approximations of transfer introduced
+//! one after another, so that the error of a picture can be attributed to its causes.
 //!
-//! Exact here means: light in 128 x 128 texels a face, each seen or not from the pixel's own point, the patch of
-//! heights asked at the exact directions. Sums run over directions in the order of their numbers, in f64.
+//! Exact here means: light in 128 x 128 texels per face, each visible or not from the pixel's own point, and the patch
+//! of heights evaluated at the exact directions. Sums run over directions in the order of their numbers, in f64.
 
 use glam::DVec3;
 
@@ -17,64 +17,64 @@ use crate::transfer::LocalFrame;
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS, light_texel, texel_center};
 use crate::transfer::visibility::{Horizon, VisibilitySampling};
 
-/// What is done as transfer does it; each includes those before.
+/// Approximations of transfer; each step includes those before it.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TracedRung {
-    /// Nothing.
+    /// No approximation.
     Exact,
-    /// Light is constant over the texels of 6 x 32 x 32.
+    /// Light is constant over each of the 6 x 32 x 32 texels.
     Light,
-    /// A texel is seen as far as its 2^m x 2^m directions are.
+    /// A texel's visibility is the mean over its 2^m x 2^m directions.
     Visibility,
-    /// A texel's light comes from the local direction that is nearest to its center.
+    /// A texel's light arrives from the local direction nearest to its center.
     Directions,
-    /// The patch is known from some views, and interpolated between them.
+    /// The patch is sampled at the texture's views and interpolated between them.
     Views,
-    /// And at texels, and interpolated between them: it is a texture.
+    /// The patch is also sampled at texels and interpolated between them: it is a texture.
     Texture,
 }
 
 impl TracedRung {
-    /// All, in order.
+    /// All steps, in order.
     pub const ALL: [Self; 6] =
         [Self::Exact, Self::Light, Self::Visibility, Self::Directions, Self::Views, Self::Texture];
 }
 
-/// How many rungs there are.
+/// Number of steps.
 const RUNGS: usize = TracedRung::ALL.len();
 
-/// A light as both a pixel by rays and transfer have it.
+/// A light at the resolutions of ray tracing and of transfer.
 #[derive(Clone, Copy, Debug)]
 pub struct TracedLight<'a> {
-    /// Radiance in the fine directions.
+    /// Radiance in each fine direction, 6 x 128 x 128.
     pub fine: &'a [[f64; 3]],
-    /// Radiance of the light's texels.
+    /// Radiance of each light texel, 6 x 32 x 32.
     pub texels: &'a [[f64; 3]],
 }
 
-/// A point of a mesh, as its pixel sees it.
+/// A point of a mesh and its pixel's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct TracedPoint {
-    /// Where it lies on its triangle.
+    /// The point on its triangle.
     pub point: SurfacePoint,
     /// The pixel's local frame.
     pub frame: LocalFrame,
 }
 
-/// A mesh that is in the light's way.
+/// A mesh that casts shadows.
 #[derive(Debug)]
 pub struct TracedScene<'a> {
-    /// Both sides of its triangles.
+    /// Tracer of both sides of its triangles.
     pub tracer: &'a HostTracer,
-    /// The length of rays that end outside of it.
+    /// A length of rays that reaches beyond the mesh from any of its points.
     pub length: f64,
-    /// How visibility is sampled for transfer.
+    /// Sampling of visibility for transfer.
     pub sampling: VisibilitySampling,
 }
 
 impl TracedScene<'_> {
-    /// Per direction of a sampling whether a point sees light there.
+    /// Visibility of light from a point, one bool per direction of a sampling; false where the texel has no light.
     fn sees_light(&self, of: &TracedPoint, directions: &FineDirections, texels: &[[f64; 3]]) -> Vec<bool> {
         let origin = of.point.lifted(of.point.normal, 0.0);
         let sees = |direction: DVec3| {
@@ -93,10 +93,10 @@ impl TracedScene<'_> {
         found
     }
 
-    /// The pixel's radiance on every rung, in their order.
+    /// The pixel's radiance for every step, in the order of [`TracedRung::ALL`].
     ///
     /// # Panics
-    /// If a light has not one radiance per direction or texel.
+    /// If the light does not have one radiance per direction or texel.
     pub fn rungs(
         &self,
         of: &TracedPoint,
@@ -113,7 +113,7 @@ impl TracedScene<'_> {
             let into = &mut rungs[rung as usize];
             (0..3).for_each(|channel| into[channel] += b[channel] * radiance[channel] * solid_angle);
         };
-        // The patch's response, integrated over each texel, and each texel's solid angle.
+        // The patch's response integrated over each texel, and each texel's solid angle.
         let mut of_texel = vec![[0.0; 3]; LIGHT_TEXELS];
         let mut solid_angles = vec![0.0; LIGHT_TEXELS];
         for (number, &direction) in fine.directions().iter().enumerate() {
@@ -157,7 +157,7 @@ impl TracedScene<'_> {
 }
 
 impl TracedPoint {
-    /// The point of a triangle with these weights; `None` where the triangle has no area.
+    /// The point of a triangle at these weights; `None` if the triangle is degenerate.
     pub fn new(corners: [[f32; 3]; 3], weights: [f64; 3], frame: LocalFrame) -> Option<Self> {
         let point = SurfacePoint::of(corners.map(wide), DVec3::from(weights), crate::tracer::offset::SINGLE)?;
         Some(Self { point, frame })

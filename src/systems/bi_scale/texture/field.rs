@@ -1,16 +1,17 @@
 //! Heights of a small square patch that repeats in both directions.
 //!
-//! Lengths count in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n,
-//! v = (row + 1/2) / n; between four of them the surface is bilinear. Inside, places are in texels: x = n u - 1/2,
-//! y = n v - 1/2, so that heights stand at whole numbers and cell (i, j) reaches from there to (i + 1, j + 1).
+//! Lengths are in edges of the patch. Texel (row, column) of n x n has its height at u = (column + 1/2) / n,
+//! v = (row + 1/2) / n; between four of them the surface is bilinear. Internally, positions are in texels:
+//! x = n u - 1/2, y = n v - 1/2, so that heights are at integers and cell (i, j) extends from (i, j) to
+//! (i + 1, j + 1).
 //!
-//! Heights are at most 0, and the highest is 0: nothing stands out of the mesh's own surface, and what light and view
-//! a mesh's point gets is what comes to the top of the patch. (The paper does not say where its patches lie.)
+//! Heights are at most 0, and the highest is 0: the patch lies below the mesh's own surface, and light and view of a
+//! mesh's point are those at the top of the patch. (The paper does not say where its patches lie.)
 
 use glam::DVec3;
 use thiserror::Error;
 
-/// A repeated patch of heights.
+/// A repeating patch of heights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightField {
     side: usize,
@@ -21,7 +22,7 @@ pub struct HeightField {
     bottom: f64,
 }
 
-/// Numbers that are no heights.
+/// Errors of making heights.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -56,7 +57,7 @@ impl CellPatch {
         self.corner + a * self.along + b * self.across + a * b * self.twist
     }
 
-    /// How fast the height grows along x and y, per texel.
+    /// The derivatives of the height along x and y, per texel.
     pub(super) fn slope(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         [self.along + b * self.twist, self.across + a * self.twist]
     }
@@ -73,7 +74,7 @@ impl HeightField {
     /// The largest depth in edges of the patch.
     pub const DEEPEST: f64 = 16.0;
 
-    /// Of heights row by row, in edges of the patch. The highest is moved to 0, the others with it.
+    /// A height field from heights row by row, in edges of the patch, shifted so that the highest is 0.
     ///
     /// # Errors
     /// [`HeightFieldError`].
@@ -101,7 +102,7 @@ impl HeightField {
         Ok(field)
     }
 
-    /// Of a patch without any relief.
+    /// A patch without relief.
     pub fn flat() -> Self {
         Self { side: 1, heights: vec![0.0], tops: vec![0.0], bottom: 0.0 }
     }
@@ -116,7 +117,7 @@ impl HeightField {
         &self.heights
     }
 
-    /// How far the lowest lies below the highest.
+    /// The difference between the highest and the lowest height.
     pub fn depth(&self) -> f64 {
         -self.bottom
     }
@@ -126,7 +127,7 @@ impl HeightField {
         self.heights[self.wrapped(column, row)]
     }
 
-    /// The number of a texel, or of a cell, of the repeated patch.
+    /// The index of a texel, or of a cell, within the repeating patch.
     pub(super) fn wrapped(&self, column: isize, row: isize) -> usize {
         let side = self.side.cast_signed();
         (row.rem_euclid(side) * side + column.rem_euclid(side)).cast_unsigned()

@@ -1,7 +1,7 @@
-//! Bidirectional textures as arrays of NumPy's: f4 or f8 in C order, of the shape (views, lights, size, size, 3).
+//! Bidirectional textures as NumPy arrays: f4 or f8 in C order, with shape (views, lights, size, size, 3).
 //!
-//! Views and lights are those of squares of k x k cells: their numbers are squares. Rows of texels run along v,
-//! columns along u; the last axis is red, green, blue. `BidirectionalTexture` says what the numbers are.
+//! Views and lights are those of squares of k x k cells, so their numbers are squares. Rows of texels run along v,
+//! columns along u; the last axis is red, green, blue. `BidirectionalTexture` defines the numbers.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ use super::response::{BidirectionalTexture, BidirectionalTextureError};
 use crate::bi_scale::directions::LocalDirections;
 use crate::io::{NumberArray, NumbersError, load_npy_array, write_npy_array};
 
-/// Longest file that is read, in bytes (8 GiB).
+/// Largest size of a file that is read, in bytes (8 GiB).
 const MAX_BYTES: u64 = 1 << 33;
 
-/// Why a file is no bidirectional texture.
+/// Errors of reading a bidirectional texture.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]

@@ -1,4 +1,4 @@
-//! Patches by code. Each repeats without a seam, is made of 128 x 128 heights, and is the same bits everywhere.
+//! Procedural patches. Each repeats without a seam, has 128 x 128 heights, and has the same bits on every machine.
 
 use super::field::HeightField;
 use super::material::MesoMaterial;
@@ -7,26 +7,26 @@ use crate::elementary::{atan2, on_circle};
 use crate::geom::random::CounterRng;
 use crate::transfer::brdf::Brdf;
 
-/// Heights along an edge.
+/// Number of heights along an edge.
 const SIDE: usize = 128;
 
-/// A patch that the project makes.
+/// A procedural patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum PatchKind {
-    /// Round bumps of several sizes on a soft skin, a little glossy (the paper's Figure 1).
+    /// Round bumps of several sizes on a soft skin, slightly glossy (the paper's Figure 1).
     Bumps,
-    /// Mail: rings of wire, each through its four neighbors, that shine across the wire (Figure 5).
+    /// Chain mail: rings of wire, each linked with its four neighbors, with highlights across the wire (Figure 5).
     Mail,
     /// Glazed tiles with joints.
     Tiles,
     /// Bricks in running bond, rough, with mortar.
     Bricks,
-    /// Threads over and under each other that shine across themselves.
+    /// Threads that alternate over and under each other, with highlights across the thread.
     Weave,
 }
 
-/// What a place of a patch is: its height in edges of the patch, its material, its tangent in turns.
+/// A point of a patch: its height in edges of the patch, its material, its tangent's angle in turns.
 struct Place {
     height: f64,
     material: u32,
@@ -34,10 +34,10 @@ struct Place {
 }
 
 impl PatchKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Mail, Self::Tiles, Self::Bricks, Self::Weave];
 
-    /// The patch, with heights `relief` times as deep as they are made.
+    /// The patch, with all heights multiplied by `relief`.
     ///
     /// # Panics
     /// If `relief` is negative, not finite, or makes the patch deeper than [`HeightField::DEEPEST`].
@@ -69,7 +69,7 @@ impl PatchKind {
             Self::Bumps => vec![glossy([0.42, 0.26, 0.16], facets(0.35), [1.0; 3])],
             Self::Mail => vec![
                 diffuse([0.05, 0.04, 0.035]),
-                // Wide across the wire, narrow along it.
+                // Rough across the wire, smooth along it.
                 glossy([0.06, 0.06, 0.065], brushed(0.7, [0.12, 0.45]), [1.0, 0.97, 0.92]),
             ],
             Self::Tiles => vec![
@@ -91,13 +91,13 @@ impl PatchKind {
     }
 }
 
-/// The distance on a circle of circumference 1.
+/// The signed distance on a circle of circumference 1, in [-1/2, 1/2].
 fn around(from: f64, to: f64) -> f64 {
     let apart = (from - to).rem_euclid(1.0);
     if apart > 0.5 { apart - 1.0 } else { apart }
 }
 
-/// Chance at a place of a repeated grid of `count` x `count`, smooth between: from 0 to 1.
+/// Smooth value noise on a repeating grid of `count` x `count`, in [0, 1].
 fn noise([u, v]: [f64; 2], count: usize, seed: u64) -> f64 {
     let (random, cells) = (CounterRng::new(seed), count as f64);
     let (x, y) = (u * cells, v * cells);
@@ -112,7 +112,7 @@ fn noise([u, v]: [f64; 2], count: usize, seed: u64) -> f64 {
     (1.0 - b) * row(0.0) + b * row(1.0)
 }
 
-/// 5 x 5 half balls of random sizes, a little off their grid.
+/// 5 x 5 hemispheres of random sizes, displaced a little from their grid.
 fn bumps(place: [f64; 2]) -> Place {
     const COUNT: u64 = 5;
     let random = CounterRng::new(7);
@@ -131,14 +131,14 @@ fn bumps(place: [f64; 2]) -> Place {
     Place { height: height + 0.004 * noise(place, 32, 8), material: 0, turns: 0.0 }
 }
 
-/// Two rings in each direction, tilted by turns, on two shifted grids: one ring through its four neighbors.
+/// Two rings in each direction, tilted alternately, on two shifted grids: each ring passes through its four neighbors.
 fn mail(place: [f64; 2]) -> Place {
     const RADIUS: f64 = 0.2;
     const WIRE: f64 = 0.035;
     const TILT: f64 = 0.3;
     let mut found = Place { height: -0.09, material: 0, turns: 0.0 };
     for ring in 0..8 {
-        // Rows of one grid lean one way, those of the other, half a ring further, the other way.
+        // Rings of one grid lean one way, those of the other, half a ring further, the other way.
         let (grid, at) = (ring / 4, ring % 4);
         let shift = 0.25 * f64::from(grid);
         let center = [f64::from(at % 2) * 0.5 + shift, f64::from(at / 2) * 0.5 + shift];
@@ -150,7 +150,7 @@ fn mail(place: [f64; 2]) -> Place {
             let lean = if grid == 0 { TILT } else { -TILT };
             let height = square.sqrt() + lean * x;
             if height > found.height {
-                // Along the wire: across the direction from the ring's center.
+                // Along the wire: perpendicular to the direction from the ring's center.
                 let turns = atan2(x, -y) / std::f64::consts::TAU;
                 found = Place { height, material: 1, turns };
             }
@@ -159,7 +159,7 @@ fn mail(place: [f64; 2]) -> Place {
     found
 }
 
-/// A rounded block of some size around the middle: how high its top is at a place, 0 beside it, 1 on top.
+/// Height profile of a rounded block around the origin: 0 outside, 1 on top.
 fn block([x, y]: [f64; 2], [width, depth]: [f64; 2], edge: f64) -> f64 {
     let inside = (width / 2.0 - x.abs()).min(depth / 2.0 - y.abs());
     let t = (inside / edge).clamp(0.0, 1.0);
@@ -194,7 +194,7 @@ fn bricks([u, v]: [f64; 2]) -> Place {
     Place { height: 0.012 + 0.03 * top + 0.008 * chance(1) + rough, material: material.min(3), turns: 0.0 }
 }
 
-/// Four threads each way, over and under by turns.
+/// Four threads in each direction, alternately over and under.
 fn weave([u, v]: [f64; 2]) -> Place {
     const THREADS: f64 = 4.0;
     let [i, j] = [u, v].map(|at| (at * THREADS).floor());

@@ -1,4 +1,4 @@
-//! What the texels of a patch are made of.
+//! Materials of the texels of a patch.
 
 use std::f64::consts::FRAC_1_PI;
 
@@ -6,14 +6,14 @@ use glam::DVec3;
 
 use crate::transfer::brdf::{Brdf, BrdfError};
 
-/// A diffuse color and a lobe.
+/// A diffuse color and a glossy lobe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MesoMaterial {
     /// Reflectance of the diffuse part: red, green, blue.
     pub color: [f64; 3],
     /// The lobe, in the frame of the surface with x along the texel's tangent.
     pub lobe: Option<Brdf>,
-    /// What the lobe is multiplied by: red, green, blue.
+    /// Factors of the lobe: red, green, blue.
     pub lobe_color: [f64; 3],
 }
 
@@ -23,10 +23,10 @@ impl MesoMaterial {
         Self { color, lobe: None, lobe_color: [0.0; 3] }
     }
 
-    /// Whether all figures are in range.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] names the first that is not.
+    /// [`BrdfError::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), BrdfError> {
         for albedo in self.color {
             Brdf::Lambert { albedo }.check()?;
@@ -37,7 +37,7 @@ impl MesoMaterial {
         self.lobe.map_or(Ok(()), |lobe| lobe.check())
     }
 
-    /// The BRDF per channel and steradian; 0 unless both directions are above the surface.
+    /// The BRDF per channel, in 1/sr; 0 unless both directions are above the surface.
     pub fn value(&self, view: DVec3, light: DVec3) -> [f64; 3] {
         if !(view.z > 0.0 && light.z > 0.0) {
             return [0.0; 3];

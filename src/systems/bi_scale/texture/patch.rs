@@ -1,7 +1,7 @@
-//! A patch of heights, each texel of a material: b(u, e, d) at any directions.
+//! A patch of heights with a material per texel: b(u, e, d) for any directions.
 //!
-//! A place u of the mesh's surface is seen along the view: the point of the patch that lies behind it (parallax)
-//! answers with its BRDF times the cosine at the patch's own surface, unless the patch is in the light's way.
+//! A point u of the mesh's surface shows the point of the patch behind it along the view (parallax). The response is
+//! its BRDF times the cosine at the patch's own surface, or 0 where the patch blocks the light.
 
 use std::ops::ControlFlow;
 
@@ -15,31 +15,31 @@ use crate::elementary::on_circle;
 use crate::transfer::LocalFrame;
 use crate::transfer::brdf::BrdfError;
 
-/// What of the heights is drawn (section VII: normal maps and spatially invariant BRDFs in place of a bidirectional
-/// texture).
+/// Detail of the heights that is drawn (section VII: normal maps and spatially invariant BRDFs in place of a
+/// bidirectional texture).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum MesoDetail {
-    /// All: parallax, normals, shadows.
+    /// Everything: parallax, normals, shadows.
     #[default]
     Relief,
-    /// A normal map: the normals alone.
+    /// A normal map: normals only.
     Normals,
-    /// Nothing: the materials on the mesh's own surface.
+    /// No relief: the materials on the mesh's own surface.
     Flat,
 }
 
-/// A repeated patch.
+/// A repeating patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MesoPatch {
     heights: HeightField,
     materials: Vec<MesoMaterial>,
     texels: Vec<MesoTexel>,
-    /// What of it is drawn.
+    /// The detail that is drawn.
     pub detail: MesoDetail,
 }
 
-/// What stands at a texel.
+/// Material and tangent of a texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MesoTexel {
     /// The number of its material.
@@ -48,41 +48,41 @@ pub struct MesoTexel {
     pub turns: f64,
 }
 
-/// Why parts make no patch.
+/// Reasons for which parts make no patch.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum MesoPatchError {
-    /// Not one entry per height.
+    /// The number of texels differs from the number of heights.
     #[error("expected {expected} texels, one per height, found {found}")]
     Count { expected: usize, found: usize },
-    /// A texel of no material, or without a direction.
+    /// A texel with an unknown material, or a tangent that is not finite.
     #[error(
         "expected a material below {materials} and a finite tangent, found {} and {} in row {row}, column {column}",
         found.material, found.turns
     )]
     Texel { materials: usize, found: MesoTexel, row: usize, column: usize },
-    /// A material's figures.
+    /// A material with parameters out of range.
     #[error("material {material} (counted from 0): {reason}")]
     Material { material: usize, reason: BrdfError },
 }
 
-/// What a view sees through a place.
+/// The point of the patch that a view sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenPoint {
-    /// The place in texels, in the patch that was hit.
+    /// Its position in texels, in the patch's repetition that was hit.
     at: [f64; 2],
     /// Its height, in edges of the patch.
     height: f64,
-    /// The surface's frame in that of the mesh: x along the texel's tangent.
+    /// The surface's frame relative to the mesh's local frame: x along the texel's tangent.
     frame: LocalFrame,
-    /// The direction to the eye in it.
+    /// The direction to the eye in this frame.
     view: DVec3,
     material: usize,
 }
 
 impl MesoPatch {
-    /// A patch of heights, texels by rows and their materials.
+    /// A patch of heights, with texels row by row and their materials.
     ///
     /// # Errors
     /// [`MesoPatchError`].
@@ -106,7 +106,7 @@ impl MesoPatch {
         Ok(Self { heights, materials, texels, detail: MesoDetail::default() })
     }
 
-    /// The same material everywhere, without relief: a spatially invariant BRDF.
+    /// A flat patch of one material: a spatially invariant BRDF.
     ///
     /// # Errors
     /// [`MesoPatchError::Material`].
@@ -119,21 +119,21 @@ impl MesoPatch {
         &self.heights
     }
 
-    /// b(u, e, d): radiance that leaves towards `view` at texture coordinates, per radiance times solid angle from
-    /// `light`. Directions are of length 1, in the mesh's local frame; light from below its horizon gives 0, a view
-    /// from there is taken for one at the horizon.
+    /// b(u, e, d): radiance that leaves towards `view` at texture coordinates `place`, per radiance times solid angle
+    /// from `light`. Directions have length 1, in the mesh's local frame; light from below its horizon gives 0, a view
+    /// from below is moved to the horizon.
     pub fn response(&self, place: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
         self.reflected(&self.seen(place, view), light)
     }
 
-    /// What a view sees through texture coordinates.
+    /// The point that a view sees through texture coordinates `place`.
     pub fn seen(&self, place: [f64; 2], view: DVec3) -> SeenPoint {
         self.seen_by(place, view, |field, ray| {
             follow(ray, |span| ray.hit(field, span).map_or(ControlFlow::Continue(()), ControlFlow::Break))
         })
     }
 
-    /// What comes back of light from a direction.
+    /// The response b of a seen point for light from a direction, one value per channel.
     pub fn reflected(&self, seen: &SeenPoint, light: DVec3) -> [f64; 3] {
         self.reflected_by(seen, light, |field, ray| {
             let dips = |is: bool| if is { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
@@ -141,7 +141,7 @@ impl MesoPatch {
         })
     }
 
-    /// The point that is seen, by a way of finding the first hit of a ray.
+    /// The point that is seen, with a function that finds the first hit of a ray.
     pub(super) fn seen_by(
         &self,
         place: [f64; 2],
@@ -156,7 +156,7 @@ impl MesoPatch {
             MesoDetail::Normals | MesoDetail::Flat => (through, floor(through)),
             MesoDetail::Relief => {
                 let ray = TexelRay::new(field.side(), through, 0.0, (-view).to_array(), -field.depth());
-                // A ray that is followed to its end stands on the lowest ground, or has come too far.
+                // A ray without a hit ends on the lowest ground, or after the largest distance.
                 let end = ray.place(ray.end.max(0.0));
                 first_hit(field, &ray).map_or_else(|| (end, floor(end)), |hit| (hit.at, hit.cell))
             }
@@ -164,7 +164,7 @@ impl MesoPatch {
         let texel = self.texels[field.wrapped((at[0] + 0.5).floor() as isize, (at[1] + 0.5).floor() as isize)];
         let normal = if self.detail == MesoDetail::Flat { DVec3::Z } else { field.normal_in(cell, at) };
         let [x, y] = on_circle(texel.turns);
-        // Normals point upwards, so that no tangent in the plane runs along one.
+        // Normals point upwards, so no tangent in the plane is parallel to one.
         let frame = LocalFrame::new(normal, DVec3::new(x, y, 0.0)).unwrap_or_else(|| LocalFrame::of_normal(normal));
         SeenPoint {
             at,
@@ -175,7 +175,7 @@ impl MesoPatch {
         }
     }
 
-    /// What comes back of light, by a way of finding whether a ray is blocked.
+    /// The response of a seen point, with a function that tests whether a ray is blocked.
     pub(super) fn reflected_by(
         &self,
         seen: &SeenPoint,
@@ -198,14 +198,15 @@ impl MesoPatch {
 }
 
 impl SeenPoint {
-    /// The point's place in edges of the patch, u, v and height: parallax moves it away from the place looked through.
+    /// The point's position u, v and height in edges of the patch: parallax moves it away from the place through which
+    /// it was seen.
     pub fn point(&self, patch: &MesoPatch) -> DVec3 {
         let [u, v] = self.at.map(|at| (at + 0.5) / patch.heights().side() as f64);
         DVec3::new(u, v, self.height)
     }
 }
 
-/// A direction below the horizon, moved to it.
+/// A direction below the horizon, moved onto it.
 fn level(view: DVec3) -> DVec3 {
     DVec3::new(view.x, view.y, 0.0).try_normalize().unwrap_or(DVec3::Z)
 }

@@ -1,31 +1,31 @@
-//! Rays against repeated heights: exact up to rounding, since along a ray the surface of a cell is a parabola.
+//! Rays against a repeating height field: exact up to rounding, since along a ray the surface of a cell is a parabola.
 //!
-//! [`follow`] goes from cell to cell along the ray and stops at the first one that answers.
-//! [`reference`](super::reference) asks every cell around instead; both clip the ray against a cell by the same two
-//! divisions and ask the cell by the same function, so that they give the same bits.
+//! [`follow`] visits the cells along the ray and stops at the first hit. [`reference`](super::reference) tests all
+//! cells around instead; both clip the ray against a cell by the same two divisions and intersect the cell by the same
+//! function, so that they give the same bits.
 
 use std::ops::ControlFlow;
 
 use super::field::{HeightField, within};
 
-/// How far a ray is followed at most, in edges of the patch: rays that run almost along the surface end there.
+/// Largest horizontal length of a ray, in edges of the patch: rays nearly parallel to the surface end there.
 pub const REACH: f64 = 64.0;
-/// How deep below the surface a ray must come to be blocked, in edges of the patch: what rounding can do to rays that
-/// start on the surface stays far below.
+/// Depth below the surface at which a ray counts as blocked, in edges of the patch: far more than the rounding error of
+/// rays that start on the surface.
 pub(super) const DEPTH: f64 = 1e-12;
 
-/// A ray in texels across, and in edges of the patch upwards.
+/// A ray with horizontal coordinates in texels, and heights in edges of the patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct TexelRay {
     pub(super) at: [f64; 2],
     pub(super) height: f64,
     pub(super) step: [f64; 2],
     pub(super) rise: f64,
-    /// Where it ends.
+    /// The parameter at which it ends.
     pub(super) end: f64,
 }
 
-/// The part of a ray in a cell.
+/// The interval of a ray over a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct CellSpan {
     pub(super) cell: [isize; 2],
@@ -33,29 +33,29 @@ pub(super) struct CellSpan {
     pub(super) to: f64,
 }
 
-/// Where a ray meets the surface.
+/// The intersection of a ray with the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SurfaceHit {
     pub(super) t: f64,
     pub(super) cell: [isize; 2],
-    /// The place in texels.
+    /// The position in texels.
     pub(super) at: [f64; 2],
 }
 
 impl TexelRay {
-    /// From a place in texels and a height, along a direction of the local frame; ends where it leaves the heights
-    /// between `lowest` and 0, or after [`REACH`].
+    /// A ray from a position in texels and a height, along a direction of the local frame; it ends where it leaves the
+    /// heights between `lowest` and 0, or after [`REACH`].
     pub(super) fn new(side: usize, at: [f64; 2], height: f64, direction: [f64; 3], lowest: f64) -> Self {
         let [x, y, rise] = direction;
         let step = [x, y].map(|along| along * side as f64);
         let across = (x * x + y * y).sqrt();
         let out = if rise > 0.0 { (0.0 - height) / rise } else { (lowest - height) / rise };
-        // Straight up and down there is no limit, level there is nothing else.
+        // A vertical ray is limited by the heights alone, a horizontal one by the reach alone.
         let reach = if across > 0.0 { REACH / across } else { f64::INFINITY };
         Self { at, height, step, rise, end: if rise == 0.0 { reach } else { out.min(reach) } }
     }
 
-    /// Where the ray is over the columns, or rows, from `cell` to `cell` + 1, along one axis.
+    /// The interval in which the ray is over columns, or rows, from `cell` to `cell` + 1, along one axis.
     fn span_along(&self, axis: usize, cell: isize) -> (f64, f64) {
         let (at, step) = (self.at[axis], self.step[axis]);
         let line = |index: isize| (index as f64 - at) / step;
@@ -70,20 +70,20 @@ impl TexelRay {
         }
     }
 
-    /// The part of the ray over a cell, if it has any length.
+    /// The interval of the ray over a cell, if it is not empty.
     pub(super) fn span(&self, cell: [isize; 2]) -> Option<CellSpan> {
         let [(x0, x1), (y0, y1)] = [0, 1].map(|axis| self.span_along(axis, cell[axis]));
         let (from, to) = (x0.max(y0).max(0.0), x1.min(y1).min(self.end));
         (from < to).then_some(CellSpan { cell, from, to })
     }
 
-    /// The place in texels at a parameter.
+    /// The position in texels at a parameter.
     pub(super) fn place(&self, t: f64) -> [f64; 2] {
         [0, 1].map(|axis| self.at[axis] + t * self.step[axis])
     }
 
-    /// How far above a cell's surface the ray is: c0 + c1 t + c2 t^2 from the beginning of the span. `None` where the
-    /// ray stays above all of the cell.
+    /// Height of the ray above a cell's surface: the coefficients of c0 + c1 t + c2 t^2, with t = 0 at the beginning of
+    /// the span. `None` if the ray stays above the whole cell.
     fn above(&self, field: &HeightField, span: &CellSpan) -> Option<[f64; 3]> {
         let [from, to] = [span.from, span.to].map(|t| self.height + t * self.rise);
         if from.min(to) > field.top(span.cell) {
@@ -95,14 +95,14 @@ impl TexelRay {
         Some([from - patch.height(inside), self.rise - dx * along - dy * across, -(dx * dy * patch.twist())])
     }
 
-    /// The first point at which the ray, from above, reaches a cell's surface.
+    /// The first point at which the ray reaches a cell's surface from above.
     pub(super) fn hit(&self, field: &HeightField, span: &CellSpan) -> Option<SurfaceHit> {
         let coefficients = self.above(field, span)?;
         let t = (span.from + first_root(coefficients, span.to - span.from)?).min(span.to);
         Some(SurfaceHit { t, cell: span.cell, at: self.place(t) })
     }
 
-    /// Whether the ray dips below a cell's surface.
+    /// True if the ray dips below a cell's surface by more than [`DEPTH`].
     pub(super) fn dips(&self, field: &HeightField, span: &CellSpan) -> bool {
         self.above(field, span).is_some_and(|coefficients| least(coefficients, span.to - span.from) < -DEPTH)
     }
@@ -117,20 +117,20 @@ fn first_root([c0, c1, c2]: [f64; 3], most: f64) -> Option<f64> {
     if discriminant < 0.0 {
         return None;
     }
-    // The root that is larger in magnitude by a sum without cancellation, the other by their product.
+    // The root of larger magnitude by a sum without cancellation, the other one from their product.
     let sum = -0.5 * (c1 + discriminant.sqrt().copysign(c1));
     let roots = [sum / c2, c0 / sum].into_iter().filter(|root| (0.0..=most).contains(root));
     roots.fold(None, |least: Option<f64>, root| Some(least.map_or(root, |least| least.min(root))))
 }
 
-/// The least value of c0 + c1 t + c2 t^2 in [0, `most`].
+/// The minimum of c0 + c1 t + c2 t^2 over [0, `most`].
 fn least([c0, c1, c2]: [f64; 3], most: f64) -> f64 {
     let ends = c0.min(c0 + most * (c1 + most * c2));
     let lowest = -c1 / (2.0 * c2);
     if c2 > 0.0 && lowest > 0.0 && lowest < most { ends.min(c0 + 0.5 * c1 * lowest) } else { ends }
 }
 
-/// Goes along a ray, over one cell after the other, until one answers.
+/// Visits the cells along a ray in order, until `ask` breaks with a result.
 pub(super) fn follow<T>(ray: &TexelRay, mut ask: impl FnMut(&CellSpan) -> ControlFlow<T>) -> Option<T> {
     let mut cell = ray.at.map(|at| at.floor() as isize);
     let mut from = 0.0;

@@ -1,11 +1,11 @@
-//! Bidirectional textures of heights by plain loops: every cell that a ray could touch is asked.
+//! Bidirectional textures of height fields by plain loops over every cell that a ray could touch.
 
 use super::field::HeightField;
 use super::patch::{MesoPatch, SeenPoint};
 use super::ray::{SurfaceHit, TexelRay};
 use glam::DVec3;
 
-/// The cells below the box around a ray, and one more on each side.
+/// The cells under the bounding box of a ray, and one more on each side.
 fn cells_below(ray: &TexelRay) -> Vec<[isize; 2]> {
     let (begin, end) = (ray.at, ray.place(ray.end));
     let range = |axis: usize| {
@@ -28,7 +28,7 @@ pub(super) fn first_hit(field: &HeightField, ray: &TexelRay) -> Option<SurfaceHi
     for cell in cells_below(ray) {
         let Some(span) = ray.span(cell) else { continue };
         let Some(hit) = ray.hit(field, &span) else { continue };
-        // On a line between two cells the one that the ray comes from counts.
+        // On the line between two cells, the cell that the ray leaves counts.
         if nearest.is_none_or(|(from, before)| (hit.t, span.from) < (before.t, from)) {
             nearest = Some((span.from, hit));
         }
@@ -36,7 +36,7 @@ pub(super) fn first_hit(field: &HeightField, ray: &TexelRay) -> Option<SurfaceHi
     nearest.map(|(_, hit)| hit)
 }
 
-/// Whether a ray comes below the surface of any cell.
+/// True if a ray dips below the surface of any cell.
 pub(super) fn is_blocked(field: &HeightField, ray: &TexelRay) -> bool {
     let mut blocked = false;
     for cell in cells_below(ray) {
@@ -47,12 +47,12 @@ pub(super) fn is_blocked(field: &HeightField, ray: &TexelRay) -> bool {
     blocked
 }
 
-/// What is seen through a place of the reference plane, every cell asked.
+/// The point that a view sees through a position of the reference plane, by a test of every cell.
 pub fn seen(patch: &MesoPatch, place: [f64; 2], view: DVec3) -> SeenPoint {
     patch.seen_by(place, view, first_hit)
 }
 
-/// b(u, e, d), every cell asked: the response at a place towards a view from a light.
+/// b(u, e, d) by a test of every cell: the response at a position for a view and a light direction.
 pub fn response(patch: &MesoPatch, place: [f64; 2], view: DVec3, light: DVec3) -> [f64; 3] {
     patch.reflected_by(&seen(patch, place, view), light, is_blocked)
 }

@@ -21,7 +21,7 @@ pub struct BidirectionalTexture {
     samples: Vec<[f32; 3]>,
 }
 
-/// Samples that are no bidirectional texture.
+/// Errors of making a bidirectional texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum BidirectionalTextureError {
     /// A patch without texels, or of too many.
@@ -110,7 +110,7 @@ impl BidirectionalTexture {
         self.size
     }
 
-    /// The M directions of light, those that transfer's rows stand for.
+    /// The M directions of light, which are those of the rows of transfer.
     pub fn light(&self) -> &LocalDirections {
         &self.light
     }

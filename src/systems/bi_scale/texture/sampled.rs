@@ -7,7 +7,7 @@ use super::patch::{MesoPatch, SeenPoint};
 use super::response::{BidirectionalTexture, BidirectionalTextureError};
 use crate::bi_scale::directions::LocalDirections;
 
-/// How a patch is sampled.
+/// Options of sampling a patch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSampling {
     /// Texels along an edge of the texture.
@@ -21,14 +21,14 @@ pub struct TextureSampling {
 }
 
 impl MesoPatch {
-    /// The texture of a patch, in the same bits for any number of threads. `done` is called with the views done and of
-    /// all.
+    /// The texture of a patch, with the same bits on any number of threads. `done` is called with the number of
+    /// finished views and their total.
     ///
     /// # Errors
     /// [`BidirectionalTextureError`].
     ///
     /// # Panics
-    /// Without samples in a texel.
+    /// If there are no samples per texel.
     pub fn texture(
         &self,
         sampling: &TextureSampling,

@@ -16,7 +16,7 @@ use thiserror::Error;
 use crate::transfer::Signal;
 use crate::transfer::clustering::Clustering;
 
-/// Why clusters and a mesh do not go together. Triangles, vertices and clusters count from 0.
+/// Contradictions between clusters and a mesh. Triangles, vertices and clusters count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -27,7 +27,7 @@ pub enum CoherenceError {
     /// The clustering is of another signal.
     #[error("expected a signal of {points} x {dimension} numbers, found {found_points} x {found_dimension}")]
     Shape { points: usize, dimension: usize, found_points: usize, found_dimension: usize },
-    /// A share of the error that is no share.
+    /// A fraction of the error that is negative or not finite.
     #[error("expected an error budget of at least 0, as a share of the error, found {found}")]
     Budget { found: f64 },
     /// One cluster has more constants than there are registers.
@@ -44,7 +44,7 @@ pub fn overdraw(triangles: &[[u32; 3]], of_point: &[u32]) -> u64 {
     triangles.iter().map(|corners| distinct(corners.map(|corner| of_point[corner as usize]))).sum()
 }
 
-/// How many different numbers there are among three.
+/// The number of different values among three.
 fn distinct([a, b, c]: [u32; 3]) -> u64 {
     1 + u64::from(b != a) + u64::from(c != a && c != b)
 }

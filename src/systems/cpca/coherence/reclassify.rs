@@ -10,7 +10,7 @@ use crate::transfer::clustering::Clustering;
 /// A clustering with fewer triangles across clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reclassified {
-    /// The same subspaces; moved points have new weights on them.
+    /// The same subspaces, with new weights for moved points.
     pub clustering: Clustering,
     /// Points that changed their cluster; one that moved twice counts twice.
     pub moved: usize,
@@ -21,11 +21,11 @@ pub struct Reclassified {
 }
 
 /// Moves vertices to clusters of their neighbours (section 5): always the vertex with the greatest reduction of
-/// overdraw per increase of squared error, one that increases no error first; of equals the lowest. Moves add at most
-/// `budget` of the initial squared error; one that would exceed it is passed over. The paper takes 0.05 to 0.1.
+/// overdraw per increase of squared error, one without an increase first; the lowest among equals. Moves add at most
+/// `budget` times the initial squared error; one that would exceed it is skipped. The paper takes 0.05 to 0.1.
 ///
 /// # Errors
-/// [`CoherenceError`] if mesh, signal and clustering do not go together, or the budget is no share.
+/// [`CoherenceError`] if mesh, signal and clustering contradict each other, or the budget is invalid.
 pub fn reclassify(
     signal: &Signal,
     clustering: &Clustering,
@@ -52,7 +52,7 @@ struct Move {
     to: u32,
     reduction: u64,
     increase: f64,
-    /// How often the vertex's best move had been computed before: an earlier one is void.
+    /// Number of times that the vertex's best move had been computed before; moves of earlier rounds are outdated.
     round: u32,
 }
 
@@ -170,7 +170,7 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// How often the triangles around a vertex are drawn if it is in a cluster.
+    /// The number of times that the triangles around a vertex are drawn if it belongs to `cluster`.
     fn drawn(&self, vertex: usize, cluster: u32) -> u64 {
         let of = |corner: u32| if corner as usize == vertex { cluster } else { self.of_point[corner as usize] };
         let triangles = self.around[vertex].iter().map(|&triangle| self.triangles[triangle as usize]);

@@ -1,4 +1,4 @@
-//! Superclusters: clusters whose constants are in the registers together.
+//! Superclusters: clusters whose constants are in the registers at the same time.
 
 use std::collections::BTreeMap;
 
@@ -8,30 +8,30 @@ use crate::transfer::clustering::Clustering;
 /// Constant registers for the products of clusters' vectors with the light (section 6.2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConstantRegisters {
-    /// How many there are for all clusters of a supercluster.
+    /// Number of registers for all clusters of a supercluster.
     pub limit: usize,
-    /// How many one representative vector takes.
+    /// Number of registers per representative vector.
     pub per_vector: usize,
 }
 
 impl ConstantRegisters {
-    /// For glossy transfer with N_r rows, one color per pass: four numbers per register, whole registers per vector.
+    /// For glossy transfer with N_r rows and one color per pass: four numbers per register, whole registers per vector.
     pub fn glossy(limit: usize, rows: usize) -> Self {
         Self { limit, per_vector: rows.div_ceil(4) }
     }
 
-    /// For diffuse transfer: a color per register.
+    /// For diffuse transfer: one color per register.
     pub fn diffuse(limit: usize) -> Self {
         Self { limit, per_vector: 1 }
     }
 
-    /// What a cluster of n' vectors takes: (n' + 1) vectors.
+    /// Number of registers of a cluster with n' vectors: those of n' + 1 vectors.
     pub fn needed(self, vectors: usize) -> usize {
         (vectors + 1).saturating_mul(self.per_vector)
     }
 }
 
-/// Clusters in groups that are drawn as one.
+/// Clusters in groups that are drawn together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Superclusters {
     of_cluster: Vec<u32>,
@@ -39,11 +39,11 @@ pub struct Superclusters {
 }
 
 impl Superclusters {
-    /// Begins with a supercluster per cluster; then, again and again, merges those two with the most triangles in
-    /// common that fit the registers together, of equals the lowest, until no two neighbours do.
+    /// Begins with one supercluster per cluster; then repeatedly merges the two with the most common triangles that fit
+    /// the registers together, the lowest among equals, until no two neighbours fit.
     ///
     /// # Errors
-    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or a cluster alone exceeds the registers.
+    /// [`CoherenceError`] if a triangle names a vertex without a cluster, or a single cluster exceeds the registers.
     pub fn new(
         clustering: &Clustering,
         triangles: &[[u32; 3]],
@@ -61,7 +61,7 @@ impl Superclusters {
         Ok(Self::numbered(of_cluster))
     }
 
-    /// A supercluster per cluster.
+    /// One supercluster per cluster.
     ///
     /// # Errors
     /// [`CoherenceError::Registers`] if a cluster exceeds the registers.
@@ -85,22 +85,22 @@ impl Superclusters {
         self.count
     }
 
-    /// Per cluster its supercluster.
+    /// The supercluster of each cluster.
     pub fn of_cluster(&self) -> &[u32] {
         &self.of_cluster
     }
 
-    /// The number of triangles drawn, supercluster by supercluster.
+    /// The number of triangles drawn, summed over superclusters.
     ///
     /// # Panics
-    /// If clustering and triangles are not those that the superclusters were made of.
+    /// If clustering and triangles are not those from which the superclusters were made.
     pub fn overdraw(&self, clustering: &Clustering, triangles: &[[u32; 3]]) -> u64 {
         let of_point: Vec<u32> = clustering.of_point().iter().map(|&k| self.of_cluster[k as usize]).collect();
         overdraw(triangles, &of_point)
     }
 }
 
-/// The registers that each cluster needs, none more than there are.
+/// The number of registers of each cluster, none above the limit.
 fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<usize>, CoherenceError> {
     let needed: Vec<usize> = clustering.subspaces().iter().map(|s| registers.needed(s.len())).collect();
     match needed.iter().position(|&needed| needed > registers.limit) {
@@ -109,7 +109,7 @@ fn needed(clustering: &Clustering, registers: ConstantRegisters) -> Result<Vec<u
     }
 }
 
-/// The sets of two or three clusters that triangles have, with the number of such triangles. Two are [a, b, b].
+/// The sets of two or three clusters of triangles, with the number of such triangles. Two are stored as [a, b, b].
 type MixedTriangles = BTreeMap<[u32; 3], u64>;
 
 fn mixed_triangles(triangles: &[[u32; 3]], of_point: &[u32]) -> MixedTriangles {
@@ -136,7 +136,7 @@ fn renamed(mixed: MixedTriangles, to: u32, from: u32) -> MixedTriangles {
     found
 }
 
-/// The two superclusters with the most triangles in common that fit together, lower first.
+/// The two superclusters with the most common triangles that fit together, the lower first.
 fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(u32, u32)> {
     let mut common: BTreeMap<(u32, u32), u64> = BTreeMap::new();
     for (&[a, b, c], &count) in mixed {
@@ -147,7 +147,7 @@ fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(
         }
     }
     let fitting = common.into_iter().filter(|((a, b), _)| needed[*a as usize] + needed[*b as usize] <= limit);
-    // Of equals, max_by_key gives the last: counted backwards, the first.
+    // max_by_key returns the last among equals; on the reversed iterator this is the first.
     fitting.rev().max_by_key(|&(_, count)| count).map(|(pair, _)| pair)
 }
 
@@ -155,7 +155,7 @@ fn best_pair(mixed: &MixedTriangles, needed: &[usize], limit: usize) -> Option<(
 mod tests {
     use super::*;
 
-    /// Table 1, and what is left of 256 registers beside six constants for transform, eye and scale.
+    /// Table 1, and 256 registers without the six constants for transform, eye and scale.
     #[test]
     fn registers_of_the_papers_models() {
         let fitting = |registers: ConstantRegisters, vectors| {

@@ -13,7 +13,7 @@ use crate::card::{KernelError, checked};
 /// The sets of coordinates that ps_2_0 has.
 const SETS: usize = 8;
 
-/// The program for exit radiance of so many registers of four coefficients.
+/// The program for exit radiance with a number of registers of four coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ExitKernel {
     /// Sets of coordinates with coefficients, and maps.

@@ -1,10 +1,10 @@
 //! The vertex programs of section 6.2: e_p = alpha M_0 l + w_1 M_1 l + w_2 M_2 l + ..., and the local view vector.
 //!
-//! - v0 position, w = 1; v1 in x the first constant of the vertex's cluster, counted from [`VertexKernel::first`], in y
-//!   alpha; v2 on weights, four per register; glossy: then tangent and normal.
-//! - c0 to c3 rows of the projection; glossy: c4 the eye; then the products of a supercluster's clusters with the
+//! - v0: position, w = 1; v1: in x the index of the first constant of the vertex's cluster relative to
+//!   [`VertexKernel::first`], in y alpha; v2 and up: weights, four per register; if glossy, then tangent and normal.
+//! - c0 to c3: rows of the projection; if glossy, c4: the eye; then the products of a supercluster's clusters with the
 //!   light, vector by vector.
-//! - Out, diffuse: the shade. Glossy: e_p in oT0 on, four numbers per set, then the local view vector.
+//! - Output, diffuse: the shade. Glossy: e_p in oT0 and up, four numbers per set, then the local view vector.
 
 use std::fmt::Write as _;
 
@@ -14,10 +14,10 @@ use refsim::isa::Version;
 
 use crate::card::{KernelError, checked};
 
-/// What a vertex program computes.
+/// The output of a vertex program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VertexShading {
-    /// A shade of three channels in the first set of coordinates.
+    /// Radiance in three channels, in the first set of texture coordinates.
     Diffuse,
     /// The same as the diffuse vertex color, which is clamped to [0, 1].
     DiffuseColor,
@@ -31,47 +31,47 @@ pub enum VertexShading {
 /// A vertex program for clusters of n' vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VertexKernel {
-    /// What is computed.
+    /// The output.
     pub shading: VertexShading,
-    /// Representative vectors beside the mean: n'.
+    /// Number n' of representative vectors, without the mean.
     pub vectors: usize,
     /// [`Version::Vs2_0`] or [`Version::Vs1_1`].
     pub version: Version,
 }
 
-/// Where attributes stand.
+/// First attribute register of the weights.
 const WEIGHTS: usize = 2;
 const COMPONENTS: [char; 4] = ['x', 'y', 'z', 'w'];
-/// Attribute registers that there are.
+/// Number of attribute registers.
 const ATTRIBUTES: usize = 16;
 
 impl VertexKernel {
-    /// The first constant with products.
+    /// The index of the first constant with products.
     pub fn first(&self) -> usize {
         if self.glossy() { 5 } else { 4 }
     }
 
-    /// Constants per vector.
+    /// Number of constants per vector.
     pub fn per_vector(&self) -> usize {
         if let VertexShading::Glossy { registers } = self.shading { registers } else { 1 }
     }
 
-    /// Registers of weights.
+    /// Number of weight registers.
     pub fn weight_registers(&self) -> usize {
         self.vectors.div_ceil(4)
     }
 
-    /// The registers of tangent and normal.
+    /// The attribute registers of tangent and normal.
     pub fn frame_registers(&self) -> [usize; 2] {
         [0, 1].map(|axis| WEIGHTS + self.weight_registers() + axis)
     }
 
-    /// The most vectors whose weights fit the attributes of a vertex.
+    /// The largest number of vectors whose weights fit the attribute registers.
     pub fn most_vectors(&self) -> usize {
         4 * (ATTRIBUTES - WEIGHTS - if self.glossy() { 2 } else { 0 })
     }
 
-    /// Instruction slots.
+    /// Number of instruction slots.
     pub fn slots(&self) -> usize {
         5 + if self.glossy() { 7 } else { 0 } + self.per_vector() * (self.vectors + 1)
     }
@@ -80,7 +80,7 @@ impl VertexKernel {
         matches!(self.shading, VertexShading::Glossy { .. })
     }
 
-    /// A name for messages.
+    /// The name used in messages.
     pub fn name(&self) -> String {
         let what = match self.shading {
             VertexShading::Diffuse => "diffuse".to_owned(),
@@ -90,7 +90,7 @@ impl VertexKernel {
         format!("{what}, {} vectors, {}", self.vectors, self.version)
     }
 
-    /// The program.
+    /// The program's assembly text.
     pub fn text(&self) -> String {
         let [tangent, normal] = self.frame_registers();
         let mut text = format!("{}\n; {}\ndcl_position v0\n", self.version, self.name());
@@ -123,7 +123,7 @@ impl VertexKernel {
         text
     }
 
-    /// The sum over vectors of one register.
+    /// Writes the weighted sum over vectors for one register.
     fn push_sum(&self, text: &mut String, register: usize, output: &str) {
         for vector in 0..=self.vectors {
             let into = if vector == self.vectors { output } else { "r3" };
@@ -138,7 +138,7 @@ impl VertexKernel {
         }
     }
 
-    /// The program, accepted by a device.
+    /// The program, checked for a device.
     ///
     /// # Errors
     /// [`KernelError`] if it breaks a rule of the device.

@@ -9,7 +9,7 @@ use crate::card::{Attribute, attribute};
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::kernels::{VertexKernel, VertexShading};
 
-/// Triangles that are drawn at once, with the attributes of their vertices.
+/// Triangles that are drawn together, with the attributes of their vertices.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Chunk {
     /// The supercluster's clusters, in the order of their constants.
@@ -21,8 +21,8 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    /// The products of the chunk's clusters as constants: diffuse a color per vector, glossy the numbers of a channel,
-    /// four per constant.
+    /// The products of the chunk's clusters as constants: for diffuse transfer a color per vector, for glossy transfer
+    /// the numbers of one channel, four per constant.
     pub(super) fn constants(&self, products: &Products, kernel: &VertexKernel, channel: usize) -> Vec<[f32; 4]> {
         let mut all = Vec::new();
         for vector in self.clusters.iter().flat_map(|&cluster| products.vectors(cluster as usize)) {
@@ -84,18 +84,18 @@ pub(super) fn chunks(
     chunks
 }
 
-/// What the attributes of a vertex are made of.
+/// The data from which a vertex's attributes are computed.
 struct VertexSourceData<'a> {
     transfer: &'a CompressedTransfer<'a>,
     weights: &'a CardWeights,
-    /// Per cluster its first constant, counted from the first with products.
+    /// Per cluster the index of its first constant, relative to the first with products.
     addresses: &'a [usize],
     kernel: &'a VertexKernel,
     positions: &'a [[u32; 4]],
 }
 
 impl VertexSourceData<'_> {
-    /// The attributes by register. Outside of the supercluster alpha and weights are zero.
+    /// The attributes by register. For vertices outside the supercluster alpha and weights are 0.
     fn attributes(&self, vertex: usize, inside: bool) -> Vec<[u32; 4]> {
         let clustering = self.transfer.clustering;
         let cluster = clustering.of_point()[vertex] as usize;

@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::card::{KernelError, MeshError};
 use crate::cpca::coherence::CoherenceError;
 
-/// Why a card does not draw compressed transfer. Clusters and vertices count from 0.
+/// Errors of drawing compressed transfer on a card. Clusters and vertices count from 0.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -23,10 +23,10 @@ pub enum PrtCardError {
     /// More coefficients of exit radiance than are interpolated.
     #[error("expected at most {most} functions of exit radiance, which fit 7 sets of coordinates, found {found}")]
     Functions { found: usize, most: usize },
-    /// Clusters and mesh do not go together, or a cluster exceeds the constant registers.
+    /// Clusters and mesh contradict each other, or a cluster exceeds the constant registers.
     #[error(transparent)]
     Coherence(#[from] CoherenceError),
-    /// The numbers of a point are no matrices from light to exit radiance.
+    /// A number of values per point that makes no matrices from light to exit radiance.
     #[error(
         "expected {channels} x {rows} x n^2 numbers per vertex for light of an order n of 1 to 10, found {found}; \
          channels are 1 or 3"
@@ -41,7 +41,7 @@ pub enum PrtCardError {
     /// The device does not run a language, or refuses a program.
     #[error(transparent)]
     Kernel(#[from] KernelError),
-    /// The card refuses a resource or a draw, or does not open.
+    /// The card refused a resource or a draw, or could not be opened.
     #[error(transparent)]
     Machine(#[from] MachineError),
 }

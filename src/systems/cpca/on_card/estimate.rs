@@ -1,5 +1,4 @@
-//! What a frame asks of host and card, from sizes and counts alone: no mesh, no clusters and no pixels are needed, and
-//! pixels take no time.
+//! The log of a frame from sizes and counts alone, without mesh, clusters or pixels; pixels take no time.
 
 use std::sync::Arc;
 
@@ -12,30 +11,30 @@ use crate::card::frame_time::{host_work, unseen_draw};
 use crate::card::kernels::SHADE;
 use crate::cpca::kernels::{VertexKernel, VertexShading};
 
-/// What decides a frame, beside its pixels.
+/// The parameters of a frame's time, without its pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameCounts {
     /// The sizes of the transfer.
     pub size: TransferSize,
     /// Triangles of the mesh.
     pub triangles: u64,
-    /// Triangles drawn in a pass: [`Self::triangles`] times the overdraw.
+    /// Triangles drawn per pass: [`Self::triangles`] times the overdraw.
     pub drawn: u64,
-    /// Superclusters, or clusters if each is drawn alone.
+    /// Number of superclusters, or of clusters if each is drawn alone.
     pub groups: u64,
-    /// Vertices that are run for a triangle, by the order of the mesh and the card's cache of finished vertices.
+    /// Vertices run per triangle, which follow from the order of the mesh and the card's vertex cache.
     pub run_per_triangle: f64,
 }
 
-/// Attributes beside the weights of glossy and of diffuse transfer: position, cluster, and tangent and normal.
+/// Numbers of attributes without weights, for glossy and diffuse transfer: position, cluster, and if glossy the frame.
 const GLOSSY_ATTRIBUTES: usize = 4;
 const DIFFUSE_ATTRIBUTES: usize = 2;
-/// Instructions of the program that draws positions alone.
+/// Number of instructions of the program that draws positions only.
 const POSITION_SLOTS: u64 = 4;
 
 impl FrameCounts {
-    /// The log of such a frame, for [`frame_time`](crate::card::frame_time::frame_time): products, the mesh into the
-    /// depth buffer, group by group its constants and its passes. Groups are equal in size.
+    /// The log of such a frame, for [`frame_time`](crate::card::frame_time::frame_time): products on the host, the mesh
+    /// into the depth buffer, then group by group its constants and passes. Groups have equal sizes.
     pub fn log(&self) -> Vec<Event> {
         let registers = self.size.rows.div_ceil(4);
         let shading = if self.size.rows == 1 { VertexShading::Diffuse } else { VertexShading::Glossy { registers } };
@@ -51,6 +50,7 @@ impl FrameCounts {
         let (passes, slots) = (self.size.passes() as u64, kernel.slots() as u64);
         let constants = (self.size.uploaded_registers() as u64 / (groups * passes)) as u32;
         for group in 0..groups {
+            // Differences of rounded shares, which sum to all drawn triangles.
             let triangles = self.drawn * (group + 1) / groups - self.drawn * group / groups;
             for _ in 0..passes {
                 log.push(Event::StateChange { changes: 2, constants });

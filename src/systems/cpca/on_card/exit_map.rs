@@ -1,4 +1,4 @@
-//! The functions of exit radiance in parabolic maps: y(v_p) of section 6.2.
+//! The functions of exit radiance, y(v_p) of section 6.2, in parabolic maps.
 
 use refsim::machine::{Machine, MachineError};
 use refsim::texture::{TexelFormat, TextureKind};
@@ -7,15 +7,15 @@ use crate::card::{BILINEAR, ReadTexture, new_texture};
 use crate::sphere::ParabolicMap;
 use crate::transfer::brdf::ExitBasis;
 
-/// What functions are divided by in a format: 1, or a power of two that brings all texels of signed fractions within
-/// [-1, 1].
+/// The divisor of the functions in a format: 1 for floating point, otherwise the least power of two that brings all
+/// texels into [-1, 1].
 pub(super) fn map_scale(basis: &ExitBasis, map: ParabolicMap, format: TexelFormat) -> f64 {
     let most = texels(basis, map).flatten().fold(0.0, |most: f64, value| most.max(value.abs()));
     let float = format.record().is_float();
     std::iter::successors(Some(1.0), |scale| Some(2.0 * scale)).find(|&scale| float || most <= scale).unwrap_or(1.0)
 }
 
-/// The functions at each texel, row by row. Beyond the rim they continue below the horizon.
+/// The functions at each texel, row by row. Outside the disc they are evaluated below the horizon.
 fn texels(basis: &ExitBasis, map: ParabolicMap) -> impl Iterator<Item = Vec<f64>> {
     let places = (0..map.side()).flat_map(move |row| (0..map.side()).map(move |column| (column, row)));
     places.map(move |(column, row)| {
@@ -25,7 +25,7 @@ fn texels(basis: &ExitBasis, map: ParabolicMap) -> impl Iterator<Item = Vec<f64>
     })
 }
 
-/// Maps of four functions each, divided by a scale, as textures with the way they are read.
+/// Maps of four functions each, divided by a scale, as textures with their sampler states.
 pub(super) fn exit_maps(
     machine: &mut Machine,
     basis: &ExitBasis,

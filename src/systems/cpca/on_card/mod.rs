@@ -43,7 +43,7 @@ use programs::{ShadingPrograms, kernel, registers};
 #[cfg(test)]
 mod tests;
 
-/// The write masks of the passes of glossy transfer.
+/// Write masks of the passes of glossy transfer.
 const CHANNELS: [WriteMask; 3] = [WriteMask(1), WriteMask(2), WriteMask(4)];
 
 /// A mesh with compressed transfer on a card.
@@ -58,18 +58,17 @@ pub struct PrtCard<'a> {
     superclusters: Superclusters,
     chunks: Vec<Chunk>,
     programs: ShadingPrograms,
-    /// Maps of the functions of exit radiance; none for diffuse transfer.
+    /// Maps of the functions of exit radiance; empty for diffuse transfer.
     maps: Vec<ReadTexture>,
-    /// What the functions in the maps are divided by.
+    /// The divisor of the functions in the maps.
     map_scale: f64,
 }
 
 impl<'a> PrtCard<'a> {
     /// Uploads a mesh with its transfer.
     ///
-    /// # Errors
     /// [`PrtCardError`] if the device has no such programs, the number of vectors or functions exceeds a limit,
-    /// clusters have more vectors than `transfer` says, or its parts do not go together.
+    /// clusters have more vectors than `transfer` states, or its parts have contradictory sizes.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -117,7 +116,7 @@ impl<'a> PrtCard<'a> {
         &mut self.machine
     }
 
-    /// A frame as the target holds it. Pixels that show nothing are 0.
+    /// The target of a frame. Background pixels are 0.
     ///
     /// # Errors
     /// [`PrtCardError`] for light of too low an order, an exposure out of range, products that are not finite, and
@@ -126,8 +125,8 @@ impl<'a> PrtCard<'a> {
         Ok(self.show(light, (view, false))?.0)
     }
 
-    /// As [`Self::view_texels`], with what the frame asks of host and card, for
-    /// [`frame_time`](crate::card::frame_time::frame_time): no read-back.
+    /// As [`Self::view_texels`], with the log of host and card for [`frame_time`](crate::card::frame_time::frame_time),
+    /// without read-back.
     ///
     /// # Errors
     /// As [`Self::view_texels`].
@@ -141,7 +140,7 @@ impl<'a> PrtCard<'a> {
         Ok((texels, log))
     }
 
-    /// Draws a frame: products on the host, the mesh into the depth buffer, chunk by chunk into the target.
+    /// Draws a frame: products on the host, the mesh into the depth buffer, then chunk by chunk into the target.
     fn show(&mut self, light: &HarmonicLight, view: (&MeshView, bool)) -> Result<(Texels, Vec<Event>), PrtCardError> {
         let Self { transfer, weights, programs, maps, .. } = self;
         let masks = if maps.is_empty() { &[WriteMask::ALL][..] } else { &CHANNELS };

@@ -1,76 +1,76 @@
-//! What a frame costs (sections 4.1, 6 and 6.2), as the columns of the paper's Table 1 follow from its first four.
+//! The cost of a frame (sections 4.1, 6 and 6.2): the columns of the paper's Table 1 that follow from its first four.
 
 use crate::cpca::coherence::ConstantRegisters;
 
 /// The sizes of a compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransferSize {
-    /// Vertices: m_p.
+    /// Number of vertices m_p.
     pub vertices: usize,
-    /// Rows of a matrix, functions of exit radiance: N_r, 1 for diffuse transfer.
+    /// Number of rows of a matrix (functions of exit radiance) N_r; 1 for diffuse transfer.
     pub rows: usize,
-    /// Columns, functions of the light: N_i.
+    /// Number of columns (functions of the light) N_i.
     pub columns: usize,
-    /// Clusters: m_c.
+    /// Number of clusters m_c.
     pub clusters: usize,
-    /// Vectors of a cluster beside its mean: n'.
+    /// Number of vectors per cluster n', without its mean.
     pub vectors: usize,
 }
 
-/// Bytes of a constant register.
+/// Bytes per constant register.
 const REGISTER_BYTES: usize = 16;
 /// Channels of light.
 const CHANNELS: usize = 3;
 
 impl TransferSize {
-    /// Numbers before compression: m_p N_r N_i.
+    /// Number of values before compression: m_p N_r N_i.
     pub fn raw_numbers(&self) -> usize {
         self.vertices * self.rows * self.columns
     }
 
-    /// Numbers after it (section 4.1): m_p n' + m_c (n' + 1) N_r N_i.
+    /// Number of values after compression (section 4.1): m_p n' + m_c (n' + 1) N_r N_i.
     pub fn stored_numbers(&self) -> usize {
         self.vertices * self.vectors + self.representatives() * self.rows * self.columns
     }
 
-    /// Means and vectors of all clusters: m_c (n' + 1).
+    /// Number of means and vectors of all clusters: m_c (n' + 1).
     pub fn representatives(&self) -> usize {
         self.clusters * (self.vectors + 1)
     }
 
-    /// Constants of a cluster as section 6.2 counts them: (n' + 1) N_r / 4 for glossy transfer, n' + 1 for diffuse. Not
-    /// whole if N_r is no multiple of 4.
+    /// Constants per cluster by section 6.2's formula: (n' + 1) N_r / 4 for glossy transfer, n' + 1 for diffuse. It is
+    /// no integer if N_r is no multiple of 4.
     pub fn registers_per_cluster_formula(&self) -> f64 {
         let per_vector = if self.rows == 1 { 1.0 } else { self.rows as f64 / 4.0 };
         (self.vectors + 1) as f64 * per_vector
     }
 
-    /// Constants of a cluster in whole registers per vector, as the programs take them.
+    /// Constants per cluster as the programs use them, with whole registers per vector.
     pub fn registers_per_cluster(&self) -> usize {
         self.registers(0).needed(self.vectors)
     }
 
-    /// Clusters whose constants fit so many registers together.
+    /// Number of clusters whose constants fit `registers` together.
     pub fn clusters_per_batch(&self, registers: usize) -> usize {
         registers / self.registers_per_cluster()
     }
 
-    /// The fewest draws of chunks per channel with so many registers; `None` if no cluster fits.
+    /// The least number of draws of chunks per channel with `registers`; `None` if no cluster fits.
     pub fn batches(&self, registers: usize) -> Option<usize> {
         Some(self.clusters.div_ceil(Some(self.clusters_per_batch(registers)).filter(|&fit| fit > 0)?))
     }
 
-    /// Passes over each chunk: a channel at a time for glossy transfer.
+    /// Passes over each chunk: for glossy transfer one per channel.
     pub fn passes(&self) -> usize {
         if self.rows == 1 { 1 } else { CHANNELS }
     }
 
-    /// Constant registers that are uploaded for a frame.
+    /// Number of constant registers uploaded for a frame.
     pub fn uploaded_registers(&self) -> usize {
         self.passes() * self.clusters * self.registers_per_cluster()
     }
 
-    /// Bytes of these.
+    /// Number of bytes uploaded for a frame.
     pub fn uploaded_bytes(&self) -> usize {
         self.uploaded_registers() * REGISTER_BYTES
     }
@@ -98,8 +98,8 @@ mod tests {
         TransferSize { vertices, rows, columns, clusters, vectors }
     }
 
-    /// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters in 256
-    /// registers and in those that are left beside transform, eye and constants.
+    /// The sizes of Table 1, with raw and stored numbers in millions, registers per cluster, and clusters per 256
+    /// registers and per registers that remain beside transform, eye and constants.
     #[test]
     fn table_1_follows_from_its_sizes() {
         let rows = [

@@ -1,4 +1,4 @@
-//! Variants of drawing compressed transfer.
+//! Options of drawing compressed transfer.
 
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
@@ -6,19 +6,19 @@ use refsim::texture::TexelFormat;
 use super::weights::WeightFormat;
 use crate::card::MeshError;
 
-/// How compressed transfer is drawn.
+/// Options of drawing compressed transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PrtCardOptions {
-    /// Clusters are drawn together as far as the constant registers hold; otherwise each alone.
+    /// If true, as many clusters as fit the constant registers are drawn together; otherwise each alone.
     pub superclusters: bool,
-    /// The language of vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the device
-    /// has it.
+    /// The version of the vertex programs: [`Version::Vs1_1`] or [`Version::Vs2_0`]; `None`: the latter where the
+    /// device has it.
     pub vertex_version: Option<Version>,
-    /// Texels along an edge of the maps of y; the paper has 32.
+    /// Texels along an edge of the maps of y; 32 in the paper.
     pub map_side: usize,
-    /// Their format.
+    /// The format of the maps.
     pub map_format: TexelFormat,
-    /// What vertices hold weights in.
+    /// The format of weights in vertices.
     pub weights: WeightFormat,
 }
 

@@ -11,11 +11,11 @@ use super::products::Products;
 use super::transfer::CompressedTransfer;
 use super::weights::CardWeights;
 
-/// The exit radiance of every vertex as the card computes it: per vertex three channels of as many numbers as the
-/// transfer has rows.
+/// The exit radiance of every vertex as the card computes it: three channels per vertex, with one number per row of the
+/// transfer.
 ///
 /// # Errors
-/// [`PrtCardError`] if the parts of the transfer do not go together.
+/// [`PrtCardError`] if the parts of the transfer have contradictory sizes.
 pub fn exit_coefficients(
     rules: &Rules,
     transfer: &CompressedTransfer<'_>,

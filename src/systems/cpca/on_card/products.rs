@@ -18,12 +18,12 @@ pub struct Products {
 }
 
 impl Products {
-    /// Products in double precision, times a factor, with the ranges of weights worked in, rounded once. Coefficients
-    /// of the light beyond the matrices' columns are left out.
+    /// Products in double precision, times a factor and with the ranges of weights multiplied in, rounded once.
+    /// Coefficients of the light beyond the matrices' columns are ignored.
     ///
     /// # Errors
-    /// [`PrtCardError`] for parts that do not go together, light of too low an order, and products beyond single
-    /// precision.
+    /// [`PrtCardError`] for parts with contradictory sizes, light of too low an order, and products that overflow
+    /// single precision.
     pub fn new(
         transfer: &CompressedTransfer<'_>,
         weights: &CardWeights,
@@ -56,7 +56,7 @@ impl Products {
         }
     }
 
-    /// The vectors of a cluster, the mean first: rows of the three channels each.
+    /// The vectors of a cluster, the mean first: the rows of three channels for each.
     ///
     /// # Panics
     /// If there is no such cluster.

@@ -18,7 +18,7 @@ fn device(name: &str) -> Profile {
     Profile::named(name).expect("a device")
 }
 
-/// Compressed transfer of hills: diffuse for light of 16 coefficients, or of so many functions for 4.
+/// Compressed transfer of hills: diffuse for light of 16 coefficients, or of a number of functions for 4.
 struct CompressedHills {
     vertices: Vertices,
     clustering: Clustering,

@@ -1,4 +1,4 @@
-//! Compressed transfer of a mesh: what is drawn.
+//! Compressed transfer of a mesh, which is the drawn object.
 
 use crate::card::MeshError;
 use crate::sphere::order_with;
@@ -9,35 +9,35 @@ use crate::transfer::clustering::Clustering;
 use super::error::PrtCardError;
 use super::model::TransferSize;
 
-/// The compressed transfer of a mesh's vertices: a matrix per channel, row by row, from light in global coordinates to
-/// exit radiance in local ones.
+/// The compressed transfer of a mesh's vertices: one matrix per channel, row by row, from light in global coordinates
+/// to exit radiance in local coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct CompressedTransfer<'a> {
     /// The mesh.
     pub vertices: &'a Vertices,
-    /// A point per vertex.
+    /// The clusters, with one point per vertex.
     pub clustering: &'a Clustering,
-    /// What rows are about: [`ExitBasis::Radiance`] is diffuse transfer.
+    /// The basis of the rows: [`ExitBasis::Radiance`] is diffuse transfer.
     pub basis: &'a ExitBasis,
-    /// Matrices per vertex: 1 for all channels alike, or 3.
+    /// Number of matrices per vertex: 1 for all channels, or 3.
     pub channels: usize,
-    /// The number n' of vectors of a cluster. A cluster may have fewer, if that is its rank.
+    /// The number n' of vectors per cluster. A cluster of lower rank may have fewer.
     pub vectors: usize,
 }
 
 /// The order of the light that a transfer takes, and whether it is glossy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct TransferShape {
-    /// Matrices per vertex.
+    /// Number of matrices per vertex.
     pub(super) channels: usize,
-    /// Rows of a matrix: N_r.
+    /// Number of rows of a matrix, N_r.
     pub(super) rows: usize,
-    /// Columns: N_i.
+    /// Number of columns, N_i.
     pub(super) columns: usize,
 }
 
 impl CompressedTransfer<'_> {
-    /// Whether exit radiance depends on the view.
+    /// True if exit radiance depends on the view.
     pub fn is_glossy(&self) -> bool {
         matches!(self.basis, ExitBasis::Harmonics(_))
     }
@@ -45,14 +45,14 @@ impl CompressedTransfer<'_> {
     /// Its sizes.
     ///
     /// # Errors
-    /// [`PrtCardError`] if the parts do not go together.
+    /// [`PrtCardError`] if the parts have contradictory sizes.
     pub fn size(&self) -> Result<TransferSize, PrtCardError> {
         let TransferShape { rows, columns, .. } = self.shape()?;
         let clusters = self.clustering.subspaces().len();
         Ok(TransferSize { vertices: self.vertices.len(), rows, columns, clusters, vectors: self.vectors })
     }
 
-    /// Checks that the parts go together.
+    /// Checks that the parts have matching sizes.
     pub(super) fn shape(&self) -> Result<TransferShape, PrtCardError> {
         let (channels, rows, found) = (self.channels, self.basis.len(), self.clustering.dimension());
         let size = channels * rows;

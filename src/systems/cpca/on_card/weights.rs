@@ -38,8 +38,8 @@ impl WeightFormat {
     }
 }
 
-/// How the weights of all vertices are to be read from attributes: weight = low + extent times attribute. Low
-/// and extent cost the card nothing, since they go into the products: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
+/// The decoding of all vertices' weights from attributes: weight = low + extent times attribute. Low and extent cost
+/// the card nothing, since they are multiplied into the products: M_0 + low_1 M_1 + ..., extent_1 M_1, ...
 #[derive(Clone, Debug)]
 pub struct CardWeights {
     format: WeightFormat,
@@ -76,7 +76,7 @@ impl CardWeights {
         &self.ranges[cluster]
     }
 
-    /// A weight on a vector of a cluster as the attribute that the vertex program reads.
+    /// A weight on a vector of a cluster, encoded as the attribute that the vertex program reads.
     ///
     /// # Panics
     /// If there is no such cluster or vector.

@@ -1,13 +1,13 @@
-//! Why parts do not go together.
+//! Errors of the baselines.
 
 use thiserror::Error;
 
-/// Why a frame cannot be computed.
+/// Errors of computing a frame.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum RivalError {
-    /// Numbers per point that are no matrix of so many rows.
+    /// A number of values per point that makes no matrix with this many rows.
     #[error("expected {rows} rows of 1, 4, 9, ... or 100 numbers per point, found {found} numbers per point")]
     Shape { rows: usize, found: usize },
     /// Light of another order than the matrices.

@@ -1,5 +1,4 @@
-//! What compressed transfer is compared with, on the host: matrices without compression, and the method that they
-//! replaced.
+//! Baselines of compressed transfer on the host: matrices without compression, and the method that they replaced.
 //!
 //! - [`UncompressedTransfer`]: M_p l per vertex and frame, for 25 x 25, 24 x 25 and 16 x 25 matrices, and t_p . l for
 //!   diffuse transfer;

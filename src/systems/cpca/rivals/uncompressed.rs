@@ -30,10 +30,10 @@ pub struct ExitCoefficients {
 }
 
 impl UncompressedTransfer {
-    /// The matrices of a signal, a point per vertex, each row by row.
+    /// The matrices of a signal, one point per vertex, row by row.
     ///
     /// # Errors
-    /// [`RivalError::Shape`] for numbers that are no matrix of so many rows.
+    /// [`RivalError::Shape`] if the numbers per point make no matrix with this many rows.
     pub fn new(signal: &Signal, rows: usize) -> Result<Self, RivalError> {
         let found = signal.dimension();
         let columns = found.checked_div(rows).unwrap_or(0);
@@ -100,7 +100,7 @@ fn products(elements: &[[f32; LANES]], light: &[[f32; 3]]) -> [[f32; LANES]; 3] 
 }
 
 impl ExitCoefficients {
-    /// The coefficients of a vertex: a color per row.
+    /// The coefficients of a vertex: one color per row.
     ///
     /// # Panics
     /// If there is no such vertex.

@@ -91,7 +91,7 @@ impl ViewMap {
         Ok((0..vertices.len()).into_par_iter().map(towards).collect())
     }
 
-    /// Where the functions of the four texels around a direction begin, with the weights of a linear filter.
+    /// The start of the functions of the four texels around a direction, with the weights of a bilinear filter.
     /// Coordinates are clamped to the map, NaN to its first texel.
     fn corners(&self, direction: DVec3) -> [(usize, f32); 4] {
         let last = self.map.side() - 1;

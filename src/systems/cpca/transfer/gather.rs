@@ -121,7 +121,7 @@ impl<'a> TransferGather<'a> {
     }
 
     /// The radiance, per light function, that leaves a triangle: interpolated between its corners. A direction below
-    /// the horizon of a corner's normal counts as one along it, since the exit basis says nothing of it.
+    /// the horizon of a corner's normal is moved onto the horizon, since the exit basis is undefined there.
     fn radiance(&self, hit: &FrontHit, view: DVec3, (last, basis): (&[f32], &ExitBasis), into: &mut [f64]) {
         into.fill(0.0);
         let mut y = [0.0; MAX_ORDER * MAX_ORDER];

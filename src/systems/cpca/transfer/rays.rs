@@ -1,4 +1,4 @@
-//! The rays of all vertices: which are blocked, and what they hit.
+//! The rays of all vertices: blocked or not, and their hits.
 
 use rayon::prelude::*;
 
@@ -7,54 +7,52 @@ use crate::sphere::DirectionRule;
 use crate::tracer::Caster;
 use crate::transfer::{Asked, FrontHit, Occluders, Shooter, TransferError, Vertices, ones, origins};
 
-/// Vertices whose shadow rays are traced together. Few are left to the caster.
+/// Number of vertices whose shadow rays are traced together; few rays of each are left to the caster.
 const SHADOW_BLOCK: usize = 1024;
-/// Vertices whose hits are found together.
+/// Number of vertices whose hits are found together.
 const BLOCK: usize = 64;
 
-/// Numbers of rays, and vertices that something is wrong with.
+/// Numbers of rays, and vertices with defects.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TransferCounts {
-    /// Rays: vertices times directions.
+    /// Number of rays: vertices times directions.
     pub rays: u64,
-    /// Those that the caster traced; the others certainly meet nothing or something, or run below the geometric
-    /// horizon.
+    /// Rays that the caster traced; all others are certainly blocked or unblocked, or run below the geometric horizon.
     pub traced: u64,
-    /// Those that are blocked.
+    /// Number of blocked rays.
     pub blocked: u64,
-    /// Blocked rays that run below the geometric horizon: into all triangles that the vertex lies on.
+    /// Blocked rays below the geometric horizon: behind all triangles on which the vertex lies.
     pub below_horizon: u64,
-    /// Blocked rays that end at the back of a triangle, which is black. Counted only where hits are kept.
+    /// Blocked rays that end at the back of a triangle, which is black. Counted only if hits are kept.
     pub from_behind: u64,
     /// Vertices whose rays are all blocked.
     pub dark: Vec<u32>,
-    /// Dark vertices more than half of whose rays first meet the back of a triangle: they lie inside of something.
+    /// Dark vertices more than half of whose rays first hit the back of a triangle: they lie inside an object.
     pub buried: Vec<u32>,
-    /// Vertices on triangles that face each other so that no origin of rays is in front of all of them.
+    /// Vertices on triangles that face each other so that no ray origin is in front of all of them.
     pub unclear: Vec<u32>,
 }
 
-/// What the rays of all vertices meet: one ray per vertex and direction of a hemisphere rule in the vertex's local
-/// frame.
+/// The results of one ray per vertex and direction of a hemisphere rule in the vertex's local frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TracedRays {
     rule: DirectionRule,
-    /// Words of bits per vertex.
+    /// Number of 64-bit words per vertex.
     words: usize,
     blocked: Vec<u64>,
     hits: Vec<Vec<FrontHit>>,
     keeps_hits: bool,
-    /// How many, and what is wrong.
+    /// Numbers of rays, and vertices with defects.
     pub counts: TransferCounts,
 }
 
 impl TracedRays {
-    /// Traces the directions of a rule over the hemisphere from each vertex. The caster must be one of the mesh that
-    /// the vertices were made from, and see both sides of triangles. `keep_hits` is for interreflection: it takes 16
-    /// bytes per blocked ray.
+    /// Traces the directions of a rule over the hemisphere from each vertex. The caster must be one for the mesh from
+    /// which the vertices were made, and see both sides of triangles. `keep_hits` is needed for interreflection: it
+    /// takes 16 bytes per blocked ray.
     ///
-    /// The answers are those of tracing every ray, in any number of threads. Rays of a vertex go through the mesh in
-    /// packets; only those that pass too near an edge for f32 to tell are left to the caster.
+    /// The result is that of tracing every ray, on any number of threads. Rays of a vertex traverse the mesh in
+    /// packets; only those that pass too near an edge for f32 are left to the caster.
     ///
     /// # Errors
     /// [`TransferError::Cast`] if the caster fails.
@@ -87,7 +85,7 @@ impl TracedRays {
         &self.rule
     }
 
-    /// Whether the ray of a vertex in a direction is blocked.
+    /// True if the ray of a vertex in a direction is blocked.
     ///
     /// # Panics
     /// If there is no such vertex or direction.
@@ -101,17 +99,17 @@ impl TracedRays {
         self.blocked.len() / self.words
     }
 
-    /// Whether [`Self::trace`] was asked to keep hits.
+    /// True if [`Self::trace`] was called with `keep_hits`.
     pub fn keeps_hits(&self) -> bool {
         self.keeps_hits
     }
 
-    /// The front faces that a vertex sees.
+    /// The hits of a vertex's rays on front faces.
     pub(crate) fn front_hits(&self, vertex: usize) -> &[FrontHit] {
         self.hits.get(vertex).map_or(&[], Vec::as_slice)
     }
 
-    /// The directions in which a vertex is blocked, in rising order.
+    /// The blocked directions of a vertex, in increasing order.
     pub(crate) fn blocked_directions(&self, vertex: usize) -> impl Iterator<Item = usize> + '_ {
         let words = &self.blocked[vertex * self.words..(vertex + 1) * self.words];
         words.iter().enumerate().flat_map(|(word, &bits)| ones(bits).map(move |bit| 64 * word + bit))
@@ -144,7 +142,7 @@ impl TracedRays {
         Ok(())
     }
 
-    /// Finds what blocked rays hit: of all vertices if hits are kept, else of the dark ones, to see which are buried.
+    /// Finds the hits of blocked rays: of all vertices if hits are kept, otherwise of dark ones, to find those buried.
     fn hits(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
         let wanted: Vec<u32> = match self.keeps_hits {
             true => (0..self.vertex_count() as u32).collect(),
@@ -188,7 +186,7 @@ mod tests {
     use crate::tracer::HostTracer;
     use crate::transfer::Tangents;
 
-    /// Triangles of any size and place, some of them large, thin, or on a grid.
+    /// Triangles of any size and position, some of them large, thin, or on a grid.
     fn clutter(seed: u64) -> Mesh {
         let random = CounterRng::new(seed);
         let size = [0.05, 0.5, 3.0][seed as usize % 3];
@@ -212,7 +210,7 @@ mod tests {
             let mut caster = HostTracer::new(&mesh, Sides::Both);
             let rule = DirectionRule::hemisphere(if number < 30 { 31 } else { 13 });
             let traced = TracedRays::trace(&vertices, rule, &mut caster, false).expect("traced");
-            // Of clutter a few hundredths, of models next to none.
+            // A few hundredths for clutter, almost none for models.
             assert!(20 * traced.counts.traced < traced.counts.rays, "mesh {number}: {:?}", traced.counts);
             let occluders = Occluders::new(&vertices);
             let origins = origins(&vertices, &occluders);

@@ -1,5 +1,4 @@
-//! How a material answers light: the exit radiance, in an exit basis, per unit of radiance that arrives from each
-//! direction of a rule.
+//! Responses of materials: the exit radiance, in an exit basis, per unit of radiance from each direction of a rule.
 
 use std::f64::consts::PI;
 
@@ -8,34 +7,34 @@ use crate::sphere::{DirectionRule, function_count, harmonics};
 use crate::transfer::TransferError;
 use crate::transfer::brdf::{Brdf, ExitBasis, Projector, exit_per_direction, integrals};
 
-/// How incident radiance reaches the BRDF of a glossy material.
+/// The representation of incident radiance for the BRDF of a glossy material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Incident {
-    /// Through spherical harmonics of this order, as in M_p = B R_p T_p: incident radiance is cut to their band.
+    /// Spherical harmonics of this order, as in M_p = B R_p T_p, so that incident radiance is band-limited.
     Harmonics {
-        /// The order; the paper takes 5.
+        /// The order; 5 in the paper.
         order: usize,
-        /// Whether A_i^-1 stands between B and R_p T_p, as in equation 1.
+        /// True if A_i^-1 is applied between B and R_p T_p, as in equation 1.
         inverse: bool,
     },
-    /// Direction by direction, as in the double integral of section 3.1: no band but that of the light.
+    /// Directions, as in the double integral of section 3.1: no band limit other than the light's.
     Directions,
 }
 
-/// A material's exit radiance in an exit basis, per radiance that arrives from each direction of a rule, in the local
-/// frame. With a rule that is exact for products of two functions, everything that follows is linear algebra: the
-/// transfer matrix is the integral of this column times the row of light functions, over the directions that see light.
+/// A material's exit radiance in an exit basis, per radiance from each direction of a rule, in the local frame. With a
+/// rule that is exact for products of two functions, all further steps are linear algebra: the transfer matrix is the
+/// integral of this column times the row of light functions, over the unblocked directions.
 #[derive(Clone, Debug)]
 pub struct Response {
     basis: ExitBasis,
-    /// The rule's directions.
+    /// Number of directions of the rule.
     directions: usize,
-    /// A column per direction.
+    /// One column per direction.
     columns: Vec<f64>,
 }
 
 impl Response {
-    /// Diffuse: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3.
+    /// A diffuse response: exit radiance is albedo / pi times irradiance. One row, the t_p of section 3.
     ///
     /// # Errors
     /// [`TransferError::OutOfRange`] if the albedo is not in [0, 1].
@@ -48,20 +47,19 @@ impl Response {
         Ok(Self { basis: ExitBasis::Radiance, directions: rule.len(), columns })
     }
 
-    /// The irradiance that passes into a medium below the surface: cosine times the transmittance at that cosine. One
-    /// row, which is no radiance: it is made for [`Transfer::scattered`](super::Transfer::scattered), and does not
-    /// bounce.
+    /// The irradiance that enters a medium: cosine times the transmittance at that cosine. Its one row is no radiance:
+    /// it is the input of [`Transfer::scattered`](super::Transfer::scattered), and takes no part in interreflection.
     pub fn entering(transmittance: impl Fn(f64) -> f64, rule: &DirectionRule) -> Self {
         let columns = rule.directions().iter().map(|s| transmittance(s.z) * s.z).collect();
         Self { basis: ExitBasis::Radiance, directions: rule.len(), columns }
     }
 
-    /// Glossy, in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or one of its relatives. `exit_inverse` says
-    /// whether A_r^-1 is applied; without, rows are the zero-hemisphere projection of exit radiance. `views` is the
-    /// rule that B is integrated with ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
+    /// A glossy response in harmonics: equation 1, M_p = A_r^-1 B A_i^-1 R_p T_p, or a variant. A_r^-1 is applied if
+    /// `exit_inverse`; otherwise rows are the zero-hemisphere projection of exit radiance. `views` is the rule by which
+    /// B is integrated ([`BRDF_DEGREE`](crate::transfer::brdf::BRDF_DEGREE)).
     ///
     /// # Errors
-    /// [`TransferError::Brdf`] for figures out of range.
+    /// [`TransferError::Brdf`] for parameters out of range.
     pub fn glossy(
         brdf: &Brdf,
         exit: &ExitBasis,
@@ -86,20 +84,20 @@ impl Response {
         Ok(Self { columns: projector.coefficients(columns), basis: exit.clone(), directions: rule.len() })
     }
 
-    /// No material at all: the answer is the incident radiance itself, projected onto a basis by integrals over the
-    /// hemisphere, or with `inverse` by least squares.
+    /// The response without a material: incident radiance itself, projected onto a basis by integrals over the
+    /// hemisphere, or if `inverse` by least squares.
     pub(super) fn incident(basis: &ExitBasis, inverse: bool, rule: &DirectionRule) -> Self {
         let projector = Projector::new(basis, inverse);
         let columns = projector.coefficients(projector.functions(rule.directions()));
         Self { columns, basis: basis.clone(), directions: rule.len() }
     }
 
-    /// What exit radiance is expressed in.
+    /// The basis of exit radiance.
     pub fn basis(&self) -> &ExitBasis {
         &self.basis
     }
 
-    /// The number of directions of the rule.
+    /// Number of directions of the rule.
     pub fn direction_count(&self) -> usize {
         self.directions
     }
@@ -109,13 +107,13 @@ impl Response {
         self.columns.chunks_exact(self.basis.len())
     }
 
-    /// The matrix that a vertex has which sees the whole hemisphere, for light of an order in local coordinates.
+    /// The matrix of a vertex that sees the whole hemisphere, for light of `light_order` in local coordinates.
     ///
     /// # Errors
     /// [`MatrixError`] never, since there are at most 100 functions.
     ///
     /// # Panics
-    /// If the order is not 1 to 10, or the rule is not of as many directions as the response's.
+    /// If the order is not 1 to 10, or the rule has another number of directions than the response.
     pub fn unoccluded(&self, light_order: usize, rule: &DirectionRule) -> Result<Matrix, MatrixError> {
         assert_eq!(rule.len(), self.directions, "the response's rule");
         let columns = function_count(light_order);

@@ -16,7 +16,7 @@ const LEAF: usize = 8;
 /// Intervals of the quadrature over a vertex's own area.
 const PANELS: u32 = 12;
 
-/// How far a cluster of vertices must be away to count as one point.
+/// Options of subsurface scattering: the unit of length, and when a cluster of vertices counts as one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScatteringOptions {
     /// Millimetres per unit of the mesh; above 0.
@@ -155,7 +155,7 @@ impl Hierarchy {
             let (before, after) = fluxes.split_at_mut((place + 1) * columns);
             let into = &mut before[place * columns..];
             match cluster.second {
-                // Children stand behind their parent.
+                // Children follow their parent in the list.
                 Some(second) => {
                     let child = |at: usize| &after[(at - place - 1) * columns..(at - place) * columns];
                     let both = child(place + 1).iter().zip(child(second));

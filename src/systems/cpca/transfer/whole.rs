@@ -10,41 +10,41 @@ use crate::sphere::{MAX_ORDER, function_count};
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::{TransferError, Vertices};
 
-/// Vertices per chunk of a sum over all vertices: part of the shape of the sum.
+/// Vertices per chunk of a sum over all vertices; it fixes the order of the additions.
 const CHUNK: usize = 1024;
 
-/// How often light is reflected on its way, beyond the reflection that sends it to the eye.
+/// Number of interreflections, not counting the reflection towards the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bounces {
-    /// So many times; 0 is shadows alone.
+    /// This many; 0 computes shadows alone.
     Count(u32),
-    /// Until a bounce adds less than this share of the direct transfer (root mean square over all numbers).
+    /// Until a bounce adds less than this fraction of the direct transfer (root mean square over all numbers).
     Tolerance {
-        /// Above 0.
+        /// The fraction, above 0.
         share: f64,
-        /// Bounces at most.
+        /// Largest number of bounces.
         most: u32,
     },
 }
 
-/// The transfer of every vertex: a matrix each, from light in global coordinates to exit radiance in an exit basis in
-/// local ones.
+/// The transfer of every vertex: one matrix each, from light in global coordinates to exit radiance in an exit basis in
+/// local coordinates.
 #[derive(Clone, Debug)]
 pub struct Transfer {
     basis: ExitBasis,
     columns: usize,
     values: Vec<f32>,
-    /// What each bounce added, as a share of the direct transfer (root mean square over all numbers).
+    /// The contribution of each bounce relative to the direct transfer (root mean square over all numbers).
     pub bounces: Vec<f64>,
 }
 
 impl Transfer {
-    /// The transfer of all vertices for light of an order. One response per material, in one exit basis; the rays must
-    /// have been traced from these vertices, and have kept hits if light is to bounce.
+    /// The transfer of all vertices for light of an order. There must be one response per material, all in one exit
+    /// basis; the rays must have been traced from these vertices, with hits kept if `bounces` is not 0.
     ///
     /// # Errors
-    /// [`TransferError`] for responses that do not go together or belong to another rule, a missing material, an order
-    /// not in 1 to 10, bounces without hits.
+    /// [`TransferError`] for responses with different bases or of another rule, a missing material, an order not in 1
+    /// to 10, or bounces without hits.
     pub fn new(
         vertices: &Vertices,
         rays: &TracedRays,
@@ -79,8 +79,8 @@ impl Transfer {
     }
 
     /// The transferred incident radiance, R_p T_p, of all vertices in local coordinates: projected onto `basis` by
-    /// integrals over the hemisphere (zero hemisphere), or with `inverse` by least squares. What arrives from other
-    /// surfaces is taken from `exit`, their exit radiance; nothing arrives from them where `exit` is `None`.
+    /// integrals over the hemisphere (zero hemisphere), or if `inverse` by least squares. Radiance from other surfaces
+    /// is taken from their exit radiance `exit`; with `None` they send nothing.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -110,17 +110,17 @@ impl Transfer {
         self.values.len() / (self.row_count() * self.columns)
     }
 
-    /// Rows of each matrix: functions of the exit basis.
+    /// Number of rows of each matrix: functions of the exit basis.
     pub fn row_count(&self) -> usize {
         self.basis.len()
     }
 
-    /// Columns of each matrix: functions of the light.
+    /// Number of columns of each matrix: functions of the light.
     pub fn column_count(&self) -> usize {
         self.columns
     }
 
-    /// What rows are about.
+    /// The basis of the rows.
     pub fn basis(&self) -> &ExitBasis {
         &self.basis
     }
@@ -134,21 +134,21 @@ impl Transfer {
         &self.values[vertex * size..(vertex + 1) * size]
     }
 
-    /// The matrices of all vertices, one after the other, row by row: the values of a signal of rows times columns
-    /// numbers per point.
+    /// The matrices of all vertices, concatenated, row by row: the values of a signal with rows times columns numbers
+    /// per point.
     pub fn into_values(self) -> Vec<f32> {
         self.values
     }
 
-    /// The same basis and size with other numbers.
+    /// A transfer with the same basis and size, and other numbers.
     pub(super) fn with_values(&self, values: Vec<f32>) -> Self {
         Self { basis: self.basis.clone(), columns: self.columns, values, bounces: Vec::new() }
     }
 
-    /// The radiance that a vertex sends in a local direction under light with these coefficients: y(v) M_p l.
+    /// The radiance that a vertex sends in a local direction under a light with these coefficients: y(v) M_p l.
     ///
     /// # Panics
-    /// If there is no such vertex, or the light has not one coefficient per column.
+    /// If there is no such vertex, or the light does not have one coefficient per column.
     pub fn radiance(&self, vertex: usize, view: DVec3, light: &[f64]) -> f64 {
         assert_eq!(light.len(), self.columns, "a coefficient per column");
         let mut y = vec![0.0; self.row_count()];
@@ -158,8 +158,8 @@ impl Transfer {
         y.iter().zip(rows).map(|(y, row)| y * exit(row)).sum()
     }
 
-    /// Adds the transfer of the same vertices in another exit basis of harmonics, such as a diffuse part in
-    /// [`ExitBasis::Radiance`], whose radiance goes into y_0 (Figure 9).
+    /// Adds the transfer of the same vertices in another exit basis, such as a diffuse part in [`ExitBasis::Radiance`],
+    /// whose radiance is added to the coefficient of y_0 (Figure 9).
     ///
     /// # Errors
     /// [`TransferError`] if sizes do not fit, or this basis lacks a function of the other.
@@ -179,7 +179,7 @@ impl Transfer {
     }
 }
 
-/// The row of one basis for each row of another, and what the latter is multiplied by.
+/// For each row of basis `from` the index of its row in `into`, and its factor.
 fn places(into: &ExitBasis, from: &ExitBasis) -> Result<Vec<(usize, f64)>, TransferError> {
     let missing = TransferError::ExitBases { found: [into.len(), from.len()] };
     match (into, from) {
@@ -226,20 +226,20 @@ fn check(
     }
 }
 
-/// The first triangle whose material has no response.
+/// The first triangle whose material has no response, and that material.
 fn unknown_material(vertices: &Vertices, responses: &[Response]) -> Option<(usize, u32)> {
     let material = |corners: &[u32; 3]| vertices.materials()[corners[0] as usize];
     let mut materials = vertices.triangles().iter().map(material).enumerate();
     materials.find(|&(_, material)| material as usize >= responses.len())
 }
 
-/// The sum of squares over all vertices, in a fixed order.
+/// The sum of squares over all vertices, summed in a fixed order.
 fn squares(values: &[f32], size: usize) -> f64 {
     let chunk = |values: &[f32]| values.iter().map(|&value| f64::from(value) * f64::from(value)).sum::<f64>();
     values.par_chunks(CHUNK * size).map(chunk).collect::<Vec<_>>().into_iter().sum()
 }
 
-/// An error if two numbers differ.
+/// Returns an error if two numbers differ.
 fn differ(what: &'static str, found: [usize; 2]) -> Result<(), TransferError> {
     if found[0] == found[1] { Ok(()) } else { Err(TransferError::Differ { what, found }) }
 }

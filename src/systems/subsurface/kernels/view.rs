@@ -43,10 +43,14 @@ pub enum DirectLight {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum Combine {
-    /// Their sum (section 4.2: "added in").
+    /// Their sum.
+    ///
+    /// Section 4.2: "added in".
     #[default]
     Added,
-    /// Their product (4.2.4: "modulated").
+    /// Their product.
+    ///
+    /// Section 4.2.4: "modulated".
     Modulated,
 }
 

@@ -8,9 +8,9 @@ use crate::card::MeshError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum FloatTexels {
-    /// Four half floats.
+    /// Half precision: four floats per texel.
     Fp16,
-    /// Four single floats.
+    /// Single precision: four floats per texel.
     #[default]
     Fp32,
 }

@@ -7,10 +7,10 @@ use super::models::Brdf;
 use crate::linalg::{Matrix, MatrixError, dot};
 use crate::sphere::{DirectionRule, Hemisphere, HemisphereError, MAX_ORDER, function_count, function_index, harmonics};
 
-/// The degree of the direction rule that BRDF matrices are integrated with by default: 48 rings of 96 directions.
+/// The default degree of the direction rule for BRDF matrices: 48 rings of 96 directions.
 pub const BRDF_DEGREE: usize = 95;
 
-/// What exit radiance is expressed in: the rows of a transfer matrix.
+/// The basis of exit radiance, which determines the rows of a transfer matrix.
 #[derive(Clone, Debug)]
 pub enum ExitBasis {
     /// The radiance itself, the same in all directions: one row. Diffuse transfer.
@@ -28,7 +28,7 @@ impl ExitBasis {
         Self::Harmonics(Hemisphere::new(order))
     }
 
-    /// All functions of an order but (l, m) = (1, 0), which is nearly redundant on the hemisphere: 24 for order 5
+    /// All functions of an order except (l, m) = (1, 0), which is nearly redundant on the hemisphere: 24 for order 5
     /// (section 6.1).
     ///
     /// # Errors
@@ -40,8 +40,8 @@ impl ExitBasis {
         Hemisphere::without(order, &[function_index(1, 0)]).map(Self::Harmonics)
     }
 
-    /// The basis of these functions, l (l + 1) + m in increasing order; of 0 alone the radiance, as `.prt` files have
-    /// it.
+    /// The basis with the given functions, l (l + 1) + m, increasing; function 0 alone stands for radiance, as in
+    /// `.prt` files.
     ///
     /// # Errors
     /// [`HemisphereError`] for no functions.
@@ -96,19 +96,20 @@ impl ExitBasis {
     }
 }
 
-/// A basis, with the means to project onto it by integrals.
+/// A basis with the functions for projecting onto it by integrals.
 ///
-/// Least squares applies A^-1, of condition 151,695 for order 5, and equation 1 does so twice. Integrals of the basis's
-/// own functions would lose its square to rounding. Those of orthonormal combinations of them, psi = W^T y with
-/// A^-1 = W W^T, lose only the square root each: a function's coefficients are W times its integrals with psi.
+/// Least squares applies A^-1, with condition number 151,695 for order 5, and equation 1 does so twice. Integrals with
+/// the basis's own functions would lose its square to rounding. Integrals with orthonormal combinations of them, psi =
+/// W^T y with A^-1 = W W^T, lose only the square root each: a function's coefficients are W times its integrals with
+/// psi.
 pub(crate) struct Projector<'a> {
     basis: &'a ExitBasis,
-    /// W^T, a row per combination; `None` for integrals with the functions themselves.
+    /// W^T, one row per combination; `None` for integrals with the basis functions themselves.
     combinations: Option<Matrix>,
 }
 
 impl<'a> Projector<'a> {
-    /// Onto the least-squares coefficients in a basis (`inverse`), or onto integrals with its functions.
+    /// A projector onto least-squares coefficients in a basis (`inverse`), or onto integrals with its functions.
     pub(crate) fn new(basis: &'a ExitBasis, inverse: bool) -> Self {
         let combinations = match basis {
             ExitBasis::Harmonics(hemisphere) if inverse => {
@@ -123,7 +124,7 @@ impl<'a> Projector<'a> {
         Self { basis, combinations }
     }
 
-    /// What is integrated with, at each direction: rows one after the other.
+    /// The functions to integrate with, at each direction: one row per direction, concatenated.
     pub(crate) fn functions(&self, directions: &[DVec3]) -> Vec<f64> {
         let mut y = vec![0.0; self.basis.len()];
         let mut values = Vec::with_capacity(y.len() * directions.len());
@@ -137,7 +138,7 @@ impl<'a> Projector<'a> {
         values
     }
 
-    /// Integrals, as many rows of them as there are functions, to coefficients.
+    /// Converts integrals, in rows of one per function, to coefficients.
     pub(crate) fn coefficients(&self, integrals: Vec<f64>) -> Vec<f64> {
         let Some(rows) = &self.combinations else { return integrals };
         let columns = rows.transposed();
@@ -145,8 +146,8 @@ impl<'a> Projector<'a> {
     }
 }
 
-/// The matrix B of a BRDF: a row per function of the exit basis, a column per function of the incident order, by a rule
-/// over the hemisphere for both directions. Without either inverse.
+/// The matrix B of a BRDF, without either inverse: one row per function of the exit basis, one column per function of
+/// the incident order, integrated by a rule over the hemisphere for both directions.
 ///
 /// # Errors
 /// [`MatrixError`] never, since there are at most 100 functions.
@@ -185,7 +186,7 @@ pub(crate) fn integrals(
 }
 
 /// For each light direction s the integrals over views of the projector's functions times B(v, s) s_z: exit radiance
-/// per unit of radiance that arrives from s within a steradian. The inner integral of section 3.1's formula.
+/// per radiance and steradian that arrive from s. This is the inner integral of section 3.1's formula.
 pub(crate) fn exit_per_direction(
     brdf: &Brdf,
     exit: &Projector<'_>,

@@ -10,7 +10,7 @@ use crate::elementary::{exp, pow};
 use crate::fresnel::{dielectric, schlick};
 use crate::scene::Surface;
 
-/// How a surface reflects. All reflectances lie in [0, 1].
+/// A BRDF of one channel. All reflectances lie in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Brdf {
     /// The same radiance in all directions.
@@ -38,17 +38,17 @@ pub enum Brdf {
         /// Fresnel reflectance of the microfacets at normal incidence, below 1.
         normal_incidence: f64,
     },
-    /// Schlick 1994, anisotropic, single layer: S(u) G(v) G(v') Z(t) A(w) / (4 pi v v'). What the facets take from each
-    /// other is lost; his (1 - G G') / pi, which gives it back, is left out. Sharp lobes reflect more than arrives at
-    /// grazing angles, where his G is too near 1: 1.27 for roughness 0.05 at z = 0.05.
+    /// Schlick 1994, anisotropic, single layer: S(u) G(v) G(v') Z(t) A(w) / (4 pi v v'). Light that facets block from
+    /// each other is lost; his term (1 - G G') / pi, which would restore it, is left out. Sharp lobes reflect more than
+    /// arrives at grazing angles, where his G is too near 1: 1.27 for roughness 0.05 at z = 0.05.
     Schlick {
         /// Reflectance of the diffuse part.
         albedo: f64,
         /// Factor of the facets.
         specular: f64,
-        /// From 0, a mirror, excluded, to 1, the same in all directions.
+        /// In (0, 1]: towards 0 a mirror, at 1 the same in all directions.
         roughness: f64,
-        /// From 0 excluded, wide across the tangent, to 1, isotropic.
+        /// In (0, 1]: towards 0 wide across the tangent, at 1 isotropic.
         isotropy: f64,
         /// Reflectance of the facets at normal incidence.
         normal_incidence: f64,
@@ -62,7 +62,7 @@ pub enum Brdf {
         /// Standard deviations of the slope along the tangent and across it, above 0.
         roughness: [f64; 2],
     },
-    /// Ashikhmin and Shirley 2000, anisotropic, with Schlick's Fresnel term and a diffuse part that makes room for it.
+    /// Ashikhmin and Shirley 2000, anisotropic, with Schlick's Fresnel term and a diffuse part reduced accordingly.
     AshikhminShirley {
         /// Reflectance of the diffuse part.
         albedo: f64,
@@ -73,18 +73,18 @@ pub enum Brdf {
     },
 }
 
-/// How far single precision takes a sum of reflectances beyond 1: those of materials are of it.
+/// Tolerance of a sum of reflectances above 1, because materials have single precision.
 const SINGLE: f64 = 1e-6;
 
-/// Why figures make no BRDF.
+/// Reasons for which parameters make no BRDF.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
 pub enum BrdfError {
-    /// A figure out of its range.
+    /// A parameter out of its range.
     #[error("expected {expected} for the {what}, found {}", shown(*found))]
     OutOfRange { what: &'static str, expected: &'static str, found: f64 },
-    /// A surface that sends light one way only.
+    /// A specular surface, which has no BRDF.
     #[error("expected a diffuse or glossy material, found {found}: its reflectance is no function of two directions")]
     OneWay { found: &'static str },
 }
@@ -93,7 +93,7 @@ impl Brdf {
     /// One channel (0 red, 1 green, 2 blue) of a material's surface.
     ///
     /// # Errors
-    /// [`BrdfError`] for mirrors and glass, and for figures out of range.
+    /// [`BrdfError`] for mirrors and glass, and for parameters out of range.
     ///
     /// # Panics
     /// If there is no such channel.
@@ -111,10 +111,10 @@ impl Brdf {
         brdf.check().map(|()| brdf)
     }
 
-    /// Whether all figures are in range.
+    /// Checks that all parameters are in range.
     ///
     /// # Errors
-    /// [`BrdfError::OutOfRange`] names the first that is not.
+    /// [`BrdfError::OutOfRange`] for the first that is not.
     pub fn check(&self) -> Result<(), BrdfError> {
         let share = |what, found: f64| check(what, "a number from 0 to 1", found, (0.0..=1.0).contains(&found));
         let width =
@@ -158,7 +158,7 @@ impl Brdf {
         }
     }
 
-    /// Whether a rotation around the normal changes nothing.
+    /// True if rotation around the normal has no effect.
     pub fn is_isotropic(&self) -> bool {
         match self {
             Self::Lambert { .. } | Self::Phong { .. } | Self::CookTorrance { .. } => true,
@@ -167,8 +167,8 @@ impl Brdf {
         }
     }
 
-    /// B(v, s), per steradian: radiance towards the view per irradiance from s. Both directions have length 1; 0 if one
-    /// does not lie above the horizon.
+    /// B(v, s) in 1/sr: radiance towards the view per irradiance from s. Both directions have length 1; 0 unless both
+    /// lie above the horizon.
     pub fn value(&self, view: DVec3, s: DVec3) -> f64 {
         if !(view.z > 0.0 && s.z > 0.0) {
             return 0.0;
@@ -215,7 +215,7 @@ impl Brdf {
     }
 }
 
-/// A number without hundreds of zeros.
+/// The number as text, in scientific notation if it is large.
 fn shown(number: f64) -> String {
     if number.abs() < 1e16 { number.to_string() } else { format!("{number:e}") }
 }

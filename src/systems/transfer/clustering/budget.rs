@@ -1,4 +1,4 @@
-//! How many vectors each cluster has (section 4.3).
+//! The number of vectors of each cluster (section 4.3).
 
 /// Per cluster the number of vectors that the budget allows. Vectors come by decreasing reduction of the squared error
 /// per point, D_i^2 / m_k; of equals the lower cluster's first. Each costs a weight per point of its cluster; what

@@ -1,34 +1,35 @@
-//! Distances of centers from subspaces, carried from one search to the next.
+//! Lower bounds of the distances of centers from subspaces, carried over from one search to the next.
 //!
-//! A point z away from the old mean m is |(I - P) z| from the old subspace, P being the projection onto its vectors.
-//! From the new one, of mean m' and projection P', it is at least that less |P' - P| |z| + |(I - P') (m - m')|. Of
-//! projections P and P' the norm of the difference is the larger of those of (I - P) P' and (I - P') P; [`moved`] takes
-//! the root of the sum of squares, which is no less. |z| is at most 1 + M, as points are no longer than 1.
+//! A point z away from the old mean m has the distance |(I - P) z| from the old subspace, where P projects onto its
+//! vectors. From the new one, with mean m' and projection P', its distance is at least that minus |P' - P| |z| + |(I -
+//! P') (m - m')|. The norm of the difference of P and P' is the larger of those of (I - P) P' and (I - P') P; [`moved`]
+//! takes the root of the sum of squares, which is no less. |z| is at most 1 + M, as points have at most length 1.
 
 use super::estimate::{LANES, ScaledSubspace};
 use crate::linalg::dot;
 
-/// Added to each move, more than is rounded in it and in centers, as a share of 1 + M.
+/// Bound of the rounding error of each move and of the centers, relative to 1 + M.
 const ROUNDED: f64 = 1.0 / (1u64 << 22) as f64;
 
-/// What a search leaves to the next.
+/// State that a search leaves to the next.
 #[derive(Debug, Default)]
 pub(super) struct Carried {
     /// The subspaces of the last search.
     subspaces: Vec<ScaledSubspace>,
-    /// Per batch of groups and per cluster, at most the distances of the centers.
+    /// Per batch of groups and per cluster, lower bounds of the distances of the centers.
     distances: Vec<Vec<[f32; LANES]>>,
 }
 
 impl Carried {
-    /// For so many batches and these subspaces: the distances, less by how far the subspaces have moved, or
-    /// minus infinity where nothing is known.
+    /// The lower bounds for the new subspaces: the old ones minus the moves of the subspaces, or minus infinity if the
+    /// numbers of batches or subspaces have changed.
     pub(super) fn follow(&mut self, batches: usize, subspaces: Vec<ScaledSubspace>) -> &mut [Vec<[f32; LANES]>] {
         if (self.distances.len(), self.subspaces.len()) == (batches, subspaces.len()) {
             let pairs = self.subspaces.iter().zip(&subspaces);
             let moves: Vec<f64> = pairs.map(|(old, new)| moved(old, new)).collect();
             for distances in &mut self.distances {
                 for (distances, &moved) in distances.iter_mut().zip(&moves).filter(|&(_, &moved)| moved > 0.0) {
+                    // The move is rounded up and the difference down, so that distances stay lower bounds.
                     let moved = (moved as f32).next_up();
                     *distances = distances.map(|distance| (distance - moved).next_down());
                 }
@@ -41,7 +42,7 @@ impl Carried {
     }
 }
 
-/// By how much a distance of a point from a subspace may fall when the subspace moves; 0 if it stays as it is.
+/// Upper bound of the decrease of a point's distance when the subspace moves; 0 if it does not.
 fn moved(old: &ScaledSubspace, new: &ScaledSubspace) -> f64 {
     if old == new {
         return 0.0;
@@ -56,7 +57,7 @@ fn moved(old: &ScaledSubspace, new: &ScaledSubspace) -> f64 {
     (turned + ROUNDED) * (1.0 + old.length) + shifted + ROUNDED * new.length
 }
 
-/// The squared lengths, summed, of what is left of some vectors beside those of a subspace.
+/// The sum of squared lengths of the vectors' components orthogonal to a subspace.
 fn beside(subspace: &ScaledSubspace, vectors: &[f64]) -> f64 {
     let (mut sum, length) = (0.0, subspace.dimension.max(1));
     for vector in vectors.chunks_exact(length) {

@@ -1,4 +1,4 @@
-//! From a signal to its clusters.
+//! Compression: clusters of a signal.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -12,44 +12,44 @@ use super::nearest::Points;
 use super::{Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
 use crate::transfer::Signal;
 
-/// What happened in a step, and what it left.
+/// A step of the compression, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CpcaStep {
-    /// Vectors per cluster at most; on average while they are redistributed.
+    /// Largest number of vectors per cluster; their mean number during redistribution.
     pub vectors: usize,
-    /// What happened.
+    /// The kind of step.
     pub kind: CpcaStepKind,
-    /// Points that changed their cluster.
+    /// Number of points that changed their cluster.
     pub moved: usize,
-    /// The squared error of all points after the step. While the number of vectors stays, it does not grow but for
-    /// rounding, except by redistribution.
+    /// The squared error of all points after the step. For a fixed number of vectors it does not increase, except by
+    /// rounding and by redistribution.
     pub squared_error: f64,
 }
 
-/// What happens in a step.
+/// The kind of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CpcaStepKind {
-    /// Each point went to the cluster that approximates it best.
+    /// Each point was assigned to the cluster that approximates it best.
     Classified,
-    /// Each cluster got the mean and principal vectors of its points.
+    /// The mean and principal vectors of each cluster were fitted to its points.
     Fitted,
     /// Vectors were redistributed among the clusters.
     Redistributed,
 }
 
-/// A compressed signal, and how it came about.
+/// A compressed signal with the steps that led to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compression {
     /// The clusters.
     pub clustering: Clustering,
-    /// All steps in their order.
+    /// All steps, in order.
     pub steps: Vec<CpcaStep>,
 }
 
-/// Compresses a signal. `observe` sees each step when it is done.
+/// Compresses a signal. `observe` is called after each step.
 ///
 /// # Errors
-/// [`CpcaError`] if the options do not fit the signal, or principal components cannot be found.
+/// [`CpcaError`] if the options do not fit the signal, or principal components cannot be computed.
 pub fn compress(
     signal: &Signal,
     options: &CpcaOptions,
@@ -58,7 +58,7 @@ pub fn compress(
     compress_at(SimdLevel::widest(), signal, options, observe)
 }
 
-/// [`compress`] with given vector instructions.
+/// [`compress`] with the given vector instructions.
 pub(super) fn compress_at(
     level: SimdLevel,
     signal: &Signal,
@@ -89,9 +89,9 @@ struct Work<'a, O> {
     clusters: Vec<Fitted>,
     /// Each point's cluster; empty before the first classification.
     of_point: Vec<u32>,
-    /// Clusters whose points have changed since they were fitted.
+    /// Clusters whose set of points has changed since they were fitted.
     changed: Vec<bool>,
-    /// What fits keep of each cluster.
+    /// Inner products that each cluster keeps from one fit to the next.
     kept: Vec<KeptProducts>,
     vectors: usize,
     steps: Vec<CpcaStep>,
@@ -124,7 +124,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         self.steps.push(step);
     }
 
-    /// The generalised LBG algorithm at the present number of vectors.
+    /// The generalised LBG algorithm for the current number of vectors.
     fn settle(&mut self, iterations: usize) -> Result<(), CpcaError> {
         for _ in 0..iterations {
             if self.classify() == 0 {
@@ -136,12 +136,13 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    /// Sends each point to its best cluster; gives the number of points that changed theirs.
+    /// Assigns each point to its best cluster; returns the number of points that changed theirs.
     fn classify(&mut self) -> usize {
         let subspaces: Vec<_> = self.clusters.iter().map(|cluster| &cluster.subspace).collect();
         let mut nearest = self.points.nearest(&subspaces, &self.of_point, &mut self.carried);
         fill_empty(&mut nearest.cluster, &mut nearest.squared_error, self.clusters.len());
         let before = std::mem::replace(&mut self.of_point, nearest.cluster);
+        // Before the first classification the list is empty: then every point counts as moved.
         let mut moved = self.of_point.len() - before.len();
         for (&from, &to) in before.iter().zip(&self.of_point).filter(|(from, to)| from != to) {
             moved += 1;
@@ -162,8 +163,8 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         Ok(())
     }
 
-    /// Fits the clusters whose points have changed. One without points keeps its mean, which is 0 in the linear form
-    /// once there are vectors.
+    /// Fits the clusters whose points have changed. A cluster without points keeps its mean, which becomes 0 in the
+    /// linear form once there are vectors.
     fn fit(&mut self, vectors: usize) -> Result<(), CpcaError> {
         let members = Members::new(&self.of_point, self.clusters.len());
         let (signal, form, level) = (self.signal, self.form, self.level);
@@ -193,7 +194,7 @@ impl<'a, O: FnMut(&CpcaStep)> Work<'a, O> {
         let budget = self.vectors * self.signal.points();
         for _ in 0..rounds {
             let moved = self.classify();
-            // Twice as many vectors as on average are enough for most.
+            // Twice the mean number of vectors is enough for most clusters.
             self.fit(2 * self.vectors + 1)?;
             let members = Members::new(&self.of_point, self.clusters.len());
             let sizes: Vec<usize> = (0..self.clusters.len()).map(|cluster| members.of(cluster).len()).collect();

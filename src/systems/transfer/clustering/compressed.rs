@@ -6,7 +6,7 @@ use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
 use crate::transfer::Signal;
 
-/// How far the inner products of a subspace's vectors may be from 0 and 1.
+/// Tolerance of the inner products of a subspace's vectors, which should be 0 and 1.
 const ORTHONORMAL: f64 = 1e-6;
 
 /// A signal as clusters: per cluster an affine subspace, per point its cluster and its weights on the subspace's
@@ -18,11 +18,11 @@ pub struct Clustering {
     of_point: Vec<u32>,
     /// Point by point, as many as the point's subspace has vectors.
     weights: Vec<f64>,
-    /// Where each point's weights begin, and the last end.
+    /// The index of each point's first weight, followed by the number of weights.
     begins: Vec<usize>,
 }
 
-/// Why parts are no clustering. Clusters and points count from 0.
+/// Reasons for which parts make no clustering. Clusters and points count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -30,7 +30,7 @@ pub enum ClusteringError {
     /// No cluster, no point, or no dimension.
     #[error("expected clusters and points, found {clusters} clusters and {points} points of {dimension} numbers")]
     Empty { clusters: usize, points: usize, dimension: usize },
-    /// A subspace's mean, vectors and eigenvalues do not go together.
+    /// A subspace's mean, vectors and eigenvalues have contradictory sizes.
     #[error("expected a mean of {dimension} numbers and as many per eigenvalue in cluster {cluster}, found others")]
     Subspace { cluster: usize, dimension: usize },
     /// Numbers that are not finite.

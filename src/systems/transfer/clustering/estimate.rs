@@ -1,50 +1,51 @@
-//! Estimates in f32 of the squared error that each cluster leaves at each point, with bounds of how far they are off.
+//! Lower bounds, in f32, of the squared error of each point's approximation by each cluster.
 //!
-//! Points and subspaces are taken relative to a center g and scaled by a power of two, so that no point is longer
-//! than 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n
-//! terms in f32, summed in chunks, is off by at most e times the lengths of its vectors,
-//! `e = (CHUNK + n / CHUNK + 8) 2^-24`. A weight is then off by at most e S, a sum of n' squared weights by
-//! `2 sqrt(n') D e S + n' (e S)^2` because it is at most D^2, and D^2 by e S^2. [`bound`] is their sum with the
-//! rounding of the additions. [`REST`] `(1 + M)^2` stands for what f64 rounds in the errors that are decided by.
+//! Points and subspaces are taken relative to a center g and scaled by a power of two, so that points have at most
+//! length 1. With X = |x - g|, M = |x_0 - g|, S = X + M, D = |x - x_0| and n' vectors, an inner product of n terms in
+//! f32, summed in chunks, has an error of at most e times the lengths of its vectors,
+//! `e = (CHUNK + n / CHUNK + 8) 2^-24`. A weight then has an error of at most e S, a sum of n' squared weights
+//! `2 sqrt(n') D e S + n' (e S)^2` because it is at most D^2, and D^2 an error of e S^2. [`bound`] is their sum plus
+//! the rounding of the additions. [`REST`] `(1 + M)^2` bounds the f64 rounding of the errors by which clusters are
+//! chosen.
 
 use super::products::{ROWS, add_slices};
 use crate::linalg::dot;
 
-/// Points that are estimated side by side.
+/// Number of points that are estimated in parallel.
 pub(super) const LANES: usize = 16;
-/// Terms of an inner product that are summed in f32 before they join the rest.
+/// Number of terms of an inner product that are summed before they are added to the total.
 const CHUNK: usize = 32;
-/// The rounding of an operation in f32.
+/// The relative rounding error of an operation in f32.
 const UNIT: f32 = 1.0 / (1 << 24) as f32;
-/// More than f64 rounds in a squared error, as a share of the squared distance from the mean: some
-/// `2 sqrt(n') (n / 8 + 4) 2^-53`, and what counts as no error.
+/// Bound of the rounding of a squared error in f64, relative to the squared distance from the mean: about
+/// `2 sqrt(n') (n / 8 + 4) 2^-53`, plus the threshold below which an error counts as 0.
 const REST: f32 = 1.0 / (1 << 30) as f32;
-/// More than the root of what [`REST`] and the rounding of [`ScaledSubspace`] stand for.
+/// Bound of the root of [`REST`] plus the rounding of [`ScaledSubspace`].
 const ROOT_OF_REST: f32 = 1.0 / (1 << 14) as f32;
-/// Added to each bound, against products too small for f32; lengths are at most 1.
+/// Added to each bound against underflow of products in f32; lengths are at most 1.
 const SMALL: f32 = 1e-30;
 
 type Lanes = [f32; LANES];
 
-/// A row of the estimates: which vector of a cluster.
+/// The kind of a row of the estimator.
 #[derive(Clone, Copy, Debug)]
 enum RowKind {
-    /// The cluster's mean, with its squared length.
+    /// A cluster's mean, with its squared length.
     Mean(f32),
-    /// One of its vectors, with the mean's weight on it.
+    /// A cluster's vector, with the mean's weight on it.
     Vector(f32),
 }
 
-/// A subspace relative to g and scaled, perhaps projected onto fewer dimensions.
+/// A subspace relative to g and scaled, possibly projected onto fewer dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScaledSubspace {
-    /// The numbers of a vector.
+    /// Number of components of a vector.
     pub(super) dimension: usize,
     /// M, before the projection.
     pub(super) length: f64,
-    /// The mean, as many numbers as points have; empty if it is 0.
+    /// The mean, with one number per component; empty if it is 0.
     pub(super) offset: Vec<f64>,
-    /// Orthonormal vectors, one after another.
+    /// Orthonormal vectors, concatenated.
     pub(super) vectors: Vec<f64>,
 }
 
@@ -52,30 +53,30 @@ pub(super) struct ScaledSubspace {
 #[derive(Debug)]
 pub(super) struct Estimator {
     dimension: usize,
-    /// One after another, cluster by cluster, and one of zeros.
+    /// Rows, concatenated cluster by cluster, and a final row of zeros.
     rows: Vec<f32>,
     kinds: Vec<RowKind>,
-    /// Where each cluster's rows begin, and the last end.
+    /// The index of each cluster's first row, followed by the number of rows.
     begins: Vec<usize>,
     bounds: Vec<ClusterBound>,
     error: f32,
 }
 
-/// What the bounds of a cluster depend on.
+/// Parameters of the error bound for one cluster.
 #[derive(Clone, Copy, Debug)]
 struct ClusterBound {
     /// M.
     mean: f32,
-    /// n' and its root.
+    /// n' and its square root.
     vectors: (f32, f32),
-    /// What does not depend on the point.
+    /// The part that does not depend on the point.
     rest: f32,
 }
 
-/// Lower bounds of squared errors for a group of points, for one of some clusters after another.
+/// Lower bounds of squared errors for a group of points, for a list of clusters.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LowerBounds {
-    /// Which of the clusters each row is of, and which row it is.
+    /// Per row its cluster's position in the list, and its index among all rows.
     rows: Vec<(usize, usize)>,
     errors: Vec<Lanes>,
     distances: Vec<Lanes>,
@@ -83,7 +84,7 @@ pub(super) struct LowerBounds {
 }
 
 impl Estimator {
-    /// Of subspaces, all of the same dimension.
+    /// An estimator of subspaces, which must have the same dimension.
     pub(super) fn new(subspaces: &[ScaledSubspace]) -> Self {
         let dimension = subspaces.first().map_or(1, |subspace| subspace.dimension);
         let (mut kinds, mut bounds, mut rows, mut begins) = (Vec::new(), Vec::new(), Vec::new(), vec![0]);
@@ -98,12 +99,13 @@ impl Estimator {
             let rest = SMALL + REST * (1.0 + mean) * (1.0 + mean);
             bounds.push(ClusterBound { mean, vectors: (vectors, vectors.sqrt()), rest });
         }
+        // The row of zeros pads tiles with fewer rows than a tile holds.
         rows.resize(rows.len() + dimension, 0.0);
         let error = (CHUNK + dimension / CHUNK + 8) as f32 * UNIT;
         Self { dimension, rows, kinds, begins, bounds, error }
     }
 
-    /// Bounds of some clusters for a group of points: no error is below its bound.
+    /// Computes lower bounds of the squared errors of a group of points for some clusters.
     #[inline(always)]
     pub(super) fn estimate(&self, points: &[Lanes], clusters: &[u32], group: &mut LowerBounds) {
         group.begin(points, clusters.len());
@@ -130,8 +132,8 @@ impl Estimator {
         group.subtract_bounds(self, clusters);
     }
 
-    /// At least how far a point is from a cluster's subspace, if that is `lower` for its squared error: less by what is
-    /// lost to rounding where the distance of another point follows from it.
+    /// A lower bound of a point's distance from a cluster's subspace, given the lower bound of its squared error. It
+    /// includes the rounding error of deriving another point's distance from it.
     #[inline(always)]
     pub(super) fn distance(&self, cluster: u32, lower: f32) -> f32 {
         lower.max(0.0).sqrt() - ROOT_OF_REST * (1.0 + self.bounds[cluster as usize].mean)
@@ -139,13 +141,13 @@ impl Estimator {
 }
 
 impl LowerBounds {
-    /// The bounds lane by lane, one of the clusters after another.
+    /// The bounds, one array of lanes per cluster.
     #[inline(always)]
     pub(super) fn lanes(&self) -> &[[f32; LANES]] {
         &self.errors
     }
 
-    /// Takes the points' squared lengths, which are the distances from means that are 0.
+    /// Sets squared errors to the points' squared lengths, which are right for means of 0.
     #[inline(always)]
     fn begin(&mut self, points: &[Lanes], clusters: usize) {
         let mut squares = [0.0_f64; LANES];
@@ -161,7 +163,7 @@ impl LowerBounds {
         }
     }
 
-    /// Takes the products with one row of one of the clusters. A mean's row comes before those of its vectors.
+    /// Adds the products with one row of one cluster. A mean's row comes before those of its vectors.
     #[inline(always)]
     fn fold(&mut self, at: usize, kind: RowKind, products: &Lanes) {
         let (errors, distances) = (&mut self.errors[at], &mut self.distances[at]);
@@ -193,11 +195,11 @@ impl LowerBounds {
     }
 }
 
-/// How far an estimate may be off. `error` is e, `sum` is S, `distance` the estimate of D^2.
+/// Bound of the error of an estimate. `error` is e, `sum` is S, `distance` the estimate of D^2.
 #[inline(always)]
 fn bound(error: f32, sum: f32, distance: f32, (vectors, root_of_vectors): (f32, f32)) -> f32 {
     let weight = error * sum;
-    // The estimate of D^2 is itself off by at most e S^2.
+    // The estimate of D^2 itself has an error of at most e S^2.
     let distance = (distance + weight * sum).max(0.0);
     let squares = 2.0 * root_of_vectors * weight * distance.sqrt() + vectors * weight * weight;
     weight * sum + squares + 4.0 * (vectors + 8.0) * UNIT * distance

@@ -8,22 +8,23 @@ use super::{AffineSubspace, CpcaForm};
 use crate::linalg::{FactorError, LeadingEigen, Matrix};
 use crate::transfer::Signal;
 
-/// The share of a cluster's largest eigenvalue up to which others are rounding, and have no vectors.
+/// Threshold relative to a cluster's largest eigenvalue: eigenvalues up to it are rounding errors, and have no vectors.
 pub(super) const NO_EIGENVALUE: f64 = 1.0 / (1u64 << 44) as f64;
 
-/// Points per chunk of C^T C: part of the shape of its sums.
+/// Points per chunk of C^T C; it fixes the order of the additions.
 const CHUNK: usize = 512;
 
-/// A cluster's subspace, and what it leaves.
+/// A cluster's subspace, and its squared error.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fitted {
     pub(super) subspace: AffineSubspace,
-    /// What sums to the squared error of the cluster's points: the eigenvalues without vectors, where they are known.
+    /// Numbers whose sum is the squared error of the cluster's points: the eigenvalues without vectors, where they are
+    /// known.
     left: Vec<f64>,
 }
 
 impl Fitted {
-    /// A mean alone, of points without error.
+    /// A mean alone, for points without error.
     pub(super) fn at(mean: Vec<f64>) -> Self {
         Self { subspace: AffineSubspace::at(mean), left: Vec::new() }
     }
@@ -33,14 +34,14 @@ impl Fitted {
         self.left.iter().sum()
     }
 
-    /// All eigenvalues that may have a vector, the largest first. Fitted with no vector, none are known.
+    /// All eigenvalues above the threshold, the largest first. None are known after a fit without vectors.
     pub(super) fn eigenvalues(&self) -> Vec<f64> {
         let all: Vec<f64> = self.subspace.eigenvalues.iter().chain(&self.left).copied().collect();
         let kept = all.iter().take_while(|&&value| value > all[0] * NO_EIGENVALUE).count();
         all[..kept].to_vec()
     }
 
-    /// Leaves the first vectors, `count` of them or all.
+    /// Keeps the first `count` vectors, or all if there are fewer.
     pub(super) fn truncate(&mut self, count: usize) {
         let cut = self.subspace.eigenvalues.iter().skip(count).copied();
         self.left = cut.chain(self.left.iter().copied()).collect();
@@ -48,8 +49,8 @@ impl Fitted {
     }
 }
 
-/// The mean of some points, at least one, and their `count` first principal components; fewer where the residuals have
-/// a lower rank. In the linear form the mean is 0 once there are vectors; the inner products of points are kept then.
+/// The mean of at least one point, and their first `count` principal components; fewer where the residuals have a lower
+/// rank. In the linear form with vectors the mean is 0, and inner products of the points are kept for the next fit.
 pub(super) fn fit(
     signal: &Signal,
     points: &[u32],
@@ -72,6 +73,7 @@ pub(super) fn fit(
         return Ok(Fitted { subspace: AffineSubspace::at(mean), left: vec![squared_error] });
     }
     let residuals = Residuals { signal, points, mean: &mean, level };
+    // C^T C and C C^T have the same eigenvalues other than 0, so that the smaller one is decomposed.
     let Principal { mut values, vectors } = if points.len() >= signal.dimension() {
         Principal::of_components(&residuals.between_components()?, count, level)?
     } else if linear {
@@ -87,7 +89,7 @@ pub(super) fn fit(
     Ok(Fitted { subspace: AffineSubspace { mean, vectors, eigenvalues: values }, left })
 }
 
-/// The first `count` principal vectors of some points less a center, one after another.
+/// The first `count` principal vectors of some points minus a center, concatenated.
 pub(super) fn principal_vectors(
     signal: &Signal,
     points: &[u32],
@@ -100,21 +102,21 @@ pub(super) fn principal_vectors(
     Ok(Principal::of_points(&residuals, &products, count)?.vectors)
 }
 
-/// All eigenvalues, the largest first, and some vectors.
+/// All eigenvalues, the largest first, and the leading vectors.
 struct Principal {
     values: Vec<f64>,
     vectors: Vec<f64>,
 }
 
 impl Principal {
-    /// Of C^T C.
+    /// From C^T C.
     fn of_components(products: &Matrix, count: usize, level: SimdLevel) -> Result<Self, FactorError> {
         let (eigen, kept) = leading(products, count, level)?;
         let vectors = eigen.vectors.rows().take(kept).flatten().copied().collect();
         Ok(Self { values: eigen.values, vectors })
     }
 
-    /// Of C C^T.
+    /// From C C^T.
     fn of_points(residuals: &Residuals<'_>, products: &Matrix, count: usize) -> Result<Self, FactorError> {
         let (eigen, kept) = leading(products, count, residuals.level)?;
         let length = residuals.mean.len();
@@ -128,7 +130,7 @@ impl Principal {
     }
 }
 
-/// Eigenvalues and vectors, and how many of these are more than rounding.
+/// Eigenvalues and leading vectors, and the number of vectors above the threshold.
 fn leading(products: &Matrix, count: usize, level: SimdLevel) -> Result<(LeadingEigen, usize), FactorError> {
     let eigen = level.run(
         #[inline(always)]
@@ -154,7 +156,7 @@ fn squared_distance(point: &[f32], mean: &[f64]) -> f64 {
     differences.map(|difference| difference * difference).sum()
 }
 
-/// The matrix C of a cluster: its points less the mean, a row each.
+/// The matrix C of a cluster: its points minus the mean, one row each.
 struct Residuals<'a> {
     signal: &'a Signal,
     points: &'a [u32],
@@ -163,7 +165,7 @@ struct Residuals<'a> {
 }
 
 impl Residuals<'_> {
-    /// The residual of a point from a component on.
+    /// Writes a point's residual from component `first` on.
     fn part(&self, point: u32, first: usize, into: &mut [f64]) {
         let values = self.signal.point(point as usize)[first..].iter().zip(&self.mean[first..]);
         into.iter_mut().zip(values).for_each(|(into, (&value, mean))| *into = f64::from(value) - mean);
@@ -174,7 +176,7 @@ impl Residuals<'_> {
         kept.of(self.points, self.mean.len(), self.level, |point, into| self.part(point, 0, into))
     }
 
-    /// C^T C, a chunk of points at a time.
+    /// C^T C, computed a chunk of points at a time.
     fn between_components(&self) -> Result<Matrix, FactorError> {
         let mut products = square(self.mean.len())?;
         for chunk in self.points.chunks(CHUNK) {
@@ -186,7 +188,7 @@ impl Residuals<'_> {
         Ok(products)
     }
 
-    /// C^T u for the first vectors u, one after another: combinations of the points' residuals.
+    /// C^T u for the first vectors u, concatenated: linear combinations of the points' residuals.
     fn combined(&self, weights: &Matrix, count: usize) -> Vec<f64> {
         let (length, points) = (self.mean.len(), self.points.len());
         let rows = Packed::<f64, ROWS>::new(count, points, |at, into| into.copy_from_slice(weights.row(at)));

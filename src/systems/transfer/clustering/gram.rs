@@ -14,7 +14,7 @@ const MIN_PARALLEL: usize = 1 << 22;
 const MOST_KEPT: usize = 512;
 
 /// Inner products of a cluster's points, kept from one fit to the next, so that only those of new points are computed.
-/// Each is the same sum whoever its neighbors are, so that the bits do not tell.
+/// Each is the same sum whatever the other points are, so that reuse changes no bits.
 #[derive(Clone, Debug, Default)]
 pub(super) struct KeptProducts {
     points: Vec<u32>,
@@ -111,7 +111,7 @@ pub(super) fn add_products(
     }
 }
 
-/// A matrix of so many rows and columns.
+/// A matrix of `size` rows and columns.
 pub(super) fn square(size: usize) -> Result<Matrix, FactorError> {
     Matrix::zeros([size; 2]).map_err(FactorError::from)
 }

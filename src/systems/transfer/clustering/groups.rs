@@ -4,7 +4,7 @@
 use super::estimate::LANES;
 use super::products::Packed;
 
-/// Added to each distance from a center, against the rounding of points to f32; points are no longer than 1.
+/// Added to each distance from a center, for the rounding of points to f32; points have at most length 1.
 const ROUNDED: f64 = 1.0 / (1u64 << 22) as f64;
 
 /// All points in groups of [`LANES`]; the last group may have fewer.
@@ -14,7 +14,7 @@ pub(super) struct Groups {
     order: Vec<u32>,
     points: Packed<f32, LANES>,
     centers: Packed<f32, LANES>,
-    /// At least the distance of each point from the center of its group, in the same order.
+    /// Upper bound of the distance of each point from the center of its group, in the same order.
     distances: Vec<f32>,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct PointGroup<'a> {
     pub(super) order: &'a [u32],
     /// The points side by side.
     pub(super) points: &'a [[f32; LANES]],
-    /// At least the distance of each from the center.
+    /// Upper bound of the distance of each from the center.
     pub(super) distances: &'a [f32],
 }
 

@@ -1,12 +1,12 @@
-//! Squared errors of some points in f64. Points that ask for the same cluster are taken together, so that its vectors
-//! are read once for all of them.
+//! Squared errors of some points in f64. Points whose error for the same cluster is requested are computed together, so
+//! that its vectors are read once for all of them.
 
 use super::AffineSubspace;
 use super::products::{MANY, PartialSums, dots_of_many};
 use super::subspace::NO_ERROR;
 use crate::linalg::dot;
 
-/// Pairs of points and clusters whose errors are asked for, and room for their computation.
+/// Requested pairs of points and clusters, and scratch memory.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
     /// A cluster and a point.
@@ -22,8 +22,8 @@ impl Asked {
         self.wanted.push((cluster, point));
     }
 
-    /// Calls `into` with each cluster, each point and its error there, as [`AffineSubspace::squared_error`] has it, by
-    /// rising cluster and point; gives the number of them, and asks for none.
+    /// Calls `into` with each cluster, each point and its error there, equal to [`AffineSubspace::squared_error`], by
+    /// increasing cluster and point; returns their number, and clears the requests.
     #[inline(always)]
     pub(super) fn answer<'a>(
         &mut self,

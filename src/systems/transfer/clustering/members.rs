@@ -1,10 +1,10 @@
-//! Which points each cluster has.
+//! The points of each cluster.
 
 /// The points of each cluster, in increasing order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Members {
     points: Vec<u32>,
-    /// Where each cluster's points begin, and the last end.
+    /// The index of each cluster's first point, followed by the number of points.
     begins: Vec<usize>,
 }
 

@@ -1,17 +1,17 @@
-//! Clustered principal component analysis: points are shared out to clusters, each of which is approximated by an
-//! affine subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper), or by the vectors alone
+//! Clustered principal component analysis: points are assigned to clusters, each of which is approximated by an affine
+//! subspace, a mean and a few orthonormal vectors (sections 3.3 and 4 of the paper), or by vectors alone
 //! ([`CpcaForm::Linear`]).
 //!
 //! - [`compress`]: from a signal and [`CpcaOptions`] to a [`Clustering`]: vector quantisation, static, iterative,
 //!   adaptive;
-//! - [`refit`]: principal components anew, for points that were moved;
+//! - [`refit`]: new principal components after points were moved;
 //! - [`mod@reference`]: the same by plain loops, for tests.
 //!
-//! What the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error from a
-//! cluster that has others; of each vector the component of largest magnitude is positive; loops end when no point
-//! moves. Distances are compared as in f64. A point whose squared error is at most 2^-40 of its squared distance from
-//! the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the cluster's largest
-//! are left out. Results have the same bits on every processor and number of threads.
+//! Choices that the paper leaves open: ties go to the lower cluster; an empty cluster takes the point of largest error
+//! from a cluster that has others; the component of largest magnitude of each vector is positive; loops end when no
+//! point moves. Distances are compared as in f64. A point whose squared error is at most 2^-40 of its squared distance
+//! from the mean lies in the subspace: its error is 0. Vectors whose eigenvalue is at most 2^-44 of the cluster's
+//! largest are left out. Results have the same bits on every CPU and number of threads.
 
 mod axes;
 mod budget;

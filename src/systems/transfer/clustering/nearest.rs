@@ -1,15 +1,15 @@
-//! Which cluster approximates each point best: lower bounds of errors in f32, then f64 among those clusters that the
-//! bounds leave.
+//! The cluster that approximates each point best: lower bounds of errors in f32, then errors in f64 for the remaining
+//! clusters.
 //!
-//! - The cluster in which a point was before is tried first, in f64. The one of least error is this one, or among those
-//!   that some bound does not put beyond its error.
-//! - Points stand in groups of near ones ([`Groups`]). The distance from a subspace changes by no more than a point
-//!   moves, so a bound of the distance of the group's center bounds that of all its points, for a sixteenth of the
-//!   work. It leaves a few clusters in a hundred. Where a subspace moved little, the last bound will do ([`Carried`]).
-//! - For these each point has a bound of its own ([`Estimator`]). What that leaves is compared in f64.
+//! - A point's previous cluster is tried first, in f64. The best cluster is this one, or one whose lower bounds do not
+//!   exceed its error.
+//! - Points are in groups of near ones ([`Groups`]). The distance from a subspace changes by at most the distance
+//!   between two points, so a bound for the group's center bounds all its points, for a sixteenth of the work. A few
+//!   clusters in a hundred remain. Where a subspace has moved little, the previous bound is sufficient ([`Carried`]).
+//! - For these each point has a bound of its own ([`Estimator`]). The remaining clusters are compared in f64.
 //!
-//! So the result is that of comparing every point with every cluster, the lower of equals; bounds along a few axes
-//! alone ([`Axes`]), other groups, other clusters to begin with, or no bounds at all, change the time it takes.
+//! The result is that of comparing every point with every cluster, the lower among equals; bounds along a few axes
+//! ([`Axes`]), other groups, other initial clusters, or no bounds at all change only the time.
 
 use rayon::prelude::*;
 use refsim::exec::batch::SimdLevel;
@@ -28,7 +28,7 @@ use crate::transfer::Signal;
 pub(super) struct Nearest {
     pub(super) cluster: Vec<u32>,
     pub(super) squared_error: Vec<f64>,
-    /// How many pairs of a point, or a group's center, and a cluster were looked at: each bound and each error is one.
+    /// Number of bounds and errors computed, for pairs of a cluster and a point or a group's center.
     pub(super) looked_at: usize,
 }
 
@@ -202,7 +202,7 @@ impl NearestSearch<'_> {
     }
 }
 
-/// How far from a center a subspace may be that has a point's error or less. The point is a `distance` from the center.
+/// Upper bound of a center's distance from any subspace that has at most this error at a point `distance` away from it.
 #[inline(always)]
 fn reach_of(squared_error: f64, distance: f32) -> f32 {
     ((squared_error.sqrt() + f64::from(distance)) as f32).next_up()
@@ -290,7 +290,7 @@ mod tests {
         }
     }
 
-    /// Subspaces all, some or none of which move by a share of their size.
+    /// Subspaces of which every `every`-th moves by a fraction of its size.
     fn moved(subspaces: &[AffineSubspace], share: f64, every: usize, seed: u64) -> Vec<AffineSubspace> {
         let random = CounterRng::new(seed);
         let change = |(at, subspace): (usize, &AffineSubspace)| {

@@ -1,4 +1,4 @@
-//! What to compress a signal to, and why that cannot be done.
+//! Options of the compression, and errors.
 
 use thiserror::Error;
 
@@ -6,64 +6,70 @@ use crate::geom::random::CounterRng;
 use crate::linalg::FactorError;
 use crate::transfer::Signal;
 
-/// How a signal is compressed.
+/// Options of the compression of a signal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpcaOptions {
-    /// Number of clusters m_c: 1 to the number of points.
+    /// Number of clusters m_c: from 1 to the number of points.
     pub clusters: usize,
-    /// Vectors per cluster n': 0 (vector quantisation) to the signal's dimension.
+    /// Number of vectors per cluster n': from 0 (vector quantisation) to the signal's dimension.
     pub vectors: usize,
-    /// Iterations at most for each number of vectors; at least 1. The paper takes 10 to 20.
+    /// Largest number of iterations for each number of vectors; at least 1. The paper takes 10 to 20.
     pub iterations: usize,
-    /// By which measure points are shared out.
+    /// The measure by which points are assigned to clusters.
     pub method: CpcaMethod,
-    /// What approximates the points of a cluster.
+    /// The kind of approximation within a cluster.
     pub form: CpcaForm,
     /// The first representatives.
     pub start: StartPoints,
 }
 
-/// What approximates the points of a cluster.
+/// The kind of approximation within a cluster.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CpcaForm {
-    /// A mean and principal vectors of what is left (this system's paper, section 3.3).
+    /// Affine subspaces: a mean and principal vectors of the residuals (this system's paper, section 3.3).
     #[default]
     Affine,
-    /// Vectors alone, those of the raw second moment (equation 11 of the paper on all-frequency transfer). Before the
-    /// first vector, points are shared out by their distance from means all the same.
+    /// Linear subspaces: principal vectors of the raw second moment (equation 11 of the paper on all-frequency
+    /// transfer). Before the first vector, points are nevertheless assigned by their distance from means.
     Linear,
 }
 
-/// How points are shared out to clusters.
+/// The measure by which points are assigned to clusters.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum CpcaMethod {
-    /// By distance from the means, then principal components of each cluster once (section 4.1).
-    Static,
-    /// By the error of their approximation, while vectors are added one by one (section 4.2).
-    Iterative,
-    /// By the same, while the number of vectors is doubled: 1, 2, 4 and so on, the last step as far as asked.
+    /// Distance from the means; then principal components are computed once per cluster.
     ///
-    /// Not in the papers; for signals of thousands of dimensions, where it saves most of the time.
+    /// Section 4.1.
+    Static,
+    /// Error of the approximation, while vectors are added one by one.
+    ///
+    /// Section 4.2.
+    Iterative,
+    /// The same error, while the number of vectors is doubled: 1, 2, 4 and so on up to the requested number.
+    ///
+    /// Not in the papers; for signals with thousands of dimensions, where it saves most of the time.
     Doubling,
-    /// As iterative; then vectors are redistributed among the clusters (section 4.3).
+    /// As iterative, followed by redistribution of vectors among the clusters.
+    ///
+    /// Section 4.3.
     Adaptive {
-        /// Rounds of redistribution at most.
+        /// Largest number of rounds of redistribution.
         rounds: usize,
     },
 }
 
-/// The points that are the clusters' first representatives.
+/// The points that are the clusters' initial representatives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StartPoints {
-    /// Drawn without repetition.
+    /// Drawn at random without repetition.
     Seed(u64),
-    /// These, one per cluster, counted from 0.
+    /// Given, one per cluster, counted from 0.
     Given(Vec<u32>),
 }
 
-/// Why a signal cannot be compressed so. Points count from 0.
+/// Reasons for which a signal cannot be compressed. Points count from 0.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -74,31 +80,31 @@ pub enum CpcaError {
     /// More vectors than dimensions.
     #[error("expected at most {dimension} vectors per cluster, one per dimension, found {vectors}")]
     Vectors { vectors: usize, dimension: usize },
-    /// Without a mean and without vectors, nothing approximates a point.
+    /// The linear form without vectors approximates nothing.
     #[error("expected at least 1 vector per cluster in the linear form, which has no means, found 0")]
     NothingLinear,
     /// No iterations.
     #[error("expected at least 1 iteration for each number of vectors, found 0")]
     NoIterations,
-    /// Not one start point per cluster.
+    /// The number of start points differs from that of clusters.
     #[error("expected {clusters} start points, one per cluster, found {found}")]
     StartCount { clusters: usize, found: usize },
-    /// A start point that the signal does not have.
+    /// A start point outside the signal.
     #[error("expected start points below {points} (counted from 0), found {found}")]
     StartRange { points: usize, found: u32 },
-    /// A start point twice.
+    /// A repeated start point.
     #[error("expected different start points, found {found} twice")]
     StartTwice { found: u32 },
-    /// A line of a list of start points is no number. Lines count from 1.
+    /// A line of a list of start points that is no number. Lines count from 1.
     #[error("expected the number of a point in line {line} of the start points, found another text")]
     StartText { line: usize },
-    /// The principal components of a cluster cannot be found.
+    /// The principal components of a cluster cannot be computed.
     #[error("the principal components of cluster {cluster} cannot be found: {reason}")]
     Factor { cluster: usize, reason: FactorError },
 }
 
 impl StartPoints {
-    /// Start points of a text: the number of a point per line, counted from 0. Empty lines are passed over.
+    /// Start points from text: the index of one point per line, counted from 0. Empty lines are skipped.
     ///
     /// # Errors
     /// [`CpcaError::StartText`].
@@ -110,7 +116,7 @@ impl StartPoints {
 }
 
 impl CpcaMethod {
-    /// The method, with at most so many rounds of redistribution where it redistributes.
+    /// The method with this maximum number of rounds of redistribution, if it redistributes.
     #[must_use]
     pub const fn with_rounds(self, rounds: usize) -> Self {
         match self {
@@ -119,7 +125,7 @@ impl CpcaMethod {
         }
     }
 
-    /// The numbers of vectors that clusters have one after another, up to `vectors`.
+    /// The successive numbers of vectors per cluster, up to `vectors`.
     pub(super) fn growth(self, vectors: usize) -> Vec<usize> {
         match self {
             Self::Static if vectors == 0 => Vec::new(),
@@ -135,7 +141,7 @@ impl CpcaMethod {
 }
 
 impl CpcaOptions {
-    /// The start points; checks all options against a signal.
+    /// The start points, after a check of all options against a signal.
     pub(super) fn start_points(&self, signal: &Signal) -> Result<Vec<u32>, CpcaError> {
         let (points, dimension) = (signal.points(), signal.dimension());
         let &Self { clusters, vectors, iterations, .. } = self;
@@ -173,7 +179,7 @@ fn check(given: &[u32], points: usize, clusters: usize) -> Result<(), CpcaError>
     }
 }
 
-/// The first cards of a shuffled deck of all points.
+/// The first `count` of a random permutation of all points.
 fn draw(seed: u64, points: u32, count: usize) -> Vec<u32> {
     let random = CounterRng::new(seed);
     let mut deck: Vec<u32> = (0..points).collect();

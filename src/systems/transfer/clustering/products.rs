@@ -59,7 +59,7 @@ where
     add_rows(rows.iter().copied(), columns, into);
 }
 
-/// As [`add_block`], of vectors that stand anywhere.
+/// As [`add_block`], for vectors in separate slices.
 #[inline(always)]
 pub(super) fn add_slices<T, const N: usize>(rows: [&[T]; ROWS], columns: &[[T; N]], into: &mut [[T; N]; ROWS])
 where
@@ -101,7 +101,7 @@ where
     std::array::from_fn(|at| sums[at] + scale * others[at])
 }
 
-/// Vectors whose inner products are summed side by side.
+/// Number of vectors whose inner products are computed in parallel.
 const SIDE: usize = 4;
 /// Partial sums of an inner product: those of [`dot`].
 const PARTIAL: usize = 8;
@@ -204,8 +204,8 @@ fn add_products(sums: [f64; PARTIAL], a: &[f64; PARTIAL], b: &[f64; PARTIAL]) ->
     std::array::from_fn(|at| sums[at] + a[at] * b[at])
 }
 
-/// Adds a vector to orthonormal ones, made orthogonal to them, twice against rounding, and of length 1. One of which
-/// no more than `nothing` is left is not added. Says whether it was.
+/// Appends a vector to orthonormal ones after orthogonalising it, twice against rounding, and scaling it to length 1.
+/// Returns false, without appending, if no more than the length `nothing` remains of it.
 #[inline(always)]
 pub(super) fn add_orthonormal(vectors: &mut Vec<f64>, mut vector: Vec<f64>, nothing: f64) -> bool {
     for _ in 0..2 {

@@ -1,15 +1,15 @@
-//! The same compression by plain loops in f64, with no arithmetic of the fast path: every cluster is fitted anew by
-//! Jacobi rotations of C^T C, every point compared with every cluster. For tests; its time grows with the cube of the
+//! The same compression by plain loops in f64, without any arithmetic of the fast path: every cluster is fitted anew by
+//! Jacobi rotations of C^T C, every point compared with every cluster. For tests: its time grows with the cube of the
 //! dimension.
 
 use super::{AffineSubspace, Clustering, CpcaError, CpcaForm, CpcaMethod, CpcaOptions};
 use crate::transfer::Signal;
 
-/// The share of the squared distance from the mean up to which an error is 0.
+/// Threshold relative to the squared distance from the mean, below which an error counts as 0.
 const NO_ERROR: f64 = 9.094_947_017_729_282e-13;
-/// The share of the largest eigenvalue up to which there is no vector.
+/// Threshold relative to the largest eigenvalue, up to which there is no vector.
 const NO_EIGENVALUE: f64 = 5.684_341_886_080_802e-14;
-/// Sweeps over all pairs of components.
+/// Number of sweeps over all pairs of components.
 const SWEEPS: usize = 60;
 
 /// Compresses a signal.
@@ -60,7 +60,7 @@ struct Plain {
     points: Vec<Vec<f64>>,
     clusters: Vec<PlainCluster>,
     of_point: Vec<usize>,
-    /// Whether clusters have vectors alone, which they do not before the first.
+    /// True if the fitted clusters are linear, which starts with their first vector.
     linear: bool,
 }
 
@@ -147,7 +147,8 @@ impl Plain {
         }
     }
 
-    /// Takes the vector of largest gain per point again and again, while any fits the budget.
+    /// The number of vectors per cluster: the one with the largest gain per point is added repeatedly while the budget
+    /// allows.
     fn allocated(&self, budget: usize) -> Vec<usize> {
         let sizes: Vec<usize> =
             (0..self.clusters.len()).map(|k| self.of_point.iter().filter(|&&of| of == k).count()).collect();
@@ -190,7 +191,7 @@ impl Plain {
     }
 }
 
-/// Section 4.2's formula.
+/// The squared error by section 4.2's formula.
 fn squared_error(point: &[f64], cluster: &PlainCluster) -> f64 {
     let mut distance = 0.0;
     for (x, mean) in point.iter().zip(&cluster.mean) {
@@ -207,8 +208,8 @@ fn squared_error(point: &[f64], cluster: &PlainCluster) -> f64 {
     if error <= distance * NO_ERROR { 0.0 } else { error }
 }
 
-/// The mean of some points and all principal components that are more than rounding; of the points themselves, with
-/// mean 0, in the linear form.
+/// The mean of some points and all principal components above the threshold; in the linear form mean 0 and the
+/// components of the points themselves.
 fn principal_components(points: &[&Vec<f64>], linear: bool) -> PlainCluster {
     let dimension = points[0].len();
     let mean_of = |j: usize| points.iter().map(|point| point[j]).sum::<f64>() / points.len() as f64;
@@ -240,8 +241,8 @@ fn principal_components(points: &[&Vec<f64>], linear: bool) -> PlainCluster {
     PlainCluster { mean, vectors: order.iter().map(vector).collect(), eigenvalues }
 }
 
-/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns: each pair of components in turn is rotated so
-/// that its element beside the diagonal vanishes.
+/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi rotations: each rotates a pair of
+/// components so that its off-diagonal element becomes 0.
 fn jacobi(mut a: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
     let size = a.len();
     let mut vectors: Vec<Vec<f64>> =

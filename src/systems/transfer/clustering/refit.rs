@@ -9,12 +9,12 @@ use super::members::Members;
 use super::{Clustering, CpcaError};
 use crate::transfer::Signal;
 
-/// A clustering with the same points in each cluster and the principal components of these points, as many vectors as
-/// the cluster had. The squared error does not grow but for rounding. After a reclassification the paper leaves open
-/// whether this follows.
+/// A clustering with the same points in each cluster and the principal components of these points, with as many vectors
+/// as the cluster had. The squared error does not increase, except by rounding. The paper leaves open whether this
+/// follows a reclassification.
 ///
 /// # Errors
-/// [`CpcaError::Factor`] if principal components cannot be found.
+/// [`CpcaError::Factor`] if principal components cannot be computed.
 ///
 /// # Panics
 /// If the signal has another shape.

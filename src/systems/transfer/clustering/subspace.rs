@@ -3,23 +3,23 @@
 use super::products::dots;
 use crate::linalg::dot;
 
-/// The share of the squared distance from the mean below which a squared error counts as 0: well above the rounding
-/// of the sums in f64, well below that of the signal's f32.
+/// Threshold relative to the squared distance from the mean, below which a squared error counts as 0: well above the
+/// f64 rounding of the sums, well below the precision of the f32 signal.
 pub(super) const NO_ERROR: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A mean and orthonormal vectors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AffineSubspace {
-    /// The mean x_0, as many numbers as the signal has dimensions.
+    /// The mean x_0, one number per dimension of the signal.
     pub mean: Vec<f64>,
-    /// The vectors x_1, x_2, ..., one after another, as long as the mean each.
+    /// The vectors x_1, x_2, ..., concatenated, each with the length of the mean.
     pub vectors: Vec<f64>,
-    /// Per vector the squared singular value D_i^2 of the cluster's residuals, in decreasing order.
+    /// Per vector the squared singular value D_i^2 of the cluster's residuals, decreasing.
     pub eigenvalues: Vec<f64>,
 }
 
 impl AffineSubspace {
-    /// A mean alone.
+    /// A mean without vectors.
     pub(super) fn at(mean: Vec<f64>) -> Self {
         Self { mean, vectors: Vec::new(), eigenvalues: Vec::new() }
     }
@@ -29,7 +29,7 @@ impl AffineSubspace {
         self.eigenvalues.len()
     }
 
-    /// Whether the mean is all there is.
+    /// True if there are no vectors.
     pub fn is_empty(&self) -> bool {
         self.eigenvalues.is_empty()
     }
@@ -39,13 +39,13 @@ impl AffineSubspace {
         self.vectors.chunks_exact(self.mean.len())
     }
 
-    /// Leaves the first vectors, `count` of them or all.
+    /// Keeps the first `count` vectors, or all if there are fewer.
     pub(super) fn truncate(&mut self, count: usize) {
         self.vectors.truncate(count * self.mean.len());
         self.eigenvalues.truncate(count);
     }
 
-    /// The squared error of a point's best approximation, as section 4.2 computes it.
+    /// The squared error of a point's best approximation, by section 4.2's formula.
     #[inline(always)]
     pub(crate) fn squared_error(&self, point: &[f32], residual: &mut Vec<f64>) -> f64 {
         self.residual(point, residual);
@@ -55,7 +55,7 @@ impl AffineSubspace {
         if error <= distance * NO_ERROR { 0.0 } else { error }
     }
 
-    /// A point's weights: its residual along each vector.
+    /// A point's weights: the inner products of its residual with the vectors.
     pub(super) fn weights(&self, point: &[f32]) -> impl Iterator<Item = f64> {
         let mut residual = Vec::new();
         self.residual(point, &mut residual);

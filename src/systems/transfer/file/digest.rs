@@ -1,14 +1,14 @@
-//! Which mesh a file belongs to.
+//! Identification of the mesh that a file belongs to.
 
 use std::fmt;
 
 use crate::transfer::{LocalFrame, Tangents, Vertices};
 
-/// Counts and checksums of the vertices that transfer is computed at. Vertices of other positions, normals or tangents,
-/// other triangles, or the same in another order, have another digest, but for one in 2^32.
+/// Counts and checksums of the vertices at which transfer is computed. A mesh with other positions, normals, tangents
+/// or triangles, or with the same in another order, has another digest, except with probability 2^-32.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshDigest {
-    /// Where tangents come from.
+    /// The source of the tangents.
     pub tangents: Tangents,
     /// Number of vertices.
     pub vertices: u32,
@@ -21,7 +21,7 @@ pub struct MeshDigest {
 }
 
 impl MeshDigest {
-    /// Of the vertices of a mesh.
+    /// The digest of a mesh's vertices.
     pub fn new(vertices: &Vertices) -> Self {
         let (mut vertex, mut triangle) = (crc32fast::Hasher::new(), crc32fast::Hasher::new());
         vertices.positions().as_flattened().iter().for_each(|value| vertex.update(&value.to_le_bytes()));

@@ -1,4 +1,4 @@
-//! Why a file is no `.prt` file.
+//! Errors of reading `.prt` files.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use crate::io::ReadError;
 use crate::transfer::SignalError;
 use crate::transfer::clustering::ClusteringError;
 
-/// Why a file is no `.prt` file, or not the wanted one. Offsets are in bytes from 0.
+/// Errors of reading `.prt` files. Offsets are in bytes from 0.
 #[non_exhaustive]
 #[derive(Debug, Error, miette::Diagnostic)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -45,15 +45,15 @@ pub enum PrtFileError {
     #[error("{}: {what} at {offset}: expected the checksum {expected:08x}, found {found:08x}", path.display())]
     #[diagnostic(code(crossbar::prt::checksum), help("the file is damaged; copy or write it again"))]
     Checksum { path: PathBuf, what: &'static str, offset: usize, expected: u32, found: u32 },
-    /// A part says what it must not.
+    /// A part with an invalid value.
     #[error("{}: {field}: expected {expected}, found {found}", path.display())]
     #[diagnostic(code(crossbar::prt::field), help("docs/prt-format.md says what belongs there"))]
     Field { path: PathBuf, field: &'static str, expected: String, found: String },
-    /// The transfer is no signal.
+    /// The transfer makes no signal.
     #[error("{}: {reason}", path.display())]
     #[diagnostic(code(crossbar::prt::transfer))]
     Transfer { path: PathBuf, reason: SignalError },
-    /// The clusters do not go together.
+    /// The clusters contradict each other.
     #[error("{}: {reason}", path.display())]
     #[diagnostic(code(crossbar::prt::clustering))]
     Clustering { path: PathBuf, reason: ClusteringError },

@@ -1,7 +1,7 @@
 //! The `.prt` file: transfer of a mesh, its clusters, or both, with all conventions in its header. docs/prt-format.md
 //! specifies it.
 //!
-//! Checksums cover every byte; a file is read whole or refused. Equal contents have equal bytes.
+//! Checksums cover every byte; a file is read completely or refused. Equal contents have equal bytes.
 
 mod digest;
 mod error;
@@ -18,14 +18,14 @@ pub use write::{save_prt, write_prt};
 use super::Signal;
 use super::clustering::Clustering;
 
-/// How such a file begins: no text, and broken by programs that change line ends.
+/// The first bytes of a file: they are no valid text, and are changed by programs that convert line ends.
 pub const MAGIC: &[u8; 8] = b"\x89PRT\r\n\x1a\n";
-/// The version that is written, and the newest that is read.
+/// The version that is written, and the newest one that can be read.
 pub const VERSION: u32 = 1;
-/// Longest file that is read, in bytes (4 GiB).
+/// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;
 
-/// Numbers of [`Tangents`](crate::transfer::Tangents); 0 without a mesh.
+/// Codes of [`Tangents`](crate::transfer::Tangents); 0 without a mesh.
 const ANY_TANGENTS: u32 = 1;
 const TEXTURE_TANGENTS: u32 = 2;
 const AXIS_TANGENTS: u32 = 3;
@@ -33,42 +33,42 @@ const AXIS_TANGENTS: u32 = 3;
 const TRANSFER: &[u8; 4] = b"TRAN";
 const CLUSTERING: &[u8; 4] = b"CLUS";
 
-/// What a `.prt` file holds.
+/// The contents of a `.prt` file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrtFile {
-    /// What the numbers of a point are.
+    /// The meaning of the numbers of a point.
     pub meaning: PrtMeaning,
-    /// The mesh whose vertices the points are, if they are: as many as points.
+    /// The mesh whose vertices are the points, if there is one; it has one vertex per point.
     pub mesh: Option<MeshDigest>,
     /// The uncompressed numbers.
     pub transfer: Option<Signal>,
-    /// The compressed ones.
+    /// The compressed numbers.
     pub clustering: Option<Clustering>,
 }
 
-/// What the numbers of a point are.
+/// The meaning of the numbers of a point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PrtMeaning {
-    /// Just numbers.
+    /// Numbers without a meaning.
     Numbers {
-        /// How many.
+        /// How many per point.
         dimension: u32,
     },
-    /// A transfer matrix per channel: channel by channel, row by row.
+    /// One transfer matrix per channel: channel by channel, row by row.
     Transfer {
         /// 1 or 3 (red, green, blue).
         channels: u32,
-        /// Per row the function of exit radiance, l(l+1)+m, in increasing order; `[0]` for diffuse transfer.
+        /// Per row the index l(l+1)+m of the function of exit radiance, increasing; `[0]` for diffuse transfer.
         exit_functions: Vec<u16>,
         /// The order n of the light: n^2 columns.
         light_order: u32,
-        /// Whether the numbers have the surface's albedo in them, or are to be multiplied by it.
+        /// True if the numbers include the surface's albedo; otherwise they must be multiplied by it.
         includes_albedo: bool,
     },
 }
 
 impl PrtMeaning {
-    /// Numbers per point, if that many can be counted.
+    /// Numbers per point; `None` if they overflow.
     pub fn dimension(&self) -> Option<usize> {
         match self {
             Self::Numbers { dimension } => usize::try_from(*dimension).ok(),
@@ -79,7 +79,7 @@ impl PrtMeaning {
         }
     }
 
-    /// What is wrong with it: the field, what was expected, what was found.
+    /// The first invalid value: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, &'static str, String)> {
         let Self::Transfer { channels, exit_functions, light_order, .. } = self else {
             return None;
@@ -110,7 +110,7 @@ impl PrtFile {
         transfer.or(self.clustering.as_ref().map(Clustering::points)).unwrap_or(0)
     }
 
-    /// Why the parts do not go together: the field, what was expected, what was found.
+    /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         if let Some((field, expected, found)) = self.meaning.fault() {
             return Some((field, expected.to_owned(), found));

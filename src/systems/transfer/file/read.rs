@@ -34,7 +34,7 @@ pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, PrtFileError> {
     Ok(bytes.ok_or_else(|| ReadError::TooLong { what: ".prt file", path: path.into(), limit: MAX_BYTES })?)
 }
 
-/// Reads a file from bytes; `name` stands for it in messages.
+/// Reads a file from bytes; `name` is its name in messages.
 ///
 /// # Errors
 /// [`PrtFileError`].
@@ -67,7 +67,7 @@ pub fn parse_prt(bytes: &[u8], name: &Path) -> Result<PrtFile, PrtFileError> {
 }
 
 impl PrtFile {
-    /// Refuses a file of another mesh, or of the same with other tangents; `path` stands in the message.
+    /// Refuses a file of another mesh, or of the same with other tangents; `path` is named in the message.
     ///
     /// # Errors
     /// [`PrtFileError::OtherMesh`].
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
         let exit_functions = self.numbers(rows as usize, "exit functions")?;
         let exit_functions: Vec<u16> = exit_functions.iter().map(|&bytes| u16::from_le_bytes(bytes)).collect();
         self.checksum(0, "the header")?;
-        // What is not used is 0, so that equal contents have equal bytes.
+        // Unused fields are 0, so that equal contents have equal bytes.
         let (matrix, of_mesh) = (u32::from(channels > 0), u32::from(tangents > 0));
         let fields = [
             ("number of exit functions", rows, 0..=matrix * u32::MAX),
@@ -225,7 +225,7 @@ impl<'a> Reader<'a> {
         Ok(PrtHeader { meaning, mesh, points: points as usize, sections })
     }
 
-    /// Where tangents come from; `None` without a mesh.
+    /// The source of the tangents; `None` without a mesh.
     pub(crate) fn tangents(&self, number: u32, axis: DVec3) -> Result<Option<Tangents>, PrtFileError> {
         let is_axis = number == AXIS_TANGENTS;
         let is_used = axis.to_array().iter().any(|value| value.to_bits() != 0);

@@ -11,10 +11,10 @@ use crate::io::{WriteError, write_file};
 use crate::transfer::clustering::{AffineSubspace, Clustering};
 use crate::transfer::{Signal, Tangents};
 
-/// Writes a file, whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts do not go together.
+/// [`WriteError`]; with an [`io::ErrorKind::InvalidInput`] if the parts contradict each other.
 pub fn save_prt(file: &PrtFile, path: &Path) -> Result<(), WriteError> {
     write_file(path, |out| write_prt(file, out))
 }
@@ -22,7 +22,7 @@ pub fn save_prt(file: &PrtFile, path: &Path) -> Result<(), WriteError> {
 /// Writes the bytes of a file.
 ///
 /// # Errors
-/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts do not go together.
+/// Those of `out`; [`io::ErrorKind::InvalidInput`], before anything is written, if the parts contradict each other.
 pub fn write_prt(file: &PrtFile, out: &mut dyn Write) -> io::Result<()> {
     if let Some((field, expected, found)) = file.fault() {
         let message = format!("{field}: expected {expected}, found {found}");

@@ -15,7 +15,7 @@ pub struct HaarLight {
 }
 
 impl HaarLight {
-    /// Of a light.
+    /// The coefficients of a light.
     pub fn new(light: &CubeLight, segmentation: Segmentation) -> Self {
         let mut haar = Haar::new(segmentation.side());
         let channels = [0, 1, 2].map(|channel| {
@@ -62,7 +62,7 @@ impl HaarLight {
         &self.channels[channel][segment * len..(segment + 1) * len]
     }
 
-    /// The radiances that the coefficients stand for, by texel number. Truncated ones may be negative.
+    /// The radiances of the light with these coefficients, by texel number. Truncated ones may be negative.
     pub fn radiances(&self) -> Vec<[f64; 3]> {
         let (mut haar, len) = (Haar::new(self.segmentation.side()), self.segmentation.len());
         let squares = self.channels.each_ref().map(|channel| {
@@ -77,8 +77,7 @@ impl HaarLight {
         (0..LIGHT_TEXELS).map(at).map(|at| squares.each_ref().map(|channel| channel[at])).collect()
     }
 
-    /// The same radiances in the coefficients of other segments: what Figure 6 does with a truncated light of six
-    /// faces.
+    /// The coefficients of the same light in other segments, as in Figure 6 for a truncated light of six faces.
     #[must_use]
     pub fn reprojected(&self, segmentation: Segmentation) -> Self {
         let radiances = self.radiances();

@@ -11,7 +11,7 @@ use crate::transfer::grid::{
     light_texel,
 };
 
-/// How 4 x 4 samples become a texel.
+/// The weights by which 4 x 4 samples are averaged to a texel.
 ///
 /// The paper says "supersample the lighting 4 x 4 and decimate", without weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
@@ -34,7 +34,7 @@ pub struct CubeLight {
 }
 
 impl CubeLight {
-    /// Of radiances by texel number.
+    /// A light from radiances by texel number.
     ///
     /// # Errors
     /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite and at least 0.
@@ -46,7 +46,7 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// Of radiances that may lie below 0, as those of truncated light do: what is left of it rings around 0.
+    /// A light from radiances that may be negative, as those of truncated light are, which oscillate around 0.
     ///
     /// # Errors
     /// [`CubeLightError`] unless there are 6 x 32 x 32, all finite.
@@ -58,7 +58,7 @@ impl CubeLight {
         Ok(Self { texels })
     }
 
-    /// The same radiance from everywhere.
+    /// A light with the same radiance from all directions.
     ///
     /// # Errors
     /// [`CubeLightError::Radiance`] if it is negative or not finite.
@@ -66,8 +66,8 @@ impl CubeLight {
         Self::new(vec![radiance; LIGHT_TEXELS])
     }
 
-    /// Of a function of unit directions, sampled in the 4 x 4 fine directions of each texel. Direction v of the
-    /// function shines from `rotation` v.
+    /// A light from a function of unit directions, sampled in the 4 x 4 fine directions of each texel. The function's
+    /// direction v is rotated to `rotation` v.
     ///
     /// # Errors
     /// [`CubeLightError`] if the matrix is no rotation, or a radiance is negative or not finite.
@@ -79,7 +79,7 @@ impl CubeLight {
         Self::decimated(&fine_samples(radiance, rotation, 0.0)?, decimation)
     }
 
-    /// The same light turned: a direction has the radiance of the texel that it falls into, below 0 too.
+    /// The rotated light: each fine direction has the radiance, perhaps negative, of the texel that contains it.
     ///
     /// # Errors
     /// [`CubeLightError::Rotation`] if the matrix is no rotation.
@@ -96,7 +96,7 @@ impl CubeLight {
         fine_samples(|direction| self.texels[texel(direction)], rotation, f64::NEG_INFINITY)
     }
 
-    /// Of a picture of the whole sphere, whose radiance is constant over each pixel.
+    /// A light from a picture of the whole sphere, whose radiance is constant over each pixel.
     ///
     /// # Errors
     /// As [`Self::sampled`].
@@ -108,9 +108,9 @@ impl CubeLight {
         Self::sampled(|direction| picture.radiance(direction), rotation, decimation)
     }
 
-    /// Of small sources, counted from 0 in errors. Each adds its radiance times the share of each fine texel that it
-    /// covers; the shares are found on a grid as fine as the source needs and scaled so that the source's flux,
-    /// 2 pi (1 - cos radius) times its radiance, is kept.
+    /// A light from small sources, counted from 0 in errors. Each adds its radiance times the covered fraction of each
+    /// fine texel; the fractions are computed on a grid as fine as the source needs and scaled so that the source's
+    /// flux, 2 pi (1 - cos radius) times its radiance, is exact.
     ///
     /// # Errors
     /// [`CubeLightError`] for a matrix that is no rotation, or a source without direction, radius or radiance.
@@ -122,7 +122,7 @@ impl CubeLight {
         Self::decimated(&fine_disks(sources, rotation)?, decimation)
     }
 
-    /// Of the CIE clear sky over z >= 0 with its sun, and the ground below.
+    /// The light of the CIE clear sky over z >= 0 with its sun, and of the ground below.
     ///
     /// # Errors
     /// As [`Self::sampled`], and for a sun that is not above the horizon.
@@ -132,7 +132,7 @@ impl CubeLight {
         Ok(without_sun.plus(&Self::from_disks(&[sun_disk(sky)], rotation, decimation)?))
     }
 
-    /// [`HarmonicLight::red_and_blue`], not cut to an order: two disks in a dim surrounding.
+    /// [`HarmonicLight::red_and_blue`] without truncation to an order: two disks in a dim surrounding.
     ///
     /// # Errors
     /// [`CubeLightError::Rotation`] if the matrix is no rotation.

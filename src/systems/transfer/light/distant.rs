@@ -10,9 +10,9 @@ use crate::transfer::grid::FINE_DIRECTIONS;
 /// Distant light, before it is sampled by the cube's texels.
 #[derive(Debug)]
 pub enum DistantLight {
-    /// The same radiance from everywhere.
+    /// The same radiance from all directions.
     Constant([f64; 3]),
-    /// Disks in the dark.
+    /// Disks in black surroundings.
     Disks(Vec<DiskSource>),
     /// A clear sky with a sun.
     Sky(ClearSky),

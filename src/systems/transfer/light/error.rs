@@ -1,4 +1,4 @@
-//! Why there is no such light.
+//! Errors of making a light.
 
 use glam::DVec3;
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 use crate::sphere::{EnvironmentError, LightError, RotationError};
 use crate::transfer::grid::LIGHT_TEXELS;
 
-/// Why there is no such light.
+/// Errors of making a light.
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
@@ -14,7 +14,7 @@ pub enum CubeLightError {
     /// The number of texels.
     #[error("expected {LIGHT_TEXELS} texels, six faces of 32x32, found {found}")]
     Texels { found: usize },
-    /// A texel that is no radiance.
+    /// A texel with an invalid radiance.
     #[error(
         "expected a finite radiance of at least 0, found {found} in channel {channel} of face {face}, row {row}, \
          column {column} (counted from 0)"
@@ -38,7 +38,7 @@ pub enum CubeLightError {
     /// A generated light.
     #[error(transparent)]
     Light(#[from] LightError),
-    /// A picture that is no environment.
+    /// A picture that makes no environment.
     #[error(transparent)]
     Environment(#[from] EnvironmentError),
 }

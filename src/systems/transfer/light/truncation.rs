@@ -5,7 +5,7 @@ use super::error::CubeLightError;
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation, light_texel};
 use crate::transfer::haar::Haar;
 
-/// By what coefficients are chosen: \[NRH03\]'s three.
+/// The criterion by which coefficients are chosen: the three of \[NRH03\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TruncationPriority<'a> {
     /// Magnitude.
@@ -25,7 +25,7 @@ pub struct LightTruncation {
     pub light: HaarLight,
     /// Coefficients of the whole light that are not 0.
     pub nonzero: usize,
-    /// Coefficients that were kept: fewer than asked for if there are no more.
+    /// Number of coefficients that were kept; lower than requested if there are no more.
     pub kept: usize,
     /// The energy of the whole light.
     pub energy: f64,
@@ -34,12 +34,12 @@ pub struct LightTruncation {
 }
 
 impl HaarLight {
-    /// The light with so many coefficients at most. A coefficient is kept in all three channels or in none; its
-    /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Of equal priorities the
-    /// first by number is kept.
+    /// The light with at most `keep` coefficients. A coefficient is kept in all three channels or in none; its
+    /// magnitude is the root of the sum of their squares, so that L has one pattern of zeros. Among equal priorities
+    /// the lowest number is kept.
     ///
     /// # Errors
-    /// [`CubeLightError::Responses`] if there is not one average response per coefficient.
+    /// [`CubeLightError::Responses`] if there is not one mean response per coefficient.
     pub fn truncated(&self, keep: usize, priority: TruncationPriority<'_>) -> Result<LightTruncation, CubeLightError> {
         let weights = match priority {
             TruncationPriority::Magnitude => vec![1.0; LIGHT_TEXELS],

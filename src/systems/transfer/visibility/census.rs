@@ -1,4 +1,4 @@
-//! Which segments of the light a vertex sees: the share omega of Table 1.
+//! Census of the segments of the light that vertices see: the fraction omega of Table 1.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,8 +8,8 @@ use crate::transfer::Vertices;
 use crate::transfer::grid::{FineDirections, Segmentation};
 use crate::transfer::hats::Hats;
 
-/// How many of the 24 segments of the light are empty at vertices, and why. Segments of a vertex are counted one by
-/// one; each is in one of the three numbers.
+/// Counts of the 24 segments of the light over all vertices: below the horizon, shadowed, or with transfer. Each
+/// segment of a vertex is in exactly one of the three numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SegmentCensus {
     /// Vertices times 24.
@@ -20,13 +20,13 @@ pub struct SegmentCensus {
     pub shadowed: u64,
     /// The others: segments with transfer.
     pub nonempty: u64,
-    /// The least number of segments below the horizon at a vertex.
+    /// The lowest number of segments below the horizon at a vertex.
     pub least_below: u32,
 }
 
 impl SegmentCensus {
-    /// Of all vertices of some maps. A fine direction is one of a segment's if a hat of its texels is not 0 there: with
-    /// hats of one texel, if it lies in it.
+    /// The census of all vertices of some maps. A fine direction belongs to a segment if the hat function of one of its
+    /// texels is not 0 there: with a width of one texel, if it lies in the segment.
     ///
     /// # Panics
     /// If the maps are of other vertices.

@@ -1,8 +1,8 @@
-//! Visibility by an emulated card: the six faces of a cube, drawn from where a vertex's rays start.
+//! Visibility by an emulated card, which draws the six faces of a cube around the origin of a vertex's rays.
 //!
-//! A pixel's center is a fine direction, and what covers it blocks the light: no depth is needed. Coordinates are taken
-//! relative to the eye in f64 and rounded once; the card snaps them to its subpixel grid, so that pixels near a
-//! silhouette may differ from rays.
+//! Each pixel's center is a fine direction, and a covered pixel is a blocked direction, so no depth buffer is needed.
+//! Coordinates are made relative to the eye in f64 and rounded once; the card snaps them to its subpixel grid, so that
+//! pixels near a silhouette may differ from rays.
 
 use std::sync::Arc;
 
@@ -22,22 +22,22 @@ use crate::geom::vector::wide;
 use crate::sphere::{CUBE_FACES, FaceAxes};
 use crate::transfer::{Occluders, TransferError, Vertices, origins};
 
-/// Why no map can be drawn.
+/// Errors of drawing maps.
 #[non_exhaustive]
 #[derive(Debug, thiserror::Error)]
 pub enum DrawnVisibilityError {
     /// The card refused.
     #[error(transparent)]
     Machine(#[from] MachineError),
-    /// The device refuses the program.
+    /// The device cannot run the program.
     #[error("{0}\nuse a device with pixel shaders of version 1.1, such as r350")]
     Kernel(#[from] KernelError),
-    /// A vertex that is not there.
+    /// A vertex that does not exist.
     #[error(transparent)]
     Transfer(#[from] TransferError),
 }
 
-/// A card with a target for the faces of one cube, each below the one before.
+/// A card with a target for the faces of one cube, one below the other.
 #[derive(Debug)]
 pub struct CubeCard {
     sampling: VisibilitySampling,
@@ -47,7 +47,7 @@ pub struct CubeCard {
 }
 
 impl CubeCard {
-    /// On a device with pixel shaders 1.1.
+    /// A card for a device with pixel shaders 1.1.
     ///
     /// # Errors
     /// [`DrawnVisibilityError`] if the card refuses the program or the target.
@@ -64,11 +64,11 @@ impl CubeCard {
         Ok(Self { sampling, machine, program, target })
     }
 
-    /// The maps of some vertices of a mesh. Triangles of which nothing lies above the horizon of a vertex's normal are
-    /// not drawn.
+    /// The maps of some vertices of a mesh. With [`Horizon::Normal`], triangles wholly below the horizon of a vertex
+    /// are not drawn.
     ///
     /// # Errors
-    /// [`DrawnVisibilityError`] if a vertex is not there, or the card refuses.
+    /// [`DrawnVisibilityError`] if a vertex does not exist, or the card refuses.
     pub fn draw(&mut self, vertices: &Vertices, of: &[u32]) -> Result<VisibilityMaps, DrawnVisibilityError> {
         check(vertices, of)?;
         let origins = origins(vertices, &Occluders::new(vertices));
@@ -88,7 +88,7 @@ impl CubeCard {
         Ok(maps)
     }
 
-    /// Which pixels of a cube around an eye are covered, by the number of the fine direction.
+    /// The covered pixels of a cube around an eye, by number of the fine direction.
     fn cube(&mut self, vertices: &Vertices, eye: DVec3, normal: DVec3) -> Result<Vec<bool>, DrawnVisibilityError> {
         self.machine.clear_target(self.target, [0; 4])?;
         let sees_below = self.sampling.horizon == Horizon::Geometry;
@@ -117,7 +117,7 @@ impl CubeCard {
             self.machine.draw(&call)?;
         }
         let texels = Texels::read_back(&self.machine, self.target)?;
-        // Faces stand below each other, so that a pixel's place is its direction's number.
+        // Faces are stored one below the other, so that a pixel's index is its direction's number.
         Ok(texels.texels.iter().map(|texel| texel[0] > 0.5).collect())
     }
 }
@@ -127,7 +127,7 @@ fn clip(axes: &FaceAxes, corner: DVec3) -> [f64; 3] {
     [axes.right.dot(corner), -axes.down.dot(corner), axes.center.dot(corner)]
 }
 
-/// Whether all of a triangle lies outside of one plane of a face's pyramid.
+/// True if a triangle lies wholly outside one plane of a face's viewing pyramid.
 fn misses(axes: &FaceAxes, corners: &[DVec3; 3]) -> bool {
     let mut outside = [true; 5];
     for &corner in corners {
@@ -137,7 +137,7 @@ fn misses(axes: &FaceAxes, corners: &[DVec3; 3]) -> bool {
     outside.contains(&true)
 }
 
-/// A white vertex, in the middle of the depth range.
+/// A white vertex in the middle of the depth range.
 fn vertex(axes: &FaceAxes, corner: DVec3) -> Vertex {
     let [x, y, w] = clip(axes, corner);
     let mut vertex = Vertex { position: [x, y, 0.5 * w, w].map(|value| (value as f32).to_bits()), ..Vertex::default() };

@@ -1,18 +1,18 @@
-//! The bits.
+//! Visibility maps: one bit per vertex and fine direction.
 
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections};
 
-/// Which directions a vertex looks in, and which of them count.
+/// The directions in which visibility is sampled, and the horizon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilitySampling {
     /// m: 2^m x 2^m directions in each of the light's texels, 0 to 2.
     pub log2_samples: u32,
-    /// What ends a vertex's view.
+    /// The horizon that limits a vertex's view.
     pub horizon: Horizon,
 }
 
 impl Default for VisibilitySampling {
-    /// 4 x 4 directions above the plane of the normal, as system 5 has them.
+    /// 4 x 4 directions per texel above the plane of the normal, as in system 5.
     fn default() -> Self {
         Self { log2_samples: 2, horizon: Horizon::Normal }
     }
@@ -22,66 +22,66 @@ impl VisibilitySampling {
     /// The directions.
     ///
     /// # Panics
-    /// If there are more than 4 x 4 in a texel.
+    /// If there are more than 4 x 4 per texel.
     pub fn directions(self) -> &'static FineDirections {
         FineDirections::of(1 << self.log2_samples)
     }
 
-    /// Words of bits per vertex.
+    /// Number of 64-bit words per vertex.
     pub(super) fn words(self) -> usize {
         self.directions().directions().len() / 64
     }
 }
 
-/// What ends the view of a vertex.
+/// The horizon that limits the view of a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Horizon {
-    /// The plane of its normal, and triangles.
+    /// The plane of its normal, and the triangles around it.
     #[default]
     Normal,
-    /// Triangles alone: where the surface curves away from the normal, a vertex sees below the normal's plane.
+    /// The triangles alone: where the surface curves away from the normal, a vertex sees below the normal's plane.
     Geometry,
 }
 
-/// Memory of a vertex's map of 4 x 4 directions a texel in bytes: 12 KiB. 50,000 vertices take 614 MB.
+/// Memory of a vertex's map with 4 x 4 directions per texel, in bytes: 12 KiB. 50,000 vertices take 614 MB.
 pub const VISIBILITY_BYTES: usize = FINE_DIRECTIONS / 8;
 
-/// Numbers of directions, and vertices that something is wrong with.
+/// Numbers of directions, and vertices with defects.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VisibilityCounts {
     /// Directions above the horizon of their vertex's normal.
     pub above: u64,
-    /// Of these, those that run into all triangles that the vertex lies on.
+    /// Of these, directions behind all triangles on which the vertex lies.
     pub below_triangles: u64,
-    /// Those that a ray was cast for; the others certainly meet nothing. 0 of maps that were drawn.
+    /// Directions in which a ray was cast; for all others the result is certain. 0 for drawn maps.
     pub traced: u64,
-    /// Those in which the vertex sees the light.
+    /// Directions in which the vertex sees the light.
     pub visible: u64,
-    /// Vertices on triangles that face each other so that no origin of rays is in front of all of them.
+    /// Vertices on triangles that face each other so that no ray origin is in front of all of them.
     pub unclear: Vec<u32>,
 }
 
-/// The visibility q_p of some vertices: a bit per vertex and fine direction, 1 where it sees the light. Directions that
-/// are not above the vertex's horizon are 0.
+/// The visibility q_p of some vertices: one bit per vertex and fine direction, 1 where it sees the light. Directions
+/// below the vertex's horizon are 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VisibilityMaps {
     sampling: VisibilitySampling,
     vertices: Vec<u32>,
     words: Vec<u64>,
-    /// How many directions, and what is wrong.
+    /// Numbers of directions, and vertices with defects.
     pub counts: VisibilityCounts,
 }
 
 impl VisibilityMaps {
-    /// All bits 0.
+    /// Maps with all bits 0.
     pub(super) fn dark(vertices: &[u32], sampling: VisibilitySampling) -> Self {
         let counts = VisibilityCounts::default();
         Self { sampling, vertices: vertices.to_vec(), words: vec![0; vertices.len() * sampling.words()], counts }
     }
 
-    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map; nothing is known of
-    /// how they came about but the number of bits. `None` if the last map is incomplete.
+    /// The maps of vertices 0, 1, 2 and so on in the default sampling, from all words, map by map. Of the counts only
+    /// the number of visible directions is known. `None` if the last map is incomplete.
     pub fn from_words(words: Vec<u64>) -> Option<Self> {
         let sampling = VisibilitySampling::default();
         if !words.len().is_multiple_of(sampling.words()) {
@@ -93,16 +93,16 @@ impl VisibilityMaps {
         Some(maps)
     }
 
-    /// Which directions the bits are of.
+    /// The sampling of the directions.
     pub fn sampling(&self) -> VisibilitySampling {
         self.sampling
     }
 
-    /// The same maps of vertices whose numbers are less by `first`: those of the second of two joined meshes, by their
-    /// numbers in it.
+    /// The same maps with vertex numbers reduced by `first`: converts the numbers of the second of two joined meshes to
+    /// its own.
     ///
     /// # Panics
-    /// If a vertex has a lower number.
+    /// If a vertex number is lower than `first`.
     #[must_use]
     pub fn counted_from(mut self, first: u32) -> Self {
         let lower = |vertex: &mut u32| *vertex = vertex.checked_sub(first).expect("a vertex of the second mesh");
@@ -115,7 +115,7 @@ impl VisibilityMaps {
         &self.words
     }
 
-    /// The vertices that the maps are of, by their number in the mesh.
+    /// The vertices of the maps, by their number in the mesh.
     pub fn vertices(&self) -> &[u32] {
         &self.vertices
     }
@@ -125,7 +125,7 @@ impl VisibilityMaps {
         self.vertices.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no maps.
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty()
     }
@@ -140,7 +140,7 @@ impl VisibilityMaps {
         &self.words[map * words..(map + 1) * words]
     }
 
-    /// Whether a map's vertex sees the light in a fine direction.
+    /// True if a map's vertex sees the light in a fine direction.
     ///
     /// # Panics
     /// If there is no such map or direction.

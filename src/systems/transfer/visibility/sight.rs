@@ -1,4 +1,4 @@
-//! What is known of a vertex's fine directions before anything is cast or drawn.
+//! Classification of a vertex's fine directions before rays are cast or faces drawn.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use crate::geom::vector::wide;
 use crate::transfer::grid::{LIGHT_TEXELS, texel_center};
 use crate::transfer::{LocalFrame, Occluders, RayOrigin, SkyPart};
 
-/// The largest sine of the angle from a light texel's center to a fine direction in it: 3/4 of half a diagonal at the
-/// middle of a face, 0.0332, rounded up.
+/// The largest sine of the angle from a light texel's center to one of its fine directions: 3/4 of half a diagonal at
+/// the middle of a face, 0.0332, rounded up.
 const TEXEL_SINE: f64 = 0.034;
 
-/// The fine directions of a vertex that must be cast, and the numbers of the others.
+/// The fine directions of a vertex in which rays must be cast, and counts of the others.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
     pub(super) fine: Vec<u32>,
@@ -19,7 +19,7 @@ pub(super) struct Asked {
     pub(super) below_triangles: u64,
 }
 
-/// Sets the bits of directions that certainly see the light, and lists those that may not.
+/// Sets the bits of directions that are certainly unblocked, and lists those that may be blocked.
 pub(super) fn look(
     (frame, origin): (&LocalFrame, &RayOrigin),
     occluders: &Occluders,
@@ -38,7 +38,7 @@ pub(super) fn look(
             continue;
         }
         let is_high = height >= TEXEL_SINE && origin.planes.iter().any(|plane| plane.dot(center) >= TEXEL_SINE);
-        // Nothing is known of what stands below the plane of the normal.
+        // The skyline does not cover directions below the plane of the normal.
         let may_be_blocked = height < TEXEL_SINE && sees_below || skyline.may_block(frame.to_local(center), TEXEL_SINE);
         for fine in fine_directions.in_texel(texel) {
             let direction = fine_directions.directions()[fine];
@@ -59,7 +59,7 @@ pub(super) fn look(
     asked
 }
 
-/// The fine directions above a vertex's horizons, in order: all those that may see the light.
+/// The fine directions above a vertex's horizons, in order, and the number of those below its triangles.
 pub(super) fn above(frame: &LocalFrame, origin: &RayOrigin, sampling: VisibilitySampling) -> (Vec<u32>, u64) {
     let sees_below = sampling.horizon == Horizon::Geometry;
     let is_above = |direction: &DVec3| sees_below || frame.normal().dot(*direction) > 0.0;

@@ -9,10 +9,10 @@ use crate::geom::vector::narrow;
 use crate::tracer::Caster;
 use crate::transfer::{Occluders, RayOrigin, TransferError, Vertices, origins, ray_length};
 
-/// Vertices whose rays are cast together.
+/// Number of vertices whose rays are cast together.
 const BLOCK: usize = 32;
 
-/// Where rays start, and how they are made.
+/// Generator of the rays.
 struct Rays<'a> {
     sampling: VisibilitySampling,
     vertices: &'a Vertices,
@@ -21,7 +21,7 @@ struct Rays<'a> {
 }
 
 impl Rays<'_> {
-    /// The rays of a vertex in some directions; without those that single precision has no ray for, near its limits.
+    /// The rays of a vertex in some directions, without those that overflow single precision.
     fn of(&self, vertex: u32, fine: &[u32]) -> (Vec<u32>, Vec<Ray>) {
         let ray = |fine: u32| {
             let direction = self.length * self.sampling.directions().directions()[fine as usize];
@@ -32,7 +32,7 @@ impl Rays<'_> {
 }
 
 impl VisibilityMaps {
-    /// [`Self::trace_sampled`] in the default sampling.
+    /// [`Self::trace_sampled`] with the default sampling.
     ///
     /// # Errors
     /// As [`Self::trace_sampled`].
@@ -45,18 +45,18 @@ impl VisibilityMaps {
         Self::trace_sampled(vertices, of, VisibilitySampling::default(), caster, done)
     }
 
-    /// The maps of some vertices of a mesh, by any-hit rays in the fine directions. The caster must be one of the mesh
-    /// that the vertices were made from, and see both sides of triangles. A vertex's rays start off all triangles that
-    /// it lies on. `done` is called with the vertices done and of all.
+    /// The maps of some vertices of a mesh, by any-hit rays in the fine directions. The caster must be one for the mesh
+    /// from which the vertices were made, and see both sides of triangles. A vertex's rays start off all triangles on
+    /// which it lies. `done` is called with the number of finished vertices and their total.
     ///
-    /// The answers are those of casting every ray above the horizons, in any number of threads; directions in which a
-    /// vertex certainly sees nothing are not cast.
+    /// The result is that of casting every ray above the horizons, on any number of threads; rays that certainly hit
+    /// nothing are not cast.
     ///
     /// The maps take [`VISIBILITY_BYTES`](super::VISIBILITY_BYTES) per vertex; rays that wait to be cast at most 32
     /// vertices times 98,304 directions times 30 bytes, 90 MB.
     ///
     /// # Errors
-    /// [`TransferError::OutOfRange`] for a vertex that is not there; [`TransferError::Cast`] if the caster fails.
+    /// [`TransferError::OutOfRange`] for a vertex that does not exist; [`TransferError::Cast`] if the caster fails.
     pub fn trace_sampled(
         vertices: &Vertices,
         of: &[u32],
@@ -101,7 +101,7 @@ impl VisibilityMaps {
         Ok(maps)
     }
 
-    /// The same with every ray cast: what [`Self::trace_sampled`] is tested against.
+    /// As [`Self::trace_sampled`], with every ray cast: the reference of its tests.
     ///
     /// # Errors
     /// As [`Self::trace_sampled`].
@@ -131,7 +131,7 @@ impl VisibilityMaps {
     }
 }
 
-/// Whether all vertices are there.
+/// Checks that all vertices exist.
 pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError> {
     let (what, expected) = ("a vertex's number", "one below the number of vertices");
     match of.iter().find(|&&vertex| vertex as usize >= vertices.len()) {
@@ -140,7 +140,7 @@ pub(crate) fn check(vertices: &Vertices, of: &[u32]) -> Result<(), TransferError
     }
 }
 
-/// Which of some vertices are not clear of all triangles that they lie on.
+/// The vertices whose ray origin is not clear of all triangles on which they lie.
 pub(super) fn unclear(origins: &[RayOrigin], of: &[u32]) -> Vec<u32> {
     of.iter().copied().filter(|&vertex| !origins[vertex as usize].is_clear).collect()
 }

@@ -1,20 +1,21 @@
-//! Compressed transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
-//! [`OnCard`] is about transfer of low frequency, [`AllFrequencyOnCard`] of all frequencies, [`BiScaleOnCard`] about
-//! bi-scale transfer.
+//! Radiance transfer drawn by an emulated card: how far its pictures are off, by what, and how long a frame takes.
+//! [`OnCard`] is about clustered principal components, [`AllFrequencyOnCard`] about all-frequency and [`BiScaleOnCard`]
+//! about bi-scale transfer. A study is a subject of its system and a [`CardSetting`]; what all of them report is here.
 
+mod all_frequency;
 mod bi_scale;
+mod blame;
+mod cpca;
 mod difference;
-mod factored;
+mod error;
 mod frame;
-mod picture;
-mod precision;
-mod report;
-mod subject;
-mod tables;
+mod setting;
+mod sweep;
 
-pub use bi_scale::{BiScaleCardStudyError, BiScaleOnCard};
+pub use all_frequency::{AllFrequencyOnCard, factored_precision};
+pub use bi_scale::BiScaleOnCard;
+pub use cpca::OnCard;
 pub use difference::PixelErrors;
-pub use factored::{
-    AllFrequencyCardError, AllFrequencyOnCard, FactoredPrecision, factored_precision, factored_precision_table,
-};
-pub use subject::{CardError, OnCard};
+pub use error::CardPictureError;
+pub use setting::CardSetting;
+pub use sweep::{PictureVariant, variants_table};

@@ -4,11 +4,12 @@ use rayon::prelude::*;
 use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
-use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
+use super::subject::BiScaleOnCard;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
 use crate::card::{MeshView, SeenPixel};
+use crate::study::prt::card::CardPictureError;
 
 /// L~ by the card, and what it asked of it.
 pub(super) struct CardLight {
@@ -26,9 +27,10 @@ pub(super) struct Drawn {
 
 impl BiScaleOnCard {
     /// Algorithm 2 on the card.
-    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, BiScaleCardStudyError> {
+    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, CardPictureError> {
         let singles: Vec<[f32; 3]> = light.iter().map(|texel| texel.map(|value| value as f32)).collect();
-        let mut card = GatherCard::new(self.profile.clone(), self.executor.clone(), &self.biclusters, format)?;
+        let mut card =
+            GatherCard::new(self.card.profile.clone(), self.card.executor.clone(), &self.biclusters, format)?;
         let (local, log) = card.logged_multiply(&singles)?;
         Ok(CardLight { local, counts: card.counts(), log })
     }
@@ -39,8 +41,8 @@ impl BiScaleOnCard {
         local: &[[f32; 3]],
         (options, format): (DisplayOptions, TexelFormat),
         exposure: f64,
-    ) -> Result<Drawn, BiScaleCardStudyError> {
-        let mut card = BiScaleCard::new(self.profile.clone(), self.executor.clone(), self.mesh(), options)?;
+    ) -> Result<Drawn, CardPictureError> {
+        let mut card = BiScaleCard::new(self.card.profile.clone(), self.card.executor.clone(), self.mesh(), options)?;
         let view = MeshView { camera: self.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;
         let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();

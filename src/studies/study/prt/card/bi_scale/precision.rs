@@ -1,14 +1,14 @@
-//! One thing after the other held in fewer bits, against the same picture in f64.
+//! Number formats varied one after the other, against the same picture in f64.
 
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
-use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
+use super::subject::BiScaleOnCard;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 use crate::card::SeenPixel;
-use crate::report::Table;
 use crate::study::prt::card::difference::{PixelErrors, held};
+use crate::study::prt::card::{CardPictureError, PictureVariant};
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 const TEXELS: [TexelFormat; 3] = [TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];
@@ -49,42 +49,31 @@ fn ways() -> Vec<(&'static str, String, Way)> {
     all
 }
 
-/// How many pictures [`precision`] draws.
+/// Number of pictures of [`variants`].
 pub(super) fn count() -> u64 {
     ways().len() as u64
 }
 
-/// What was found: how far each way is off, root mean square in 255ths, and its name.
-pub(super) struct Precision {
-    pub(super) table: Table,
-    pub(super) worst: (String, f64),
-}
-
 /// Draws each way on the study's card. Pixels are compared with equation 3 in f64 from L~ in f64.
-pub(super) fn precision(
+pub(super) fn variants(
     study: &BiScaleOnCard,
     (light, exact): (&[[f64; 3]], &[[f64; 3]]),
     (seen, exposure): (&[Option<SeenPixel>], f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Precision, BiScaleCardStudyError> {
+) -> Result<Vec<PictureVariant>, CardPictureError> {
     let expected = study.exact(exact, (seen, exposure), BlockEdges::Wrapped);
-    let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_%");
-    let mut worst = (String::new(), 0.0);
+    let mut variants = Vec::new();
     let mut local = study.local(light, FINE.light)?.local;
     let mut light_format = FINE.light;
-    for (number, (axis, choice, way)) in ways().into_iter().enumerate() {
+    for (axis, choice, way) in ways() {
         if way.light != light_format {
             (light_format, local) = (way.light, study.local(light, way.light)?.local);
         }
         let drawn = study.draw(&local, (way.options, way.target), exposure)?;
         let expected = held(&expected, !way.target.record().is_float());
         let errors = PixelErrors::of(seen, &drawn.pixels, &expected);
-        if errors.off_255ths[0] > worst.1 {
-            worst = (format!("{axis}: {choice}"), errors.off_255ths[0]);
-        }
-        let [rms, largest, visible] = errors.cells();
-        table.push([axis.into(), choice.into(), rms, largest, visible]);
-        done(number as u64 + 1);
+        variants.push(PictureVariant { axis, choice, errors, below_zero: None });
+        done(variants.len() as u64);
     }
-    Ok(Precision { table, worst })
+    Ok(variants)
 }

@@ -1,22 +1,21 @@
-//! What was found, as a page.
-
-use serde_json::json;
+//! Findings of bi-scale transfer on a card.
 
 use super::picture::{CardLight, Drawn, doubles};
-use super::precision::{count, precision};
-use super::subject::{BiScaleCardStudyError, BiScaleOnCard};
+use super::precision::{count, variants};
+use super::subject::BiScaleOnCard;
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::card::frame_time::{FrameTime, FrameTimeError};
 use crate::card::seen_pixels;
 use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
-use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
-use crate::study::prt::card::factored::{Blame, report_blame};
-use crate::study::prt::card::frame;
-use crate::study::prt::render::auto_exposure;
-use crate::study::{ProgressFn, Study, timeline_trace};
+use crate::report::{Cell, Findings, Provenance, Table};
+use crate::study::prt::card::blame::{Blame, report_blame};
+use crate::study::prt::card::difference::ComparedPicture;
+use crate::study::prt::card::setting::{PictureStudy, report_sizes};
+use crate::study::prt::card::sweep::report_sweep;
+use crate::study::prt::card::{CardPictureError, PixelErrors, frame};
+use crate::study::{ProgressFn, Study};
 
-const SWEEP: &str = "Each row is one thing held in fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
+const SWEEP: &str = "Each row is one number format of fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
     double precision of light multiplied in double precision. Fractions of 8 bits are of the largest number.";
 const TIME: &str = "Modelled, not measured: the pipeline model of the card, to which a texture read is as fast as its units can be. \
     Local light stays on the card, as the paper's does; where the view changes alone it is used again.";
@@ -24,83 +23,64 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card, to w
 /// Times of a frame: the view changed alone, and light too; `None` where the card has none.
 type Times = Option<(FrameTime, FrameTime)>;
 
-/// What card and host compute from.
-const FROM: &str = "the same local light";
-
 impl Study for BiScaleOnCard {
-    type Error = BiScaleCardStudyError;
+    type Error = CardPictureError;
 
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BiScaleCardStudyError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
         progress("transfer", 0, 3);
         self.check()?;
-        let light = self.light_texels()?;
+        let (light, card) = (self.light_texels()?, &self.card);
         let exact = self.exact_local(&light);
         let local = self.local(&light, self.light_format)?;
         progress("host", 1, 3);
-        let seen = seen_pixels(&self.profile, self.vertices.geometry(), &self.camera)?;
+        let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.camera)?;
+        let study = PictureStudy {
+            card,
+            camera: &self.camera,
+            names: [&self.model, &self.light_name],
+            exposure: self.exposure,
+            from: "the same local light",
+        };
         let edges = self.options.edges;
-        let linear = self.exact(&doubles(&local.local), (&seen, 1.0), edges);
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
-        let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
+        let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), (&seen, 1.0), edges));
         progress("card", 2, 3);
-        let drawn = self.draw(&local.local, (self.options, self.format), exposure)?;
-        let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, !self.format.record().is_float()));
-        let mut found = Findings::new("Bi-scale transfer on a card");
-        found.taken_from(self.camera.world_to_camera());
-        found.conclusion(compared.sentence(&self.profile.title, FROM));
-        let times = self.times(&local, &drawn)?;
-        if let Some((view, both)) = &times {
-            let [view, both] = [view, both].map(|time| shown(time.per_second(), Quantity::Measured));
-            found.conclusion(format!(
-                "{}: modelled {view} frames a second when the view changes alone, {both} when light changes too.",
-                self.profile.title
-            ));
-        }
-        let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
-        compared.report(&self.camera, (title, FROM), &mut found)?;
+        let drawn = self.draw(&local.local, (self.options, card.format), exposure)?;
+        let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, card.is_clamped()));
+        let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
         let whole = self.exact(&exact, (&seen, exposure), edges);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },
             Blame { step: "light times biclusters by the card", errors: PixelErrors::of(&seen, &host, &whole) },
         ];
         report_blame(&blames, &mut found);
-        found.heading("What is drawn");
-        found.table(FoundTable::from(self.sizes(&local, &drawn)).field("sizes"));
-        if let Some(times) = &times {
-            found.heading("Modelled time");
-            found.explained_table(FoundTable::from(table_of(times)).field("time"), TIME);
-            let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
-            if let Some(bytes) = timeline_trace::file(&self.profile, &log, "a frame of bi-scale transfer")? {
-                found.keep_file("timeline.json", bytes);
-            }
-        }
-        if self.sweep {
-            let view = (&seen[..], exposure);
-            let all = precision(self, (&light, &exact), view, &mut |done| progress("sweep", done, count()))?;
-            let rms = shown(all.worst.1, Quantity::Measured);
+        report_sizes(self.sizes(&local, &drawn), &mut found);
+        if let Some(times) = self.times(&local, &drawn)? {
+            let [view, both] = [&times.0, &times.1].map(|time| shown(time.per_second(), Quantity::Measured));
             found.conclusion(format!(
-                "Of all that was held in fewer bits, most shows of {}: {rms} 255ths.",
-                all.worst.0
+                "{}: modelled {view} frames a second when the view changes alone, {both} when light changes too.",
+                card.profile.title
             ));
-            found.heading("What shows");
-            found.explained_table(FoundTable::from(all.table).csv("precision").field("precision"), SWEEP);
+            let log: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
+            study.report_time((table_of(&times), TIME), (&log, "a frame of bi-scale transfer"), &mut found)?;
         }
-        found.field("exposure", json!(exposure));
+        if card.sweep {
+            let view = (&seen[..], exposure);
+            let variants = variants(self, (&light, &exact), view, &mut |done| progress("sweep", done, count()))?;
+            report_sweep(&variants, SWEEP, &mut found);
+        }
         Ok(found)
     }
 
-    fn provenance(&self, mut provenance: Provenance) -> Provenance {
-        provenance.profiles.push(self.profile.name.clone());
-        provenance.switches.clone_from(&self.switches);
-        provenance
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        self.card.provenance(provenance)
     }
 }
 
 impl BiScaleOnCard {
     fn times(&self, local: &CardLight, drawn: &Drawn) -> Result<Times, FrameTimeError> {
         let both: Vec<_> = local.log.iter().chain(&drawn.log).cloned().collect();
-        let view = frame::modelled(&self.profile, &drawn.log, host_of_table_1())?;
-        Ok(view.zip(frame::modelled(&self.profile, &both, host_of_table_1())?))
+        let view = frame::modelled(&self.card.profile, &drawn.log, host_of_table_1())?;
+        Ok(view.zip(frame::modelled(&self.card.profile, &both, host_of_table_1())?))
     }
 
     fn sizes(&self, local: &CardLight, drawn: &Drawn) -> Table {

@@ -1,22 +1,14 @@
-//! What is drawn, by which card.
+//! A model with bi-scale transfer and textures, lit and seen.
 
 use glam::DMat3;
-use miette::Diagnostic;
-use refsim::device::Profile;
-use refsim::machine::Executor;
-use refsim::texture::TexelFormat;
-use thiserror::Error;
 
 use crate::bi_scale::bicluster::Biclustering;
-use crate::bi_scale::on_card::{BiScaleCardError, DisplayOptions, LightFormat, TexturedMesh};
+use crate::bi_scale::on_card::{DisplayOptions, LightFormat, TexturedMesh};
 use crate::bi_scale::product::reference;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
-use crate::card::MeshError;
-use crate::card::frame_time::FrameTimeError;
-use crate::picture::PictureError;
 use crate::scene::Camera;
-use crate::study::timeline_trace::TimelineError;
+use crate::study::prt::card::{CardPictureError, CardSetting};
 use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
@@ -44,58 +36,12 @@ pub struct BiScaleOnCard {
     pub camera: Camera,
     /// What radiance is multiplied by; `None` for auto-exposure.
     pub exposure: Option<f64>,
-    /// The card.
-    pub profile: Profile,
-    /// Its switches that were set.
-    pub switches: Vec<(String, String)>,
-    /// What runs its programs.
-    pub executor: Executor,
-    /// The picture's format.
-    pub format: TexelFormat,
+    /// The card that draws.
+    pub card: CardSetting,
     /// What the card holds light in.
     pub light_format: LightFormat,
     /// How the display is made.
     pub options: DisplayOptions,
-    /// Whether one thing after the other is held in fewer bits.
-    pub sweep: bool,
-}
-
-/// Why there is no picture.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum BiScaleCardStudyError {
-    /// A light that is none.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::light))]
-    Light(#[from] CubeLightError),
-    /// Parts that do not go together.
-    #[error("expected transfer of {expected} {what}, found {found}")]
-    #[diagnostic(
-        code(crossbar::prt::bi_scale),
-        help("precompute transfer with as many `--directions` as the texture has for light")
-    )]
-    Size { what: &'static str, expected: usize, found: usize },
-    /// The card refuses.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::card))]
-    Card(#[from] BiScaleCardError),
-    /// What pixels show cannot be found.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::card))]
-    Seen(#[from] MeshError),
-    /// The frame has no time.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::time))]
-    Time(#[from] FrameTimeError),
-    /// The frame has no timeline.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Timeline(#[from] TimelineError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
 }
 
 impl BiScaleOnCard {
@@ -110,7 +56,7 @@ impl BiScaleOnCard {
     }
 
     /// Refuses biclusters of other vertices, directions or light.
-    pub(super) fn check(&self) -> Result<(), BiScaleCardStudyError> {
+    pub(super) fn check(&self) -> Result<(), CardPictureError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
         for (what, expected, found) in [
@@ -118,7 +64,7 @@ impl BiScaleOnCard {
             ("light texels", LIGHT_TEXELS, columns),
         ] {
             if expected != found {
-                return Err(BiScaleCardStudyError::Size { what, expected, found });
+                return Err(CardPictureError::Size { what, expected, found });
             }
         }
         Ok(())

@@ -5,11 +5,12 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::texture::TexelFormat;
 
-use super::subject::{CardError, OnCard};
+use super::subject::OnCard;
 use crate::card::{MeshView, SeenPixel};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::geom::vector::wide;
+use crate::study::prt::card::CardPictureError;
 use crate::study::prt::interpolate::Seen;
 use crate::transfer::brdf::ExitBasis;
 
@@ -50,8 +51,8 @@ impl Way<'_> {
         study: &OnCard,
         transfer: CompressedTransfer<'_>,
         exposure: f64,
-    ) -> Result<Drawn, CardError> {
-        let mut card = PrtCard::new(self.profile.clone(), study.executor.clone(), transfer, &self.options)?;
+    ) -> Result<Drawn, CardPictureError> {
+        let mut card = PrtCard::new(self.profile.clone(), study.card.executor.clone(), transfer, &self.options)?;
         let view = MeshView { camera: study.camera, exposure, format: self.format };
         let (texels, log) = if self.timed {
             card.logged_view(&study.light, &view)?

@@ -1,4 +1,4 @@
-//! All-frequency transfer by a card: one thing after the other made coarse, against step 4 in f64 of the same pixels.
+//! Number formats, maps and filters varied one after the other, against step 4 in f64 of the same pixels.
 
 use refsim::device::Profile;
 use refsim::machine::Executor;
@@ -11,31 +11,13 @@ use crate::all_frequency::on_card::{
 };
 use crate::all_frequency::shade::Multiplies;
 use crate::card::{MeshView, seen_pixels};
-use crate::report::{Cell, Table};
 use crate::scene::Camera;
-use crate::study::prt::card::difference::PixelErrors;
+use crate::study::prt::card::{PictureVariant, PixelErrors};
 
 /// Bits of G that are tried.
 const BITS: [u32; 5] = [8, 10, 12, 14, 16];
 /// Sets of texture coordinates of ps_2_0.
 const SETS: usize = 8;
-
-/// A way to draw, and how far its picture is off.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FactoredPrecision {
-    /// Of what it is a choice.
-    pub axis: &'static str,
-    /// The choice.
-    pub choice: String,
-    /// The device.
-    pub device: &'static str,
-    /// How products are made.
-    pub place: ProductPlace,
-    /// How far off pixels are.
-    pub errors: PixelErrors,
-    /// Pixels below 0.
-    pub below_zero: u64,
-}
 
 /// A way to draw.
 struct Choice {
@@ -123,7 +105,7 @@ fn choices(mesh: &TransferredMesh<'_>) -> Vec<Choice> {
     all
 }
 
-/// How many pictures [`factored_precision`] draws.
+/// Number of pictures of [`factored_precision`].
 pub(super) fn ways_of_precision(mesh: &TransferredMesh<'_>) -> u64 {
     choices(mesh).len() as u64
 }
@@ -138,7 +120,7 @@ pub fn factored_precision(
     executor: &Executor,
     (camera, exposure): (Camera, f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Vec<FactoredPrecision>, FactoredCardError> {
+) -> Result<Vec<PictureVariant>, FactoredCardError> {
     let view = MeshView { camera, exposure, format: TexelFormat::Rgba32f };
     let mut found = Vec::new();
     for Choice { axis, label: choice, device, place } in choices(&mesh) {
@@ -149,25 +131,9 @@ pub fn factored_precision(
         let drawn: Vec<[f64; 3]> =
             drawing.texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         let errors = PixelErrors::of(&seen, &drawn, &expected);
-        let below_zero = drawing.counts.below_zero.unwrap_or(0);
-        found.push(FactoredPrecision { axis, choice, device, place, errors, below_zero });
+        let below_zero = Some(drawing.counts.below_zero.unwrap_or(0));
+        found.push(PictureVariant { axis, choice, errors, below_zero });
         done(found.len() as u64);
     }
     Ok(found)
-}
-
-/// A row per way.
-pub fn factored_precision_table(ways: &[FactoredPrecision]) -> Table {
-    let mut table = Table::of("What shows", "what choice rms_255ths largest_255ths visible_% below_zero");
-    for way in ways {
-        let [rms, largest, visible] = way.errors.cells();
-        table.push([way.axis.into(), way.choice.clone().into(), rms, largest, visible, way.below_zero.into()]);
-    }
-    table
-}
-
-/// The same with a row for coarser codes, whose pictures the host makes.
-pub(super) fn push_errors(table: &mut Table, axis: &'static str, choice: String, errors: &PixelErrors) {
-    let [rms, largest, visible] = errors.cells();
-    table.push([axis.into(), choice.into(), rms, largest, visible, Cell::Empty]);
 }

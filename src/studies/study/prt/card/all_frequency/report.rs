@@ -1,89 +1,76 @@
-//! What was found, as a page.
+//! Findings of all-frequency transfer on a card.
 
 use serde_json::json;
 
 use super::coding::{coarse_codes, ways_to_code};
 use super::pixels::exact_pixels;
-use super::precision::{factored_precision, factored_precision_table, push_errors, ways_of_precision};
-use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, CardSums, HostSteps, in_double};
-use super::tables::{Blame, TIME, report_blame};
+use super::precision::{factored_precision, ways_of_precision};
+use super::subject::{AllFrequencyOnCard, CardSums, HostSteps, in_double};
 use crate::all_frequency::on_card::time::{host_of_table_1, streamed_bytes};
 use crate::all_frequency::on_card::{
     FactoredDrawing, ProductOptions, ProductPlace, TransferredMesh, VertexColors, draw,
 };
 use crate::card::{MeshView, SeenPixel, seen_pixels};
-use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
-use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
-use crate::study::prt::card::frame;
-use crate::study::prt::render::auto_exposure;
-use crate::study::{ProgressFn, Study, timeline_trace};
+use crate::report::{Cell, Findings, Provenance, Table};
+use crate::study::prt::card::blame::{Blame, report_blame};
+use crate::study::prt::card::difference::ComparedPicture;
+use crate::study::prt::card::setting::{PictureStudy, report_sizes};
+use crate::study::prt::card::sweep::report_sweep;
+use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors, frame};
+use crate::study::{ProgressFn, Study};
 
-const SWEEP: &str = "Each row is one thing made coarse and the rest without rounding to speak of, in 255ths of white. \
+const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
     Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with the file's \
     own code; all others are drawn into floats and compared with products in double precision of the same numbers.";
-
-/// What card and host compute from.
-const FROM: &str = "the same numbers";
+const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and adds as \
+    fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";
 
 impl Study for AllFrequencyOnCard {
-    type Error = AllFrequencyCardError;
+    type Error = CardPictureError;
 
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyCardError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
         progress("host", 0, 2);
-        let steps = self.steps()?;
+        let (steps, lit, card) = (self.steps()?, &self.lit, &self.card);
         let mesh = self.mesh_of(&steps.transferred);
-        let (eye, seen) =
-            (self.lit.camera.eye(), seen_pixels(&self.profile, self.lit.vertices.geometry(), &self.lit.camera)?);
-        let linear = exact_pixels(&mesh, &seen, &self.place, (eye, 1.0));
-        let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&linear));
-        let host: Vec<[f64; 3]> = linear.into_iter().map(|color| color.map(|value| exposure * value)).collect();
+        let seen = seen_pixels(&card.profile, lit.vertices.geometry(), &lit.camera)?;
+        let study = PictureStudy {
+            card,
+            camera: &lit.camera,
+            names: [&lit.model, &lit.light_name],
+            exposure: lit.exposure,
+            from: "the same numbers",
+        };
+        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, (lit.camera.eye(), 1.0)));
         progress("card", 1, 2);
-        let view = MeshView { camera: self.lit.camera, exposure, format: self.format };
-        let card = (self.profile.clone(), self.executor.clone());
-        let mut drawing = draw(mesh, card, self.place, &view, steps.multiplies)?;
+        let view = MeshView { camera: lit.camera, exposure, format: card.format };
+        let on_card = (card.profile.clone(), card.executor.clone());
+        let mut drawing = draw(mesh, on_card, self.place, &view, steps.multiplies)?;
         if let Some(sums) = &steps.sums {
             drawing.log = sums.log.events.iter().cloned().chain(drawing.log).collect();
         }
-        let mut found = Findings::new("All-frequency transfer on a card");
-        found.taken_from(self.lit.camera.world_to_camera());
         let drawn = drawing.texels.texels.iter();
         let drawn: Vec<[f64; 3]> = drawn.map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
-        let is_clamped = !self.format.record().is_float() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
+        let is_clamped = card.is_clamped() || self.place == ProductPlace::Vertices(VertexColors::Bytes);
         let compared = ComparedPicture::new(&seen, &drawn, (&host, is_clamped));
-        found.conclusion(compared.sentence(&self.profile.title, FROM));
+        let mut found = study.findings("All-frequency transfer on a card", &compared, exposure)?;
         conclude(&drawing, &mut found);
-        let time = frame::modelled(&self.profile, &drawing.log, host_of_table_1())?;
-        if let Some(time) = &time {
-            found.conclusion(format!("{}.", frame::rate(time, &self.profile.title)));
+        report_blame(&self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?, &mut found);
+        report_sizes(self.sizes(&steps, &drawing), &mut found);
+        if let Some(time) = frame::modelled(&card.profile, &drawing.log, host_of_table_1())? {
+            found.conclusion(format!("{}.", frame::rate(&time, &card.profile.title)));
+            let frame = (&drawing.log[..], "a frame of all-frequency transfer");
+            study.report_time((frame::times(&time), TIME), frame, &mut found)?;
         }
-        let title = format!("{} under {} on the {}", self.lit.model, self.lit.light_name, self.profile.title);
-        compared.report(&self.lit.camera, (title, FROM), &mut found)?;
-        let blames = self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?;
-        report_blame(&blames, &mut found);
-        found.heading("What is drawn");
-        found.table(FoundTable::from(self.sizes(&steps, &drawing)).field("sizes"));
-        if let Some(time) = &time {
-            found.heading("Modelled time");
-            found.explained_table(FoundTable::from(frame::times(time)).field("time"), TIME);
-            if let Some(bytes) = timeline_trace::file(&self.profile, &drawing.log, "a frame of all-frequency transfer")?
-            {
-                found.keep_file("timeline.json", bytes);
-            }
+        if card.sweep {
+            report_sweep(&self.variants(&steps, (&seen, exposure), &mesh, progress)?, SWEEP, &mut found);
         }
-        if self.sweep {
-            self.sweep(&steps, (&seen, exposure), &mesh, &mut found, progress)?;
-        }
-        found.field("exposure", json!(exposure));
         found.field("kept", json!(steps.cut.kept));
         found.field("nonzero", json!(steps.cut.nonzero));
         Ok(found)
     }
 
-    fn provenance(&self, mut provenance: Provenance) -> Provenance {
-        provenance.profiles.push(self.profile.name.clone());
-        provenance.switches.clone_from(&self.switches);
-        provenance
+    fn provenance(&self, provenance: Provenance) -> Provenance {
+        self.card.provenance(provenance)
     }
 }
 
@@ -108,7 +95,7 @@ impl AllFrequencyOnCard {
         steps: &HostSteps,
         (seen, exposure): (&[Option<SeenPixel>], f64),
         (mesh, of_card): (&TransferredMesh<'_>, PixelErrors),
-    ) -> Result<Vec<Blame>, AllFrequencyCardError> {
+    ) -> Result<Vec<Blame>, CardPictureError> {
         let view = (self.lit.camera.eye(), exposure);
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
@@ -191,38 +178,22 @@ impl AllFrequencyOnCard {
         table
     }
 
-    /// Representatives, weights, G, arithmetic and filters made coarse.
-    fn sweep(
+    /// Representatives, weights, G, arithmetic and filters, varied one after the other.
+    fn variants(
         &self,
         steps: &HostSteps,
         (seen, exposure): (&[Option<SeenPixel>], f64),
         mesh: &TransferredMesh<'_>,
-        found: &mut Findings,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<(), AllFrequencyCardError> {
+    ) -> Result<Vec<PictureVariant>, CardPictureError> {
         let drawn = ways_of_precision(mesh);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
-        let view = (self.lit.camera, exposure);
-        let ways = factored_precision(*mesh, &self.executor, view, &mut |done| progress("sweep", done, all))?;
-        let mut table = factored_precision_table(&ways);
-        let mut worst: Vec<(String, f64)> = Vec::new();
-        for way in ways.iter().filter(|way| way.axis != "card") {
-            worst.push((format!("{} {}", way.axis, way.choice), way.errors.off_255ths[0]));
-        }
+        let mut done = |done| progress("sweep", done, all);
+        let mut variants = factored_precision(*mesh, &self.card.executor, (self.lit.camera, exposure), &mut done)?;
         if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
-            for code in coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)? {
-                let choice = format!("{} bits", code.bits);
-                worst.push((format!("{} of {choice}", code.axis), code.errors.off_255ths[0]));
-                push_errors(&mut table, code.axis, choice, &code.errors);
-            }
+            variants.extend(coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)?);
         }
-        if let Some((choice, rms)) = worst.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-            let rms = shown(rms, Quantity::Measured);
-            found.conclusion(format!("Of all that was made coarse, most shows of {choice}: {rms} 255ths."));
-        }
-        found.heading("What shows");
-        found.explained_table(FoundTable::from(table).csv("precision").field("precision"), SWEEP);
-        Ok(())
+        Ok(variants)
     }
 }

@@ -1,23 +1,14 @@
-//! What is drawn, by which card.
+//! A lit model with all-frequency transfer, and the steps of the host before a card draws it.
 
 use glam::DMat3;
-use miette::Diagnostic;
-use refsim::device::Profile;
-use refsim::machine::Executor;
-use refsim::texture::TexelFormat;
-use thiserror::Error;
 
-use crate::all_frequency::code::{CodeOptionsError, CodedTransfer};
+use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::on_card::{FactoredCardError, ProductPlace, SumCard, SumLog, TransferredMesh};
+use crate::all_frequency::on_card::{ProductPlace, SumCard, SumLog, TransferredMesh};
 use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
-use crate::card::MeshError;
-use crate::card::frame_time::FrameTimeError;
-use crate::picture::PictureError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
-use crate::study::timeline_trace::TimelineError;
-use crate::transfer::TransferError;
+use crate::study::prt::card::{CardPictureError, CardSetting};
 use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
@@ -25,71 +16,12 @@ use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 pub struct AllFrequencyOnCard {
     /// The model, its transfer, the light and the camera.
     pub lit: LitModel,
-    /// The card.
-    pub profile: Profile,
-    /// Its switches that were set.
-    pub switches: Vec<(String, String)>,
-    /// What runs its programs.
-    pub executor: Executor,
-    /// The picture's format.
-    pub format: TexelFormat,
+    /// The card that draws.
+    pub card: CardSetting,
     /// Where products with G are made.
     pub place: ProductPlace,
     /// Whether the card makes the sums over representatives too; transfer must be coded.
     pub sums_on_card: bool,
-    /// Whether one thing after the other is made coarse.
-    pub sweep: bool,
-}
-
-/// Why there is no picture.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum AllFrequencyCardError {
-    /// A light that is none.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::light))]
-    Light(#[from] CubeLightError),
-    /// Transfer cannot be computed.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::precompute))]
-    Transfer(#[from] TransferError),
-    /// Coded transfer of more segments than light has.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::segments))]
-    Size(#[from] LightSizeError),
-    /// Bits that there are not.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::code))]
-    Code(#[from] CodeOptionsError),
-    /// Nothing to sum.
-    #[error("expected coded transfer, whose representatives a card sums, found visibility alone")]
-    #[diagnostic(code(crossbar::prt::card), help("`crossbar all-frequency compress` codes it"))]
-    NotCoded,
-    /// The card refuses.
-    #[error(transparent)]
-    #[diagnostic(
-        code(crossbar::prt::card),
-        help(
-            "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host what no card takes"
-        )
-    )]
-    Card(#[from] FactoredCardError),
-    /// What pixels show cannot be found.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::card))]
-    Seen(#[from] MeshError),
-    /// The frame has no time.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::time))]
-    Time(#[from] FrameTimeError),
-    /// The frame has no timeline.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Timeline(#[from] TimelineError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
 }
 
 /// Steps 1 to 3 of section 6, and what they multiplied.
@@ -119,11 +51,11 @@ impl AllFrequencyOnCard {
     }
 
     /// What the host computes before a card draws.
-    pub(super) fn steps(&self) -> Result<HostSteps, AllFrequencyCardError> {
+    pub(super) fn steps(&self) -> Result<HostSteps, CardPictureError> {
         let cut = self.cut(self.lit.keep)?;
         if self.sums_on_card {
-            let coded = self.lit.file.coded.as_ref().ok_or(AllFrequencyCardError::NotCoded)?;
-            let mut card = SumCard::new(self.profile.clone(), self.executor.clone(), coded)?;
+            let coded = self.lit.file.coded.as_ref().ok_or(CardPictureError::NotCoded)?;
+            let mut card = SumCard::new(self.card.profile.clone(), self.card.executor.clone(), coded)?;
             let (transferred, log) = card.transferred(&cut.light.singles())?;
             let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
             return Ok(HostSteps { cut, transferred, multiplies: Multiplies::default(), sums });
@@ -144,7 +76,7 @@ impl AllFrequencyOnCard {
         &self,
         file: &AllFrequencyFile,
         light: &HaarLight,
-    ) -> Result<TransferredRadiance, AllFrequencyCardError> {
+    ) -> Result<TransferredRadiance, CardPictureError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
             Some(maps) => exact::transferred((&self.lit.vertices, maps), file.hats, &file.reflectance, light)?,

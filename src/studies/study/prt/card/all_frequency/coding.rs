@@ -1,23 +1,15 @@
 //! Transferred radiance from representatives and weights in fewer bits.
 
 use super::pixels::exact_pixels;
-use super::subject::{AllFrequencyCardError, AllFrequencyOnCard, in_double};
+use super::subject::{AllFrequencyOnCard, in_double};
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace};
 use crate::card::SeenPixel;
-use crate::study::prt::card::difference::PixelErrors;
+use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors};
 use crate::transfer::light::HaarLight;
 
 /// Bits that are tried, as far as the file has more.
 const BITS: [u8; 5] = [8, 10, 12, 14, 15];
-
-/// A code in fewer bits, and how far its picture is off that of the file's code.
-pub(super) struct CoarseCode {
-    /// Of what it is a choice.
-    pub(super) axis: &'static str,
-    pub(super) bits: u8,
-    pub(super) errors: PixelErrors,
-}
 
 /// Choices of a file.
 fn choices(coded: &CodedTransfer) -> Vec<(&'static str, u8, CodeOptions)> {
@@ -32,7 +24,7 @@ fn choices(coded: &CodedTransfer) -> Vec<(&'static str, u8, CodeOptions)> {
     all
 }
 
-/// How many pictures [`coarse_codes`] takes.
+/// Number of pictures of [`coarse_codes`].
 pub(super) fn ways_to_code(coded: &CodedTransfer) -> u64 {
     1 + choices(coded).len() as u64
 }
@@ -43,9 +35,9 @@ pub(super) fn coarse_codes(
     (coded, light): (&CodedTransfer, &HaarLight),
     (seen, exposure): (&[Option<SeenPixel>], f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Vec<CoarseCode>, AllFrequencyCardError> {
+) -> Result<Vec<PictureVariant>, CardPictureError> {
     let place = ProductPlace::Pixels(ProductOptions::default());
-    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, AllFrequencyCardError> {
+    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, CardPictureError> {
         let transferred = in_double(coded, light)?;
         Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.camera.eye(), exposure)))
     };
@@ -54,7 +46,7 @@ pub(super) fn coarse_codes(
     let mut found = Vec::new();
     for (axis, bits, options) in choices(coded) {
         let errors = PixelErrors::of(seen, &pixels(&coded.recoded(options)?)?, &expected);
-        found.push(CoarseCode { axis, bits, errors });
+        found.push(PictureVariant { axis, choice: format!("{bits} bits"), errors, below_zero: None });
         done(1 + found.len() as u64);
     }
     Ok(found)

@@ -1,10 +1,10 @@
 //! The tables of the study.
 
-use super::frame;
 use super::picture::ChunkCounts;
 use crate::card::frame_time::FrameTime;
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
+use crate::study::prt::card::frame;
 
 pub(super) const TIME: &str = "Modelled, not measured: the pipeline model of the card beside a host that multiplies and \
     adds as fast as the paper's 2.9 frames a second of uncompressed transfer say. A frame follows a frame, so that host and card \

@@ -1,0 +1,51 @@
+//! A model with compressed transfer, lit and seen.
+
+use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
+use crate::scene::Camera;
+use crate::sphere::HarmonicLight;
+use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::transfer::Vertices;
+use crate::transfer::brdf::ExitBasis;
+use crate::transfer::clustering::Clustering;
+use crate::transfer::file::PrtMeaning;
+
+/// A model with compressed transfer, a light and a camera, and the card that draws it.
+#[derive(Debug)]
+pub struct OnCard {
+    /// The model's name.
+    pub model: String,
+    /// Its vertices, the points of the clusters.
+    pub vertices: Vertices,
+    /// What the numbers of a vertex mean.
+    pub meaning: PrtMeaning,
+    /// The clusters.
+    pub clustering: Clustering,
+    /// The light's name.
+    pub light_name: String,
+    /// The light, of the order of the transfer.
+    pub light: HarmonicLight,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
+    pub exposure: Option<f64>,
+    /// The card that draws.
+    pub card: CardSetting,
+    /// Variants.
+    pub options: PrtCardOptions,
+}
+
+impl OnCard {
+    pub(super) fn basis(&self) -> Result<ExitBasis, CardPictureError> {
+        let PrtMeaning::Transfer { exit_functions, .. } = &self.meaning else {
+            return Err(CardPictureError::NoTransfer);
+        };
+        Ok(ExitBasis::of_functions(exit_functions)?)
+    }
+
+    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardPictureError> {
+        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardPictureError::NoTransfer) };
+        let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
+        let (vertices, clustering) = (&self.vertices, &self.clustering);
+        Ok(CompressedTransfer { vertices, clustering, basis, channels: *channels as usize, vectors })
+    }
+}

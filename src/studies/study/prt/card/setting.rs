@@ -1,0 +1,99 @@
+//! The card that draws a picture, and the parts of a study of it that are the same for every system.
+
+use refsim::device::Profile;
+use refsim::event::Event;
+use refsim::machine::Executor;
+use refsim::texture::TexelFormat;
+use serde_json::json;
+
+use super::difference::ComparedPicture;
+use crate::report::{Findings, FoundTable, Provenance, Table};
+use crate::scene::Camera;
+use crate::study::prt::render::auto_exposure;
+use crate::study::timeline_trace::{self, TimelineError};
+
+/// The card that draws.
+#[derive(Debug)]
+pub struct CardSetting {
+    /// The card.
+    pub profile: Profile,
+    /// Its switches that were set.
+    pub switches: Vec<(String, String)>,
+    /// What runs its programs.
+    pub executor: Executor,
+    /// The picture's format.
+    pub format: TexelFormat,
+    /// Whether number formats, maps and targets are varied one after the other.
+    pub sweep: bool,
+}
+
+impl CardSetting {
+    /// Returns `true` if the target holds fractions, which clamp.
+    pub(super) fn is_clamped(&self) -> bool {
+        !self.format.record().is_float()
+    }
+
+    pub(super) fn provenance(&self, mut provenance: Provenance) -> Provenance {
+        provenance.profiles.push(self.profile.name.clone());
+        provenance.switches.clone_from(&self.switches);
+        provenance
+    }
+}
+
+/// A study of a card's picture while it is written: its subject, and the findings so far.
+pub(super) struct PictureStudy<'a> {
+    pub(super) card: &'a CardSetting,
+    pub(super) camera: &'a Camera,
+    /// Names of the model and the light.
+    pub(super) names: [&'a str; 2],
+    /// Factor of radiance; `None` for auto-exposure.
+    pub(super) exposure: Option<f64>,
+    /// What card and host compute from.
+    pub(super) from: &'static str,
+}
+
+impl PictureStudy<'_> {
+    /// Exposes linear radiance of pixels; returns the exposure too.
+    pub(super) fn exposed(&self, linear: Vec<[f64; 3]>) -> (f64, Vec<[f64; 3]>) {
+        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
+        (exposure, linear.into_iter().map(|color| color.map(|value| exposure * value)).collect())
+    }
+
+    /// Findings with both pictures, their difference and the sentence about it.
+    pub(super) fn findings(
+        &self,
+        title: &str,
+        compared: &ComparedPicture<'_>,
+        exposure: f64,
+    ) -> Result<Findings, crate::picture::PictureError> {
+        let card = &self.card.profile.title;
+        let mut found = Findings::new(title);
+        found.taken_from(self.camera.world_to_camera());
+        found.conclusion(compared.sentence(card, self.from));
+        let [model, light] = self.names;
+        compared.report(self.camera, (format!("{model} under {light} on the {card}"), self.from), &mut found)?;
+        found.field("exposure", json!(exposure));
+        Ok(found)
+    }
+
+    /// Adds the time of a frame, with its log as a timeline.
+    pub(super) fn report_time(
+        &self,
+        (times, explained): (Table, &'static str),
+        (log, frame): (&[Event], &str),
+        found: &mut Findings,
+    ) -> Result<(), TimelineError> {
+        found.heading("Modelled time");
+        found.explained_table(FoundTable::from(times).field("time"), explained);
+        if let Some(bytes) = timeline_trace::file(&self.card.profile, log, frame)? {
+            found.keep_file("timeline.json", bytes);
+        }
+        Ok(())
+    }
+}
+
+/// Adds sizes and counts.
+pub(super) fn report_sizes(sizes: Table, found: &mut Findings) {
+    found.heading("What is drawn");
+    found.table(FoundTable::from(sizes).field("sizes"));
+}

@@ -1,0 +1,52 @@
+//! One number format, map or target varied after the other, the rest without rounding to speak of.
+
+use super::difference::PixelErrors;
+use crate::report::digits::{Quantity, shown};
+use crate::report::{Cell, Findings, FoundTable, Table};
+
+/// Axes whose rows are no single change: the picture that nothing is varied of, and whole cards.
+const NOT_ALONE: [&str; 2] = ["none", "card"];
+
+/// A variant of a picture, and how far it is off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureVariant {
+    /// What is varied.
+    pub axis: &'static str,
+    /// Its value.
+    pub choice: String,
+    /// Differences of pixels.
+    pub errors: PixelErrors,
+    /// Pixels below 0 in a channel, where the drawing counts them.
+    pub below_zero: Option<u64>,
+}
+
+/// A row per variant; a column of pixels below 0 where one of them counts these.
+pub fn variants_table(variants: &[PictureVariant]) -> Table {
+    let counts = variants.iter().any(|variant| variant.below_zero.is_some());
+    let last = if counts { "below_zero" } else { "" };
+    let mut table = Table::of("What shows", &format!("what choice rms_255ths largest_255ths visible_% {last}"));
+    for PictureVariant { axis, choice, errors, below_zero } in variants {
+        let [rms, largest, visible] = errors.cells();
+        let below_zero = below_zero.map_or(Cell::Empty, Cell::from);
+        table.push([(*axis).into(), choice.clone().into(), rms, largest, visible, below_zero]);
+    }
+    table
+}
+
+/// Adds the table, the variant that shows most, and those that do not show.
+pub(super) fn report_sweep(variants: &[PictureVariant], explained: &'static str, found: &mut Findings) {
+    let alone = || variants.iter().filter(|variant| !NOT_ALONE.contains(&variant.axis));
+    let name = |variant: &PictureVariant| format!("{} {}", variant.axis, variant.choice);
+    let hidden: Vec<String> = alone().filter(|variant| variant.errors.visible == 0.0).map(name).collect();
+    found.conclusion(if hidden.is_empty() {
+        "Every change of the sweep shows.".to_owned()
+    } else {
+        format!("Changes that show nowhere, each alone: {}.", hidden.join("; "))
+    });
+    if let Some(worst) = alone().max_by(|a, b| a.errors.off_255ths[0].total_cmp(&b.errors.off_255ths[0])) {
+        let rms = shown(worst.errors.off_255ths[0], Quantity::Measured);
+        found.conclusion(format!("{} shows most: {rms} 255ths root mean square.", name(worst)));
+    }
+    found.heading("What shows");
+    found.explained_table(FoundTable::from(variants_table(variants)).csv("precision").field("precision"), explained);
+}
