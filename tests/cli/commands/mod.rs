@@ -84,6 +84,8 @@ fn cut(arguments: &[String]) -> Vec<String> {
         match cut.iter().position(|word| word == option) {
             Some(place) if place + 1 < cut.len() => cut[place + 1] = (*value).to_owned(),
             Some(_) => {}
+            // The program refuses quads of patches for a model.
+            None if *option == "--tessellation" && cut.iter().any(|word| word == "--mesh") => {}
             None if *always => cut.extend([(*option).to_owned(), (*value).to_owned()]),
             None => {}
         }
