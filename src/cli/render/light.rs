@@ -8,8 +8,7 @@ use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::args::{Args, Renderer, SMALLER};
-use super::hits_line;
-use super::page::page;
+use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
 use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};

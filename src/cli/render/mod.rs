@@ -11,7 +11,6 @@ use serde_json::json;
 
 use super::executor::Decider;
 use super::size::Size;
-use super::words::counted;
 use super::{Out, Problem, memory, model_file, scene_name, study, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Tracer;
@@ -22,7 +21,7 @@ use crate::report::{Provenance, Verdict};
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
 use args::SMALLER;
-use page::page;
+use page::{hits_line, page};
 
 pub(super) use args::Args;
 
@@ -67,11 +66,6 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     findings.print(hits_line(found, hits.len(), args));
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
     study::show(&findings, out)
-}
-
-/// How many pixels show something, and where the picture is.
-fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
-    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use super::values::{ChoiceArg, LightArg, coefficient, direct_light, maps, place, rgb, yes_or_no};
+use super::values::{LightArg, choices, coefficient, direct_light, maps, place, rgb, yes_or_no};
 use crate::cli::card::CardArgs;
 use crate::cli::number;
 use crate::cli::one_of::variants;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::study::subsurface::MapBits;
-use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance};
+use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, LinkLayout};
 use crate::subsurface::on_card::{FloatTexels, LightStage};
 
 const EXAMPLES: &str = "\
@@ -64,8 +64,8 @@ pub(in crate::cli) struct Args {
     pub(super) links: Vec<u32>,
 
     /// Which links; may be repeated [default: fixed]
-    #[arg(long, value_enum, value_name = "HOW")]
-    pub(super) choice: Vec<ChoiceArg>,
+    #[arg(long, value_name = "HOW", value_parser = choices())]
+    pub(super) choice: Vec<LinkLayout>,
 
     /// Factors per link; may be repeated [default: rgb, or scalar for a medium of one color]
     #[arg(long, value_name = "C", value_parser = rgb())]

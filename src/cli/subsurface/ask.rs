@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::args::Args;
-use super::values::ChoiceArg;
 use crate::cli::Problem;
 use crate::cli::materials::published;
 use crate::io::load_irradiances;
 use crate::scene::Camera;
 use crate::study::subsurface::{GatherWay, Lighting, MapBits};
+use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::{FloatTexels, Light};
 use crate::subsurface::{Coefficients, Material};
@@ -39,7 +39,7 @@ pub(super) fn material(args: &Args) -> miette::Result<Material> {
 /// Every combination of what may be repeated.
 pub(super) fn ways(args: &Args, material: &Material) -> Result<Vec<GatherWay>, Problem> {
     let [r, g, b] = material.channels;
-    let choices = or(&args.choice, ChoiceArg::Fixed);
+    let choices = or(&args.choice, LinkLayout::Fixed);
     let (channels, formats) = (or(&args.channels, r != g || g != b), or(&args.link_format, FloatTexels::Fp16));
     let maps = or(&args.map, MapBits::Float(FloatTexels::Fp16));
     let mut ways = Vec::new();
@@ -67,10 +67,10 @@ fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
     if all.is_empty() { vec![usual] } else { all }
 }
 
-fn link_choice(choice: ChoiceArg, links: u32, side: u32) -> Result<LinkChoice, Problem> {
+fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, Problem> {
     match choice {
-        ChoiceArg::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
-        ChoiceArg::Fixed => {
+        LinkLayout::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
+        LinkLayout::Fixed => {
             let found = (0..=side.max(1).ilog2())
                 .map(|level| LinkChoice::Fixed { level })
                 .find(|fixed| fixed.per_texel(side) == u64::from(links));

@@ -2,20 +2,16 @@
 
 use std::str::FromStr;
 
-use clap::ValueEnum;
-
 use crate::cli::one_of::{OneOf, one_of};
 use crate::study::subsurface::MapBits;
-use crate::subsurface::kernels::DirectLight;
+use crate::subsurface::kernels::{DirectLight, LinkLayout};
 use crate::subsurface::on_card::{FloatTexels, Light};
 
-/// Which links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ChoiceArg {
-    /// All clusters of one level: 1, 4, 16, 64, ... links
-    Fixed,
-    /// Per texel, the cluster with the highest factor gives way to its four children
-    Adaptive,
+/// The choices of links, for `--choice`.
+pub(super) fn choices() -> OneOf<LinkLayout> {
+    let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
+    let help = "Per texel, the cluster with the highest factor gives way to its four children";
+    one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
 }
 
 /// Factors per link, for `--channels`: true for one per channel.
