@@ -1,14 +1,16 @@
 //! docs/examples: the files that documentation and help name are what the library makes today.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crossbar::all_frequency::factor::{FactorSampling, Lobe};
-use crossbar::geom::teapot;
+use crossbar::geom::{Mesh, teapot};
 use crossbar::io::{scene_files, write_matrix_market, write_obj};
 use crossbar::ray_engine::kernels;
 use crossbar::scene::built;
+use glam::DVec3;
 
 use crate::crossbar;
 
@@ -51,12 +53,36 @@ fn quarters() -> String {
     String::from_utf8(text).expect("numbers")
 }
 
+/// The unit sphere in 512 triangles: an octahedron whose faces are divided three times.
+fn sphere() -> Mesh {
+    let mut corners: Vec<DVec3> = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].to_vec();
+    let mut faces: Vec<[u32; 3]> = (0..4_u32).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]).collect();
+    for _ in 0..3 {
+        let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
+        let mut middle = |a: u32, b: u32| {
+            *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+                corners.push((corners[a as usize] + corners[b as usize]).normalize());
+                corners.len() as u32 - 1
+            })
+        };
+        let divided = |&[a, b, c]: &[u32; 3]| {
+            let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
+            [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+        };
+        faces = faces.iter().flat_map(divided).collect();
+    }
+    Mesh::new(corners.iter().map(|corner| corner.as_vec3().to_array()).collect(), faces).expect("a sphere")
+}
+
 #[test]
 fn examples_are_what_the_library_makes() {
     let mut mesh = Vec::new();
     write_obj(&teapot::teapot(4).expect("a teapot"), &mut mesh).expect("written");
+    let mut round = Vec::new();
+    write_obj(&sphere(), &mut round).expect("written");
     let mut files = vec![
         ("teapot.obj".to_owned(), mesh),
+        ("sphere.obj".to_owned(), round),
         ("rays.csv".to_owned(), rays().into_bytes()),
         ("quarters.mtx".to_owned(), quarters().into_bytes()),
         ("reflectance.csv".to_owned(), reflectance().into_bytes()),

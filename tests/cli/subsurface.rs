@@ -1,5 +1,8 @@
 //! `crossbar subsurface`.
 
+use std::collections::BTreeMap;
+use std::path::Path;
+
 use crate::{Ran, crossbar_in};
 
 /// A tetrahedron.
@@ -117,4 +120,254 @@ fn a_table_of_another_model_is_refused() {
     let ran = crossbar_in(folder.path(), &[&SMALL[..], &["--irradiance", "e.csv"]].concat(), "");
     assert_eq!(ran.code, Some(2));
     assert!(ran.stderr.contains("expected an irradiance for each of 4 faces, found 1"), "{}", ran.stderr);
+}
+
+/// A table of the study, by heading, without its comments.
+fn table(folder: &tempfile::TempDir, name: &str) -> Vec<BTreeMap<String, String>> {
+    let text = std::fs::read_to_string(folder.path().join("out/subsurface").join(name)).expect("a table");
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let headings: Vec<String> = lines.next().expect("headings").split(',').map(str::to_owned).collect();
+    lines.map(|line| headings.iter().cloned().zip(line.split(',').map(str::to_owned)).collect()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
+    row[column].parse().unwrap_or_else(|_| panic!("{column}: expected a number, found `{}`", row[column]))
+}
+
+fn done(more: &[&str]) -> (Ran, tempfile::TempDir) {
+    let (ran, folder) = subsurface(more);
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
+    (ran, folder)
+}
+
+fn refused(more: &[&str], expected: &str) {
+    let (ran, folder) = subsurface(more);
+    assert_eq!(ran.code, Some(2), "{more:?}");
+    // Messages are broken into lines.
+    let told = ran.stderr.split_whitespace().filter(|word| *word != "|" && *word != "│").collect::<Vec<_>>().join(" ");
+    assert!(told.contains(expected), "{more:?}: {told}");
+    assert!(!folder.path().join("out/subsurface").exists(), "nothing is left behind");
+}
+
+/// The page's command on a sphere.
+fn angles() -> &'static str {
+    "subsurface docs/examples/sphere.obj --material skin1 --mm-per-unit 10 --atlas 32 --choice fixed --choice adaptive \
+     --links 64 --link-format fp32 --map fp32 --light directional:0,0,1:1,1,1 --all-pairs yes"
+}
+
+/// docs/studies/subsurface.md says of each choice of links at which angles from the light it is nearer: its table and
+/// its sentence are the study's, and the command that it names is the one that is run here.
+#[test]
+fn the_page_says_where_each_choice_of_links_is_nearer() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::create_dir_all(folder.path().join("docs/examples")).expect("a folder");
+    let model = "docs/examples/sphere.obj";
+    std::fs::copy(root.join(model), folder.path().join(model)).expect("copied");
+    let command: Vec<&str> = angles().split_whitespace().collect();
+    let ran = crossbar_in(folder.path(), &[&command[..], &["--size", "8x8"]].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let rows = table(&folder, "angles.csv");
+    assert_eq!(rows.len(), 2 * 12, "twelve bins of each way");
+    let of = |choice: &str| rows.iter().filter(|row| row["way"].starts_with(choice)).collect::<Vec<_>>();
+    let (fixed, adaptive) = (of("fixed"), of("adaptive"));
+    // Both choices are the better one somewhere: that is what a mean over the sphere hides.
+    let nearer = |(one, other): (&&BTreeMap<String, String>, &&BTreeMap<String, String>)| {
+        number(one, "links_rms_percent") < number(other, "links_rms_percent")
+    };
+    assert!(nearer((&adaptive[0], &fixed[0])) && nearer((&fixed[11], &adaptive[11])), "{rows:?}");
+    let whole: f64 = fixed.iter().map(|row| number(row, "area_percent")).sum();
+    assert!((whole - 100.0).abs() < 1e-9, "the bins are the whole sphere: {whole}");
+    let line = |(fixed, adaptive): (&&BTreeMap<String, String>, &&BTreeMap<String, String>)| {
+        let percent = |row: &BTreeMap<String, String>, column| format!("{:+.1}", number(row, column));
+        let rms = |row: &BTreeMap<String, String>| format!("{:.1}", number(row, "links_rms_percent"));
+        let b = number(fixed, "B_all_pairs");
+        format!(
+            "| {} to {} | {b:.5} | {} | {} | {} | {} |\n",
+            fixed["from_degrees"],
+            fixed["to_degrees"],
+            percent(fixed, "links_percent"),
+            rms(fixed),
+            percent(adaptive, "links_percent"),
+            rms(adaptive),
+        )
+    };
+    let body: String = fixed.iter().zip(&adaptive).map(line).collect();
+    let head = "| degrees | B | fixed: mean | rms | adaptive: mean | rms |\n|---|---|---|---|---|---|\n";
+    let begin = "Of 64 links per texel, by the angle between normals and the light, ";
+    let spoken = ran.stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    let sentence = spoken.split(begin).nth(1).and_then(|rest| rest.split(". ").next()).expect("the sentence");
+    let expected = format!("\n\n{head}{body}\n{}\n\n", wrapped(&format!("{begin}{sentence}.")));
+    let page = root.join("docs/studies/subsurface.md");
+    let text = std::fs::read_to_string(&page).expect("the page");
+    let (before, rest) = text.split_once("<!-- subsurface: angles -->").expect("the mark");
+    let (found, after) = rest.split_once("<!-- /subsurface -->").expect("the end mark");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        let text = format!("{before}<!-- subsurface: angles -->{expected}<!-- /subsurface -->{after}");
+        std::fs::write(&page, text).expect("written");
+    } else {
+        assert_eq!(found, expected, "INSTA_UPDATE=always cargo test --test cli writes it");
+    }
+    assert!(before.contains(&format!("crossbar {}", angles())), "the page names the command");
+}
+
+/// The text in lines of at most 120 characters.
+fn wrapped(text: &str) -> String {
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.len() + 1 + word.len() <= 120 => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
+}
+
+/// Photons beside the dipole: what leaves all faces is what leaves the model, and four times as many photons halve the
+/// error.
+#[test]
+fn photons_walk_beside_the_dipole() {
+    let walked = |photons: &str| {
+        let (ran, folder) = done(&["--links", "4", "--light", "sky:1,1,0", "--walk", photons, "--all-pairs", "yes"]);
+        assert!(ran.stdout.contains("Photons followed one by one beside the dipole"), "{}", ran.stdout);
+        (table(&folder, "walk.csv"), table(&folder, "faces.csv"))
+    };
+    let (few, _) = walked("640");
+    let (many, faces) = walked("2560");
+    assert_eq!(many.iter().map(|row| row["channel"].as_str()).collect::<Vec<_>>(), ["red", "green"], "no blue light");
+    let ratio = number(&few[0], "left_error_percent") / number(&many[0], "left_error_percent");
+    assert!((1.3..3.0).contains(&ratio), "{ratio}");
+    for (row, channel) in many.iter().zip(["r", "g"]) {
+        assert_eq!((row["photons"].as_str(), row["dipole"].as_str()), ("2560", "all_pairs"));
+        let (left, dipole) = (number(row, "left_percent"), number(row, "dipole_percent"));
+        let fate = left + number(row, "absorbed_percent");
+        let odd = 100.0 * (number(row, "given_up") + number(row, "lost")) / 2_560.0;
+        assert!((fate + odd - 100.0).abs() < 1e-6, "{fate} {odd}");
+        assert!((number(row, "difference_percent") - 100.0 * (dipole - left) / left).abs() < 1e-6);
+        // A tetrahedron of a centimetre is thin for marble: the dipole loses light there, far beyond the error.
+        assert!(number(row, "difference_percent") < -10.0 * number(row, "difference_error_percent"), "{row:?}");
+        let sum = |column: &str| -> f64 {
+            faces.iter().map(|face| number(face, "area_mm2") * number(face, &format!("{column}_{channel}"))).sum()
+        };
+        assert!((100.0 * sum("walk") / sum("E") - left).abs() < 1e-6 * left);
+        assert!(faces.iter().all(|face| number(face, &format!("walk_error_{channel}")) > 0.0));
+    }
+    assert!(faces.iter().all(|face| number(face, "walk_b") == 0.0));
+    refused(&["--walk", "31"], "31 is not in 32..=1000000000");
+}
+
+/// Published coefficients behind a boundary of another index.
+#[test]
+fn an_index_of_refraction_replaces_the_published_one() {
+    let totals = |more: &[&str]| {
+        let (ran, _folder) = done(&[&["--links", "4", "--all-pairs", "no", "--json"], more].concat());
+        let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("a document");
+        let medium = document["medium"].as_array().expect("rows").clone();
+        medium
+            .iter()
+            .map(|row| [&row["eta"], &row["total_R_d"]].map(|x| x.as_f64().expect("a number")))
+            .collect::<Vec<_>>()
+    };
+    let (published, other) = (totals(&[]), totals(&["--eta", "1.3"]));
+    assert!(
+        published.iter().zip(&other).all(|(a, b)| a[0] == 1.5 && b[0] == 1.3 && b[1] > a[1]),
+        "{published:?} {other:?}"
+    );
+    refused(&["--eta", "4"], "expected an index of refraction from 1 to 3, found 4");
+}
+
+/// A tetrahedron with flat sides: normals of their own at every corner.
+fn flat_tetrahedron() -> String {
+    let s = 1.0 / 3.0_f64.sqrt();
+    let normals = format!("vn 0 0 -1\nvn 0 -1 0\nvn -1 0 0\nvn {s} {s} {s}\n");
+    let places: String = MODEL.lines().filter(|line| line.starts_with('v')).map(|line| format!("{line}\n")).collect();
+    places + &normals + "f 1//1 3//1 2//1\nf 1//2 2//2 4//2\nf 1//3 4//3 3//3\nf 2//4 3//4 4//4\n"
+}
+
+/// A map of the same radiance everywhere is a sky, for a convex body; one with half of the sphere dark is not. Beside
+/// other lights, or with options of lights, a map is refused.
+#[test]
+fn environment_maps_shine() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("m.obj"), flat_tetrahedron()).expect("written");
+    let lit = |light: &str| -> Vec<[f64; 2]> {
+        let more = ["--all-pairs", "no", "--links", "4", "--light", light];
+        let ran = crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "");
+        assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{light}");
+        let rows = table(&folder, "faces.csv");
+        rows.iter().map(|row| [number(row, "E_r"), number(row, "fixed_4_rgb_fp16_map_fp16_r")]).collect()
+    };
+    let (sky, map, disk) = (lit("sky:1,1,1"), lit("constant:1,1,1"), lit("disk:0,0,-1:10"));
+    for ([sky, b], [map, b_map]) in sky.iter().zip(&map) {
+        assert!((map / sky - 1.0).abs() < 5e-3, "E {map}, of a sky {sky}");
+        assert!((b_map / b - 1.0).abs() < 2e-2, "B on the card {b_map}, of a sky {b}");
+    }
+    // The sides see half of the disk, grazing; the slanted face none of it.
+    assert!(disk[0][0] > 0.05 && disk[1][0] < 0.1 * disk[0][0] && disk[3][0] == 0.0, "from below: {disk:?}");
+    assert!(disk[3][1] > 0.0, "light comes through from behind");
+    refused(&["--light", "constant", "--light", "sky:1,1,1"], "expected one environment map alone");
+    for option in [["--frames", "2"], ["--pass-1", "vertex"], ["--direct", "vertex"], ["--diffuse", "0.2"]] {
+        let told = format!("`{}` changes nothing without lights of pass 1", option[0]);
+        refused(&[&["--light", "red-and-blue"], &option[..]].concat(), &told);
+    }
+    refused(&["--light", "nowhere.exr"], "nowhere.exr");
+}
+
+/// The links of a probe's texel: each choice once, whatever the formats; all clusters of a level, or of several.
+#[test]
+fn links_are_listed() {
+    let more = ["--choice", "fixed", "--choice", "adaptive", "--links", "4,16", "--map", "fp16", "--map", "fp32"];
+    let list = ["--link-table", "--probe", "0.5,0.5,0", "--all-pairs", "no"];
+    let (_, folder) = done(&[&more[..], &list].concat());
+    let rows = table(&folder, "links.csv");
+    let of = |name: &str| rows.iter().filter(|row| row["links"] == name).collect::<Vec<_>>();
+    assert_eq!(
+        ["fixed-4-rgb", "fixed-16-rgb", "adaptive-4-rgb", "adaptive-16-rgb"].map(|n| of(n).len()),
+        [4, 16, 4, 16]
+    );
+    assert_eq!(rows.len(), 40);
+    assert!(of("fixed-16-rgb").iter().all(|row| row["level"] == "2"), "4 x 4 of 16 x 16 texels");
+    let levels: std::collections::BTreeSet<&str> =
+        of("adaptive-16-rgb").iter().map(|row| row["level"].as_str()).collect();
+    assert!(levels.len() > 1, "{levels:?}");
+    let sum = |name: &str| of(name).iter().map(|row| number(row, "factor_g")).sum::<f64>();
+    let [one, all] = ["fixed-4-rgb", "adaptive-16-rgb"].map(sum);
+    assert!((one / all - 1.0).abs() < 0.02, "the same surface, divided otherwise: {one} {all}");
+    let near = |row: &&&BTreeMap<String, String>| number(row, "distance_mm");
+    let (links, brightest) = (of("adaptive-16-rgb"), of("adaptive-16-rgb"));
+    let nearest = links.iter().min_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
+    let farthest = brightest.iter().max_by(|a, b| near(a).total_cmp(&near(b))).expect("a link");
+    assert!(number(nearest, "distance_mm") < 2.0 && number(farthest, "distance_mm") > 3.0, "mm of a body of 10");
+    let (_, folder) = done(&["--link-table", "--links", "4", "--all-pairs", "no"]);
+    assert_eq!(table(&folder, "links.csv").len(), 4 * 16 * 16, "without probes all texels");
+    refused(
+        &["--link-table", "--choice", "adaptive", "--links", "4096"],
+        "expected at most 262144 links to list, found 1048576",
+    );
+}
+
+/// A vertex has the mean of its faces by their areas; the model's vertices are numbered as its faces first use them.
+#[test]
+fn vertices_have_values() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
+    std::fs::write(folder.path().join("e.csv"), "r,g,b\n1,2,3\n0,0,0\n0,0,0\n0,0,0\n").expect("written");
+    let more = ["--all-pairs", "no", "--irradiance", "e.csv", "--links", "16"];
+    let ran = crossbar_in(folder.path(), &[&SMALL[..], &more].concat(), "");
+    assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
+    let rows = table(&folder, "vertices.csv");
+    let places: Vec<[f64; 4]> = rows.iter().map(|row| ["vertex", "x", "y", "z"].map(|c| number(row, c))).collect();
+    assert_eq!(places, [[0.0; 4], [1.0, 0.0, 2.0, 0.0], [2.0, 2.0, 0.0, 0.0], [3.0, 0.0, 0.0, 2.0]]);
+    let slanted = 12.0_f64.sqrt();
+    let expected = [1.0 / 3.0, 2.0 / (4.0 + slanted), 2.0 / (4.0 + slanted), 0.0];
+    for (row, expected) in rows.iter().zip(expected) {
+        let [r, g, b] = ["E_r", "E_g", "E_b"].map(|c| number(row, c));
+        assert!((r - expected).abs() < 1e-6 && (g - 2.0 * r).abs() < 1e-9 && (b - 3.0 * r).abs() < 1e-9, "{row:?}");
+    }
+    let b = |vertex: usize| number(&rows[vertex], "fixed_16_rgb_fp16_map_fp16_g");
+    assert!(b(0) > b(3) && b(1) > b(3) && b(3) > 0.0, "the top is farthest from the lit side");
 }

@@ -22,9 +22,14 @@ Examples:
       the coefficients of the paper's Figure 7, in every format of map and links
   crossbar subsurface stand-in-head --material marble --mm-per-unit 10 --light point:0,-3,1:40,36,30 --light sky:0.1,0.1,0.2 --frames 8
       a lamp and a sky, and the lamp carried round the model
+  crossbar subsurface stand-in-head --material marble --eta 1.3 --mm-per-unit 10 --light disk:1,-1,2:20 --walk 20000
+      an environment map with shadows, marble behind another boundary, and photons that walk beside the dipole
+  crossbar subsurface stand-in-head --material skin1 --mm-per-unit 10 --choice adaptive --link-table --probe 0,-1,0
+      where one texel gathers from: clusters, factors and distances
 
-Written to --out: index.html (self-contained), rows.csv, faces.csv (area, E and B of every face in every way), probes.csv, study.json, \
-timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
+Written to --out: index.html (self-contained), rows.csv, faces.csv and vertices.csv (E and B of every face, and of every vertex of the model, in every \
+way), study.json, with all pairs and a directional light angles.csv (errors by angle from the light), with --walk walk.csv, with --link-table links.csv, \
+with --probe probes.csv, timeline.json (a trace for https://ui.perfetto.dev or chrome://tracing), whole.exr, pictures. docs/papers/subsurface.md explains all of it.";
 
 /// Light below the surface of a model: links over an atlas, three passes on a card, all pairs beside them
 #[derive(Debug, clap::Args)]
@@ -36,7 +41,7 @@ pub(in crate::cli) struct Args {
     pub(super) model: PathBuf,
 
     /// A published medium: see `crossbar materials`
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["sigma_s", "sigma_a", "eta"])]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["sigma_s", "sigma_a"])]
     pub(super) material: Option<String>,
 
     /// Reduced scattering coefficient per mm, for all channels or as R,G,B
@@ -47,8 +52,8 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "A", value_parser = coefficient, requires = "sigma_s", allow_hyphen_values = true)]
     pub(super) sigma_a: Option<[f64; 3]>,
 
-    /// Index of refraction, with --sigma-s and --sigma-a [default: 1.3]
-    #[arg(long, value_name = "N", value_parser = number::positive, requires = "sigma_s")]
+    /// Index of refraction, 1 to 3 [default: the published one; 1.3 with --sigma-s and --sigma-a]
+    #[arg(long, value_name = "N", value_parser = number::positive)]
     pub(super) eta: Option<f64>,
 
     /// Millimeters of a unit of the model; never guessed
@@ -87,7 +92,9 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X", default_value_t = crate::subsurface::factor::TOLERANCE, value_parser = number::positive)]
     pub(super) tolerance: f64,
 
-    /// sky:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated [default: from beside the
+    /// sky:R,G,B, directional:X,Y,Z:R,G,B or point:X,Y,Z:R,G,B[:K0,K1,K2]; may be repeated. Or one environment map,
+    /// with shadows: a lat-long, angular-probe or cube-cross picture, a table of a cube's texels (.csv) or of small
+    /// sources (.sources.csv), disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B] or red-and-blue [default: from beside the
     /// camera]
     #[arg(long, value_name = "LIGHT", allow_hyphen_values = true)]
     pub(super) light: Vec<LightArg>,
@@ -96,13 +103,13 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "FACES.csv", conflicts_with = "light")]
     pub(super) irradiance: Option<PathBuf>,
 
-    /// Where pass 1 computes light
-    #[arg(long, value_name = "STAGE", default_value = "vertex", value_parser = variants::<LightStage>())]
-    pub(super) pass_1: LightStage,
+    /// Where pass 1 computes light [default: vertex]
+    #[arg(long, value_name = "STAGE", value_parser = variants::<LightStage>())]
+    pub(super) pass_1: Option<LightStage>,
 
-    /// Where pass 3 computes direct light
-    #[arg(long, value_name = "STAGE", default_value = "fragment", value_parser = direct_light())]
-    pub(super) direct: DirectLight,
+    /// Where pass 3 computes direct light [default: fragment]
+    #[arg(long, value_name = "STAGE", value_parser = direct_light())]
+    pub(super) direct: Option<DirectLight>,
 
     /// The Fresnel transmittance towards the eye
     #[arg(long, value_name = "HOW", default_value = "exact", value_parser = variants::<EyeTransmittance>())]
@@ -112,9 +119,9 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "HOW", default_value = "added", value_parser = variants::<Combine>())]
     pub(super) combine: Combine,
 
-    /// Diffuse reflectance for direct light, 0 to 1
-    #[arg(long, value_name = "X", default_value_t = 0.1, value_parser = number::not_negative)]
-    pub(super) diffuse: f64,
+    /// Diffuse reflectance for direct light, 0 to 1 [default: 0.1]
+    #[arg(long, value_name = "X", value_parser = number::not_negative)]
+    pub(super) diffuse: Option<f64>,
 
     /// A point of the surface at which B is asked for; may be repeated
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
@@ -123,6 +130,14 @@ pub(in crate::cli) struct Args {
     /// Whether to gather over all pairs of texels too [default: yes for atlases up to 32]
     #[arg(long, value_name = "YES", value_parser = yes_or_no())]
     pub(super) all_pairs: Option<bool>,
+
+    /// Follow so many photons per channel through the model as well: the dipole's own error
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(32..=1_000_000_000))]
+    pub(super) walk: Option<u64>,
+
+    /// List the links of the probes' texels, or of all texels without --probe: cluster, factor, distance
+    #[arg(long)]
+    pub(super) link_table: bool,
 
     /// Run every way with each value of the card's rounding switches too
     #[arg(long)]

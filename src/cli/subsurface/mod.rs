@@ -13,9 +13,13 @@ use super::study::StudyArgs;
 use crate::atlas::require_side;
 use crate::report::digits::{Quantity, shown};
 use crate::study::subsurface::{Parameters, SubsurfaceError};
-use crate::subsurface::kernels::ViewKernel;
+use crate::subsurface::kernels::{DirectLight, ViewKernel};
 
 pub(super) use args::Args;
+use values::LightArg;
+
+/// Diffuse reflectance for direct light, unless asked for.
+const DIFFUSE: f64 = 0.1;
 
 impl StudyArgs for Args {
     type Study = Parameters;
@@ -26,7 +30,11 @@ impl StudyArgs for Args {
     }
 
     fn inputs(&self) -> Vec<&Path> {
-        model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).collect()
+        let lights = self.light.iter().filter_map(|light| match light {
+            LightArg::Environment(light) => light.file(),
+            LightArg::OfPass(_) => None,
+        });
+        model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect()
     }
 
     /// What the atlas, its links, the card's textures and the pictures of every way take.
@@ -41,7 +49,9 @@ impl StudyArgs for Args {
         let kinds = [self.choice.len(), self.channels.len(), self.link_format.len(), self.map.len(), self.links.len()];
         let ways: u64 = kinds.into_iter().map(|count| count.max(1) as u64).product();
         let pictures = 3 * ways + u64::from(self.frames);
-        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways);
+        // Rows of the table of links, of which there are at most 2^18 per study.
+        let table = if self.link_table { 128 << 20 } else { 0 };
+        let maps = texels.saturating_mul(PER_TEXEL + PER_LINK * most + 100 * ways).saturating_add(table);
         Ok(Some(MemoryNeed {
             what: format!(
                 "{0} x {0} texels with {most} links each, and {pictures} pictures of {1} pixels",
@@ -53,10 +63,12 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<Parameters> {
-        if self.diffuse > 1.0 {
-            let (found, help) = (shown(self.diffuse, Quantity::Exact), "a surface reflects at most all of the light");
+        let diffuse = self.diffuse.unwrap_or(DIFFUSE);
+        if diffuse > 1.0 {
+            let (found, help) = (shown(diffuse, Quantity::Exact), "a surface reflects at most all of the light");
             return Err(Problem::usage(format!("expected a `--diffuse` from 0 to 1, found {found}"), help).into());
         }
+        ask::require_lights(self)?;
         let material = ask::material(self)?;
         let ways = ask::ways(self, &material)?;
         let reference = ask::all_pairs(self)?;
@@ -69,12 +81,18 @@ impl StudyArgs for Args {
             mm_per_unit: self.mm_per_unit,
             side: self.atlas,
             tolerance: self.tolerance,
-            stage: self.pass_1,
+            stage: self.pass_1.unwrap_or_default(),
+            photons: self.walk,
+            link_table: self.link_table,
             probes: self.probe.clone(),
             switches: self.card.switches(),
             executor: self.card.executor()?,
-            view: ViewKernel { transmittance: self.fresnel, direct: self.direct, combine: self.combine },
-            diffuse: self.diffuse,
+            view: ViewKernel {
+                transmittance: self.fresnel,
+                direct: self.direct.unwrap_or(DirectLight::ByFragment),
+                combine: self.combine,
+            },
+            diffuse,
             exposure: self.exposure,
             frames: self.frames,
             material,

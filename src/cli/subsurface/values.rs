@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::transfer::light::DistantLightArg;
 use crate::study::subsurface::MapBits;
 use crate::subsurface::kernels::{DirectLight, LinkLayout};
 use crate::subsurface::on_card::{FloatTexels, Light};
@@ -39,12 +40,18 @@ pub(super) fn yes_or_no() -> OneOf<bool> {
     one_of([("yes", "Do it", true), ("no", "Do not", false)])
 }
 
-/// A light: `sky:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct LightArg(pub(super) Light);
+/// A light: one of pass 1, or distant light as the commands on transfer read it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum LightArg {
+    /// `sky:R,G,B`, `directional:X,Y,Z:R,G,B` or `point:X,Y,Z:R,G,B[:K0,K1,K2]`.
+    OfPass(Light),
+    /// A picture, a table, `disk:...`, `constant...` or `red-and-blue`.
+    Environment(DistantLightArg),
+}
 
 const LIGHT: &str = "sky:R,G,B (radiance), directional:X,Y,Z:R,G,B (towards the light; irradiance) or \
-     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1)";
+     point:X,Y,Z:R,G,B[:K0,K1,K2] (place; intensity; attenuation, else 0,0,1), or an environment map: a lat-long, angular-probe \
+     or cube-cross picture, disk:X,Y,Z:DEGREES[:R,G,B], constant[:R,G,B], red-and-blue";
 
 impl FromStr for LightArg {
     type Err = String;
@@ -53,7 +60,7 @@ impl FromStr for LightArg {
         let wrong = || format!("expected {LIGHT}, found `{text}`");
         let three = |part: &str| three(part).ok_or_else(wrong);
         let color = |part: &str| three(part).ok().filter(|c| c.iter().all(|&value| value >= 0.0)).ok_or_else(wrong);
-        Ok(Self(match text.split(':').collect::<Vec<_>>()[..] {
+        Ok(Self::OfPass(match text.split(':').collect::<Vec<_>>()[..] {
             ["sky", radiance] => Light::Sky { radiance: color(radiance)? },
             ["directional", towards, irradiance] => {
                 let towards = three(towards)?;
@@ -73,7 +80,10 @@ impl FromStr for LightArg {
                 }
                 Light::Point { position, intensity, attenuation }
             }
-            _ => return Err(wrong()),
+            ["sky" | "directional" | "point", ..] => return Err(wrong()),
+            // A word that no light begins with; a letter is a drive.
+            [word, _, ..] if word.len() > 1 && !["disk", "constant"].contains(&word) => return Err(wrong()),
+            _ => return text.parse().map(Self::Environment).map_err(|_| wrong()),
         }))
     }
 }
@@ -103,10 +113,14 @@ mod tests {
 
     #[test]
     fn lights_are_read_and_bad_ones_refused() {
-        let light = |text: &str| text.parse::<LightArg>().map(|light| light.0);
-        assert_eq!(light("sky:1,0.5,0"), Ok(Light::Sky { radiance: [1.0, 0.5, 0.0] }));
+        let light = |text: &str| text.parse::<LightArg>();
+        let of_pass = |light| Ok(LightArg::OfPass(light));
+        assert_eq!(light("sky:1,0.5,0"), of_pass(Light::Sky { radiance: [1.0, 0.5, 0.0] }));
         let point = Light::Point { position: [0.0, -1.0, 2.0], intensity: [3.0; 3], attenuation: [0.0, 0.0, 1.0] };
-        assert_eq!(light("point:0,-1,2:3,3,3"), Ok(point));
+        assert_eq!(light("point:0,-1,2:3,3,3"), of_pass(point));
+        for map in ["probe.hdr", "disk:0,0,1:30", "constant", "red-and-blue"] {
+            assert!(matches!(light(map), Ok(LightArg::Environment(_))), "{map}");
+        }
         let bad = [
             "sky",
             "sky:1,2",
@@ -115,6 +129,8 @@ mod tests {
             "directional:0,0,0:1,1,1",
             "point:1,1,1:1,1,1:0,0,0",
             "sun:1,1,1",
+            "disk:0,0,0:30",
+            "constant:-1,0,0",
         ];
         for text in bad {
             assert!(light(text).is_err(), "{text}");

@@ -23,7 +23,7 @@ const SUN: [f64; 3] = [4e4, 3.7e4, 3.2e4];
 
 /// A light that is not yet of an order.
 #[derive(Clone, Debug, PartialEq)]
-enum LightArg {
+pub(in crate::cli) enum DistantLightArg {
     Constant([f64; 3]),
     Disk { towards: DVec3, degrees: f64, radiance: [f64; 3] },
     Sky { sun: DVec3 },
@@ -31,7 +31,7 @@ enum LightArg {
     Picture(PathBuf),
 }
 
-impl FromStr for LightArg {
+impl FromStr for DistantLightArg {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -59,7 +59,7 @@ pub(in crate::cli) struct LightArgs {
     /// red-and-blue, a lat-long, angular-probe or cube-cross picture, a table of a cube's texels (.csv) or of small
     /// sources (.sources.csv)
     #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    light: LightArg,
+    light: DistantLightArg,
 }
 
 impl LightArgs {
@@ -85,7 +85,7 @@ pub(in crate::cli) struct HarmonicLightArgs {
     /// constant[:R,G,B], disk:X,Y,Z:DEGREES[:R,G,B] (towards the light; angular radius), sky:X,Y,Z (towards the sun),
     /// red-and-blue, or a lat-long, angular-probe or cube-cross picture
     #[arg(long, value_name = "LIGHT", default_value = "sky:1,-1,1", allow_hyphen_values = true)]
-    light: LightArg,
+    light: DistantLightArg,
 
     /// Damp the light's higher bands, so that it rings less
     #[arg(long, value_name = "W", value_parser = variants::<BandWindow>())]
@@ -113,7 +113,7 @@ impl HarmonicLightArgs {
     }
 }
 
-impl LightArg {
+impl DistantLightArg {
     fn disk(towards: DVec3, degrees: &str, radiance: [f64; 3]) -> Result<Self, String> {
         let degrees = number::positive(degrees)?;
         if degrees > 180.0 {
@@ -126,7 +126,7 @@ impl LightArg {
     }
 
     /// The file that it is read from, if it is.
-    fn file(&self) -> Option<&Path> {
+    pub(in crate::cli) fn file(&self) -> Option<&Path> {
         if let Self::Picture(path) = self { Some(path) } else { None }
     }
 
@@ -142,7 +142,7 @@ impl LightArg {
     }
 
     /// The light before it is sampled by the texels of a cube.
-    fn distant(&self) -> miette::Result<DistantLight> {
+    pub(in crate::cli) fn distant(&self) -> miette::Result<DistantLight> {
         Ok(match self {
             Self::Constant(radiance) => DistantLight::Constant(*radiance),
             Self::Disk { towards, degrees, radiance } => DistantLight::Disks(vec![DiskSource {
@@ -203,14 +203,14 @@ mod tests {
 
     #[test]
     fn lights_are_read_and_bad_ones_refused() {
-        assert_eq!("constant".parse(), Ok(LightArg::Constant([1.0; 3])));
-        let disk = LightArg::Disk { towards: DVec3::Z, degrees: 30.0, radiance: [2.0, 1.0, 0.0] };
+        assert_eq!("constant".parse(), Ok(DistantLightArg::Constant([1.0; 3])));
+        let disk = DistantLightArg::Disk { towards: DVec3::Z, degrees: 30.0, radiance: [2.0, 1.0, 0.0] };
         assert_eq!("disk:0,0,1:30:2,1,0".parse(), Ok(disk));
-        assert_eq!("probe.hdr".parse(), Ok(LightArg::Picture("probe.hdr".into())));
+        assert_eq!("probe.hdr".parse(), Ok(DistantLightArg::Picture("probe.hdr".into())));
         for text in
             ["", "disk", "disk:0,0,0:30", "disk:0,0,1:181", "disk:0,0,1:0", "constant:-1,0,0", "sky:1", "sky:nan,0,1"]
         {
-            assert!(text.parse::<LightArg>().is_err(), "{text}");
+            assert!(text.parse::<DistantLightArg>().is_err(), "{text}");
         }
     }
 }

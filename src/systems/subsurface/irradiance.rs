@@ -7,6 +7,10 @@ use glam::DVec3;
 use super::fresnel::{fresnel_transmittance, mean_transmittance};
 use super::on_card::Light;
 use crate::atlas::{Atlas, Texel};
+use crate::geom::Ray;
+use crate::geom::vector::narrow;
+use crate::tracer::offset::{SINGLE, SurfacePoint};
+use crate::tracer::{CastError, Caster};
 
 /// The irradiance that enters at each texel, row by row: E of equation 8 at its mean point, for lights of OpenGL's
 /// kinds (section 4.2.2). Lengths in the mesh's units. A texel without a normal gets the light of the sky alone.
@@ -39,4 +43,89 @@ fn entering(texel: &Texel, lights: &[Light], eta: f64, mean: f64) -> [f64; 3] {
 fn transmitted(texel: &Texel, towards: DVec3, eta: f64) -> f64 {
     let cosine = texel.normal.dot(towards) / towards.length();
     if cosine > 0.0 { cosine * fresnel_transmittance(eta, cosine.min(1.0)) } else { 0.0 }
+}
+
+/// A beam of parallel light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistantSource {
+    /// Unit direction towards it.
+    pub towards: DVec3,
+    /// Irradiance of a surface that faces it: radiance times solid angle.
+    pub irradiance: [f64; 3],
+}
+
+/// E of equation 8 per texel, row by row, for distant light with shadows: a ray from the middle of each texel towards
+/// each source tells whether the model itself is in the way. A source below the plane of the face is. The caster must
+/// see both sides of faces.
+///
+/// # Errors
+/// [`CastError`] if the caster fails.
+pub fn distant_irradiance(
+    atlas: &Atlas,
+    sources: &[DistantSource],
+    eta: f64,
+    caster: &mut dyn Caster,
+) -> Result<Vec<[f64; 3]>, CastError> {
+    let corners = (0..atlas.places().len() as u32).flat_map(|face| atlas.corners(face));
+    let (low, high) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), c| (l.min(c), h.max(c)));
+    // Shadow rays end at t = 1, outside of the model.
+    let beyond = 2.0 * (high - low).length();
+    let mut found = Vec::with_capacity(atlas.texels().len());
+    let side = atlas.side() as usize;
+    for (row, texels) in atlas.texels().chunks(side).enumerate() {
+        let mut lit: Vec<(usize, DVec3)> = Vec::new();
+        let mut rays: Vec<Ray> = Vec::new();
+        for (column, texel) in texels.iter().enumerate() {
+            let weights = atlas.places()[texel.face as usize].weights(column as f64 + 0.5, row as f64 + 0.5);
+            let Some(point) = SurfacePoint::of(atlas.corners(texel.face), DVec3::from(weights), SINGLE) else {
+                continue;
+            };
+            for source in sources.iter().filter(|source| point.normal.dot(source.towards) > 0.0) {
+                let share = transmitted(texel, source.towards, eta);
+                let start = point.lifted(source.towards, 0.0);
+                if share > 0.0
+                    && let Ok(ray) = Ray::new(start, narrow(beyond * source.towards))
+                {
+                    lit.push((column, share * DVec3::from(source.irradiance)));
+                    rays.push(ray);
+                }
+            }
+        }
+        let mut sums = vec![DVec3::ZERO; texels.len()];
+        for ((column, irradiance), occluded) in lit.into_iter().zip(caster.occluded(&rays)?) {
+            sums[column] += if occluded { DVec3::ZERO } else { irradiance };
+        }
+        found.extend(sums.into_iter().map(|sum| sum.to_array()));
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Mesh, Sides};
+    use crate::tracer::HostTracer;
+
+    /// A lid over half of a floor shadows that half, and nothing else.
+    #[test]
+    fn distant_light_has_shadows() {
+        let square = |z: f32, x: [f32; 2]| [[x[0], -1.0, z], [x[1], -1.0, z], [x[1], 1.0, z], [x[0], 1.0, z]];
+        let corners = [square(0.0, [-1.0, 1.0]), square(0.5, [0.01, 1.0])].concat();
+        let mesh = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]).expect("a mesh");
+        let atlas = Atlas::new(&mesh, 16).expect("an atlas");
+        let source = DistantSource { towards: DVec3::Z, irradiance: [1.0, 2.0, 0.0] };
+        let mut caster = HostTracer::new(&mesh, Sides::Both);
+        let found = distant_irradiance(&atlas, &[source], 1.3, &mut caster).expect("traced");
+        let full = fresnel_transmittance(1.3, 1.0);
+        for (at, (texel, found)) in atlas.texels().iter().zip(&found).enumerate() {
+            let weights = atlas.places()[texel.face as usize].weights((at % 16) as f64 + 0.5, (at / 16) as f64 + 0.5);
+            let middle = DVec3::from(weights).dot(DVec3::from(atlas.corners(texel.face).map(|corner| corner.x)));
+            let share = if texel.face < 2 && middle > 0.01 { 0.0 } else { full };
+            let expected = DVec3::new(share, 2.0 * share, 0.0);
+            assert!((DVec3::from(*found) - expected).length() < 1e-12, "{found:?}, expected {expected} at {texel:?}");
+        }
+        let from_below = DistantSource { towards: DVec3::NEG_Z, ..source };
+        let dark = distant_irradiance(&atlas, &[from_below], 1.3, &mut caster).expect("traced");
+        assert!(dark.iter().flatten().all(|&value| value == 0.0));
+    }
 }

@@ -5,7 +5,7 @@
 //! - [`Coefficients`], [`Material`]: what the medium is made of, per mm;
 //! - [`Dipole`]: the diffuse reflectance R_d of equation 7 by distance, its integrals over discs and the plane;
 //! - [`fresnel`]: transmittance of the boundary and its means;
-//! - [`irradiance`]: equation 8 on the host;
+//! - [`irradiance`], [`distant_irradiance`]: equation 8 on the host;
 //! - [`materials`]: the published media, each figure with its source;
 //! - [`factor`]: throughput factors, equation 10;
 //! - [`links`]: which clusters a texel gathers from, and how textures hold them;
@@ -32,7 +32,7 @@ pub mod walk;
 
 pub use dipole::{Dipole, InternalReflection};
 pub use fresnel::fresnel_transmittance;
-pub use irradiance::irradiance;
+pub use irradiance::{DistantSource, distant_irradiance, irradiance};
 pub use material::{Coefficients, MAX_COEFFICIENT, MAX_ETA, MIN_SCATTERING, Material, MaterialError};
 pub use polygon::point_to_polygon;
 pub use reference::Reference;

@@ -37,6 +37,7 @@ const CUT: &[(&str, &str, &str, bool)] = &[
     ("subsurface", "--links", "4", false),
     ("subsurface", "--tolerance", "0.1", true),
     ("subsurface", "--frames", "2", false),
+    ("subsurface", "--walk", "64", false),
     ("timeline", "--rays", "8x8", false),
 ];
 

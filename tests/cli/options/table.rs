@@ -140,12 +140,14 @@ pub(super) const TABLE: &[Tried] = &[
         bases: &[
             "subsurface square.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --size 8x8 --out OUT",
             "subsurface odd.obj --mm-per-unit 10 --sigma-s 1 --sigma-a 0.1 --atlas 8 --links 4 --size 8x8 --out OUT",
+            "subsurface square.obj --mm-per-unit 10 --material marble --atlas 8 --links 4 --light disk:1,0,2:20 --size 8x8 \
+             --out OUT",
         ],
         options: concat!(
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --half --tolerance=0.5 \
              --light=sky:1,1,1 --irradiance=faces.csv --pass-1=fragment --direct=vertex --fresnel=mean \
-             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --roundings --device=nv35 \
+             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv35 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --out=other \
              --model-up=y --strict@1",
             eye!()

@@ -1,9 +1,12 @@
 //! What the rows say, as sentences.
 
-use super::{Parameters, RoundingRow, SubsurfaceOutcome, WayRow};
+use std::cmp::Reverse;
+
+use super::{AngleBin, BinError, GatherWay, Parameters, RoundingRow, SubsurfaceOutcome, WayRow};
 use crate::report::digits::{Quantity, shown};
-use crate::report::words::percent;
+use crate::report::words::{listed, percent};
 use crate::report::{Findings, Tone};
+use crate::subsurface::links::LinkChoice;
 
 /// The error within which storage is judged.
 const ENOUGH: f64 = 0.01;
@@ -11,7 +14,13 @@ const ENOUGH: f64 = 0.01;
 /// Sentences, warnings and the tally.
 pub(super) fn conclude(found: &mut Findings, parameters: &Parameters, outcome: &SubsurfaceOutcome) {
     let rows = &outcome.rows;
-    let sentences = [accuracy(rows), smallest(rows), roundings(&outcome.roundings), speed(parameters, rows)];
+    let sentences = [
+        accuracy(rows),
+        by_angle(parameters, rows),
+        smallest(rows),
+        roundings(&outcome.roundings),
+        speed(parameters, rows),
+    ];
     let warnings = [coarse(outcome), thin(outcome)];
     sentences.into_iter().chain(warnings).flatten().for_each(|sentence| found.conclusion(sentence));
     let within = |row: &&WayRow| row.error.is_some_and(|error| error.rms <= ENOUGH);
@@ -39,6 +48,55 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
             best.label, worst.label
         )
     })
+}
+
+/// At which angles from the light fixed and adaptive links of the same number are each nearer to all pairs, for the
+/// largest such number.
+fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
+    let count = |row: &WayRow| row.way.choice.per_texel(parameters.side);
+    let is_fixed = |row: &WayRow| matches!(row.way.choice, LinkChoice::Fixed { .. });
+    let alike = |one: &WayRow, other: &WayRow| {
+        count(one) == count(other) && GatherWay { choice: one.way.choice, ..other.way } == one.way
+    };
+    let judged = || rows.iter().filter(|row| !row.angles.is_empty());
+    let pairs = judged()
+        .filter(|row| is_fixed(row))
+        .filter_map(|fixed| Some((fixed, judged().find(|row| !is_fixed(row) && alike(fixed, row))?)));
+    // Of equal numbers the first.
+    let (fixed, adaptive) = pairs.min_by_key(|(fixed, _)| Reverse(count(fixed)))?;
+    let bins = || fixed.angles.iter().zip(&adaptive.angles);
+    let better = |[of, other]: [fn((&AngleBin, &AngleBin)) -> f64; 2]| {
+        ranges(bins().filter(|&bins| of(bins) < other(bins)).map(|(bin, _)| bin.degrees))
+    };
+    let errors: [fn((&AngleBin, &AngleBin)) -> f64; 2] =
+        [|(fixed, _)| fixed.links.rms, |(_, adaptive)| adaptive.links.rms];
+    let places = [better([errors[1], errors[0]]), better(errors)];
+    let places = ["adaptive", "fixed"].into_iter().zip(places).filter(|(_, places)| !places.is_empty());
+    let places: Vec<String> =
+        places.map(|(choice, places)| format!("{choice} ones at {} degrees", listed(&places))).collect();
+    let (last, of_adaptive) = bins().last()?;
+    let signed = |error: BinError| format!("{}{}", if error.mean > 0.0 { "+" } else { "" }, percent(error.mean));
+    let [from, to] = last.degrees;
+    Some(format!(
+        "Of {} links per texel, by the angle between normals and the light, {} are nearer to all pairs; at {from} to \
+         {to} degrees the mean of B is off by {} with adaptive links and by {} with fixed ones.",
+        count(fixed),
+        places.join(", "),
+        signed(of_adaptive.links),
+        signed(last.links),
+    ))
+}
+
+/// Bins that follow each other as one range each: "0 to 45".
+fn ranges(bins: impl Iterator<Item = [f64; 2]>) -> Vec<String> {
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    for [from, to] in bins {
+        match ranges.last_mut() {
+            Some(last) if last[1] == from => last[1] = to,
+            _ => ranges.push([from, to]),
+        }
+    }
+    ranges.iter().map(|[from, to]| format!("{from} to {to}")).collect()
 }
 
 /// The smallest storage within [`ENOUGH`].

@@ -10,6 +10,8 @@ use crate::study::timeline_trace::TimelineError;
 use crate::subsurface::MaterialError;
 use crate::subsurface::factor::FactorError;
 use crate::subsurface::on_card::SubsurfaceCardError;
+use crate::subsurface::walk::MeshWalkError;
+use crate::tracer::CastError;
 
 /// Why the study has no findings.
 #[non_exhaustive]
@@ -44,6 +46,21 @@ pub enum SubsurfaceError {
     #[error("expected light on the model, found none")]
     #[diagnostic(code(subsurface::dark), help("add a `--light`, or move one to where the model's front faces see it"))]
     Dark,
+    /// Photons cannot be followed through the model.
+    #[error(transparent)]
+    #[diagnostic(code(subsurface::walk))]
+    Walk(#[from] MeshWalkError),
+    /// Shadows of an environment map cannot be traced.
+    #[error(transparent)]
+    #[diagnostic(code(subsurface::shadows))]
+    Shadows(#[from] CastError),
+    /// More links than a table lists.
+    #[error("expected at most {limit} links to list, found {rows}")]
+    #[diagnostic(
+        code(subsurface::link_rows),
+        help("name texels by `--probe`, or ask for fewer `--links` or a smaller `--atlas`")
+    )]
+    LinkRows { rows: u64, limit: u64 },
     /// A probe that is nowhere near.
     #[error("the probe {x},{y},{z} is farther from the model than its size")]
     #[diagnostic(code(subsurface::probe), help("a probe is a point of the surface, in the model's units"))]

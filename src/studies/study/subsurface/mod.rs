@@ -1,8 +1,11 @@
 //! Subsurface scattering of a model by several ways of gathering: the three passes of an emulated card, the host's sums
 //! over the same links, and those over all pairs of texels.
 
+mod angles;
 mod conclusion;
+mod environment;
 mod error;
+mod link_table;
 mod model;
 mod outcome;
 mod parameters;
@@ -11,6 +14,8 @@ mod report;
 mod roundings;
 mod tables;
 mod truth;
+mod vertices;
+mod walk;
 mod way;
 
 use crate::atlas::Atlas;
@@ -21,12 +26,15 @@ use crate::subsurface::links::Links;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 
+pub use angles::{AngleBin, BinError};
 pub use error::SubsurfaceError;
+pub use link_table::LinkRow;
 pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;
 pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
 pub use roundings::RoundingRow;
 pub use truth::{GatherError, Truth};
+pub use walk::WalkedChannel;
 pub use way::WayRow;
 
 impl Study for Parameters {
@@ -48,6 +56,7 @@ impl Study for Parameters {
 /// # Errors
 /// [`SubsurfaceError`].
 pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, SubsurfaceError> {
+    link_table::require_rows(parameters)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
@@ -58,6 +67,10 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
     let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
     let irradiance = match &parameters.lighting {
         Lighting::Lights(lights) => irradiance(&atlas, lights, eta),
+        Lighting::Environment(light) => {
+            progress("light of the environment", 0, 1);
+            environment::irradiance(&atlas, parameters, light)?
+        }
         Lighting::ByFace(values) if values.len() != parameters.mesh.len() => {
             return Err(SubsurfaceError::Faces { faces: parameters.mesh.len(), found: values.len() });
         }
@@ -71,6 +84,10 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
     } else {
         None
     };
+    let walked = match parameters.photons {
+        Some(photons) => Some(walk::walk(&atlas, parameters, (&dipoles, &irradiance), photons, progress)?),
+        None => None,
+    };
     let model = CardModel::new(&atlas);
     let scene = way::Scene {
         parameters,
@@ -81,14 +98,17 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         irradiance: &irradiance,
         truth: truth.as_ref(),
     };
-    let (mut rows, mut roundings) = (Vec::new(), Vec::new());
+    let (mut rows, mut roundings, mut listed) = (Vec::new(), Vec::new(), Vec::new());
     // Ways that differ in formats alone follow each other and share their links.
     let mut last: Option<(GatherWay, Links)> = None;
     for (at, &way) in parameters.ways.iter().enumerate() {
         let links = match last.take() {
-            Some((other, links)) if (other.choice, other.rgb) == (way.choice, way.rgb) => links,
+            Some((other, links)) if other.has_links_of(&way) => links,
             _ => way::links(&scene, way, progress)?,
         };
+        if parameters.link_table && !parameters.ways[..at].iter().any(|other| other.has_links_of(&way)) {
+            listed.extend(link_table::rows(&atlas, (parameters, way), &links, &probe_texels));
+        }
         let row = way::run(&scene, way, (&links, at == 0), progress)?;
         if parameters.roundings {
             roundings.extend(roundings::roundings(&scene, way, (&links, &row.radiosity), progress)?);
@@ -96,5 +116,16 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         rows.push(row);
         last = Some((way, links));
     }
-    Ok(SubsurfaceOutcome { atlas, lengths, dipoles, irradiance, truth, probe_texels, rows, roundings })
+    Ok(SubsurfaceOutcome {
+        atlas,
+        lengths,
+        dipoles,
+        irradiance,
+        truth,
+        walked,
+        probe_texels,
+        rows,
+        roundings,
+        links: listed,
+    })
 }

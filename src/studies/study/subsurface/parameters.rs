@@ -11,6 +11,7 @@ use crate::subsurface::Material;
 use crate::subsurface::kernels::ViewKernel;
 use crate::subsurface::links::LinkChoice;
 use crate::subsurface::on_card::{FloatTexels, Light, LightStage};
+use crate::transfer::light::CubeLight;
 
 /// A model of a medium, its lights, and the ways in which the card gathers.
 #[derive(Debug)]
@@ -37,6 +38,10 @@ pub struct Parameters {
     pub probes: Vec<[f64; 3]>,
     /// Whether to gather over all pairs of texels too.
     pub reference: bool,
+    /// Photons per channel that walk beside the dipole; `None` for none.
+    pub photons: Option<u64>,
+    /// `true` to list links: of the probes' texels, or of all without probes.
+    pub link_table: bool,
     /// Whether every way is run with each value of the card's rounding switches too.
     pub roundings: bool,
     /// The card.
@@ -64,6 +69,8 @@ pub enum Lighting {
     Lights(Vec<Light>),
     /// What has entered each face, per area: E of equation 8.
     ByFace(Vec<[f64; 3]>),
+    /// Distant light of an environment map, per texel and with shadows, in place of pass 1.
+    Environment(CubeLight),
 }
 
 /// The format of the radiosity map.
@@ -93,10 +100,19 @@ pub struct GatherWay {
 impl GatherWay {
     /// A name for tables and files.
     pub fn label(&self, side: u32) -> String {
-        let channels = if self.rgb { "-rgb" } else { "" };
         let half = if self.half { "-half" } else { "" };
-        let (choice, count) = (self.choice.word(), self.choice.per_texel(side));
-        format!("{choice}-{count}{channels}-{}-map-{}{half}", name(self.links), self.map)
+        format!("{}-{}-map-{}{half}", self.links_label(side), name(self.links), self.map)
+    }
+
+    /// A name of the links, which formats do not change.
+    pub(super) fn links_label(&self, side: u32) -> String {
+        let channels = if self.rgb { "-rgb" } else { "" };
+        format!("{}-{}{channels}", self.choice.word(), self.choice.per_texel(side))
+    }
+
+    /// Returns `true` if the other way gathers over the same links.
+    pub(super) fn has_links_of(&self, other: &Self) -> bool {
+        (self.choice, self.rgb) == (other.choice, other.rgb)
     }
 }
 

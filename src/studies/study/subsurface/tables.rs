@@ -1,8 +1,10 @@
 //! The tables of the study.
 
-use super::{GatherError, Parameters, SubsurfaceOutcome, WayRow, model};
+use super::{GatherError, Parameters, SubsurfaceOutcome, WalkedChannel, model};
 use crate::report::{Cell, Table};
+use crate::subsurface::Material;
 use crate::subsurface::on_card::PassKind;
+use crate::subsurface::walk::WalkEstimate;
 
 /// Model and medium.
 pub(super) fn model(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
@@ -68,6 +70,22 @@ pub(super) fn errors(outcome: &SubsurfaceOutcome) -> Table {
             or_empty(row.error, rms),
             or_empty(row.error, largest),
         ]);
+    }
+    table
+}
+
+/// Errors by angle from the light, a row per way and bin.
+pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "Errors by the angle between normals and the light: of the mean of B, and root mean square; relative to all pairs",
+        "way from_degrees to_degrees area_% B_all_pairs links_% links_rms_% all_% all_rms_%",
+    );
+    for (row, bin) in outcome.rows.iter().flat_map(|row| row.angles.iter().map(move |bin| (row, bin))) {
+        let [from, to] = bin.degrees;
+        let share = |share: f64| Cell::percent(100.0 * share);
+        let head: [Cell; 5] =
+            [row.label.as_str().into(), from.into(), to.into(), share(bin.area), Cell::measured(bin.radiosity)];
+        table.push(head.into_iter().chain([bin.links.mean, bin.links.rms, bin.all.mean, bin.all.rms].map(share)));
     }
     table
 }
@@ -157,25 +175,63 @@ pub(super) fn probes(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Ta
     table
 }
 
-/// A row per face: its area, what entered it, and B in every way.
-pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
-    let atlas = &outcome.atlas;
-    let truth = outcome.truth.as_ref().map(|truth| ("all_pairs", &truth.texels));
-    let ways = outcome.rows.iter().map(|row: &WayRow| (row.label.as_str(), &row.radiosity));
-    let columns: Vec<(&str, Vec<[f64; 3]>)> =
-        truth.into_iter().chain(ways).map(|(label, texels)| (label, model::by_face(atlas, texels))).collect();
-    let entered = model::by_face(atlas, &outcome.irradiance);
-    let mut headings = ["face", "area_mm2", "E_r", "E_g", "E_b"].map(str::to_owned).to_vec();
-    for (label, _) in &columns {
-        headings.extend(["r", "g", "b"].map(|c| format!("{label}_{c}")));
+/// Photons beside the dipole, a row per channel; none unless asked for. The dipole is that over all pairs of texels if
+/// there, else that of the first way.
+pub(super) fn walked(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let mut table = Table::of(
+        "Photons followed one by one beside the dipole: the light that leaves, of what enters; standard errors",
+        "channel photons left_% left_error_% dipole dipole_% difference_% difference_error_% absorbed_% given_up lost",
+    );
+    let channels = outcome.walked.iter().flatten().enumerate();
+    for (channel, walked) in channels.filter_map(|(channel, walked)| Some((channel, walked.as_ref()?))) {
+        let Some((name, texels)) = outcome.columns().nth(1) else { continue };
+        let (tally, left) = (&walked.tally, walked.tally.total());
+        let scale = parameters.mm_per_unit * parameters.mm_per_unit;
+        let gathered: f64 =
+            outcome.atlas.texels().iter().zip(texels).map(|(texel, b)| texel.area * scale * b[channel]).sum();
+        let dipole = gathered / walked.flux;
+        // The dipole has no spread: the relative error of a quotient is that of its divisor.
+        let relative =
+            |value: f64| if left.mean > 0.0 { Cell::percent(100.0 * value / left.mean) } else { Cell::Empty };
+        let share = |share: f64| Cell::percent(100.0 * share);
+        table.push([
+            Material::CHANNELS[channel].into(),
+            tally.entered().into(),
+            share(left.mean),
+            share(left.standard_error()),
+            name.into(),
+            share(dipole),
+            relative(dipole - left.mean),
+            relative(left.standard_error() * dipole / left.mean),
+            share(tally.absorbed() as f64 / tally.entered() as f64),
+            tally.cut().into(),
+            tally.lost().into(),
+        ]);
     }
+    table
+}
+
+/// A row per face: its area, what entered it, B in every way, and B by photons with its standard error.
+pub(super) fn faces(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let columns: Vec<(&str, Vec<[f64; 3]>)> =
+        outcome.columns().map(|(label, texels)| (label, model::by_face(&outcome.atlas, texels))).collect();
+    let mut headings = ["face", "area_mm2"].map(str::to_owned).to_vec();
+    let walked = outcome.walked.as_ref();
+    let names = columns.iter().map(|(label, _)| *label).chain(walked.iter().flat_map(|_| ["walk", "walk_error"]));
+    headings.extend(names.flat_map(|name| ["r", "g", "b"].map(|c| format!("{name}_{c}"))));
     let mut table = Table::new("Faces", &headings);
     let scale = parameters.mm_per_unit * parameters.mm_per_unit;
-    for (face, entered) in entered.iter().enumerate() {
+    for face in 0..outcome.atlas.places().len() {
         let area = parameters.mesh.area(face as u32) * scale;
+        let estimate = |channel: &Option<WalkedChannel>| channel.as_ref().map(|walked| walked.radiosity(face, area));
+        let walked = walked.into_iter().flat_map(|channels| {
+            let estimates = channels.each_ref().map(estimate);
+            let means = estimates.map(|estimate| estimate.map_or(0.0, |estimate| estimate.mean));
+            means.into_iter().chain(estimates.map(|of| of.map_or(0.0, WalkEstimate::standard_error)))
+        });
+        let found = columns.iter().flat_map(|(_, values)| values[face]).chain(walked);
         let head: [Cell; 2] = [face.into(), area.into()];
-        let found = columns.iter().flat_map(|(_, values)| values[face]);
-        table.push(head.into_iter().chain(entered.iter().copied().chain(found).map(Cell::from)));
+        table.push(head.into_iter().chain(found.map(Cell::from)));
     }
     table
 }

@@ -7,7 +7,7 @@ use refsim::num::Format;
 use refsim::timing::TimingError;
 
 use super::truth::{GatherError, Truth};
-use super::{GatherWay, Lighting, MapBits, Parameters, SubsurfaceError};
+use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, SubsurfaceError, angles};
 use crate::atlas::Atlas;
 use crate::picture::Picture;
 use crate::study::ProgressFn;
@@ -57,6 +57,8 @@ pub struct WayRow {
     pub card_error: GatherError,
     /// Both together: the card against all pairs.
     pub error: Option<GatherError>,
+    /// Errors by angle from the light; empty without all pairs, or unless a single directional light shines.
+    pub angles: Vec<AngleBin>,
     /// Modelled times of the passes; `None` for devices without time.
     pub times: Option<[PassTime; 4]>,
     /// B of every texel, by the card.
@@ -125,6 +127,7 @@ pub(super) fn run(
         plain_error: against_truth(&plain),
         card_error: off(&radiosity, &summed),
         error: against_truth(&radiosity),
+        angles: angles(scene, [&summed, &radiosity]),
         times,
         irradiance,
         picture,
@@ -136,6 +139,13 @@ pub(super) fn run(
         label,
     };
     Ok(row)
+}
+
+/// Errors by angle from the light, of the host's sum over links and of the card.
+fn angles(scene: &Scene<'_>, found: [&[[f64; 3]]; 2]) -> Vec<AngleBin> {
+    let light = angles::direction(&scene.parameters.lighting);
+    let judged = light.zip(scene.truth);
+    judged.map_or_else(Vec::new, |(towards, truth)| angles::by_angle(scene.atlas, towards, &truth.texels, found))
 }
 
 /// A card with the links of a way, its maps lit and gathered; its events recorded if asked for.
@@ -158,7 +168,11 @@ pub(super) fn lit_card(
     let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);
     let mut card = SubsurfaceCard::new(profile, executor, scene.model.clone(), textures, eta, options)?;
     card.record(record);
-    light(&mut card, &parameters.lighting)?;
+    match &parameters.lighting {
+        Lighting::Lights(lights) => card.light(lights)?,
+        Lighting::ByFace(values) => card.irradiate(values)?,
+        Lighting::Environment(_) => card.irradiate_texels(scene.irradiance)?,
+    }
     Ok(card)
 }
 
@@ -186,14 +200,6 @@ fn map_format(scene: &Scene<'_>, map: MapBits) -> MapFormat {
             MapFormat::Unorm8 { scale: if most > 0.0 { 1.0 / most } else { 1.0 } }
         }
     }
-}
-
-fn light(card: &mut SubsurfaceCard, lighting: &Lighting) -> Result<(), SubsurfaceError> {
-    match lighting {
-        Lighting::Lights(lights) => card.light(lights)?,
-        Lighting::ByFace(values) => card.irradiate(values)?,
-    }
-    Ok(())
 }
 
 fn view(parameters: &Parameters, direct: DirectLight) -> View {

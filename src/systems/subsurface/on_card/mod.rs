@@ -144,7 +144,17 @@ impl SubsurfaceCard {
     /// [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
     pub fn irradiate(&mut self, by_face: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
         self.lights = CardLights::default();
-        self.light.fill_from_table(&mut self.machine, &self.model, by_face, self.map.map)?;
+        self.light.fill_from_faces(&mut self.machine, &self.model, by_face, self.map.map)?;
+        self.scatter()
+    }
+
+    /// As [`Self::irradiate`], with a table of texels, row by row.
+    ///
+    /// # Errors
+    /// [`SubsurfaceCardError::Mesh`], [`SubsurfaceCardError::Machine`].
+    pub fn irradiate_texels(&mut self, by_texel: &[[f64; 3]]) -> Result<(), SubsurfaceCardError> {
+        self.lights = CardLights::default();
+        self.light.fill_from_texels(&mut self.machine, &self.model, by_texel, self.map.map)?;
         self.scatter()
     }
 

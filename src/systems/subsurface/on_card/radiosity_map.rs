@@ -187,7 +187,7 @@ impl LightPass {
     }
 
     /// Fills the map from a table of irradiances (equation 8), one per face.
-    pub(super) fn fill_from_table(
+    pub(super) fn fill_from_faces(
         &mut self,
         machine: &mut Machine,
         model: &CardModel,
@@ -195,17 +195,42 @@ impl LightPass {
         map: TextureId,
     ) -> Result<(), SubsurfaceCardError> {
         MeshError::check_size("irradiances, one per face", model.faces(), irradiances.len())?;
+        self.fill(machine, model, irradiances, (|face, _| face, map))
+    }
+
+    /// Fills the map from a table of irradiances (equation 8), one per texel.
+    pub(super) fn fill_from_texels(
+        &mut self,
+        machine: &mut Machine,
+        model: &CardModel,
+        irradiances: &[[f64; 3]],
+        map: TextureId,
+    ) -> Result<(), SubsurfaceCardError> {
+        let texels = self.side as usize * self.side as usize;
+        MeshError::check_size("irradiances, one per texel", texels, irradiances.len())?;
+        self.fill(machine, model, irradiances, (|_, texel| texel, map))
+    }
+
+    /// Fills the map with the irradiance that `place` tells by face and texel.
+    fn fill(
+        &mut self,
+        machine: &mut Machine,
+        model: &CardModel,
+        irradiances: &[[f64; 3]],
+        (place, map): (fn(usize, usize) -> usize, TextureId),
+    ) -> Result<(), SubsurfaceCardError> {
         if let Some(&found) = irradiances.iter().flatten().find(|value| !(value.is_finite() && **value >= 0.0)) {
             return Err(MeshError::Figure { what: "finite irradiances of at least 0", found }.into());
         }
         let (scale, largest) = (self.format.scale(), f64::from(self.format.largest()));
         let side = self.side as usize;
         let mut texels = Texels::from_fn([side; 2], |_, _| [0.0; 4]);
-        for (face, irradiance) in model.faces.iter().zip(irradiances) {
-            let [r, g, b] = irradiance.map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
+        for (number, face) in model.faces.iter().enumerate() {
             let [x0, y0, x1, y1] = face.bounds.map(|bound| bound as usize);
-            for row in y0..=y1 {
-                texels.texels[row * side + x0..=row * side + x1].fill([r, g, b, 0.0]);
+            for at in (y0..=y1).flat_map(|row| row * side + x0..=row * side + x1) {
+                let irradiance = irradiances[place(number, at)];
+                let [r, g, b] = irradiance.map(|value| (value * f64::from(face.area) * scale).min(largest) as f32);
+                texels.texels[at] = [r, g, b, 0.0];
             }
         }
         let table = match self.table {

@@ -24,6 +24,11 @@ impl WalkEstimate {
         Self { mean, half_width: STUDENT * (squares / (count * (count - 1.0))).sqrt() }
     }
 
+    /// The standard error of the mean.
+    pub fn standard_error(self) -> f64 {
+        self.half_width / STUDENT
+    }
+
     /// The estimate times a number.
     pub fn times(self, factor: f64) -> Self {
         Self { mean: self.mean * factor, half_width: self.half_width * factor.abs() }

@@ -4,32 +4,21 @@
 //! Passes 1 and 3 draw the model, so they are drawn with as many faces as the paper's models have. Pass 2 is that of
 //! [`super::gather`]. The window is not printed; ours has as many pixels as the smaller atlas has texels.
 
-use refsim::device::Profile;
-use refsim::machine::ExecutorKind;
-use refsim::texture::TexelFormat;
-
 use super::counts::MODELS;
-use super::gather::{EIGHT, GatherCost, VARIANTS, all_costs};
+use super::frame_cost::{FrameCost, MapCost, WINDOW, cost};
+use super::gather::{GatherCost, VARIANTS, Variant, all_costs};
 use super::table_1::{DISPLAY, PRINTED, PrintedFrame, SIDES};
 use super::{
     Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared,
-    Standing, Sweep, failed, number,
+    Standing, Sweep, number,
 };
-use crate::atlas::Atlas;
-use crate::card::{MeshView, Texels};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
-use crate::scene::Camera;
 use crate::scene::built::meshes;
-use crate::subsurface::kernels::{DirectLight, EyeTransmittance, ViewKernel};
-use crate::subsurface::on_card::{
-    CardModel, FloatTexels, Light, LightStage, LinkTextures, SubsurfaceCard, SubsurfaceCardOptions, View, pass_times,
-};
+use crate::subsurface::on_card::MapFormat;
 
 /// Card of Figure 7.
 const OTHER_CARD: &str = "fx5800";
-/// Size of the window in pixels. The paper does not state it.
-const WINDOW: [u32; 2] = [512, 512];
 /// Printed frames per second of Figure 7.
 const FIGURE_7: f64 = 40.0;
 /// Printed time of all links of the larger atlas, in seconds.
@@ -43,8 +32,9 @@ const HOST_HZ: f64 = 2.083e9;
 const EVALUATIONS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 8.0];
 
 const HOW: &str = "The first and the third pass are drawn on stand-ins of as many faces, by vertex as the text has it, with the transmittance towards the \
-    eye from a texture and a window of {} x {} pixels, which is not printed. The second pass is that of fixed links and an 8-bit map, which the sweep \
-    replaces by the other variants.";
+    eye from a texture and a window of {} x {} pixels, which is not printed. Links are fixed and the map has bytes, which the sweep replaces by the other \
+    variants, each with its own first pass and levels: the card generates levels of bytes by itself, those of floats are passes, {} times as dear in half \
+    precision.";
 const LOCK: &str = "A display of {} Hz shows a finished frame at its next refresh, so that a frame takes a whole number of periods of {} ms: the modelled \
     rates are {} over the periods that the three passes and the map's levels need. The waits are in the printed shares, so the printed times of passes are \
     upper bounds of what they took, most of all for the shorter passes: the dolphin's first pass is printed with {} ms at the smaller atlas and with {} ms at \
@@ -52,20 +42,8 @@ const LOCK: &str = "A display of {} Hz shows a finished frame at its next refres
 const HOST: &str = "The time of links is that of one evaluation of R_d per link on the host of section three of the paper; which host computed them is not \
     printed. The sweep takes more evaluations per link.";
 
-/// Modelled seconds of the passes, in the order of a frame, without pass 2.
-#[derive(Clone, Copy, Debug)]
-struct FrameCost {
-    light: f64,
-    levels: f64,
-    view: f64,
-}
-
-impl FrameCost {
-    /// Total seconds of a frame, with pass 2.
-    fn frame(&self, gather: f64) -> f64 {
-        self.light + self.levels + gather + self.view
-    }
-}
+/// Place of the variant of the rows in [`VARIANTS`]: fixed links and an 8-bit map.
+const OURS: usize = 0;
 
 /// Frames per second on a display with vertical synchronisation, for frames of `seconds` seconds.
 fn locked(seconds: f64) -> f64 {
@@ -79,28 +57,31 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for ((model, _, stand_in), printed) in MODELS.iter().zip(PRINTED) {
         let mesh = mesh(stand_in)?;
         for (side, printed) in SIDES.into_iter().zip(printed) {
-            let cost = cost(CARD, &mesh, side as u32)?;
-            rows.extend(passes(model, side, printed, (cost, costs[0].seconds(side))));
+            let cost = cost(CARD, &mesh, side as u32, &VARIANTS)?;
+            rows.extend(passes(model, side, printed, (&cost, costs[OURS].seconds(side))));
             frames.push((*model, side, printed, cost));
         }
     }
-    let mut rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[0])).collect();
+    let mut rates: Vec<PaperRow> = frames.iter().map(|frame| rate(frame, &costs[OURS])).collect();
     rates.push(full_real_time(&rates[0]));
-    let setting = |(variant, cost): (&super::gather::Variant, &GatherCost)| {
+    let setting = |(at, (variant, cost)): (usize, (&Variant, &GatherCost))| {
         let mut values: Vec<f64> =
-            frames.iter().map(|(_, side, _, frame)| locked(frame.frame(cost.seconds(*side)))).collect();
+            frames.iter().map(|(_, side, _, frame)| locked(frame.frame(at, cost.seconds(*side)))).collect();
         values.push(values[0]);
         Setting { at: variant.name.to_owned(), values }
     };
-    let settings = VARIANTS.iter().zip(costs).map(setting).collect();
+    let settings = VARIANTS.iter().zip(costs).enumerate().map(setting).collect();
     Sweep { name: "Frames by what the text leaves open of pass 2", parameter: "variant", settings }.explain(&mut rates);
     rows.extend(rates);
     rows.push(figure_7()?);
     rows.push(links());
     let dolphin = |at: usize| number(1e3 / PRINTED[1][at].rate * PRINTED[1][at].shares[0] / 100.0, 1);
+    let half = VARIANTS.iter().position(|variant| variant.fixed && variant.map == MapFormat::Fp16).unwrap_or(OURS);
+    let dear = frames.first().map_or(1.0, |(.., cost)| cost.maps[half].levels / cost.maps[OURS].levels);
+    let [width, height] = WINDOW.map(|pixels| pixels.to_string());
     Ok(EntryFindings {
         text: vec![
-            Prose::new(HOW, WINDOW.map(|pixels| pixels.to_string())),
+            Prose::new(HOW, [width, height, number(dear, 1)]),
             Prose::new(
                 LOCK,
                 [number(DISPLAY, 0), number(1e3 / DISPLAY, 1), number(DISPLAY, 0), dolphin(0), dolphin(1)],
@@ -108,7 +89,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             HOST.into(),
         ],
         rows,
-        tables: vec![table(&frames, &costs[0])],
+        tables: vec![table(&frames, &costs[OURS]), variants(&frames, costs)],
         questions: vec![
             "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
         ],
@@ -126,9 +107,10 @@ fn passes(
     model: &str,
     side: f64,
     PrintedFrame { rate, shares }: PrintedFrame,
-    (cost, gather): (FrameCost, f64),
+    (cost, gather): (&FrameCost, f64),
 ) -> Vec<PaperRow> {
-    let ours = [Some(cost.light + cost.levels), (side == SIDES[0]).then_some(gather), Some(cost.view)];
+    let MapCost { light, levels } = cost.maps[OURS];
+    let ours = [Some(light + levels), (side == SIDES[0]).then_some(gather), Some(cost.view)];
     let row = |(pass, (share, ours)): (usize, (f64, Option<f64>))| {
         let target = PaperFigure {
             origin: Origin::Implied(format!("{share} % of 1/{rate} s")),
@@ -146,7 +128,7 @@ const DISPLAYED: &str = "the six frame rates, of which the display's was read of
 
 fn rate((model, side, printed, cost): &(&str, f64, PrintedFrame, FrameCost), gather: &GatherCost) -> PaperRow {
     let target = PaperFigure::printed(printed.rate, 2, "frames/s", "table 1");
-    let ours = (locked(cost.frame(gather.seconds(*side))), Standing::Predicted { from: DISPLAYED });
+    let ours = (locked(cost.frame(OURS, gather.seconds(*side))), Standing::Predicted { from: DISPLAYED });
     let what = format!("frames on a display at {side} x {side}, {model}");
     PaperRow::new(what, (CARD, Method::Pipeline), target, ours, Bound::PREDICTION)
 }
@@ -162,9 +144,9 @@ fn full_real_time(first: &PaperRow) -> PaperRow {
 /// without synchronisation, for the bunny at the smaller size.
 fn figure_7() -> Result<PaperRow, ReproduceError> {
     let costs = all_costs(OTHER_CARD)?;
-    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32)?;
+    let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32, &VARIANTS[..=OURS])?;
     let target = PaperFigure::printed(FIGURE_7, 0, "frames/s", "figure 7");
-    let ours = (1.0 / cost.frame(costs[0].seconds(SIDES[0])), Standing::Predicted { from: "" });
+    let ours = (1.0 / cost.frame(OURS, costs[OURS].seconds(SIDES[0])), Standing::Predicted { from: "" });
     let what = format!("frames at {0} x {0}, bunny, no display", SIDES[0]);
     Ok(PaperRow::new(what, (OTHER_CARD, Method::Pipeline), target, ours, Bound::PREDICTION))
 }
@@ -183,56 +165,6 @@ fn links() -> PaperRow {
     row
 }
 
-/// Cost of passes 1 and 3 of a model on a card.
-fn cost(card: &'static str, mesh: &Mesh, side: u32) -> Result<FrameCost, ReproduceError> {
-    let profile = Profile::named(card)?;
-    let mut machine = model_on(profile.clone(), mesh, side).map_err(|e| failed(card)(&e))?;
-    machine.record(true);
-    let sun = Light::Directional { towards: [1.0, -2.0, 3.0], irradiance: [1.0; 3] };
-    machine.light(&[sun]).map_err(|e| failed(card)(&e))?;
-    let kernel =
-        ViewKernel { transmittance: EyeTransmittance::Table, direct: DirectLight::ByVertex, ..ViewKernel::default() };
-    let camera = camera(mesh).map_err(|e| failed(card)(&e))?;
-    let shown = MeshView { format: TexelFormat::Bgra8, ..camera.into() };
-    let view = View { kernel, diffuse: [0.1; 3], ..View::scattered(shown) };
-    machine.view_texels(&view).map_err(|e| failed(card)(&e))?;
-    let [light, levels, _, view] = pass_times(&profile, &machine.take_log())?.map(|pass| pass.time.seconds());
-    Ok(FrameCost { light, levels, view })
-}
-
-/// Loads a model with links that are all alike: time does not depend on values.
-fn model_on(
-    profile: Profile,
-    mesh: &Mesh,
-    side: u32,
-) -> Result<SubsurfaceCard, Box<dyn std::error::Error + Send + Sync>> {
-    let atlas = Atlas::new(mesh, side)?;
-    let level = Some(side.ilog2() - LINKS.ilog2() / 2);
-    let textures = vec![Texels::from_fn([side as usize; 2], |_, _| [1.0 / 16.0; 4]); LINKS / 4];
-    let links = LinkTextures::from_textures(side, level, false, LINKS, textures)?;
-    let options = SubsurfaceCardOptions {
-        light: LightStage::Vertices,
-        map: EIGHT,
-        links: FloatTexels::Fp16,
-        scattered: FloatTexels::Fp16,
-        half: false,
-        memory: None,
-    };
-    Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, CardModel::new(&atlas), &links, 1.3, options)?)
-}
-
-/// Camera whose window is filled by the bounding sphere of a mesh.
-fn camera(mesh: &Mesh) -> Result<Camera, Box<dyn std::error::Error + Send + Sync>> {
-    let [low, high] = mesh.bounds().ok_or("a mesh without faces")?;
-    let middle = [0, 1, 2].map(|i| (low[i] + high[i]) / 2.0);
-    let radius =
-        [0, 1, 2].map(|i| f64::from(high[i] - low[i]) / 2.0).iter().map(|half| half * half).sum::<f64>().sqrt();
-    // Half the height of the window is a quarter of its distance.
-    let distance = radius * 17.0_f64.sqrt();
-    let eye = [middle[0], middle[1] - distance as f32, middle[2]];
-    Ok(Camera::new(eye, middle, [0.0, 0.0, 1.0], 0.25, WINDOW[0], WINDOW[1])?)
-}
-
 /// Table of modelled and printed passes.
 fn table(frames: &[(&str, f64, PrintedFrame, FrameCost)], gather: &GatherCost) -> Table {
     let mut table = Table::of(
@@ -241,13 +173,14 @@ fn table(frames: &[(&str, f64, PrintedFrame, FrameCost)], gather: &GatherCost) -
     );
     for (model, side, printed, cost) in frames {
         let gather = gather.seconds(*side);
-        let frame = cost.frame(gather);
+        let frame = cost.frame(OURS, gather);
+        let MapCost { light, levels } = cost.maps[OURS];
         let ms = |seconds: f64| Cell::measured(1e3 * seconds);
         table.push([
             (*model).into(),
             format!("{side} x {side}").into(),
-            ms(cost.light),
-            ms(cost.levels),
+            ms(light),
+            ms(levels),
             ms(gather),
             ms(cost.view),
             ms(frame),
@@ -255,6 +188,26 @@ fn table(frames: &[(&str, f64, PrintedFrame, FrameCost)], gather: &GatherCost) -
             ((DISPLAY / locked(frame)).round() as u32).into(),
             ((DISPLAY / printed.rate).round() as u32).into(),
         ]);
+    }
+    table
+}
+
+/// Table of the first model's frames in each variant, as the sweep has them.
+fn variants(frames: &[(&str, f64, PrintedFrame, FrameCost)], costs: &[GatherCost]) -> Table {
+    let model = frames.first().map_or("", |frame| frame.0);
+    let mut table = Table::of(
+        format!("Frames of the {model} by what the text leaves open of pass 2, in ms, and their rates on the display"),
+        "variant atlas pass_1_ms levels_ms pass_2_ms pass_3_ms frame_ms frames_per_s",
+    );
+    for (_, side, _, cost) in frames.iter().filter(|frame| frame.0 == model) {
+        for (at, (variant, gather)) in VARIANTS.iter().zip(costs).enumerate() {
+            let (MapCost { light, levels }, gather) = (cost.maps[at], gather.seconds(*side));
+            let frame = cost.frame(at, gather);
+            let ms = |seconds: f64| Cell::measured(1e3 * seconds);
+            let head: [Cell; 2] = [variant.name.into(), format!("{side} x {side}").into()];
+            let times = [light, levels, gather, cost.view, frame].map(ms);
+            table.push(head.into_iter().chain(times).chain([Cell::measured(locked(frame))]));
+        }
     }
     table
 }

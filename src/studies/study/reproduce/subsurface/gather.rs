@@ -35,7 +35,7 @@ pub(super) struct Variant {
     pub(super) half: bool,
 }
 
-pub(super) const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
+const EIGHT: MapFormat = MapFormat::Unorm8 { scale: 0.25 };
 
 /// All variants, those with fixed links first.
 pub(super) const VARIANTS: [Variant; 8] = [

@@ -1,6 +1,7 @@
 //! Section 4 of the radiosity and subsurface paper: its counts, and the times of its Table 1.
 
 mod counts;
+mod frame_cost;
 mod frames;
 mod gather;
 mod table_1;

@@ -1,0 +1,64 @@
+//! Light of an environment map at the texels of the atlas.
+
+use glam::DVec3;
+
+use super::{Parameters, SubsurfaceError};
+use crate::atlas::Atlas;
+use crate::geom::Sides;
+use crate::subsurface::{DistantSource, distant_irradiance};
+use crate::tracer::HostTracer;
+use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
+use crate::transfer::light::CubeLight;
+
+/// Texels of the light along a side of the square that one shadow ray stands for.
+const GROUP: usize = 2;
+
+/// E of equation 8 per texel of the atlas, with the model's own shadows.
+pub(super) fn irradiance(
+    atlas: &Atlas,
+    parameters: &Parameters,
+    light: &CubeLight,
+) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+    let mut caster = HostTracer::new(&parameters.mesh, Sides::Both);
+    Ok(distant_irradiance(atlas, &sources(light), parameters.material.eta, &mut caster)?)
+}
+
+/// The light as parallel beams, one per [`GROUP`] x [`GROUP`] texels that are not dark: the sum of radiance times solid
+/// angle, from its mean direction.
+fn sources(light: &CubeLight) -> Vec<DistantSource> {
+    let source = |face: usize, row: usize, column: usize| {
+        let (mut sum, mut towards) = (DVec3::ZERO, DVec3::ZERO);
+        for (row, column) in (0..GROUP * GROUP).map(|k| (row + k / GROUP, column + k % GROUP)) {
+            let radiance = DVec3::from(light.texels()[(face * LIGHT_SIDE + row) * LIGHT_SIDE + column]);
+            let irradiance = radiance * LIGHT_MAP.solid_angle(column, row);
+            sum += irradiance;
+            towards += irradiance.element_sum() * LIGHT_MAP.direction(face, column, row);
+        }
+        Some(DistantSource { towards: towards.try_normalize()?, irradiance: sum.to_array() })
+    };
+    let groups = LIGHT_SIDE / GROUP;
+    let places = (0..6 * groups * groups).map(|k| (k / (groups * groups), k / groups % groups, k % groups));
+    places.filter_map(|(face, row, column)| source(face, GROUP * row, GROUP * column)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Groups keep the light's flux: all of it, and what falls on a plane.
+    #[test]
+    fn sources_keep_the_flux() {
+        let all = sources(&CubeLight::constant([1.0, 2.0, 0.5]).expect("a light"));
+        assert_eq!(all.len(), 6 * 16 * 16);
+        let sum = |of: &dyn Fn(&DistantSource) -> f64| all.iter().map(of).sum::<f64>();
+        assert!((sum(&|s| s.irradiance[1]) - 8.0 * PI).abs() < 1e-9);
+        let onto_plane = sum(&|s| s.irradiance[0] * s.towards.dot(DVec3::new(0.0, 0.6, 0.8)).max(0.0));
+        assert!((onto_plane - PI).abs() < 5e-3 * PI, "{onto_plane}");
+        let mut texels = vec![[0.0; 3]; LIGHT_MAP.len()];
+        texels[5] = [1.0, 0.0, 0.0];
+        let one = sources(&CubeLight::new(texels).expect("a light"));
+        assert_eq!(one.len(), 1, "what is dark has no source");
+        assert!((one[0].towards - LIGHT_MAP.direction(0, 5, 0)).length() < 1e-12, "it shines from its own texel");
+    }
+}

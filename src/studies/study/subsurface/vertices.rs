@@ -1,0 +1,65 @@
+//! Values of texels at the vertices of the model.
+
+use glam::DVec3;
+
+use super::{Parameters, SubsurfaceOutcome};
+use crate::atlas::Atlas;
+use crate::geom::Mesh;
+use crate::report::{Cell, Table};
+
+/// Means of values per texel at each vertex: of the texels in its corners of faces, by the areas of the faces. `None`
+/// for a vertex of no face with an area.
+pub(super) fn by_vertex(atlas: &Atlas, mesh: &Mesh, texels: &[[f64; 3]]) -> Vec<Option<[f64; 3]>> {
+    let mut sums = vec![(0.0, DVec3::ZERO); mesh.positions().len()];
+    for (face, (vertices, place)) in (0..).zip(mesh.triangles().iter().zip(atlas.places())) {
+        for (corner, &vertex) in vertices.iter().enumerate() {
+            let mut weights = [0.0; 3];
+            weights[corner] = 1.0;
+            let [x0, y0, x1, y1] = place.bounds();
+            let [x, y] = atlas.coordinates(face, weights);
+            // The texel that the corner is a corner of.
+            let [column, row] = [x.clamp(x0, x1), y.clamp(y0, y1)].map(|at| at as usize);
+            let (sum, mean) = &mut sums[vertex as usize];
+            *sum += mesh.area(face);
+            *mean += mesh.area(face) * DVec3::from(texels[row * atlas.side() as usize + column]);
+        }
+    }
+    sums.into_iter().map(|(area, sum)| (area > 0.0).then(|| (sum / area).to_array())).collect()
+}
+
+/// A row per vertex of the model: its place, E, and B in every way.
+pub(super) fn table(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Table {
+    let at_vertices = |texels: &[[f64; 3]]| by_vertex(&outcome.atlas, &parameters.mesh, texels);
+    let columns: Vec<_> = outcome.columns().map(|(label, texels)| (label, at_vertices(texels))).collect();
+    let mut headings = ["vertex", "x", "y", "z"].map(str::to_owned).to_vec();
+    headings.extend(columns.iter().flat_map(|(label, _)| ["r", "g", "b"].map(|c| format!("{label}_{c}"))));
+    let mut table = Table::new("Vertices", &headings);
+    for (vertex, place) in parameters.mesh.positions().iter().enumerate() {
+        let head = [Cell::from(vertex)].into_iter().chain(place.map(Cell::from));
+        let found = columns.iter().flat_map(|(_, values)| {
+            values[vertex].map_or_else(|| [(); 3].map(|()| Cell::Empty), |value| value.map(Cell::from))
+        });
+        table.push(head.chain(found));
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values that are linear over a square are met at its corners to half a texel, and a vertex of no face has none.
+    #[test]
+    fn corners_have_the_values_of_their_texels() {
+        let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [9.0; 3]];
+        let square = Mesh::new(corners.clone(), vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
+        let atlas = Atlas::new(&square, 64).expect("an atlas");
+        let texels: Vec<[f64; 3]> = atlas.texels().iter().map(|texel| texel.point.to_array()).collect();
+        let found = by_vertex(&atlas, &square, &texels);
+        for (found, corner) in found.iter().zip(&corners[..4]) {
+            let found = DVec3::from(found.expect("a vertex of a face"));
+            assert!((found - DVec3::from(corner.map(f64::from))).length() < 0.05, "{found} at {corner:?}");
+        }
+        assert_eq!(found[4], None);
+    }
+}
