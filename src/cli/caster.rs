@@ -11,6 +11,7 @@ use super::{Problem, view};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::report::Findings;
 use crate::report::digits::{Quantity, count, shown};
 use crate::tracer::Caster;
 use crate::tracer::HostTracer;
@@ -100,19 +101,18 @@ impl<'a> OpenCaster<'a> {
     }
 }
 
-/// The engine's counts as a sentence.
-pub(super) fn sentence(engine: &EngineCounts) -> String {
-    format!(
+/// Adds the engine's counts to findings.
+pub(super) fn report(engine: &EngineCounts, found: &mut Findings) {
+    found.field(
+        "engine",
+        json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
+                "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests }),
+    );
+    found.print(format!(
         "engine: {} % of rays met the card, in {} passes with {} tests; {} tests on the host",
         shown(100.0 * engine.share_on_card(), Quantity::Percent),
         count(engine.passes),
         count(engine.pass_tests),
         count(engine.host_tests)
-    )
-}
-
-/// The engine's counts as JSON.
-pub(super) fn document(engine: &EngineCounts) -> serde_json::Value {
-    json!({ "rays": engine.rays, "rays_on_card": engine.rays_on_card, "passes": engine.passes,
-            "pass_rays": engine.pass_rays, "pass_tests": engine.pass_tests, "host_tests": engine.host_tests })
+    ));
 }

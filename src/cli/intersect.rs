@@ -12,7 +12,7 @@ use serde_json::json;
 use super::caster::{self, CasterArg, CasterChoice};
 use super::executor::{Decider, GpuArgs};
 use super::words::counted;
-use super::{Out, Problem, Verdict, model_file, view};
+use super::{Out, Problem, Verdict, model_file, study, view};
 use crate::geom::classify::Candidate;
 use crate::geom::exact::{Sides, Tracer};
 use crate::geom::{Hit, Mesh, Ray};
@@ -20,6 +20,7 @@ use crate::io::atomic::write_file;
 use crate::io::rays::{load_rays, write_hits};
 use crate::ray_engine::Crossbar;
 use crate::ray_engine::engine::EngineCounts;
+use crate::report::Findings;
 use crate::study::leaky_teapot::FormatLimits;
 
 const EXAMPLES: &str = "\
@@ -54,8 +55,8 @@ pub(super) struct Args {
     rays: PathBuf,
 
     /// Which faces can be hit
-    #[arg(long, value_enum, default_value = "front")]
-    sides: view::SidesArg,
+    #[arg(long, default_value = "front", value_parser = view::sides())]
+    sides: Sides,
 
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]
@@ -107,10 +108,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let mesh = model_file::mesh(&args.mesh)?;
     view::require_file(&args.rays, view::RAYS_PER_BYTE, "share the rays out to several files")?;
     let rays = load_rays(&args.rays)?;
-    let answer = way.answer(&mesh, &rays, Sides::from(args.sides))?;
+    let answer = way.answer(&mesh, &rays, args.sides)?;
     write_file(&args.out, |out| write_hits(&answer.hits, out)).map_err(Problem::from)?;
-    tell(args, &answer, out)?;
-    Ok(Verdict::Done)
+    study::show(&findings(args, &answer), out)
 }
 
 /// The device is looked up even where exact arithmetic needs none, so that a wrong name is never passed over.
@@ -155,8 +155,8 @@ impl HitSource {
     }
 }
 
-fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
-    let (rays, found) = (answer.hits.len(), answer.hits.iter().filter(|h| h.triangle.is_some()).count());
+fn findings(args: &Args, answer: &Answer) -> Findings {
+    let (rays, hits) = (answer.hits.len(), answer.hits.iter().filter(|h| h.triangle.is_some()).count());
     let rate = rays as f64 / answer.cast_s.max(1e-9);
     if args.time {
         let Answer { build_s, cast_s, .. } = answer;
@@ -169,24 +169,18 @@ fn tell(args: &Args, answer: &Answer, out: &mut Out) -> miette::Result<()> {
         // Nothing is to be done if nobody reads this.
         writeln!(std::io::stderr().lock(), "warning: {warning}").ok();
     }
-    if out.json() {
-        let mut document = json!({ "rays": rays, "hits": found, "out": args.out });
-        if let Some(warning) = &answer.warning {
-            document["warning"] = json!(warning);
-        }
-        if let Some(engine) = &answer.engine {
-            document["engine"] = caster::document(engine);
-        }
-        if args.time {
-            document["time"] = json!({ "build_s": answer.build_s, "cast_s": answer.cast_s, "rays_per_s": rate });
-        }
-        out.document(&document)?;
-        return Ok(());
+    let mut found = Findings::new("First hits");
+    found.fields(json!({ "rays": rays, "hits": hits, "out": args.out }));
+    if let Some(warning) = &answer.warning {
+        found.field("warning", json!(warning));
     }
     if let Some(engine) = &answer.engine {
-        out.sentence(caster::sentence(engine))?;
+        caster::report(engine, &mut found);
     }
-    let [found, rays] = [found, rays].map(counted);
-    out.line(format_args!("{found} of {rays} rays hit; written to {}", args.out.display()))?;
-    Ok(())
+    if args.time {
+        found.field("time", json!({ "build_s": answer.build_s, "cast_s": answer.cast_s, "rays_per_s": rate }));
+    }
+    let [hits, rays] = [hits, rays].map(counted);
+    found.print(format!("{hits} of {rays} rays hit; written to {}", args.out.display()));
+    found
 }

@@ -83,8 +83,8 @@ pub(super) struct Args {
     seed: u64,
 
     /// Which faces can be hit
-    #[arg(long, value_enum, default_value = "front")]
-    sides: view::SidesArg,
+    #[arg(long, default_value = "front", value_parser = view::sides())]
+    sides: Sides,
 
     /// Every ray against every triangle; without it, buckets of 32 x 32 rays meet the triangles near them
     #[arg(long)]
@@ -144,7 +144,7 @@ impl StudyArgs for Args {
             mesh,
             view,
             listed,
-            sides: Sides::from(self.sides),
+            sides: self.sides,
             configurations: configurations(self)?,
             rays_per_edge: self.rays_per_edge,
             seed: self.seed,

@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Out, Problem, Verdict, number};
+use super::{Out, Problem, Verdict, number, study};
 use crate::names::did_you_mean;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::subsurface::materials::{MATERIALS, PublishedFigure, PublishedMaterial, named};
 use crate::subsurface::{Coefficients, Dipole, Material, MaterialError};
 
@@ -80,15 +80,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         Some(material) => {
             let eta = args.eta.unwrap_or(material.eta);
             let material = Material::new(material.name, material.channels, eta).map_err(refused)?;
-            one(&Shown::new(&material, &args.at).map_err(refused)?, published, out)?;
+            study::show(&one(&Shown::new(&material, &args.at).map_err(refused)?, published), out)
         }
         None if args.eta.is_some() || !args.at.is_empty() => {
             let help = "name a medium, or give `--sigma-s` and `--sigma-a`; `crossbar materials` lists the names";
-            return Err(Problem::usage("`--eta` and `--at` are about one medium", help).into());
+            Err(Problem::usage("`--eta` and `--at` are about one medium", help).into())
         }
-        None => all(out)?,
+        None => all(out),
     }
-    Ok(Verdict::Done)
 }
 
 fn refused(error: MaterialError) -> Problem {
@@ -130,14 +129,15 @@ impl Shown {
 const RGB: [&str; 3] = ["red", "green", "blue"];
 
 /// The published media side by side.
-fn all(out: &mut Out) -> miette::Result<()> {
+fn all(out: &mut Out) -> miette::Result<Verdict> {
     let mut rows = Vec::new();
     for material in &MATERIALS {
         rows.push((material, Shown::new(&material.material(), &[]).map_err(refused)?));
     }
     if out.json() {
         let rows: Vec<Value> = rows.iter().map(|(material, shown)| document(shown, Some(material))).collect();
-        return Ok(out.document(&rows)?);
+        out.document(&rows)?;
+        return Ok(Verdict::Done);
     }
     let columns =
         ["medium", "channel", "sigma'_s (1/mm)", "sigma_a (1/mm)", "eta", "path (mm)", "R_d total", "R_d printed"];
@@ -160,30 +160,26 @@ fn all(out: &mut Out) -> miette::Result<()> {
     out.table(&table)?;
     out.line("")?;
     out.sentence("`crossbar materials NAME` shows lengths, R_d by distance and sources of one.")?;
-    Ok(())
+    Ok(Verdict::Done)
 }
 
 /// Everything about one medium.
-fn one(shown: &Shown, published: Option<&PublishedMaterial>, out: &mut Out) -> miette::Result<()> {
-    if out.json() {
-        return Ok(out.document(&document(shown, published))?);
-    }
-    out.line(format_args!("{}: index of refraction {}", shown.name, shown.eta))?;
-    out.line("")?;
-    out.table(&lengths(shown))?;
-    out.line("")?;
-    out.sentence("R_d: exitance at a distance from where a flux of 1 enters, per mm^2.")?;
-    let mut table = Table::new("R_d by distance", &["distance (mm)", "red", "green", "blue"]);
+fn one(shown: &Shown, published: Option<&PublishedMaterial>) -> Findings {
+    let mut found = Findings::new(shown.name.as_str());
+    found.fields(document(shown, published));
+    found.introduce(format!("{}: index of refraction {}", shown.name, shown.eta));
+    found.table(lengths(shown));
+    let title = "R_d: exitance at a distance from where a flux of 1 enters, per mm^2";
+    let mut table = Table::new(title, &["distance (mm)", "red", "green", "blue"]);
     for &r in &shown.at {
         let [red, green, blue] = shown.each(|dipole| dipole.r_d(r)).map(Cell::measured);
         table.push([r.into(), red, green, blue]);
     }
-    out.table(&table)?;
+    found.table(table);
     if let Some(published) = published {
-        out.line("")?;
-        out.table(&sources(published))?;
+        found.table(sources(published));
     }
-    Ok(())
+    found
 }
 
 fn lengths(shown: &Shown) -> Table {

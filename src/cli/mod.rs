@@ -29,6 +29,7 @@ mod model_file;
 mod model_name;
 mod moved;
 mod number;
+mod one_of;
 mod out;
 mod outputs;
 mod pixel;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::words::counted;
-use super::{Out, Problem, view};
+use super::{Out, Problem, study, view};
 use crate::io::atomic::FileSet;
 use crate::io::scene_files;
 use crate::names::did_you_mean;
-use crate::report::{Table, Verdict};
+use crate::report::{Findings, Table, Verdict};
 use crate::scene::{Scene, built};
 
 const EXAMPLES: &str = "\
@@ -36,29 +36,29 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     match &args.name {
-        None => all(out)?,
-        Some(name) => one(name, args.out.as_ref(), out)?,
+        None => all(out),
+        Some(name) => study::show(&one(name, args.out.as_ref())?, out),
     }
-    Ok(Verdict::Done)
 }
 
 /// All scenes, one per line.
-fn all(out: &mut Out) -> miette::Result<()> {
+fn all(out: &mut Out) -> miette::Result<Verdict> {
     let scenes = || built::names().filter_map(|name| Some((name, built::description(name)?, built::build(name)?)));
     if out.json() {
         let rows: Vec<Value> = scenes().map(|(name, what, scene)| summary(name, what, &scene)).collect();
-        return Ok(out.document(&rows)?);
+        out.document(&rows)?;
+        return Ok(Verdict::Done);
     }
     let mut table = Table::new("Scenes", &["scene", "triangles", "views", "what"]);
     for (name, what, scene) in scenes() {
         table.push([name.into(), scene.mesh().len().into(), views(&scene).into(), what.into()]);
     }
     out.table(&table)?;
-    Ok(())
+    Ok(Verdict::Done)
 }
 
 /// One scene, and its files if a folder is named.
-fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()> {
+fn one(name: &str, folder: Option<&PathBuf>) -> miette::Result<Findings> {
     let (Some(scene), Some(what)) = (built::build(name), built::description(name)) else {
         let names: Vec<&str> = built::names().collect();
         let what = format!("expected the name of a scene, found `{name}`");
@@ -70,22 +70,20 @@ fn one(name: &str, folder: Option<&PathBuf>, out: &mut Out) -> miette::Result<()
         let files = scene_files(&scene, &name.replace('-', "_")).map_err(miette::Report::msg)?;
         written = view::write_folder(FileSet::new(folder).map_err(Problem::from)?, &files)?;
     }
-    if out.json() {
-        let mut row = summary(name, what, &scene);
-        row["files"] = json!(written);
-        return Ok(out.document(&row)?);
-    }
-    out.line(format_args!("{name}: {what}"))?;
+    let mut found = Findings::new(format!("{name}: {what}"));
+    found.fields(summary(name, what, &scene));
+    found.field("files", json!(written));
     let [vertices, triangles] = [scene.mesh().positions().len(), scene.mesh().len()].map(counted);
-    out.line(format_args!("triangles     {triangles}, on {vertices} vertices"))?;
-    out.line(format_args!("materials     {}: {}", scene.materials().len(), materials(&scene)))?;
-    out.line(format_args!("emitters      {} triangles", counted(scene.emitters().len())))?;
-    out.line(format_args!("point lights  {}", scene.point_lights.len()))?;
-    out.line(format_args!("views         {}: {}", scene.views.len(), views(&scene)))?;
+    found.print(format!("{name}: {what}"));
+    found.print(format!("triangles     {triangles}, on {vertices} vertices"));
+    found.print(format!("materials     {}: {}", scene.materials().len(), materials(&scene)));
+    found.print(format!("emitters      {} triangles", counted(scene.emitters().len())));
+    found.print(format!("point lights  {}", scene.point_lights.len()));
+    found.print(format!("views         {}: {}", scene.views.len(), views(&scene)));
     for file in written {
-        out.line(format_args!("written       {}", file.display()))?;
+        found.print(format!("written       {}", file.display()));
     }
-    Ok(())
+    Ok(found)
 }
 
 fn views(scene: &Scene) -> String {

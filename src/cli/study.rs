@@ -1,5 +1,5 @@
 //! The one runner of studies: memory, progress, an output folder that appears at once, tables on standard output, the
-//! exit code.
+//! exit code. Commands that write no page [`show`] what they found in the same form.
 //!
 //! A study's command says what its options are and what they ask for; [`run`] does the rest.
 
@@ -11,7 +11,7 @@ use serde_json::json;
 use super::memory::MemoryNeed;
 use super::{Out, Problem, ProgressBar, view};
 use crate::io::atomic::FileSet;
-use crate::report::{Provenance, Verdict, sha256};
+use crate::report::{Findings, Provenance, Verdict, sha256};
 use crate::study::Study;
 
 /// The options of a study's command.
@@ -64,20 +64,48 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
         out.document(&document)?;
         return Ok(found.verdict());
     }
-    for table in found.printed_tables() {
-        out.titled_table(table)?;
-        out.line("")?;
-    }
-    for sentence in found.conclusions() {
-        out.sentence(sentence)?;
-    }
-    for line in found.printed_lines() {
-        out.sentence(line)?;
-    }
-    if let Some(folder) = args.folder() {
-        out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;
+    print(&found, args.folder(), out)?;
+    Ok(found.verdict())
+}
+
+/// Shows what a command without a page found: the document, or tables and lines.
+pub(super) fn show(found: &Findings, out: &mut Out) -> miette::Result<Verdict> {
+    if out.json() {
+        out.document(&found.plain_document())?;
+    } else {
+        print(found, None, out)?;
     }
     Ok(found.verdict())
+}
+
+/// Adds the files that a command wrote: a field for each that it has an option for, a line for each that was asked for.
+pub(super) fn written<'a>(found: &mut Findings, files: impl IntoIterator<Item = (&'a str, Option<&'a Path>)>) {
+    for (name, path) in files {
+        found.field(name, json!(path));
+        if let Some(path) = path {
+            found.print(format!("written   {}", path.display()));
+        }
+    }
+}
+
+/// Prints the introduction, each table, and the other lines with the page of a folder; empty lines part them.
+fn print(found: &Findings, folder: Option<&Path>, out: &mut Out) -> miette::Result<()> {
+    let mut is_first = found.introduction().is_empty();
+    let mut part = |out: &mut Out| if std::mem::take(&mut is_first) { Ok(()) } else { out.line("") };
+    found.introduction().iter().try_for_each(|line| out.sentence(line))?;
+    for table in found.printed_tables() {
+        part(out)?;
+        out.titled_table(table)?;
+    }
+    let lines: Vec<&String> = found.conclusions().iter().chain(found.printed_lines()).collect();
+    if !lines.is_empty() || folder.is_some() {
+        part(out)?;
+    }
+    lines.into_iter().try_for_each(|line| out.sentence(line))?;
+    if let Some(folder) = folder {
+        out.line(format_args!("pictures and tables: {}", folder.join("index.html").display()))?;
+    }
+    Ok(())
 }
 
 /// The provenance with digests of the inputs; names of scenes and what comes through a pipe have none.

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
+use super::one_of::{OneOf, one_of};
 use super::size::Size;
 use super::{MemoryError, Problem, memory};
 use crate::geom::exact::{Sides, Tracer};
@@ -15,22 +15,10 @@ use crate::io::atomic::FileSet;
 use crate::picture::Picture;
 use crate::scene::Camera;
 
-/// Which faces can be hit.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(super) enum SidesArg {
-    /// The side from which the corners run counter-clockwise
-    Front,
-    /// Both sides
-    Both,
-}
-
-impl From<SidesArg> for Sides {
-    fn from(arg: SidesArg) -> Self {
-        match arg {
-            SidesArg::Front => Self::Front,
-            SidesArg::Both => Self::Both,
-        }
-    }
+/// The sides that can be hit, for `--sides`.
+pub(super) fn sides() -> OneOf<Sides> {
+    let front = ("front", "The side from which the corners run counter-clockwise", Sides::Front);
+    one_of([front, ("both", "Both sides", Sides::Both)])
 }
 
 /// The card where none is named.

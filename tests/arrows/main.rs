@@ -2,6 +2,7 @@
 //! needs; names, words and lines of documentation keep their bounds.
 
 mod circles;
+mod mirrors;
 mod names;
 mod source;
 mod words;

@@ -50,6 +50,34 @@ fn tables_fit_the_terminal() {
     }
 }
 
+/// Commands without a page print titled tables, and a line per file that they wrote; JSON names the same files.
+#[test]
+fn findings_without_a_page_are_text_or_fields() {
+    let quarters = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/examples/quarters.mtx").display().to_string();
+    let light: &[&str] = &["all-frequency", "lighting", "--keep", "40", "--out", "light.csv"];
+    let lists: &[&str] = &["bi-scale", "bicluster", &quarters, "--out", "lists.prt", "--dump", "lists.csv"];
+    let patch: &[&str] =
+        &["bi-scale", "texture", "bumps", "--size", "4", "--directions", "2", "--views", "2", "--out", "bumps.npy"];
+    let cases: [(_, _, &[(&str, Option<&str>)]); 3] = [
+        (light, "a clear sky with a sun in 24 segments\n|", &[("out", Some("light.csv")), ("coefficients", None)]),
+        (lists, "Biclusters\n|", &[("out", Some("lists.prt")), ("dump", Some("lists.csv"))]),
+        (patch, "patch     4 x 4 texels", &[("out", Some("bumps.npy")), ("sheet", None)]),
+    ];
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    for (arguments, beginning, files) in cases {
+        let text = crossbar_in(folder.path(), arguments, "").stdout;
+        assert!(text.starts_with(beginning), "{arguments:?}: {text}");
+        let json = crossbar_in(folder.path(), &[arguments, &["--json"]].concat(), "").stdout;
+        let document: serde_json::Value = serde_json::from_str(&json).expect("one JSON document");
+        for (field, file) in files {
+            assert_eq!(document.get(*field), Some(&serde_json::json!(file)), "{arguments:?}: {json}");
+            let is_named = |file: &str| text.lines().any(|line| line == format!("written   {file}"));
+            assert!(file.is_none_or(is_named), "{arguments:?}: {text}");
+        }
+        assert!(!text.ends_with("\n\n"), "{arguments:?}: {text}");
+    }
+}
+
 /// In the main study, switches that change nothing are folded, on its page too; files for programs have every row.
 #[test]
 fn rows_of_the_same_bits_are_folded() {

@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use refsim::device::Profile;
+use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::file::LitArgs;
 use crate::all_frequency::kernels::MapFilter;
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace, RadianceFormat, VertexColors};
 use crate::cli::memory::MemoryNeed;
+use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
-use crate::cli::transfer::on_card::{OnCardArgs, VertexArg};
+use crate::cli::transfer::on_card::{OnCardArgs, vertex_versions};
 use crate::cli::{Problem, given};
 use crate::study::prt::AllFrequencyOnCard;
 
@@ -36,24 +38,6 @@ enum WayArg {
     Sums,
 }
 
-/// Who interpolates between texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum FilterArg {
-    /// The sampler, whose weights have few bits
-    Sampler,
-    /// The program
-    Program,
-}
-
-/// Number format of the transferred radiance of a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum RadianceArg {
-    /// Single precision
-    Fp32,
-    /// Half precision
-    Fp16,
-}
-
 /// Draw a model under distant light on an emulated card, from coded transfer
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
@@ -71,12 +55,12 @@ pub(super) struct Args {
     map_format: Option<TexelFormat>,
 
     /// Who interpolates between their texels, for products [default: sampler]
-    #[arg(long, value_enum, value_name = "WHO")]
-    filter: Option<FilterArg>,
+    #[arg(long, value_name = "WHO", value_parser = variants::<MapFilter>())]
+    filter: Option<MapFilter>,
 
     /// Number format of the transferred radiance of a vertex, for products [default: fp32]
-    #[arg(long, value_enum, value_name = "F")]
-    radiance: Option<RadianceArg>,
+    #[arg(long, value_name = "F", value_parser = variants::<RadianceFormat>())]
+    radiance: Option<RadianceFormat>,
 
     /// Draw a channel per pass, for products
     #[arg(long)]
@@ -87,8 +71,8 @@ pub(super) struct Args {
     partial: bool,
 
     /// The language of the vertex program, for products [default: vs_2_0 where the card has it]
-    #[arg(long, value_enum, value_name = "V")]
-    vertex: Option<VertexArg>,
+    #[arg(long, value_name = "V", value_parser = vertex_versions())]
+    vertex: Option<Version>,
 
     #[command(flatten)]
     card: OnCardArgs,
@@ -114,14 +98,13 @@ impl Args {
         }
         let has = |format: &TexelFormat| profile.limits.texture_formats.iter().any(|name| name == format.name());
         let fractions = [TexelFormat::Rgba16Snorm, TexelFormat::Rg16Snorm].into_iter().find(has);
-        let is_fp16 = self.radiance == Some(RadianceArg::Fp16);
         Ok(ProductPlace::Pixels(ProductOptions {
             map_format: self.map_format.or(fractions).unwrap_or(TexelFormat::Rgba8Snorm),
-            filter: if self.filter == Some(FilterArg::Program) { MapFilter::Program } else { MapFilter::Sampler },
-            radiance: if is_fp16 { RadianceFormat::Fp16 } else { RadianceFormat::Fp32 },
+            filter: self.filter.unwrap_or_default(),
+            radiance: self.radiance.unwrap_or_default(),
             is_pass_per_channel: self.pass_per_channel,
             is_partial: self.partial,
-            vertex_version: self.vertex.map(Into::into),
+            vertex_version: self.vertex,
             ..ProductOptions::default()
         }))
     }

@@ -3,19 +3,20 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use serde_json::json;
 
 use super::file::FileOfModel;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer, ScaleOf};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::file::{AllFrequencyFile, save_all_frequency};
-use crate::cli::transfer::values::MethodArg;
+use crate::cli::one_of::variants;
+use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory, view};
+use crate::cli::{Problem, ProgressBar, memory, view};
 use crate::io::ReadError;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
+use crate::transfer::clustering::CpcaMethod;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::hats::Hats;
 use crate::transfer::visibility::SegmentCensus;
@@ -28,15 +29,6 @@ Examples:
       in fewer bits; every segment's error for machines
 
 Transfer is nowhere stored whole: that of a segment is computed, compressed and coded before the next.";
-
-/// The numbers that share a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ScaleArg {
-    /// Those of a representative, and the weights on it
-    Representative,
-    /// All of a segment
-    Segment,
-}
 
 /// Compress transfer segment by segment, and code it
 #[derive(Debug, clap::Args)]
@@ -60,8 +52,8 @@ pub(super) struct Args {
     vectors: u32,
 
     /// By which measure points are shared out to clusters
-    #[arg(long, value_enum, value_name = "HOW", default_value = "doubling")]
-    method: MethodArg,
+    #[arg(long, value_name = "HOW", default_value = "doubling", value_parser = variants::<CpcaMethod>())]
+    method: CpcaMethod,
 
     /// Iterations at most for each number of vectors, and rounds of redistribution
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -80,8 +72,8 @@ pub(super) struct Args {
     weight_bits: u8,
 
     /// The numbers that share a step
-    #[arg(long, value_enum, value_name = "OF", default_value = "representative")]
-    scale: ScaleArg,
+    #[arg(long, value_name = "OF", default_value = "representative", value_parser = variants::<ScaleOf>())]
+    scale: ScaleOf,
 
     /// Keep finished segments in this folder, and take those that it has
     #[arg(long, value_name = "FOLDER")]
@@ -92,7 +84,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     view::require_file(&args.signal, 3, "name a smaller file")?;
     let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.signal, &args.model)?;
     let Some(maps) = &file.visibility else {
@@ -126,13 +118,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &Hats::new(file.hats));
     let raw = compression.raw_bytes();
-    let written = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
-    save_all_frequency(&written, &args.out).map_err(Problem::from)?;
-    let Some(coded) = &written.coded else { return Ok(()) };
-    if out.json() {
-        return Ok(out.document(&document(args, coded, &tally, &census, raw))?);
-    }
-    tell(args, coded, &tally, &census, raw, out)
+    let small = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
+    save_all_frequency(&small, &args.out).map_err(Problem::from)?;
+    let coded = small.coded.as_ref();
+    Ok(coded.map(|coded| findings(args, coded, &tally, &census, raw)).unwrap_or_default())
 }
 
 fn options(args: &Args) -> SegmentOptions {
@@ -141,7 +130,7 @@ fn options(args: &Args) -> SegmentOptions {
         points_per_cluster: args.points_per_cluster as usize,
         vectors: args.vectors as usize,
         iterations,
-        method: args.method.method(iterations),
+        method: args.method.with_rounds(iterations),
         seed: args.seed,
     }
 }
@@ -174,14 +163,7 @@ fn kept(
 }
 
 fn code(args: &Args) -> CodeOptions {
-    CodeOptions {
-        representative_bits: args.bits,
-        weight_bits: args.weight_bits,
-        scale: match args.scale {
-            ScaleArg::Representative => ScaleOf::Representative,
-            ScaleArg::Segment => ScaleOf::Segment,
-        },
-    }
+    CodeOptions { representative_bits: args.bits, weight_bits: args.weight_bits, scale: args.scale }
 }
 
 /// Bytes of weights and representatives in single precision.
@@ -189,80 +171,66 @@ fn clustered_bytes(coded: &CodedTransfer) -> u64 {
     4 * (coded.nonzeros().1 + coded.segments.iter().map(|part| part.weights.len()).sum::<usize>()) as u64
 }
 
-fn document(
+fn findings(
     args: &Args,
     coded: &CodedTransfer,
     tally: &CompressionTally,
     census: &SegmentCensus,
     raw: u64,
-) -> serde_json::Value {
-    let squares = tally.sum(|part| part.squares);
-    let (nonzeros, all) = coded.nonzeros();
-    let size = coded.size();
-    let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
+) -> Findings {
+    let mut found = Findings::new("Transfer by segments");
+    found.table(segments(&tally.segments));
     let segment = |part: &SegmentTally| {
         json!({
             "segment": part.segment, "vertices": part.vertices, "clusters": part.clusters, "squares": part.squares,
             "squared_error": part.squared_error, "coded_squared_error": part.coded_squared_error,
         })
     };
-    let seconds = |step: usize| tally.sum(|part| part.seconds[step]);
-    json!({
-        "out": args.out, "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
+    let (nonzeros, all) = coded.nonzeros();
+    let (size, clustered) = (coded.size(), clustered_bytes(coded));
+    let blocks: usize = coded.segments.iter().map(|part| part.representatives.block_count()).sum();
+    let squares = tally.sum(|part| part.squares);
+    let [after, before] =
+        [tally.sum(|part| part.coded_squared_error), tally.sum(|part| part.squared_error)].map(|error| error / squares);
+    let [transfer, clusters, code] = [0, 1, 2].map(|step| tally.sum(|part| part.seconds[step]));
+    found.fields(json!({
+        "vertices": coded.vertices, "terms": coded.rows, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
         "clusters": coded.clusters(), "segments_kept": tally.kept,
-        "bytes": { "raw": raw, "clustered": clustered_bytes(coded), "coded": size.total(),
+        "bytes": { "raw": raw, "clustered": clustered, "coded": size.total(),
                    "as_the_paper_counts": size.as_the_paper_counts() },
         "code": { "blocks": blocks, "columns": coded.rows * coded.coefficients, "nonzeros": nonzeros, "numbers": all,
                   "bytes": { "representatives": size.representatives, "columns": size.columns,
                              "weights": size.weights, "steps": size.steps, "clusters": size.clusters } },
-        "squared_error": tally.sum(|part| part.coded_squared_error) / squares,
-        "squared_error_before_coding": tally.sum(|part| part.squared_error) / squares,
-        "seconds": { "transfer": seconds(0), "clusters": seconds(1), "code": seconds(2) },
+        "squared_error": after, "squared_error_before_coding": before,
+        "seconds": { "transfer": transfer, "clusters": clusters, "code": code },
         "segments": tally.segments.iter().map(segment).collect::<Vec<_>>(),
-    })
+    }));
+    let percent = |part: f64, whole: f64| 100.0 * part / whole;
+    found.print(format!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()));
+    found.print(format!("clusters  {}", counted(coded.clusters())));
+    for (what, bytes) in [("raw", raw), ("clustered", clustered), ("coded", size.total())] {
+        found.print(format!("{what:9} {} bytes, {:.2} %", counted(bytes as usize), percent(bytes as f64, raw as f64)));
+    }
+    let dense = percent(nonzeros as f64, all.max(1) as f64);
+    found.print(format!("nonzeros  {} of {}: {dense:.1} %", counted(nonzeros), counted(all)));
+    found.print(format!("error     {:.4} % of the squares; {:.4} % before coding", 100.0 * after, 100.0 * before));
+    found.print(format!("time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"));
+    if let Some(folder) = &args.resume {
+        found.print(format!("kept      {} segments were finished before, in {}", tally.kept, folder.display()));
+    }
+    written(&mut found, [("out", Some(args.out.as_path()))]);
+    found
 }
 
-fn tell(
-    args: &Args,
-    coded: &CodedTransfer,
-    tally: &CompressionTally,
-    census: &SegmentCensus,
-    raw: u64,
-    out: &mut Out,
-) -> miette::Result<()> {
+fn segments(segments: &[SegmentTally]) -> Table {
     let mut table = Table::new("Segments", &["segment", "vertices", "clusters", "squared error (%)", "coded (%)"]);
-    let share =
-        |error: f64, squares: f64| if squares > 0.0 { Cell::measured(100.0 * error / squares) } else { Cell::Empty };
-    for part in &tally.segments {
-        let errors = [part.squared_error, part.coded_squared_error].map(|error| share(error, part.squares));
-        let [error, coded] = errors;
+    for part in segments {
+        let share = |error: f64| {
+            if part.squares > 0.0 { Cell::measured(100.0 * error / part.squares) } else { Cell::Empty }
+        };
+        let [error, coded] = [part.squared_error, part.coded_squared_error].map(share);
         table.push([part.segment.into(), part.vertices.into(), part.clusters.into(), error, coded]);
     }
-    out.table(&table)?;
-    out.line("")?;
-    let (nonzeros, all) = coded.nonzeros();
-    let size = coded.size();
-    let percent = |bytes: u64| 100.0 * bytes as f64 / raw as f64;
-    out.sentence(format_args!("segments  {:.1} % of all hold transfer", 100.0 * census.omega()))?;
-    out.line(format_args!("clusters  {}", counted(coded.clusters())))?;
-    let clustered = clustered_bytes(coded);
-    for (what, bytes) in [("raw", raw), ("clustered", clustered), ("coded", size.total())] {
-        out.line(format_args!("{what:9} {} bytes, {:.2} %", counted(bytes as usize), percent(bytes)))?;
-    }
-    let dense = 100.0 * nonzeros as f64 / all.max(1) as f64;
-    out.sentence(format_args!("nonzeros  {} of {}: {dense:.1} %", counted(nonzeros), counted(all)))?;
-    let squares = tally.sum(|part| part.squares);
-    let errors = [tally.sum(|part| part.coded_squared_error), tally.sum(|part| part.squared_error)];
-    let [after, before] = errors.map(|error| 100.0 * error / squares);
-    out.sentence(format_args!("error     {after:.4} % of the squares; {before:.4} % before coding"))?;
-    let [transfer, clusters, code] = [0, 1, 2].map(|step| tally.sum(|part| part.seconds[step]));
-    out.sentence(format_args!(
-        "time      {transfer:.1} s of transfer, {clusters:.1} s of clusters, {code:.1} s of code"
-    ))?;
-    if let Some(folder) = &args.resume {
-        out.sentence(format_args!("kept      {} segments were finished before, in {}", tally.kept, folder.display()))?;
-    }
-    out.line(format_args!("written   {}", args.out.display()))?;
-    Ok(())
+    table
 }

@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::ArgGroup;
 
-use super::factor_values::{
-    ChannelArg, ClampWhenArg, DenominatorsArg, FresnelArg, LimitArg, ModelArg, OutsideArg, ShadowingArg,
-    SupersamplesArg, TangentArg,
-};
+use super::factor_values::{LimitArg, ModelArg, SupersamplesArg};
 use crate::all_frequency::factor::{
-    FacetDistribution, FactorSampling, Lobe, MAX_MAP_SIDE, ProductClamp, load_merl, load_product_table,
+    Denominators, FacetDistribution, FactorSampling, FresnelForm, Lobe, MAX_MAP_SIDE, MerlChannel, OutsideDisc,
+    ProductClamp, Shadowing, TangentCosine, load_merl, load_product_table,
 };
 use crate::cli::memory::MemoryNeed;
+use crate::cli::one_of::{OneOf, one_of, variants};
 use crate::cli::study::StudyArgs;
 use crate::cli::{Problem, given, number};
 use crate::study::prt::{BrdfFactors, FactorSubject};
@@ -78,24 +77,24 @@ pub(super) struct Args {
     albedo: Option<f64>,
 
     /// What stands in front of the lobe of cook-torrance and schlick [default: normalised]
-    #[arg(long, value_enum, value_name = "D")]
-    denominators: Option<DenominatorsArg>,
+    #[arg(long, value_name = "D", value_parser = variants::<Denominators>())]
+    denominators: Option<Denominators>,
 
     /// Fresnel's term of cook-torrance and schlick [default: dielectric and schlick]
-    #[arg(long, value_enum, value_name = "FORM")]
-    fresnel_form: Option<FresnelArg>,
+    #[arg(long, value_name = "FORM", value_parser = variants::<FresnelForm>())]
+    fresnel_form: Option<FresnelForm>,
 
     /// Shadowing of cook-torrance and schlick [default: model]
-    #[arg(long, value_enum, value_name = "S")]
-    shadowing: Option<ShadowingArg>,
+    #[arg(long, value_name = "S", value_parser = variants::<Shadowing>())]
+    shadowing: Option<Shadowing>,
 
     /// The cosine along the tangent in schlick [default: projected]
-    #[arg(long, value_enum, value_name = "W")]
-    tangent: Option<TangentArg>,
+    #[arg(long, value_name = "W", value_parser = variants::<TangentCosine>())]
+    tangent: Option<TangentCosine>,
 
     /// The channel of a measurement
-    #[arg(long, value_enum, value_name = "C", default_value = "green")]
-    channel: ChannelArg,
+    #[arg(long, value_name = "C", default_value = "green", value_parser = variants::<MerlChannel>())]
+    channel: MerlChannel,
 
     /// Texels along an edge of the parabolic maps
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=MAX_MAP_SIDE as i64))]
@@ -106,16 +105,16 @@ pub(super) struct Args {
     supersamples: SupersamplesArg,
 
     /// Texels outside of the disc, whose directions lie below the horizon
-    #[arg(long, value_enum, value_name = "HOW", default_value = "zero")]
-    outside: OutsideArg,
+    #[arg(long, value_name = "HOW", default_value = "zero", value_parser = variants::<OutsideDisc>())]
+    outside: OutsideDisc,
 
     /// Cut off reflectance times cosine at this value, or at `none`
     #[arg(long, value_name = "LIMIT", default_value = "3", allow_hyphen_values = true)]
     clamp: LimitArg,
 
     /// Whether samples are cut off before their mean is taken, or the mean after [default: after]
-    #[arg(long, value_enum, value_name = "WHEN")]
-    clamp_when: Option<ClampWhenArg>,
+    #[arg(long, value_name = "WHEN", value_parser = clamp_when())]
+    clamp_when: Option<fn(f64) -> ProductClamp>,
 
     /// Terms [default: 10, or the rank of the table where that is less]
     #[arg(long, value_name = "M", value_parser = clap::value_parser!(u32).range(1..))]
@@ -130,35 +129,35 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
+/// The values that are cut off, for `--clamp-when`.
+fn clamp_when() -> OneOf<fn(f64) -> ProductClamp> {
+    let before: (_, _, fn(f64) -> _) = ("before", "Each sample, before the mean is taken", ProductClamp::Samples);
+    one_of([before, ("after", "The mean", ProductClamp::Means)])
+}
+
 impl Args {
     fn sampling(&self) -> FactorSampling {
         FactorSampling {
             side: self.side as usize,
             supersamples: self.supersamples.0,
-            outside: self.outside.into(),
-            clamp: match (self.clamp.0, self.clamp_when) {
-                (None, _) => ProductClamp::None,
-                (Some(limit), Some(ClampWhenArg::Before)) => ProductClamp::Samples(limit),
-                (Some(limit), None | Some(ClampWhenArg::After)) => ProductClamp::Means(limit),
-            },
+            outside: self.outside,
+            clamp: self.clamp.0.map_or(ProductClamp::None, self.clamp_when.unwrap_or(ProductClamp::Means)),
         }
     }
 
     fn lobe(&self, lobe: Lobe) -> Result<FactorSubject, Problem> {
         let distribution = match lobe.distribution {
-            FacetDistribution::Schlick { roughness, isotropy, .. } => FacetDistribution::Schlick {
-                roughness,
-                isotropy,
-                tangent: self.tangent.unwrap_or(TangentArg::Projected).into(),
-            },
+            FacetDistribution::Schlick { roughness, isotropy, .. } => {
+                FacetDistribution::Schlick { roughness, isotropy, tangent: self.tangent.unwrap_or_default() }
+            }
             beckmann @ FacetDistribution::Beckmann { .. } => beckmann,
         };
         let lobe = Lobe {
             albedo: self.albedo.unwrap_or(0.0),
             distribution,
-            fresnel: self.fresnel_form.map_or(lobe.fresnel, Into::into),
-            shadowing: self.shadowing.unwrap_or(ShadowingArg::Model).into(),
-            denominators: self.denominators.unwrap_or(DenominatorsArg::Normalised).into(),
+            fresnel: self.fresnel_form.unwrap_or(lobe.fresnel),
+            shadowing: self.shadowing.unwrap_or_default(),
+            denominators: self.denominators.unwrap_or_default(),
             ..lobe
         };
         lobe.check().map_err(|error| refused(&error))?;
@@ -249,9 +248,7 @@ impl StudyArgs for Args {
             given::refuse(when, "reflectance that is cut off, found `--clamp none`", "leave it out")?;
         }
         let (name, subject) = match (&self.merl, &self.table, self.brdf) {
-            (Some(path), ..) => {
-                (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, self.channel.into()))
-            }
+            (Some(path), ..) => (path.display().to_string(), FactorSubject::Merl(load_merl(path)?, self.channel)),
             (None, Some(path), _) => (path.display().to_string(), FactorSubject::Table(load_product_table(path)?)),
             (None, None, model) => {
                 let model = model.unwrap_or(ModelArg::CookTorrance);

@@ -7,11 +7,12 @@ use serde_json::json;
 
 use super::file::FileOfModel;
 use crate::all_frequency::transfer::transfer_of;
+use crate::cli::one_of::variants;
+use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
-use crate::cli::words::counted;
-use crate::cli::{Out, Problem, given, number, view};
+use crate::cli::{Problem, given, number, view};
 use crate::io::{write_cube_table, write_file};
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
 use crate::transfer::hats::Hats;
@@ -28,17 +29,6 @@ Examples:
   crossbar all-frequency lighting --keep 200 --by transfer --transfer docs/examples/step_all.prt --model docs/examples/step.obj
       the coefficients that this model answers to most";
 
-/// Segments of the cube.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum SegmentsArg {
-    /// Four per face: 16 x 16 texels
-    #[value(name = "24")]
-    Quarters,
-    /// The faces: 32 x 32 texels
-    #[value(name = "6")]
-    Faces,
-}
-
 /// What coefficients are chosen by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ByArg {
@@ -50,15 +40,6 @@ enum ByArg {
     Transfer,
 }
 
-/// How the cube's texels are made of 4 x 4 samples.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum DecimationArg {
-    /// Weighted by solid angle, which keeps the flux
-    SolidAngle,
-    /// Their plain mean
-    Plain,
-}
-
 /// Take light into Haar wavelets over a cube, and leave the most important coefficients
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
@@ -67,8 +48,8 @@ pub(super) struct Args {
     light: LightArgs,
 
     /// Squares that have a Haar transform each
-    #[arg(long, value_enum, value_name = "N", default_value = "24")]
-    segments: SegmentsArg,
+    #[arg(long, value_name = "N", default_value = "24", value_parser = variants::<Segmentation>())]
+    segments: Segmentation,
 
     /// Coefficients that are kept [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
@@ -87,8 +68,8 @@ pub(super) struct Args {
     model: Option<PathBuf>,
 
     /// Weights of the samples of a texel
-    #[arg(long, value_enum, value_name = "HOW", default_value = "solid-angle")]
-    decimation: DecimationArg,
+    #[arg(long, value_name = "HOW", default_value = "solid-angle", value_parser = variants::<Decimation>())]
+    decimation: Decimation,
 
     /// Turn the light around z, in degrees
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = number::finite, allow_hyphen_values = true)]
@@ -107,10 +88,9 @@ pub(super) struct Args {
     out: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let light = args.light.distant()?;
-    let decimation = if args.decimation == DecimationArg::Plain { Decimation::Plain } else { Decimation::SolidAngle };
-    let cube = |turns: f64| light.cube(&turn_around_z(turns), decimation).map_err(refused);
+    let cube = |turns: f64| light.cube(&turn_around_z(turns), args.decimation).map_err(refused);
     let first = cube(args.rotate / 360.0)?;
     let truncation = Truncation::new(args)?;
     let cut = truncation.of(&first)?;
@@ -127,14 +107,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         .map(|frame| cube(args.rotate / 360.0 + f64::from(frame) / f64::from(args.frames)))
         .collect::<Result<_, _>>()?;
     let flicker = if frames.is_empty() { None } else { Some(truncation.flicker(&frames)?) };
-    if out.json() {
-        return Ok(out.document(&json!({
-            "light": args.light.name(), "segments": args.segmentation().count(), "flux": first.flux(),
-            "nonzero": cut.nonzero, "kept": cut.kept, "energy": cut.energy, "kept_energy": cut.kept_energy,
-            "negative_texels": negative, "flicker": flicker, "out": args.out, "coefficients": args.coefficients,
-        }))?);
-    }
-    let mut table = Table::new("Coefficients", &["figure", "value"]);
+    let mut found = Findings::new("Light as wavelets");
+    found.fields(json!({
+        "light": args.light.name(), "segments": args.segments.count(), "flux": first.flux(),
+        "nonzero": cut.nonzero, "kept": cut.kept, "energy": cut.energy, "kept_energy": cut.kept_energy,
+        "negative_texels": negative, "flicker": flicker,
+    }));
+    let title = format!("{} in {} segments", args.light.name(), args.segments.count());
+    let mut table = Table::new(title, &["figure", "value"]);
     table.push(["not 0, of 6,144".into(), cut.nonzero.into()]);
     table.push(["kept".into(), cut.kept.into()]);
     table.push(["energy kept (%)".into(), Cell::measured(100.0 * cut.kept_energy)]);
@@ -142,22 +122,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if let Some(flicker) = flicker {
         table.push(["flicker of a frame (% of the light)".into(), Cell::measured(100.0 * flicker)]);
     }
-    out.sentence(format_args!("{} in {} segments", args.light.name(), counted(args.segmentation().count())))?;
-    out.table(&table)?;
-    for path in args.coefficients.iter().chain(&args.out) {
-        out.line(format_args!("written   {}", path.display()))?;
-    }
-    Ok(())
+    found.table(table);
+    written(&mut found, [("coefficients", args.coefficients.as_deref()), ("out", args.out.as_deref())]);
+    Ok(found)
 }
 
 impl Args {
-    const fn segmentation(&self) -> Segmentation {
-        match self.segments {
-            SegmentsArg::Quarters => Segmentation::Quarters,
-            SegmentsArg::Faces => Segmentation::Faces,
-        }
-    }
-
     /// The mean response of the model's vertices to each coefficient, for `--by transfer`.
     fn responses(&self) -> miette::Result<Option<Vec<f64>>> {
         let (Some(path), Some(model)) = (&self.transfer, &self.model) else {
@@ -169,7 +139,7 @@ impl Args {
         };
         let others = [("--transfer", self.by != ByArg::Transfer)];
         given::refuse(others, "`--by transfer`", "add `--keep N --by transfer`, or leave it out")?;
-        let faces = [("--segments", self.segments == SegmentsArg::Faces)];
+        let faces = [("--segments", self.segments == Segmentation::Faces)];
         given::refuse(faces, "other priorities than `--by transfer`, whose segments are 24", "leave it out")?;
         view::require_file(path, 3, "name a smaller file")?;
         let FileOfModel { file, vertices, .. } = FileOfModel::load(path, model)?;
@@ -193,7 +163,7 @@ struct Truncation {
 
 impl Truncation {
     fn new(args: &Args) -> miette::Result<Self> {
-        let (segmentation, by) = (args.segmentation(), args.by);
+        let (segmentation, by) = (args.segments, args.by);
         let keep = args.keep.map_or(usize::MAX, |keep| keep as usize);
         Ok(Self { segmentation, by, keep, responses: args.responses()? })
     }

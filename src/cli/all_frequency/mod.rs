@@ -52,15 +52,15 @@ enum Verb {
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
-    match &args.verb {
+    let found = match &args.verb {
         Verb::Factor(args) => return study::run(args, command_line, out),
-        Verb::Lighting(args) => lighting::run(args, out)?,
-        Verb::Precompute(args) => precompute::run(args, out)?,
-        Verb::Compress(args) => compress::run(args, out)?,
-        Verb::Error(args) => error::run(args, out)?,
-        Verb::Show(args) => show::run(args, out)?,
+        Verb::Lighting(args) => lighting::run(args)?,
+        Verb::Precompute(args) => precompute::run(args)?,
+        Verb::Compress(args) => compress::run(args)?,
+        Verb::Error(args) => return error::run(args, out).map(|()| Verdict::Done),
+        Verb::Show(args) => return show::run(args, out).map(|()| Verdict::Done),
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
-    }
-    Ok(Verdict::Done)
+    };
+    study::show(&found, out)
 }

@@ -2,19 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::ProductFactors;
 use crate::all_frequency::file::save_all_frequency;
 use crate::cli::model_name::transfer_model_help;
-use crate::cli::transfer::model::{load, refused, vertices};
+use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::study::written;
+use crate::cli::transfer::model::{load, note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::cli::{Problem, ProgressBar, memory};
 use crate::geom::Mesh;
 use crate::io::{NumberTable, load_numbers, write_file, write_obj};
+use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
 use crate::study::prt::{FoundSight, SightOfModel};
@@ -36,13 +38,10 @@ Examples:
 
 The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
 
-/// How wide the hats of the light's texels are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum HatsArg {
-    /// A texel alone
-    One,
-    /// To the centers of its neighbors
-    Two,
+/// The widths of the hats of the light's texels, for `--hats`.
+fn hats() -> OneOf<HatWidth> {
+    let two = ("two", "To the centers of its neighbors", HatWidth::TwoTexels);
+    one_of([("one", "A texel alone", HatWidth::OneTexel), two])
 }
 
 /// Compute what each vertex of a model sees, for light of all frequencies
@@ -64,8 +63,8 @@ pub(super) struct Args {
     ground: Option<u32>,
 
     /// Width in texels of the hats of the light's texels
-    #[arg(long, value_enum, value_name = "WIDTH", default_value = "two")]
-    hats: HatsArg,
+    #[arg(long, value_name = "WIDTH", default_value = "two", value_parser = hats())]
+    hats: HatWidth,
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
     /// axis X,Y,Z
@@ -77,7 +76,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (tangents, path) = (args.tangents.0, args.out.as_path());
     let reflectance =
         args.factors.as_deref().map(load_factors).transpose()?.map_or(Reflectance::Diffuse, Reflectance::Factored);
@@ -88,13 +87,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let what = format_args!("visibility of {count} vertices, {VISIBILITY_BYTES} bytes each");
     let help = "name a model of fewer vertices, or a smaller ground";
     memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
-    let hats = if args.hats == HatsArg::One { HatWidth::OneTexel } else { HatWidth::TwoTexels };
     let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
     let bar = ProgressBar::new("", 1);
     let sight = SightOfModel {
         scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
         vertices: &vertices,
-        hats,
+        hats: args.hats,
         reflectance,
         ground: ground.as_ref().map(|ground| &ground.vertices),
     };
@@ -106,35 +104,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         write_file(&ground_mesh, |file| write_obj(&ground.mesh, file)).map_err(Problem::from)?;
     }
     drop(bar);
-    if out.json() {
-        let mut document = document(&found, path);
-        document["unused_vertices"] = json!(vertices.unused);
-        document["replaced_tangents"] = json!(vertices.replaced_tangents);
-        document["ground"] = json!(below.as_ref().map(|below| {
-            let mut ground = self::document(below, &ground_path);
-            ground["model"] = json!(ground_mesh);
-            ground
-        }));
-        return Ok(out.document(&document)?);
-    }
-    tell(&found, out)?;
-    for (count, what) in [
-        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
-        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
-    ] {
-        if count > 0 {
-            out.sentence(format_args!("note      {} {what}", counted(count)))?;
-        }
-    }
-    out.line(format_args!("written   {}", path.display()))?;
-    if let Some(below) = &below {
-        out.line("")?;
-        out.line("ground    below the model, diffuse")?;
-        tell(below, out)?;
-        out.line(format_args!("written   {}", ground_path.display()))?;
-        out.line(format_args!("written   {}, its model", ground_mesh.display()))?;
-    }
-    Ok(())
+    let mut findings = findings(&found, path);
+    note_vertices(&mut findings, &vertices, &[]);
+    let below = below.map(|below| {
+        let mut below = self::findings(&below, &ground_path);
+        written(&mut below, [("model", Some(ground_mesh.as_path()))]);
+        findings.print("ground    below the model, diffuse".to_owned());
+        below.printed_lines().iter().for_each(|line| findings.print(line.clone()));
+        below.plain_document()
+    });
+    findings.field("ground", json!(below));
+    Ok(findings)
 }
 
 /// A ground below a model.
@@ -155,38 +135,33 @@ impl Ground {
     }
 }
 
-fn document(found: &FoundSight, path: &Path) -> Value {
-    let FoundSight { file, census } = found;
+fn findings(sight: &FoundSight, path: &Path) -> Findings {
+    let FoundSight { file, census } = sight;
     let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
-    json!({
-        "out": path, "vertices": file.mesh.vertices, "terms": file.reflectance.terms(), "omega": census.omega(),
+    let terms = file.reflectance.terms();
+    let mut found = Findings::new("Visibility");
+    found.fields(json!({
+        "vertices": file.mesh.vertices, "terms": terms, "omega": census.omega(),
         "segments_below_horizon": { "least": census.least_below, "mean": census.mean_below() },
         "segments_shadowed": census.shadowed, "segments_nonempty": census.nonempty,
         "directions_above": counts.above, "rays_traced": counts.traced, "directions_visible": counts.visible,
         "unclear_vertices": counts.unclear,
-    })
-}
-
-fn tell(found: &FoundSight, out: &mut Out) -> miette::Result<()> {
-    let FoundSight { file, census } = found;
-    let counts = file.visibility.as_ref().map(|maps| maps.counts.clone()).unwrap_or_default();
-    let terms = file.reflectance.terms();
-    out.line(format_args!("vertices  {}, {terms} terms of reflectance", counted(file.mesh.vertices as usize)))?;
+    }));
+    found.print(format!("vertices  {}, {terms} terms of reflectance", counted(file.mesh.vertices as usize)));
     let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    out.sentence(format_args!(
-        "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
-    ))?;
-    out.sentence(format_args!(
+    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    found.print(format!(
         "segments  {:.1} % hold transfer; of 24, at least {} and on average {:.2} lie below the horizon",
         100.0 * census.omega(),
         census.least_below,
         census.mean_below()
-    ))?;
+    ));
     if !counts.unclear.is_empty() {
         let count = counted(counts.unclear.len());
-        out.sentence(format_args!("note      {count} vertices lie on triangles that face each other"))?;
+        found.print(format!("note      {count} vertices lie on triangles that face each other"));
     }
-    Ok(())
+    written(&mut found, [("out", Some(path))]);
+    found
 }
 
 /// What `crossbar all-frequency factor` wrote into a folder.

@@ -7,10 +7,10 @@ mod stream;
 
 use std::io::{self, Read};
 
-use clap::ValueEnum;
 use refsim::num::{Format, Tininess};
 
 use self::operation::{AluOperation, Unit};
+use super::one_of::{OneOf, one_of};
 use super::{Out, Problem, Verdict};
 
 const EXAMPLES: &str = "\
@@ -41,7 +41,7 @@ folded.";
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
     /// The operation
-    #[arg(value_enum, ignore_case = true)]
+    #[arg(ignore_case = true, value_parser = AluOperation::parser())]
     op: AluOperation,
 
     /// The number format of operands and result
@@ -68,20 +68,18 @@ pub(super) struct Args {
     flags: bool,
 
     /// When a result counts as tiny, which decides the underflow flag
-    #[arg(long, value_enum, default_value = "after", requires = "flags")]
-    tininess: When,
+    #[arg(long, default_value = "after", requires = "flags", value_parser = tininess())]
+    tininess: Tininess,
 
     /// Let roundToInt raise inexact where it changes the value
     #[arg(long, requires = "flags")]
     exact: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum When {
-    /// Before rounding
-    Before,
-    /// After rounding, as testfloat_gen has it by default
-    After,
+/// The detection of tininess, for `--tininess`.
+fn tininess() -> OneOf<Tininess> {
+    let after = ("after", "After rounding, as testfloat_gen has it by default", Tininess::After);
+    one_of([("before", "Before rounding", Tininess::Before), after])
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
@@ -118,12 +116,8 @@ fn unit(args: &Args) -> Result<Unit, Problem> {
             ));
         }
     };
-    let tininess = match args.tininess {
-        When::Before => Tininess::Before,
-        When::After => Tininess::After,
-    };
     if args.exact && args.op != AluOperation::RoundToInt {
         return Err(Problem::usage("`--exact` is for `roundToInt` only", "leave `--exact` out"));
     }
-    Ok(Unit { op: args.op, env: args.format.tininess(tininess), to, exact: args.exact })
+    Ok(Unit { op: args.op, env: args.format.tininess(args.tininess), to, exact: args.exact })
 }

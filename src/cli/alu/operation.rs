@@ -1,7 +1,8 @@
 //! The operations by name.
 
-use clap::{ValueEnum, builder::PossibleValue};
 use refsim::num::{Env, Format, NumberOperation as Op, Outcome, ops};
+
+use crate::cli::one_of::{OneOf, one_of};
 
 /// An operation that the command has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,24 +35,14 @@ const NAMED: [(AluOperation, &str, &str); 17] = [
 ];
 
 impl AluOperation {
-    const ALL: [Self; NAMED.len()] = {
-        let mut all = [Self::Convert; NAMED.len()];
-        let mut i = 0;
-        while i < all.len() {
-            all[i] = NAMED[i].0;
-            i += 1;
-        }
-        all
-    };
-
-    /// Name and help.
-    fn words(self) -> (&'static str, &'static str) {
-        NAMED.iter().find(|(operation, ..)| *operation == self).map_or(("", ""), |&(_, name, help)| (name, help))
+    /// Parses an operation by its name.
+    pub(super) fn parser() -> OneOf<Self> {
+        one_of(NAMED.map(|(operation, name, help)| (name, help, operation)))
     }
 
     /// The name on the command line.
     pub(super) fn name(self) -> &'static str {
-        self.words().0
+        NAMED.iter().find(|(operation, ..)| *operation == self).map_or("", |&(_, name, _)| name)
     }
 
     /// How many operands it takes, 1 to 3.
@@ -65,17 +56,6 @@ impl AluOperation {
     /// Whether the result is 0 or 1 instead of a number of the format.
     pub(super) const fn is_comparison(self) -> bool {
         matches!(self, Self::Table(Op::Equal | Op::LessEqual | Op::Less))
-    }
-}
-
-impl ValueEnum for AluOperation {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let (name, help) = self.words();
-        Some(PossibleValue::new(name).help(help))
     }
 }
 

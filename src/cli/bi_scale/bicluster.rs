@@ -10,10 +10,11 @@ use super::file::load;
 use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, number};
+use crate::cli::{Problem, ProgressBar, number};
 use crate::io::write_file;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -64,7 +65,7 @@ pub(super) struct Args {
     out: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let BiScaleFile { meaning, matrix, .. } = load(&args.file)?;
     let matrix = matrix.ok_or_else(|| {
         let what = format!("{}: expected a matrix, found biclusters alone", args.file.display());
@@ -78,22 +79,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if let Some(path) = &args.dump {
         dump(&biclusters, path)?;
     }
-    let (document, tables) = (summary.document(args), [summary.table(), summary.histogram()]);
+    let mut found = summary.findings();
     if let Some(path) = &args.out {
         let file = BiScaleFile { meaning, matrix: None, biclusters: Some(biclusters) };
         save_bi_scale(&file, path).map_err(Problem::from)?;
     }
-    if out.json() {
-        return Ok(out.document(&document)?);
-    }
-    for table in &tables {
-        out.table(table)?;
-        out.line("")?;
-    }
-    for path in args.dump.iter().chain(&args.out) {
-        out.line(format_args!("written   {}", path.display()))?;
-    }
-    Ok(())
+    written(&mut found, [("dump", args.dump.as_deref()), ("out", args.out.as_deref())]);
+    Ok(found)
 }
 
 impl Args {
@@ -224,19 +216,23 @@ impl Summary<'_> {
         counts
     }
 
-    fn document(&self, args: &Args) -> Value {
+    fn findings(&self) -> Findings {
         let value = |value: i32| self.matrix.unit() * f64::from(value);
         let values: Vec<Value> =
             self.values().into_iter().map(|(key, count)| json!({ "value": value(key), "count": count })).collect();
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
-        json!({
+        let mut found = Findings::new("Biclusters");
+        found.table(self.table());
+        found.table(self.histogram());
+        found.fields(json!({
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
             "values": values, "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
             "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
             "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
-            "seed": self.seed, "seconds": self.seconds, "out": args.out, "dump": args.dump,
-        })
+            "seed": self.seed, "seconds": self.seconds,
+        }));
+        found
     }
 
     fn table(&self) -> Table {

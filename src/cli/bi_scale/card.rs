@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use refsim::texture::TexelFormat;
 
 use super::texture_args::TextureArgs;
@@ -11,6 +10,7 @@ use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat, corner_coordinates};
 use crate::cli::Problem;
 use crate::cli::memory::MemoryNeed;
+use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::on_card::OnCardArgs;
@@ -26,26 +26,6 @@ Examples:
 
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
 docs/papers/bi_scale.md explains all of it.";
-
-/// How blocks meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum BlocksArg {
-    /// A texel around each repeats the opposite edge: the patch has no seam
-    Wrapped,
-    /// As in the paper's Figure 4, with a seam
-    Touching,
-}
-
-/// What numbers are held in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum HeldArg {
-    /// Fractions of 8 bits of the largest number
-    Bytes,
-    /// Half precision
-    Fp16,
-    /// Single precision
-    Fp32,
-}
 
 /// Draw a model under distant light on an emulated card, from biclusters and bidirectional textures
 #[derive(Debug, clap::Args)]
@@ -63,16 +43,16 @@ pub(super) struct Args {
     texture_format: TexelFormat,
 
     /// How the volume's blocks meet
-    #[arg(long, value_enum, value_name = "EDGES", default_value = "wrapped")]
-    blocks: BlocksArg,
+    #[arg(long, value_name = "EDGES", default_value = "wrapped", value_parser = variants::<BlockEdges>())]
+    blocks: BlockEdges,
 
     /// What the card holds light in
-    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
-    light_format: HeldArg,
+    #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LightFormat>())]
+    light_format: LightFormat,
 
     /// What vertices hold local light in
-    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
-    local_format: HeldArg,
+    #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LocalFormat>())]
+    local_format: LocalFormat,
 
     #[command(flatten)]
     light: LightArgs,
@@ -86,29 +66,6 @@ pub(super) struct Args {
     /// Where to write pictures, tables and the page
     #[arg(long, value_name = "DIR", default_value = "out/bi-scale-card")]
     out: PathBuf,
-}
-
-impl Args {
-    fn display(&self) -> DisplayOptions {
-        let local = match self.local_format {
-            HeldArg::Fp32 => LocalFormat::Fp32,
-            HeldArg::Fp16 => LocalFormat::Fp16,
-            HeldArg::Bytes => LocalFormat::Bytes,
-        };
-        let edges = match self.blocks {
-            BlocksArg::Wrapped => BlockEdges::Wrapped,
-            BlocksArg::Touching => BlockEdges::Touching,
-        };
-        DisplayOptions { edges, texture: self.texture_format, local }
-    }
-
-    fn light_format(&self) -> LightFormat {
-        match self.light_format {
-            HeldArg::Fp32 => LightFormat::Fp32,
-            HeldArg::Fp16 => LightFormat::Fp16,
-            HeldArg::Bytes => LightFormat::Bytes,
-        }
-    }
 }
 
 impl StudyArgs for Args {
@@ -151,8 +108,8 @@ impl StudyArgs for Args {
             light: self.light.distant()?,
             exposure: self.picture.exposure,
             card: self.card.setting("gt200")?,
-            light_format: self.light_format(),
-            options: self.display(),
+            light_format: self.light_format,
+            options: DisplayOptions { edges: self.blocks, texture: self.texture_format, local: self.local_format },
         })
     }
 }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::file::{load, turned, vertices_of};
@@ -13,9 +12,11 @@ use crate::bi_scale::rivals::{
     CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
 };
 use crate::bi_scale::transfer::light_vectors;
+use crate::cli::one_of::variants;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::cli::{Problem, ProgressBar, memory};
+use crate::report::Findings;
 use crate::study::prt::{StoredComparison, StoredWay, stored_ways_table};
 use crate::transfer::clustering::CpcaForm;
 
@@ -28,24 +29,6 @@ Examples:
 
 Errors are those of the light that arrives in all local directions of all vertices, against rows of T in double precision.
 docs/papers/bi_scale.md says how each way is made.";
-
-/// By what wavelet coefficients of a row are chosen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PriorityArg {
-    /// Magnitude times the texels under the basis function
-    Area,
-    /// Magnitude
-    Magnitude,
-}
-
-/// What a wavelet coefficient is stored as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum StorageArg {
-    /// A byte, in steps of 1/127 of the largest
-    Byte,
-    /// Four bytes
-    Single,
-}
 
 /// Compare biclusters with other ways to store transfer: bytes, and the error of the light that arrives
 #[derive(Debug, clap::Args)]
@@ -96,19 +79,19 @@ pub(super) struct Args {
     coefficients: u32,
 
     /// By what they are chosen
-    #[arg(long, value_enum, value_name = "BY", default_value_t = PriorityArg::Area)]
-    priority: PriorityArg,
+    #[arg(long, value_name = "BY", default_value = "area", value_parser = variants::<CoefficientPriority>())]
+    priority: CoefficientPriority,
 
     /// What they are stored as, beside two bytes for their numbers
-    #[arg(long, value_enum, value_name = "AS", default_value_t = StorageArg::Byte)]
-    storage: StorageArg,
+    #[arg(long, value_name = "AS", default_value = "byte", value_parser = variants::<CoefficientStorage>())]
+    storage: CoefficientStorage,
 
     /// Order of spherical harmonics
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(1..=10))]
     order: u8,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let vertices = match &args.model {
         Some(model) => Some(vertices_of(model, &args.file, file.meaning.as_ref())?),
@@ -152,21 +135,20 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let mut show = |what: &str, done: u64, of: u64| bar.show(what.to_owned(), done, of);
     let ways = comparison.ways(&[channels.to_vec()], &mut show, &mut |_, _| ()).map_err(|error| refused(&error))?;
     drop(bar);
-    if out.json() {
-        return Ok(out.document(&json!({
-            "rows": matrix.rows(), "columns": matrix.columns(), "nonzeros": matrix.nonzeros(), "flux": cube.flux(),
-            "ways": ways.iter().map(document).collect::<Vec<Value>>(),
-        }))?);
-    }
-    out.sentence(format_args!(
+    let mut found = Findings::new("Ways to store transfer");
+    found.table(stored_ways_table("Ways to store transfer", &ways, &["light"]));
+    found.fields(json!({
+        "rows": matrix.rows(), "columns": matrix.columns(), "nonzeros": matrix.nonzeros(), "flux": cube.flux(),
+        "ways": ways.iter().map(document).collect::<Vec<Value>>(),
+    }));
+    found.introduce(format!(
         "{} x {}, {} values other than 0, under {}",
         counted(matrix.rows()),
         counted(matrix.columns()),
         counted(matrix.nonzeros()),
         args.light.name()
-    ))?;
-    out.table(&stored_ways_table("Ways to store transfer", &ways, &["light"]))?;
-    Ok(())
+    ));
+    Ok(found)
 }
 
 impl Args {
@@ -183,17 +165,7 @@ impl Args {
     }
 
     fn wavelets(&self) -> HaarRowOptions {
-        HaarRowOptions {
-            keep: self.coefficients as usize,
-            priority: match self.priority {
-                PriorityArg::Area => CoefficientPriority::Area,
-                PriorityArg::Magnitude => CoefficientPriority::Magnitude,
-            },
-            storage: match self.storage {
-                StorageArg::Byte => CoefficientStorage::Byte,
-                StorageArg::Single => CoefficientStorage::Single,
-            },
-        }
+        HaarRowOptions { keep: self.coefficients as usize, priority: self.priority, storage: self.storage }
     }
 }
 

@@ -53,15 +53,15 @@ enum Verb {
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
-    match &args.verb {
-        Verb::Precompute(args) => precompute::run(args, out)?,
-        Verb::Bicluster(args) => bicluster::run(args, out)?,
-        Verb::Multiply(args) => multiply::run(args, out)?,
-        Verb::Compare(args) => compare::run(args, out)?,
-        Verb::Texture(args) => texture::run(args, out)?,
-        Verb::Show(args) => show::run(args, out)?,
+    let found = match &args.verb {
+        Verb::Precompute(args) => precompute::run(args)?,
+        Verb::Bicluster(args) => bicluster::run(args)?,
+        Verb::Multiply(args) => return multiply::run(args, out).map(|()| Verdict::Done),
+        Verb::Compare(args) => compare::run(args)?,
+        Verb::Texture(args) => texture::run(args)?,
+        Verb::Show(args) => return show::run(args, out).map(|()| Verdict::Done),
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
-    }
-    Ok(Verdict::Done)
+    };
+    study::show(&found, out)
 }

@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use clap::ValueEnum;
-
 use crate::bi_scale::texture::{
     HeightField, HeightFieldError, MesoDetail, MesoMaterial, MesoPatch, MesoTexel, PatchKind,
 };
+use crate::cli::one_of::variants;
 use crate::cli::transfer::values::BrdfArg;
 use crate::cli::{Problem, given, number, view};
 use crate::io::{PictureFile, load_numbers};
@@ -21,33 +20,12 @@ const PICTURE_DEPTH: f64 = 0.1;
 /// Reflectance of heights from a file.
 const COLOR: [f32; 3] = [0.5; 3];
 
-/// What of the heights is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum DetailArg {
-    /// All: parallax, normals, shadows
-    Relief,
-    /// A normal map: the normals alone
-    Normals,
-    /// The materials alone, without relief
-    Flat,
-}
-
-impl From<DetailArg> for MesoDetail {
-    fn from(arg: DetailArg) -> Self {
-        match arg {
-            DetailArg::Relief => Self::Relief,
-            DetailArg::Normals => Self::Normals,
-            DetailArg::Flat => Self::Flat,
-        }
-    }
-}
-
 /// How a patch is made.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
     /// What of the heights is drawn, but for `plain`, which has none [default: relief]
-    #[arg(long, value_enum, value_name = "WHAT")]
-    detail: Option<DetailArg>,
+    #[arg(long, value_name = "WHAT", value_parser = variants::<MesoDetail>())]
+    detail: Option<MesoDetail>,
 
     /// How many times as deep the heights are; of a picture white lies a tenth of the patch's edge above black
     /// [default: 1]
@@ -86,7 +64,7 @@ impl PatchArgs {
         } else {
             self.of_file(source)?
         };
-        patch.detail = self.detail.unwrap_or(DetailArg::Relief).into();
+        patch.detail = self.detail.unwrap_or_default();
         Ok(patch)
     }
 

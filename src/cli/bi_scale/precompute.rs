@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use serde_json::json;
 
 use super::file::{angle, load_creased, write_matrix};
@@ -10,37 +9,23 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning, save_bi_scale};
 use crate::bi_scale::transfer::transfer_matrix;
 use crate::cli::model_name::transfer_model_help;
-use crate::cli::transfer::model::{refused, vertices};
+use crate::cli::one_of::{OneOf, one_of, variants};
+use crate::cli::study::written;
+use crate::cli::transfer::model::{note_vertices, refused, vertices};
 use crate::cli::transfer::values::TangentsArg;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::cli::{Problem, ProgressBar, memory};
 use crate::geom::Sides;
+use crate::report::Findings;
 use crate::tracer::HostTracer;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 
-/// What ends the view of a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum HorizonArg {
-    /// The plane of its normal, and triangles
-    Normal,
-    /// Triangles alone
-    Geometry,
-}
-
-/// Visibility directions in a light texel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum SamplesArg {
-    /// Its center
-    #[value(name = "1")]
-    One,
-    /// 2 x 2: five values of visibility
-    #[value(name = "4")]
-    Four,
-    /// 4 x 4: 17 values
-    #[value(name = "16")]
-    Sixteen,
+/// The logarithm of the samples along an edge of a light texel, for `--samples`.
+fn log2_samples() -> OneOf<u32> {
+    let four = ("4", "2 x 2: five values of visibility", 1);
+    one_of([("1", "Its center", 0), four, ("16", "4 x 4: 17 values", 2)])
 }
 
 const EXAMPLES: &str = "\
@@ -63,12 +48,12 @@ pub(super) struct Args {
     directions: u8,
 
     /// What ends the view of a vertex
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "geometry")]
-    horizon: HorizonArg,
+    #[arg(long, value_name = "WHAT", default_value = "geometry", value_parser = variants::<Horizon>())]
+    horizon: Horizon,
 
     /// Directions in a light texel in which visibility is looked for
-    #[arg(long, value_enum, value_name = "N", default_value = "4")]
-    samples: SamplesArg,
+    #[arg(long, value_name = "N", default_value = "4", value_parser = log2_samples())]
+    samples: u32,
 
     /// Take normals anew from the triangles, smooth over edges up to this angle in degrees; `crossbar bi-scale render`
     /// needs the same [default: the model's own normals]
@@ -91,21 +76,11 @@ pub(super) struct Args {
 
 impl Args {
     fn sampling(&self) -> VisibilitySampling {
-        VisibilitySampling {
-            log2_samples: match self.samples {
-                SamplesArg::One => 0,
-                SamplesArg::Four => 1,
-                SamplesArg::Sixteen => 2,
-            },
-            horizon: match self.horizon {
-                HorizonArg::Normal => Horizon::Normal,
-                HorizonArg::Geometry => Horizon::Geometry,
-            },
-        }
+        VisibilitySampling { log2_samples: self.samples, horizon: self.horizon }
     }
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (side, tangents, path) = (args.directions, args.tangents.0, args.out.as_path());
     let directions = LocalDirections::new(side.into())
         .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale precompute --help`"))?;
@@ -138,32 +113,23 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let (rows, nonzeros) = (matrix.rows(), matrix.nonzeros());
     let file = BiScaleFile { meaning: Some(meaning), matrix: Some(matrix), biclusters: None };
     save_bi_scale(&file, path).map_err(Problem::from)?;
-    if out.json() {
-        return Ok(out.document(&json!({
-            "out": path, "matrix": args.matrix, "vertices": vertices.len(), "unused_vertices": vertices.unused,
-            "replaced_tangents": vertices.replaced_tangents, "rows": rows, "columns": LIGHT_TEXELS,
-            "nonzeros": nonzeros, "directions_above": counts.above, "rays_traced": counts.traced,
-            "directions_visible": counts.visible, "unclear_vertices": counts.unclear,
-        }))?);
-    }
-    out.line(format_args!("vertices  {}, {} local directions each", counted(vertices.len()), u32::from(side).pow(2)))?;
+    let mut found = Findings::new("Bi-scale transfer");
+    found.fields(json!({
+        "vertices": vertices.len(), "rows": rows, "columns": LIGHT_TEXELS,
+        "nonzeros": nonzeros, "directions_above": counts.above, "rays_traced": counts.traced,
+        "directions_visible": counts.visible, "unclear_vertices": counts.unclear,
+    }));
+    found.print(format!("vertices  {}, {} local directions each", counted(vertices.len()), u32::from(side).pow(2)));
     let [above, traced, visible] = [counts.above, counts.traced, counts.visible].map(|count| counted(count as usize));
-    out.sentence(format_args!(
-        "rays      {traced} traced; {visible} of {above} directions above the horizon see light"
-    ))?;
-    out.sentence(format_args!(
+    found.print(format!("rays      {traced} traced; {visible} of {above} directions above the horizon see light"));
+    found.print(format!(
         "transfer  {} x {}, {} values other than 0: {:.2} %",
         counted(rows),
         counted(LIGHT_TEXELS),
         counted(nonzeros),
         100.0 * nonzeros as f64 / (rows as f64 * LIGHT_TEXELS as f64)
-    ))?;
-    if !vertices.replaced_tangents.is_empty() {
-        let count = counted(vertices.replaced_tangents.len());
-        out.sentence(format_args!("note      {count} vertices had no tangent across their normal and got any"))?;
-    }
-    for path in args.matrix.iter().map(PathBuf::as_path).chain([path]) {
-        out.line(format_args!("written   {}", path.display()))?;
-    }
-    Ok(())
+    ));
+    note_vertices(&mut found, &vertices, &[]);
+    written(&mut found, [("matrix", args.matrix.as_deref()), ("out", Some(path))]);
+    Ok(found)
 }

@@ -8,10 +8,12 @@ use serde_json::json;
 use super::patch::PatchArgs;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::texture::{BidirectionalTexture, TextureSampling, write_bidirectional_texture};
+use crate::cli::study::written;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, memory};
+use crate::cli::{Problem, ProgressBar, memory};
 use crate::io::write_file;
 use crate::picture::{RgbImage, display, png, rgb8};
+use crate::report::Findings;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,7 +68,7 @@ pub(super) struct Args {
     sheet_view: Option<u32>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let directions = |side: u8| {
         LocalDirections::new(side.into())
             .map_err(|error| Problem::usage(error.to_string(), "see `crossbar bi-scale texture --help`"))
@@ -100,29 +102,21 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     }
     let (mean, largest) =
         (mean_reflectance(&texture), texture.samples().iter().flatten().fold(0.0_f32, |a, b| a.max(*b)));
-    if out.json() {
-        return Ok(out.document(&json!({
-            "out": args.out, "sheet": args.sheet, "views": views, "lights": lights, "size": size,
-            "samples_per_texel": samples * samples, "depth": patch.heights().depth(), "bytes": bytes,
-            "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest, "seconds": seconds,
-        }))?);
-    }
-    out.line(format_args!("patch     {size} x {size} texels, {:.3} of its edge deep", patch.heights().depth()))?;
-    out.line(format_args!(
-        "samples   {views} views x {lights} directions of light, {} texels",
-        counted(bytes as usize / 12)
-    ))?;
+    let (depth, bytes) = (patch.heights().depth(), bytes as usize);
+    let mut found = Findings::new("Bidirectional texture");
+    found.fields(json!({
+        "views": views, "lights": lights, "size": size, "samples_per_texel": samples * samples, "depth": depth,
+        "bytes": bytes, "bytes_of_8_bits": bytes / 4, "mean_reflectance": mean, "largest": largest,
+        "seconds": seconds,
+    }));
+    found.print(format!("patch     {size} x {size} texels, {depth:.3} of its edge deep"));
+    let texels = counted(bytes / 12);
+    found.print(format!("samples   {views} views x {lights} directions of light, {texels} texels"));
     let [red, green, blue] = mean.map(|mean| format!("{mean:.3}"));
-    out.sentence(format_args!("mean      {red}, {green}, {blue} of light from everywhere, over all texels and views"))?;
-    out.sentence(format_args!(
-        "bytes     {} as written; {} with 8 bits per channel",
-        counted(bytes as usize),
-        counted(bytes as usize / 4)
-    ))?;
-    for path in std::iter::once(&args.out).chain(&args.sheet) {
-        out.line(format_args!("written   {}", path.display()))?;
-    }
-    Ok(())
+    found.print(format!("mean      {red}, {green}, {blue} of light from everywhere, over all texels and views"));
+    found.print(format!("bytes     {} as written; {} with 8 bits per channel", counted(bytes), counted(bytes / 4)));
+    written(&mut found, [("out", Some(args.out.as_path())), ("sheet", args.sheet.as_deref())]);
+    Ok(found)
 }
 
 /// The mean over texels and views of what light of radiance 1 from everywhere sends out.

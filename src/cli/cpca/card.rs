@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
+use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use super::file::{FileOfModel, clusters_of, light_order};
 use crate::cli::memory::MemoryNeed;
+use crate::cli::one_of::variants;
 use crate::cli::study::StudyArgs;
 use crate::cli::transfer::light::HarmonicLightArgs;
-use crate::cli::transfer::on_card::{OnCardArgs, VertexArg};
+use crate::cli::transfer::on_card::{OnCardArgs, vertex_versions};
 use crate::cli::transfer::picture::PictureArgs;
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{PrtCardOptions, WeightFormat};
@@ -27,19 +28,6 @@ Examples:
 Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv. docs/papers/cpca.md explains \
 all of it.";
 
-/// What a vertex holds weights in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum WeightsArg {
-    /// Single precision
-    Fp32,
-    /// Half precision
-    Fp16,
-    /// 16 bits of the range of the cluster's weights on a vector
-    Unorm16,
-    /// 8 bits of it
-    Unorm8,
-}
-
 /// Draw a model under distant light on an emulated card, from clusters
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
@@ -52,8 +40,8 @@ pub(super) struct Args {
     light: HarmonicLightArgs,
 
     /// What vertices hold weights in
-    #[arg(long, value_enum, value_name = "F", default_value = "fp32")]
-    weights: WeightsArg,
+    #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<WeightFormat>())]
+    weights: WeightFormat,
 
     /// Texels along a side of the maps of harmonics; the paper has 32
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=4096))]
@@ -64,8 +52,8 @@ pub(super) struct Args {
     map_format: Option<TexelFormat>,
 
     /// The language of the vertex program [default: vs_2_0 where the card has it]
-    #[arg(long, value_enum, value_name = "V")]
-    vertex: Option<VertexArg>,
+    #[arg(long, value_name = "V", value_parser = vertex_versions())]
+    vertex: Option<Version>,
 
     /// Draw each cluster alone, not in the superclusters of the file, or as many as the registers hold
     #[arg(long)]
@@ -87,15 +75,10 @@ impl Args {
         let has = formats.iter().any(|format| format == TexelFormat::Rgba16Snorm.name());
         PrtCardOptions {
             superclusters: !self.alone,
-            vertex_version: self.vertex.map(Into::into),
+            vertex_version: self.vertex,
             map_side: self.map as usize,
             map_format: self.map_format.unwrap_or(if has { TexelFormat::Rgba16Snorm } else { TexelFormat::Rgba8Snorm }),
-            weights: match self.weights {
-                WeightsArg::Fp32 => WeightFormat::Fp32,
-                WeightsArg::Fp16 => WeightFormat::Fp16,
-                WeightsArg::Unorm16 => WeightFormat::Unorm16,
-                WeightsArg::Unorm8 => WeightFormat::Unorm8,
-            },
+            weights: self.weights,
         }
     }
 }

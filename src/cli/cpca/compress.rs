@@ -2,18 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::coherence::{Coherence, CoherenceArgs};
 use super::compress_report::{most_vectors, steps_document, table};
-use crate::cli::transfer::values::MethodArg;
+use crate::cli::one_of::{name, variants};
 use crate::cli::words::counted;
 use crate::cli::{Out, Problem, ProgressBar, given, memory, number, view};
 use crate::io::{ReadError, read_limited};
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
-    Clustering, Compression, CpcaError, CpcaForm, CpcaOptions, CpcaStep, Grown, StartPoints, compress,
+    Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Grown, StartPoints, compress,
     compress_to_error,
 };
 use crate::transfer::file::{PrtFile, save_prt};
@@ -33,15 +32,6 @@ Examples:
       fewer triangles drawn in two clusters, for 5 % more error; up to four clusters drawn as one
 
 CSV and NumPy arrays hold a row per point. The file that is written holds the clusters and how they were made.";
-
-/// The number that grows until --max-error is met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum GrowArg {
-    /// Vectors per cluster, from 0 to --vectors
-    Vectors,
-    /// Clusters, from 1 to --clusters
-    Clusters,
-}
 
 /// Compress transfer, or any signal, by clustered principal components
 #[derive(Debug, clap::Args)]
@@ -65,12 +55,12 @@ pub(super) struct Args {
     max_error: Option<f64>,
 
     /// The number that grows until --max-error is met [default: vectors]
-    #[arg(long, value_enum, value_name = "WHAT", requires = "max_error")]
-    grow: Option<GrowArg>,
+    #[arg(long, value_name = "WHAT", requires = "max_error", value_parser = variants::<Grown>())]
+    grow: Option<Grown>,
 
     /// By which measure points are shared out to clusters [default: iterative]
-    #[arg(long, value_enum, value_name = "HOW")]
-    method: Option<MethodArg>,
+    #[arg(long, value_name = "HOW", value_parser = variants::<CpcaMethod>())]
+    method: Option<CpcaMethod>,
 
     /// Without the clusters' means: vectors alone, the components of the points themselves
     #[arg(long)]
@@ -162,7 +152,7 @@ impl Args {
             "clusters with vectors, and `--vectors` is 0",
             "choose more `--vectors`, or leave it out",
         )?;
-        let is_lbg_alone = has_none || self.method == Some(MethodArg::Static);
+        let is_lbg_alone = has_none || self.method == Some(CpcaMethod::Static);
         given::refuse(
             [("--iterations", is_lbg_alone && self.iterations.is_some() && self.vq_iterations.is_some())],
             "methods that iterate once there are vectors",
@@ -177,11 +167,12 @@ impl Args {
         )
     }
 
-    const fn grown(&self) -> Grown {
-        match self.grow {
-            None | Some(GrowArg::Vectors) => Grown::Vectors,
-            Some(GrowArg::Clusters) => Grown::Clusters,
-        }
+    fn grown(&self) -> Grown {
+        self.grow.unwrap_or_default()
+    }
+
+    fn method(&self) -> CpcaMethod {
+        self.method.unwrap_or(CpcaMethod::Iterative)
     }
 
     /// How a signal is compressed; checks that there is memory for it.
@@ -204,7 +195,7 @@ impl Args {
             vectors: vectors as usize,
             vq_iterations: self.vq_iterations.map_or(iterations, |most| most as usize),
             iterations,
-            method: self.method.unwrap_or(MethodArg::Iterative).method(iterations),
+            method: self.method().with_rounds(iterations),
             form: if self.linear { CpcaForm::Linear } else { CpcaForm::Affine },
             start,
         })
@@ -213,11 +204,10 @@ impl Args {
     /// How the clusters were made, for the file: what was used, not what was allowed.
     fn provenance(&self, options: &CpcaOptions, clustering: &Clustering, steps: &[CpcaStep]) -> String {
         let vectors = steps.last().map_or(options.vectors, |step| step.vectors);
-        let method = self.method.unwrap_or(MethodArg::Iterative).to_possible_value();
         let mut parts = vec![
             format!("clusters={}", clustering.subspaces().len()),
             format!("vectors={vectors}"),
-            format!("method={}", method.as_ref().map_or("iterative", |value| value.get_name())),
+            format!("method={}", name(&self.method())),
             format!("form={}", if self.linear { "linear" } else { "affine" }),
             format!("vq-iterations={}", options.vq_iterations),
             format!("iterations={}", options.iterations),
@@ -227,8 +217,7 @@ impl Args {
             },
         ];
         if let Some(share) = self.max_error {
-            let grown = if self.grown() == Grown::Vectors { "vectors" } else { "clusters" };
-            parts.extend([format!("max-error={share}"), format!("grow={grown}")]);
+            parts.extend([format!("max-error={share}"), format!("grow={}", name(&self.grown()))]);
         }
         parts.extend(self.coherence.provenance());
         parts.join(" ")

@@ -50,13 +50,13 @@ enum Verb {
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
-    match &args.verb {
-        Verb::Precompute(args) => precompute::run(args, out)?,
-        Verb::Compress(args) => compress::run(args, out)?,
-        Verb::Error(args) => error::run(args, out)?,
-        Verb::Show(args) => show::run(args, out)?,
+    let found = match &args.verb {
+        Verb::Precompute(args) => precompute::run(args)?,
+        Verb::Compress(args) => return compress::run(args, out).map(|()| Verdict::Done),
+        Verb::Error(args) => return error::run(args, out).map(|()| Verdict::Done),
+        Verb::Show(args) => return show::run(args, out).map(|()| Verdict::Done),
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
-    }
-    Ok(Verdict::Done)
+    };
+    study::show(&found, out)
 }

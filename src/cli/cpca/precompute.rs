@@ -4,14 +4,17 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::precompute_values::{ChannelsArg, ExitArg, IncidentArg, KindArg, RowsArg};
+use super::precompute_values::{IncidentArg, KindArg, RowsArg};
 use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
-use crate::cli::transfer::model::{load, vertices};
+use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::study::written;
+use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, ProgressBar, given, memory, number};
+use crate::cli::{Problem, ProgressBar, given, memory, number};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
+use crate::report::Findings;
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
 use crate::subsurface::Dipole;
 use crate::transfer::Vertices;
@@ -57,8 +60,8 @@ pub(super) struct Args {
     rows: Option<RowsArg>,
 
     /// How exit radiance is projected onto them [default: least-squares]
-    #[arg(long, value_enum, value_name = "HOW")]
-    exit: Option<ExitArg>,
+    #[arg(long, value_name = "HOW", value_parser = least_squares())]
+    exit: Option<bool>,
 
     /// How incident radiance reaches the BRDF, for --kind glossy [default: least-squares]
     #[arg(long, value_enum, value_name = "HOW")]
@@ -83,8 +86,8 @@ pub(super) struct Args {
     mm_per_unit: Option<f64>,
 
     /// Channels of transfer
-    #[arg(long, value_enum, value_name = "C", default_value = "scalar")]
-    channels: ChannelsArg,
+    #[arg(long, value_name = "C", default_value = "scalar", value_parser = channels_of())]
+    channels: &'static [usize],
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
     /// axis X,Y,Z
@@ -109,7 +112,20 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+/// The channels of transfer, for `--channels`: red, green and blue are 0, 1 and 2.
+fn channels_of() -> OneOf<&'static [usize]> {
+    let scalar = ("scalar", "One for all, with the reflectances of green", &[1][..]);
+    one_of([scalar, ("rgb", "Red, green and blue", &[0, 1, 2])])
+}
+
+/// Projections of exit radiance, for `--exit`: true for least squares.
+fn least_squares() -> OneOf<bool> {
+    let nearest = "The nearest combination on the hemisphere, by the inverse of the Gram matrix";
+    let integrals = "Integrals with the functions over the hemisphere";
+    one_of([("least-squares", nearest, true), ("zero-hemisphere", integrals, false)])
+}
+
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let exit = exit(args)?;
     let scatterer = scatterer(args)?;
     let model = load(&args.model, args.tangents.0)?;
@@ -132,7 +148,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let found = precomputation.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     save_prt(&found.file, &args.out).map_err(Problem::from)?;
     drop(bar);
-    tell(args, &vertices, &found, out)
+    Ok(findings(args, &vertices, &found))
 }
 
 fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
@@ -161,8 +177,7 @@ fn exit(args: &Args) -> Result<ExitRadiance, Problem> {
         }
     };
     let basis = args.rows.unwrap_or_default().basis();
-    let least_squares = args.exit != Some(ExitArg::ZeroHemisphere);
-    Ok(ExitRadiance::Glossy { basis, least_squares, incident })
+    Ok(ExitRadiance::Glossy { basis, least_squares: args.exit.unwrap_or(true), incident })
 }
 
 fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
@@ -177,7 +192,6 @@ fn scatterer(args: &Args) -> miette::Result<Option<Scatterer>> {
 
 /// Per channel a BRDF of each material.
 fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Problem> {
-    let channels: &[usize] = if args.channels == ChannelsArg::Rgb { &[0, 1, 2] } else { &[1] };
     let of = |channel: usize| {
         let brdfs: Result<Vec<Brdf>, Problem> = (model.materials.iter())
             .map(|material| match args.brdf {
@@ -190,7 +204,7 @@ fn channels(args: &Args, model: &Model) -> Result<Vec<(usize, Vec<Brdf>)>, Probl
             .collect();
         brdfs.map(|brdfs| (channel, brdfs))
     };
-    channels.iter().map(|&channel| of(channel)).collect()
+    args.channels.iter().map(|&channel| of(channel)).collect()
 }
 
 fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<(), Problem> {
@@ -209,39 +223,30 @@ fn require_memory(args: &Args, precomputation: &Precomputation<'_>) -> Result<()
     Ok(memory::require(what, bytes, "ask for fewer `--rows`, a lower `--order` or `--degree`, or no `--bounces`")?)
 }
 
-fn tell(args: &Args, vertices: &Vertices, found: &Precomputed, out: &mut Out) -> miette::Result<()> {
-    let dimension = found.file.meaning.dimension().unwrap_or(0);
-    let TransferCounts { rays, traced, blocked, below_horizon, from_behind, dark, buried, unclear } = &found.counts;
-    if out.json() {
-        return Ok(out.document(&json!({
-            "out": args.out, "vertices": vertices.len(), "numbers_per_vertex": dimension,
-            "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents,
-            "directions": found.directions, "rays": rays, "rays_traced": traced, "rays_blocked": blocked,
-            "rays_below_horizon": below_horizon, "rays_from_behind": from_behind, "dark_vertices": dark,
-            "buried_vertices": buried, "unclear_vertices": unclear, "bounces": found.bounces,
-        }))?);
-    }
-    out.line(format_args!("vertices  {}, {} numbers each", counted(vertices.len()), counted(dimension)))?;
+fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
+    let dimension = made.file.meaning.dimension().unwrap_or(0);
+    let TransferCounts { rays, traced, blocked, below_horizon, from_behind, dark, buried, unclear } = &made.counts;
+    let mut found = Findings::new("Transfer");
+    found.fields(json!({
+        "vertices": vertices.len(), "numbers_per_vertex": dimension,
+        "directions": made.directions, "rays": rays, "rays_traced": traced, "rays_blocked": blocked,
+        "rays_below_horizon": below_horizon, "rays_from_behind": from_behind, "dark_vertices": dark,
+        "buried_vertices": buried, "unclear_vertices": unclear, "bounces": made.bounces,
+    }));
+    found.print(format!("vertices  {}, {} numbers each", counted(vertices.len()), counted(dimension)));
     let [rays, traced, blocked] = [rays, traced, blocked].map(|&count| counted(count as usize));
-    out.line(format_args!(
-        "rays      {rays}: {} directions per vertex; {traced} traced, {blocked} blocked",
-        found.directions
-    ))?;
-    for (channel, shares) in found.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
+    let directions = made.directions;
+    found.print(format!("rays      {rays}: {directions} directions per vertex; {traced} traced, {blocked} blocked"));
+    for (channel, shares) in made.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
         let shares: Vec<String> = shares.iter().map(|share| format!("{share:.2e}")).collect();
-        out.sentence(format_args!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")))?;
+        found.print(format!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")));
     }
-    for (count, what) in [
-        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
-        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
+    let more = [
         (buried.len(), "vertices lie inside of something: all their rays are blocked, most from behind"),
         (dark.len() - buried.len().min(dark.len()), "more vertices see no sky at all"),
         (unclear.len(), "vertices lie on triangles that face each other"),
-    ] {
-        if count > 0 {
-            out.sentence(format_args!("note      {} {what}", counted(count)))?;
-        }
-    }
-    out.line(format_args!("written   {}", args.out.display()))?;
-    Ok(())
+    ];
+    note_vertices(&mut found, vertices, &more);
+    written(&mut found, [("out", Some(args.out.as_path()))]);
+    found
 }

@@ -15,24 +15,6 @@ pub(super) enum KindArg {
     Glossy,
 }
 
-/// Channels of transfer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ChannelsArg {
-    /// One for all, with the reflectances of green
-    Scalar,
-    /// Red, green and blue
-    Rgb,
-}
-
-/// How exit radiance is projected.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ExitArg {
-    /// The nearest combination on the hemisphere, by the inverse of the Gram matrix
-    LeastSquares,
-    /// Integrals with the functions over the hemisphere
-    ZeroHemisphere,
-}
-
 /// How incident radiance reaches the BRDF.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum IncidentArg {

@@ -12,8 +12,8 @@ mod adapters;
 #[cfg(not(feature = "wgpu"))]
 pub(super) use adapters::missing as no_adapters;
 
-use super::{Out, Verdict};
-use crate::report::{Cell, Table};
+use super::{Out, Verdict, study};
+use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,10 +51,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
         return Ok(Verdict::Done);
     }
     match &args.name {
-        Some(name) => one(&Profile::named(name)?, out)?,
-        None => all(out)?,
+        Some(name) => study::show(&one(&Profile::named(name)?), out),
+        None => all(out).map(|()| Verdict::Done),
     }
-    Ok(Verdict::Done)
 }
 
 /// The cards and their variants side by side.
@@ -111,30 +110,24 @@ fn summary(profile: &Profile) -> Value {
 }
 
 /// Everything about one device.
-fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
-    if out.json() {
-        return Ok(out.document(&json!({
-            "name": profile.name,
-            "title": profile.title,
-            "figures": profile.figures().iter().map(figure_json).collect::<Vec<_>>(),
-            "switches": profile.switches().iter().map(switch_json).collect::<Vec<_>>(),
-        }))?);
-    }
-    out.line(format_args!("{}: {}", profile.name, profile.title))?;
-    out.line("")?;
+fn one(profile: &Profile) -> Findings {
+    let mut found = Findings::new(profile.title.as_str());
+    found.fields(json!({
+        "name": profile.name,
+        "title": profile.title,
+        "figures": profile.figures().iter().map(figure_json).collect::<Vec<_>>(),
+        "switches": profile.switches().iter().map(switch_json).collect::<Vec<_>>(),
+    }));
+    found.introduce(format!("{}: {}", profile.name, profile.title));
     let mut figures = Table::new("Figures", &["figure", "value", "unit", "confidence", "source"]);
     for row in profile.figures() {
         let confidence = row.confidence.to_string();
         let value = row.value.parse::<u64>().map_or_else(|_| row.value.into(), Cell::Count);
         figures.push([row.key.into(), value, row.unit.into(), confidence.into(), row.source.into()]);
     }
-    out.table(&figures)?;
-    if profile.switches().is_empty() {
-        return Ok(());
-    }
-    out.line("")?;
-    out.line("Switches: open questions of the hardware. Set one in a case file under [switches].")?;
-    let mut switches = Table::new("Switches", &["switch", "now", "values", "confidence", "decides", "source"]);
+    found.table(figures);
+    let title = "Switches: open questions of the hardware. Set one in a case file under [switches].";
+    let mut switches = Table::new(title, &["switch", "now", "values", "confidence", "decides", "source"]);
     for switch in profile.switches() {
         switches.push([
             switch.name.as_str().into(),
@@ -145,8 +138,8 @@ fn one(profile: &Profile, out: &mut Out) -> miette::Result<()> {
             switch.source.as_str().into(),
         ]);
     }
-    out.table(&switches)?;
-    Ok(())
+    found.table(switches);
+    found
 }
 
 fn figure_json(row: &FigureRow) -> Value {

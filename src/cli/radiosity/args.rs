@@ -4,12 +4,15 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::values::{MaterialColor, PackingArg, SolverArg, StorageArg, light_of, paint_of};
+use super::values::{MaterialColor, SolverArg, light_of, paint_of};
 use crate::atlas::MAX_SIDE;
 use crate::cli::card::CardArgs;
 use crate::cli::number;
+use crate::cli::one_of::variants;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
+use crate::radiosity::on_card::Storage;
+use crate::radiosity::packing::Packing;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,12 +83,12 @@ pub(in crate::cli) struct Args {
 
     /// For the card: one element per texel and all channels at once, or four elements per texel and one channel at a
     /// time; may be repeated [default: rgb]
-    #[arg(long, value_enum, value_name = "P")]
-    pub(super) packing: Vec<PackingArg>,
+    #[arg(long, value_name = "P", value_parser = variants::<Packing>())]
+    pub(super) packing: Vec<Packing>,
 
     /// For the card: what registers, textures and targets hold; may be repeated [default: fp32]
-    #[arg(long, value_enum, value_name = "F")]
-    pub(super) storage: Vec<StorageArg>,
+    #[arg(long, value_name = "F", value_parser = variants::<Storage>())]
+    pub(super) storage: Vec<Storage>,
 
     #[command(flatten)]
     pub(super) card: CardArgs,

@@ -1,10 +1,12 @@
 //! What the options of `crossbar radiosity` ask for.
 
 use super::args::{Args, FactorsArg, Law};
-use super::values::{PackingArg, SolverArg, StorageArg};
+use super::values::SolverArg;
 use crate::cli::Problem;
 use crate::radiosity::Subdivision;
 use crate::radiosity::form_factor::VisibilityParameters;
+use crate::radiosity::on_card::Storage;
+use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::Solver;
 use crate::study::radiosity::{CardMethod, Change, FactorRequirements, Factors, SolveMethod};
 
@@ -46,8 +48,8 @@ pub(super) fn methods(args: &Args) -> Result<Vec<SolveMethod>, Problem> {
         let help = "add `--solver card`, or leave it out";
         return Err(Problem::usage("`--sweep` turns the switches of the card", help));
     }
-    let packings = if args.packing.is_empty() { &[PackingArg::Rgb][..] } else { &args.packing };
-    let storages = if args.storage.is_empty() { &[StorageArg::Fp32][..] } else { &args.storage };
+    let packings = if args.packing.is_empty() { &[Packing::Rgb][..] } else { &args.packing };
+    let storages = if args.storage.is_empty() { &[Storage::Fp32][..] } else { &args.storage };
     let mut methods: Vec<SolveMethod> = Vec::new();
     let mut add = |method| {
         if !methods.contains(&method) {
@@ -59,7 +61,7 @@ pub(super) fn methods(args: &Args) -> Result<Vec<SolveMethod>, Problem> {
             SolverArg::Host(solver) => add(SolveMethod::Host(solver)),
             SolverArg::Card => {
                 for (&packing, &storage) in packings.iter().flat_map(|p| storages.iter().map(move |s| (p, s))) {
-                    add(SolveMethod::Card(CardMethod { packing: packing.into(), storage: storage.into() }));
+                    add(SolveMethod::Card(CardMethod { packing, storage }));
                 }
             }
         }

@@ -2,11 +2,7 @@
 
 use std::str::FromStr;
 
-use clap::ValueEnum;
-
 use crate::cli::number;
-use crate::radiosity::on_card::Storage;
-use crate::radiosity::packing::Packing;
 use crate::radiosity::solve::{Solver, UnknownSolver};
 use crate::scene::Color;
 
@@ -28,24 +24,6 @@ impl FromStr for SolverArg {
             .map(Self::Host)
             .map_err(|e: UnknownSolver| e.to_string().replacen("expected ", "expected `card`, ", 1))
     }
-}
-
-/// How elements lie in texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum PackingArg {
-    /// One element per texel: red, green and blue at once
-    Rgb,
-    /// Four elements per texel, one channel after the other
-    Luminance,
-}
-
-/// What registers, textures and targets hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum StorageArg {
-    /// Single precision
-    Fp32,
-    /// Half precision
-    Fp16,
 }
 
 /// A color for a material.
@@ -74,22 +52,4 @@ fn color_of(text: &str) -> Result<MaterialColor, String> {
     let (material, channels) = text.split_once('=').ok_or_else(wrong)?;
     let rgb = number::three(channels, "R,G,B")?;
     Ok(MaterialColor { material: material.to_owned(), rgb })
-}
-
-impl From<PackingArg> for Packing {
-    fn from(arg: PackingArg) -> Self {
-        match arg {
-            PackingArg::Rgb => Self::Rgb,
-            PackingArg::Luminance => Self::Luminance,
-        }
-    }
-}
-
-impl From<StorageArg> for Storage {
-    fn from(arg: StorageArg) -> Self {
-        match arg {
-            StorageArg::Fp32 => Self::Fp32,
-            StorageArg::Fp16 => Self::Fp16,
-        }
-    }
 }

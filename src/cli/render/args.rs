@@ -8,8 +8,8 @@ use crate::cli::caster::CasterArg;
 use crate::cli::executor::{Decider, GpuArgs};
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
-use crate::cli::view::SidesArg;
-use crate::cli::{Problem, given, number};
+use crate::cli::{Problem, given, number, view};
+use crate::geom::exact::Sides;
 use crate::renderer::Lens;
 
 const EXAMPLES: &str = "\
@@ -45,8 +45,8 @@ pub(in crate::cli) struct Args {
     pub(super) eye: EyeArgs,
 
     /// Which faces can be hit
-    #[arg(long, value_enum, default_value = "both")]
-    pub(super) sides: SidesArg,
+    #[arg(long, default_value = "both", value_parser = view::sides())]
+    pub(super) sides: Sides,
 
     /// The card; `exact` arithmetic and the host caster need none [default: ideal-fp32]
     #[arg(long, value_name = "D")]

@@ -8,18 +8,16 @@ use refsim::num::{Format, FormatKind, Rounding};
 use serde_json::json;
 
 use super::args::{Args, Renderer, SMALLER};
-use super::page::page;
+use super::page::{hits_line, page};
 use super::scene::{LitScene, camera};
 use crate::cli::caster::{self, CasterArg};
-use crate::cli::words::counted;
 use crate::cli::{MemoryError, Out, Problem, ProgressBar, memory, scene_name, study, view};
-use crate::geom::exact::Sides;
 use crate::io::atomic::FileSet;
 use crate::ray_engine::engine::EngineCounts;
 use crate::renderer::photon::{self, Photons};
 use crate::renderer::{RenderedPicture, Settings, WatchProgress, distributed, eye, layers, path, whitted};
 use crate::report::digits::count;
-use crate::report::{FoundTable, Provenance, Table, Verdict};
+use crate::report::{Findings, FoundTable, Provenance, Table, Verdict};
 use crate::scene::{Camera, Scene};
 use crate::tracer::Caster;
 
@@ -38,20 +36,20 @@ pub(super) fn run(args: &Args, asked: &LitScene, command_line: &str, out: &mut O
     require_memory(args, renderer, &asked.scene)?;
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let rounding = unit_roundoff(caster.format());
-    let mut caster = caster.build(asked.scene.mesh(), Sides::from(args.sides))?;
+    let mut caster = caster.build(asked.scene.mesh(), args.sides)?;
     let picture = trace(renderer, args, &asked.scene, &camera, rounding, caster.caster())?;
     let engine = caster.counts();
     let numbers = layers(&picture, &asked.scene, &camera)?;
     let exposure = args.light.exposure.unwrap_or(1.0);
     let caption = format!("{}, times {exposure}, with the sRGB curve", renderer.title());
     let mut findings = page(args, &camera, picture.display(exposure), numbers, &caption);
-    findings.table(FoundTable::from(rays(&picture)).field("rays"));
+    findings.table(FoundTable::from(rays(&picture)).unprinted());
     let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
     provenance.seed = Some(args.light.seed.unwrap_or(SEED));
     provenance.profiles.extend(device);
+    report(args, &picture, engine.as_ref(), &mut findings);
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
-    tell(args, &picture, engine.as_ref(), out)?;
-    Ok(Verdict::Done)
+    study::show(&findings, out)
 }
 
 /// The rays that were cast, kind by kind.
@@ -160,29 +158,23 @@ fn trace(
     Ok(picture)
 }
 
-fn tell(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, out: &mut Out) -> miette::Result<()> {
-    let (pixels, found) = (picture.first.len(), picture.first.iter().flatten().count());
+fn report(args: &Args, picture: &RenderedPicture, engine: Option<&EngineCounts>, found: &mut Findings) {
+    let (pixels, hits) = (picture.first.len(), picture.first.iter().flatten().count());
     let counts = picture.counts;
-    if out.json() {
-        let kinds: serde_json::Map<_, _> =
-            counts.kinds().into_iter().map(|(kind, n)| (kind.to_owned(), n.into())).collect();
-        let engine = engine.map(caster::document);
-        let rays = json!({ "total": counts.rays(), "kinds": kinds, "bundles": counts.bundles });
-        out.document(&json!({ "pixels": pixels, "hits": found, "not_finite": picture.not_finite, "rays": rays,
-                              "engine": engine, "out": args.out }))?;
-        return Ok(());
-    }
+    let kinds: serde_json::Map<_, _> =
+        counts.kinds().into_iter().map(|(kind, n)| (kind.to_owned(), n.into())).collect();
+    let rays = json!({ "total": counts.rays(), "kinds": kinds, "bundles": counts.bundles });
+    found.fields(json!({ "pixels": pixels, "hits": hits, "not_finite": picture.not_finite, "rays": rays,
+                         "engine": null, "out": args.out }));
     let kinds: Vec<String> =
         counts.kinds().into_iter().filter(|kind| kind.1 > 0).map(|(kind, n)| format!("{} {kind}", count(n))).collect();
     let [rays, bundles] = [counts.rays(), counts.bundles].map(count);
-    out.sentence(format_args!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")))?;
+    found.print(format!("{rays} rays in {bundles} bundles: {}", kinds.join(", ")));
     if let Some(engine) = engine {
-        out.sentence(caster::sentence(engine))?;
+        caster::report(engine, found);
     }
     if picture.not_finite > 0 {
-        out.line(format_args!("{} samples were not finite and count as black", count(picture.not_finite)))?;
+        found.print(format!("{} samples were not finite and count as black", count(picture.not_finite)));
     }
-    let [found, pixels] = [found, pixels].map(counted);
-    out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
-    Ok(())
+    found.print(hits_line(hits, pixels, args));
 }

@@ -7,13 +7,13 @@ mod scene;
 
 use miette::IntoDiagnostic as _;
 use refsim::device::Profile;
+use serde_json::json;
 
 use super::executor::Decider;
 use super::size::Size;
-use super::words::counted;
 use super::{Out, Problem, memory, model_file, scene_name, study, view};
 use crate::geom::Mesh;
-use crate::geom::exact::{Sides, Tracer};
+use crate::geom::exact::Tracer;
 use crate::io::atomic::FileSet;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::ray_engine::{Crossbar, RayBatch};
@@ -21,7 +21,7 @@ use crate::report::{Provenance, Verdict};
 use crate::scene::Camera;
 use crate::study::shade::TeapotShader;
 use args::SMALLER;
-use page::page;
+use page::{hits_line, page};
 
 pub(super) use args::Args;
 
@@ -42,12 +42,11 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     let folder = FileSet::new(&args.out).map_err(Problem::from)?;
     let mut provenance = study::with_inputs(Provenance::new(command_line), &scene_name::named_file(&args.scene));
     let rays = RayBatch::new(width, height, camera.rays()).into_diagnostic()?;
-    let sides = Sides::from(args.sides);
     let hits: Vec<Option<(u32, f32)>> = match Decider::choose(args.executor, args.device.as_deref()).open(&args.gpu)? {
-        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), sides),
+        None => view::exact_hits(&Tracer::new(&mesh), rays.rays(), args.sides),
         Some(kind) => {
             provenance.profiles.push(profile.name.clone());
-            let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, sides)?;
+            let answer = Crossbar::new(profile, kind).intersect(&mesh, &rays, args.sides)?;
             answer.hits.into_iter().map(|h| h.map(|h| (h.triangle, h.t))).collect()
         }
     };
@@ -63,14 +62,10 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     let found = hits.iter().flatten().count();
     let mut findings = page(args, &camera, picture, layers, "shaded by a lamp at the eye");
     findings.paragraph(format!("{found} of {} pixels hit.", hits.len()));
+    findings.fields(json!({ "pixels": hits.len(), "hits": found, "out": args.out }));
+    findings.print(hits_line(found, hits.len(), args));
     view::write_folder(folder, &findings.take_files(&provenance)?)?;
-    if out.json() {
-        out.document(&serde_json::json!({ "pixels": hits.len(), "hits": found, "out": args.out }))?;
-    } else {
-        let [found, pixels] = [found, hits.len()].map(counted);
-        out.line(format_args!("{found} of {pixels} pixels hit; written to {}", args.out.display()))?;
-    }
-    Ok(Verdict::Done)
+    study::show(&findings, out)
 }
 
 /// The camera asked for; without an eye, one that looks down a little from the front and sees all of the mesh.

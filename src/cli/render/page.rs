@@ -1,6 +1,7 @@
 //! The page of a picture.
 
 use super::args::Args;
+use crate::cli::words::counted;
 use crate::picture::{Picture, RgbImage};
 use crate::report::{Findings, NamedPicture};
 use crate::scene::Camera;
@@ -13,4 +14,9 @@ pub(super) fn page(args: &Args, camera: &Camera, image: RgbImage, layers: Pictur
     found.paragraph("layers.exr has the numbers: depth along the view (Z) and triangle of what each pixel shows.");
     found.keep_layers("layers", layers);
     found
+}
+
+/// How many pixels show something, and where the picture is.
+pub(super) fn hits_line(hits: usize, pixels: usize, args: &Args) -> String {
+    format!("{} of {} pixels hit; written to {}", counted(hits), counted(pixels), args.out.display())
 }

@@ -9,11 +9,11 @@ use refsim::machine::{Executor, ExecutorKind};
 use serde_json::{Value, json};
 
 use super::executor::{DeviceExecutor, GpuArgs};
-use super::{MemoryError, Out, Problem, error, memory, pixel, view};
+use super::{MemoryError, Out, Problem, error, memory, pixel, study, view};
 use crate::{
     case::{self, CaseOutcome, Found, Overrides, PixelTrace, ProbeResult, Setup},
     io::atomic::FileSet,
-    report::{Cell, Table, Verdict, visible::visible_line},
+    report::{Cell, Findings, Table, Verdict},
 };
 
 const EXAMPLES: &str = "\
@@ -75,20 +75,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let outcome = case::run(&setup, &executor)?;
     let written = view::write_folder(files, &outcome.pictures)?;
     out.outlive_reader();
-    if out.json() {
-        let mut document = document(&setup, args, &outcome, &written);
-        if let Some(traced) = traced {
-            document["trace"] = traced.document();
-        }
-        out.document(&document)?;
-    } else {
-        print(&setup, &outcome, &written, out)?;
-        if let Some(traced) = traced {
-            out.line("")?;
-            traced.print(out)?;
-        }
+    let mut found = findings(&setup, args, &outcome, &written);
+    if let Some(traced) = &traced {
+        found.field("trace", traced.document());
     }
-    Ok(Verdict::held(outcome.passed()))
+    let verdict = study::show(&found, out)?;
+    if let (Some(traced), false) = (traced, out.json()) {
+        out.line("")?;
+        traced.print(out)?;
+    }
+    Ok(verdict)
 }
 
 /// What the surfaces of a case take, and their pictures; its textures are there already.
@@ -114,26 +110,6 @@ fn default_folder(case: &Path) -> PathBuf {
 /// The case's name, by which a later run knows its pictures again.
 fn name(case: &Path) -> Cow<'_, str> {
     case.file_stem().unwrap_or_default().to_string_lossy()
-}
-
-fn print(setup: &Setup, outcome: &CaseOutcome, written: &[PathBuf], out: &mut Out) -> miette::Result<()> {
-    if let Some(title) = &setup.title {
-        out.line(visible_line(title))?;
-    }
-    out.line(format_args!("device {}, pixel registers {}", setup.profile.name, setup.profile.rules.format))?;
-    for path in written {
-        out.line(format_args!("wrote {}", path.display()))?;
-    }
-    out.line("")?;
-    out.table(&counts(outcome))?;
-    if outcome.probes.is_empty() {
-        return Ok(());
-    }
-    out.line("")?;
-    out.table(&probes(&outcome.probes))?;
-    let passed = outcome.probes.iter().filter(|result| result.passed).count();
-    out.line(format_args!("{passed} passed, {} failed", outcome.probes.len() - passed))?;
-    Ok(())
 }
 
 fn counts(outcome: &CaseOutcome) -> Table {
@@ -184,23 +160,36 @@ fn probes(results: &[ProbeResult]) -> Table {
     table
 }
 
-fn document(setup: &Setup, args: &Args, outcome: &CaseOutcome, written: &[PathBuf]) -> Value {
-    let counts: serde_json::Map<String, Value> =
+fn findings(setup: &Setup, args: &Args, outcome: &CaseOutcome, written: &[PathBuf]) -> Findings {
+    let document: serde_json::Map<String, Value> =
         count_list(outcome).into_iter().map(|(name, number)| (name.replace(' ', "_"), number.into())).collect();
     let switches: serde_json::Map<String, Value> =
         setup.profile.switches().iter().map(|switch| (switch.name.clone(), switch.current.clone().into())).collect();
-    json!({
+    let format = setup.profile.rules.format;
+    let mut found = Findings::new(setup.title.clone().unwrap_or_default());
+    found.fields(json!({
         "case": args.case.display().to_string(),
         "title": setup.title,
         "version": env!("CARGO_PKG_VERSION"),
         "device": setup.profile.name,
-        "format": setup.profile.rules.format.to_string(),
+        "format": format.to_string(),
         "switches": switches,
         "files": written.iter().map(|path| path.display().to_string()).collect::<Vec<_>>(),
-        "counts": counts,
+        "counts": document,
         "probes": outcome.probes.iter().map(probe_json).collect::<Vec<_>>(),
         "passed": outcome.passed(),
-    })
+    }));
+    found.conclude(Verdict::held(outcome.passed()));
+    setup.title.iter().for_each(|title| found.introduce(title.clone()));
+    found.introduce(format!("device {}, pixel registers {format}", setup.profile.name));
+    written.iter().for_each(|path| found.introduce(format!("wrote {}", path.display())));
+    found.table(counts(outcome));
+    found.table(probes(&outcome.probes));
+    if !outcome.probes.is_empty() {
+        let passed = outcome.probes.iter().filter(|result| result.passed).count();
+        found.print(format!("{passed} passed, {} failed", outcome.probes.len() - passed));
+    }
+    found
 }
 
 fn probe_json(result: &ProbeResult) -> Value {

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use super::values::{
-    ChannelsArg, ChoiceArg, CombineArg, FloatArg, FresnelArg, LightArg, MapArg, StageArg, YesNo, coefficient, place,
-};
+use super::values::{LightArg, choices, coefficient, direct_light, maps, place, rgb, yes_or_no};
 use crate::cli::card::CardArgs;
 use crate::cli::number;
+use crate::cli::one_of::variants;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
+use crate::study::subsurface::MapBits;
+use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance, LinkLayout};
+use crate::subsurface::on_card::{FloatTexels, LightStage};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,20 +69,20 @@ pub(in crate::cli) struct Args {
     pub(super) links: Vec<u32>,
 
     /// Which links; may be repeated [default: fixed]
-    #[arg(long, value_enum, value_name = "HOW")]
-    pub(super) choice: Vec<ChoiceArg>,
+    #[arg(long, value_name = "HOW", value_parser = choices())]
+    pub(super) choice: Vec<LinkLayout>,
 
     /// Factors per link; may be repeated [default: rgb, or scalar for a medium of one color]
-    #[arg(long, value_enum, value_name = "C")]
-    pub(super) channels: Vec<ChannelsArg>,
+    #[arg(long, value_name = "C", value_parser = rgb())]
+    pub(super) channels: Vec<bool>,
 
     /// What link textures hold; may be repeated [default: fp16]
-    #[arg(long, value_enum, value_name = "F")]
-    pub(super) link_format: Vec<FloatArg>,
+    #[arg(long, value_name = "F", value_parser = variants::<FloatTexels>())]
+    pub(super) link_format: Vec<FloatTexels>,
 
     /// The radiosity map; may be repeated [default: fp16]
-    #[arg(long, value_enum, value_name = "F")]
-    pub(super) map: Vec<MapArg>,
+    #[arg(long, value_name = "F", value_parser = maps())]
+    pub(super) map: Vec<MapBits>,
 
     /// Let pass 2 compute in half precision
     #[arg(long)]
@@ -102,20 +104,20 @@ pub(in crate::cli) struct Args {
     pub(super) irradiance: Option<PathBuf>,
 
     /// Where pass 1 computes light [default: vertex]
-    #[arg(long, value_enum, value_name = "STAGE")]
-    pub(super) pass_1: Option<StageArg>,
+    #[arg(long, value_name = "STAGE", value_parser = variants::<LightStage>())]
+    pub(super) pass_1: Option<LightStage>,
 
     /// Where pass 3 computes direct light [default: fragment]
-    #[arg(long, value_enum, value_name = "STAGE")]
-    pub(super) direct: Option<StageArg>,
+    #[arg(long, value_name = "STAGE", value_parser = direct_light())]
+    pub(super) direct: Option<DirectLight>,
 
     /// The Fresnel transmittance towards the eye
-    #[arg(long, value_enum, value_name = "HOW", default_value = "exact")]
-    pub(super) fresnel: FresnelArg,
+    #[arg(long, value_name = "HOW", default_value = "exact", value_parser = variants::<EyeTransmittance>())]
+    pub(super) fresnel: EyeTransmittance,
 
     /// How scattered and direct light make a color
-    #[arg(long, value_enum, value_name = "HOW", default_value = "added")]
-    pub(super) combine: CombineArg,
+    #[arg(long, value_name = "HOW", default_value = "added", value_parser = variants::<Combine>())]
+    pub(super) combine: Combine,
 
     /// Diffuse reflectance for direct light, 0 to 1 [default: 0.1]
     #[arg(long, value_name = "X", value_parser = number::not_negative)]
@@ -126,8 +128,8 @@ pub(in crate::cli) struct Args {
     pub(super) probe: Vec<[f64; 3]>,
 
     /// Whether to gather over all pairs of texels too [default: yes for atlases up to 32]
-    #[arg(long, value_enum, value_name = "YES")]
-    pub(super) all_pairs: Option<YesNo>,
+    #[arg(long, value_name = "YES", value_parser = yes_or_no())]
+    pub(super) all_pairs: Option<bool>,
 
     /// Follow so many photons per channel through the model as well: the dipole's own error
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(32..=1_000_000_000))]

@@ -3,15 +3,16 @@
 use glam::{DMat3, DVec3};
 
 use super::args::Args;
-use super::values::{ChannelsArg, ChoiceArg, FloatArg, LightArg, MapArg, YesNo};
+use super::values::LightArg;
 use crate::cli::Problem;
 use crate::cli::materials::published;
 use crate::cli::transfer::light::DistantLightArg;
 use crate::io::load_irradiances;
 use crate::scene::Camera;
-use crate::study::subsurface::{GatherWay, Lighting};
+use crate::study::subsurface::{GatherWay, Lighting, MapBits};
+use crate::subsurface::kernels::LinkLayout;
 use crate::subsurface::links::LinkChoice;
-use crate::subsurface::on_card::Light;
+use crate::subsurface::on_card::{FloatTexels, Light};
 use crate::subsurface::{Coefficients, Material};
 use crate::transfer::light::{CubeLight, Decimation};
 
@@ -46,24 +47,16 @@ pub(super) fn material(args: &Args) -> miette::Result<Material> {
 /// Every combination of what may be repeated.
 pub(super) fn ways(args: &Args, material: &Material) -> Result<Vec<GatherWay>, Problem> {
     let [r, g, b] = material.channels;
-    let usual = if r == g && g == b { ChannelsArg::Scalar } else { ChannelsArg::Rgb };
-    let choices = or(&args.choice, ChoiceArg::Fixed);
-    let (channels, formats) = (or(&args.channels, usual), or(&args.link_format, FloatArg::Fp16));
-    let maps = or(&args.map, MapArg::Fp16);
+    let choices = or(&args.choice, LinkLayout::Fixed);
+    let (channels, formats) = (or(&args.channels, r != g || g != b), or(&args.link_format, FloatTexels::Fp16));
+    let maps = or(&args.map, MapBits::Float(FloatTexels::Fp16));
     let mut ways = Vec::new();
     for &choice in &choices {
         for &links in &args.links {
             let choice = link_choice(choice, links, args.atlas)?;
-            for &channels in &channels {
-                for &format in &formats {
-                    let rgb = channels == ChannelsArg::Rgb;
-                    let way = |&map: &MapArg| GatherWay {
-                        choice,
-                        rgb,
-                        links: format.into(),
-                        map: map.into(),
-                        half: args.half,
-                    };
+            for &rgb in &channels {
+                for &links in &formats {
+                    let way = |&map: &MapBits| GatherWay { choice, rgb, links, map, half: args.half };
                     ways.extend(maps.iter().map(way));
                 }
             }
@@ -82,10 +75,10 @@ fn or<T: Copy + PartialEq>(asked: &[T], usual: T) -> Vec<T> {
     if all.is_empty() { vec![usual] } else { all }
 }
 
-fn link_choice(choice: ChoiceArg, links: u32, side: u32) -> Result<LinkChoice, Problem> {
+fn link_choice(choice: LinkLayout, links: u32, side: u32) -> Result<LinkChoice, Problem> {
     match choice {
-        ChoiceArg::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
-        ChoiceArg::Fixed => {
+        LinkLayout::Adaptive => Ok(LinkChoice::Adaptive { count: links as usize }),
+        LinkLayout::Fixed => {
             let found = (0..=side.max(1).ilog2())
                 .map(|level| LinkChoice::Fixed { level })
                 .find(|fixed| fixed.per_texel(side) == u64::from(links));
@@ -149,7 +142,7 @@ pub(super) fn require_lights(args: &Args) -> Result<(), Problem> {
 
 /// Whether all pairs are gathered.
 pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
-    let asked = args.all_pairs == Some(YesNo::Yes);
+    let asked = args.all_pairs == Some(true);
     if asked && args.atlas > MOST_ALL_PAIRS {
         let help = format!("leave out `--all-pairs`, or choose an `--atlas` of at most {MOST_ALL_PAIRS}");
         return Err(Problem::usage(format!("all pairs of {0} x {0} texels would take hours", args.atlas), help));

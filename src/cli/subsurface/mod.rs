@@ -13,10 +13,10 @@ use super::study::StudyArgs;
 use crate::atlas::require_side;
 use crate::report::digits::{Quantity, shown};
 use crate::study::subsurface::{Parameters, SubsurfaceError};
-use crate::subsurface::kernels::ViewKernel;
+use crate::subsurface::kernels::{DirectLight, ViewKernel};
 
 pub(super) use args::Args;
-use values::{LightArg, StageArg};
+use values::LightArg;
 
 /// Diffuse reflectance for direct light, unless asked for.
 const DIFFUSE: f64 = 0.1;
@@ -81,16 +81,16 @@ impl StudyArgs for Args {
             mm_per_unit: self.mm_per_unit,
             side: self.atlas,
             tolerance: self.tolerance,
-            stage: self.pass_1.unwrap_or(StageArg::Vertex).into(),
+            stage: self.pass_1.unwrap_or_default(),
             photons: self.walk,
             link_table: self.link_table,
             probes: self.probe.clone(),
             switches: self.card.switches(),
             executor: self.card.executor()?,
             view: ViewKernel {
-                transmittance: self.fresnel.into(),
-                direct: self.direct.unwrap_or(StageArg::Fragment).into(),
-                combine: self.combine.into(),
+                transmittance: self.fresnel,
+                direct: self.direct.unwrap_or(DirectLight::ByFragment),
+                combine: self.combine,
             },
             diffuse,
             exposure: self.exposure,

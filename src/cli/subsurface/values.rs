@@ -2,144 +2,42 @@
 
 use std::str::FromStr;
 
-use clap::ValueEnum;
-
+use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::transfer::light::DistantLightArg;
 use crate::study::subsurface::MapBits;
-use crate::subsurface::kernels::{Combine, DirectLight, EyeTransmittance};
-use crate::subsurface::on_card::{FloatTexels, Light, LightStage};
+use crate::subsurface::kernels::{DirectLight, LinkLayout};
+use crate::subsurface::on_card::{FloatTexels, Light};
 
-/// Which links.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ChoiceArg {
-    /// All clusters of one level: 1, 4, 16, 64, ... links
-    Fixed,
-    /// Per texel, the cluster with the highest factor gives way to its four children
-    Adaptive,
+/// The choices of links, for `--choice`.
+pub(super) fn choices() -> OneOf<LinkLayout> {
+    let fixed = ("fixed", "All clusters of one level: 1, 4, 16, 64, ... links", LinkLayout::Fixed);
+    let help = "Per texel, the cluster with the highest factor gives way to its four children";
+    one_of([fixed, ("adaptive", help, LinkLayout::Adaptive)])
 }
 
-/// Factors per link.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ChannelsArg {
-    /// One, that of green
-    Scalar,
-    /// Red, green and blue
-    Rgb,
+/// Factors per link, for `--channels`: true for one per channel.
+pub(super) fn rgb() -> OneOf<bool> {
+    one_of([("scalar", "One, that of green", false), ("rgb", "Red, green and blue", true)])
 }
 
-/// Floats of textures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum FloatArg {
-    /// Half precision
-    Fp16,
-    /// Single precision
-    Fp32,
+/// The formats of the radiosity map, for `--map`.
+pub(super) fn maps() -> OneOf<MapBits> {
+    one_of([
+        ("8bit", "8 bits per channel, whose levels the card makes itself", MapBits::Eight),
+        ("fp16", "Half floats, levels by passes", MapBits::Float(FloatTexels::Fp16)),
+        ("fp32", "Single floats, levels by passes", MapBits::Float(FloatTexels::Fp32)),
+    ])
 }
 
-impl From<FloatArg> for FloatTexels {
-    fn from(arg: FloatArg) -> Self {
-        match arg {
-            FloatArg::Fp16 => Self::Fp16,
-            FloatArg::Fp32 => Self::Fp32,
-        }
-    }
-}
-
-/// The radiosity map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum MapArg {
-    /// 8 bits per channel, whose levels the card makes itself
-    #[value(name = "8bit")]
-    Eight,
-    /// Half floats, levels by passes
-    Fp16,
-    /// Single floats, levels by passes
-    Fp32,
-}
-
-impl From<MapArg> for MapBits {
-    fn from(arg: MapArg) -> Self {
-        match arg {
-            MapArg::Eight => Self::Eight,
-            MapArg::Fp16 => Self::Float(FloatTexels::Fp16),
-            MapArg::Fp32 => Self::Float(FloatTexels::Fp32),
-        }
-    }
-}
-
-/// Where light is computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum StageArg {
-    /// At vertices, interpolated
-    Vertex,
-    /// At each texel, or each fragment
-    Fragment,
-}
-
-impl From<StageArg> for LightStage {
-    fn from(arg: StageArg) -> Self {
-        match arg {
-            StageArg::Vertex => Self::Vertices,
-            StageArg::Fragment => Self::Texels,
-        }
-    }
-}
-
-impl From<StageArg> for DirectLight {
-    fn from(arg: StageArg) -> Self {
-        match arg {
-            StageArg::Vertex => Self::ByVertex,
-            StageArg::Fragment => Self::ByFragment,
-        }
-    }
-}
-
-/// The Fresnel transmittance towards the eye.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum FresnelArg {
-    /// Computed by the program
-    Exact,
-    /// Read from a table by the cosine
-    Table,
-    /// Its mean over the hemisphere
-    Mean,
-}
-
-impl From<FresnelArg> for EyeTransmittance {
-    fn from(arg: FresnelArg) -> Self {
-        match arg {
-            FresnelArg::Exact => Self::Exact,
-            FresnelArg::Table => Self::Table,
-            FresnelArg::Mean => Self::Mean,
-        }
-    }
-}
-
-/// How scattered and direct light make a color.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum CombineArg {
-    /// Their sum
-    Added,
-    /// Their product
-    Modulated,
-}
-
-impl From<CombineArg> for Combine {
-    fn from(arg: CombineArg) -> Self {
-        match arg {
-            CombineArg::Added => Self::Added,
-            CombineArg::Modulated => Self::Modulated,
-        }
-    }
+/// The stages that can compute direct light, for `--direct`.
+pub(super) fn direct_light() -> OneOf<DirectLight> {
+    let vertex = ("vertex", "At vertices, interpolated", DirectLight::ByVertex);
+    one_of([vertex, ("fragment", "At each fragment", DirectLight::ByFragment)])
 }
 
 /// Yes or no.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum YesNo {
-    /// Do it
-    Yes,
-    /// Do not
-    No,
+pub(super) fn yes_or_no() -> OneOf<bool> {
+    one_of([("yes", "Do it", true), ("no", "Do not", false)])
 }
 
 /// A light: one of pass 1, or distant light as the commands on transfer read it.

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use refsim::event::ReadBackMode;
 use refsim::timing::Level;
 
+use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::size::{BadSize, Size};
 
 const EXAMPLES: &str = "\
@@ -45,12 +45,12 @@ pub(in crate::cli) struct Args {
     pub(super) device: Option<String>,
 
     /// Which model
-    #[arg(long, value_enum, default_value = "both")]
-    pub(super) model: ModelArg,
+    #[arg(long, default_value = "both", value_parser = models())]
+    pub(super) model: &'static [Level],
 
     /// Whether the host waits for what it reads back [default: as the run says]
-    #[arg(long, value_enum, value_name = "MODE")]
-    pub(super) readback: Option<ReadBackArg>,
+    #[arg(long, value_name = "MODE", value_parser = readback())]
+    pub(super) readback: Option<ReadBackMode>,
 
     /// Keep two copies of every texture and target: one is overwritten while the card uses the other
     #[arg(long)]
@@ -69,43 +69,21 @@ pub(in crate::cli) struct Args {
     pub(super) trace: Option<PathBuf>,
 }
 
-/// Which model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ModelArg {
-    /// Fill rate and bus rates
-    Rates,
-    /// Clocks of each unit
-    Pipeline,
-    /// One after the other
-    Both,
+/// The models, for `--model`.
+fn models() -> OneOf<&'static [Level]> {
+    one_of([
+        ("rates", "Fill rate and bus rates", &[Level::Rates][..]),
+        ("pipeline", "Clocks of each unit", &[Level::Pipeline]),
+        ("both", "One after the other", &[Level::Rates, Level::Pipeline]),
+    ])
 }
 
-impl ModelArg {
-    pub(super) const fn levels(self) -> &'static [Level] {
-        match self {
-            Self::Rates => &[Level::Rates],
-            Self::Pipeline => &[Level::Pipeline],
-            Self::Both => &[Level::Rates, Level::Pipeline],
-        }
-    }
-}
-
-/// Whether the host waits for what it reads back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum ReadBackArg {
-    /// It waits for all earlier work and the transfer
-    Sync,
-    /// It goes on
-    Async,
-}
-
-impl From<ReadBackArg> for ReadBackMode {
-    fn from(arg: ReadBackArg) -> Self {
-        match arg {
-            ReadBackArg::Sync => Self::Synchronous,
-            ReadBackArg::Async => Self::Asynchronous,
-        }
-    }
+/// Modes of read-back, for `--readback`.
+fn readback() -> OneOf<ReadBackMode> {
+    one_of([
+        ("sync", "It waits for all earlier work and the transfer", ReadBackMode::Synchronous),
+        ("async", "It goes on", ReadBackMode::Asynchronous),
+    ])
 }
 
 /// `64x64`, or `64,64`.

@@ -19,7 +19,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     let log = input.log(args.cache)?;
     drop(bar);
     let mut timed = Vec::new();
-    for level in args.model.levels() {
+    for level in args.model {
         timed.push(TimedLog::new(*level, &input, &log, args)?);
     }
     if let (Some(path), Some(last)) = (&args.trace, timed.last()) {

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use refsim::event::ReadBackMode;
 use refsim::event::{DrawRecord, Event, MipmapRecord, SamplerTraffic};
 use refsim::timing::timeline::Usage;
 use refsim::timing::{DrawCost, Picoseconds};
 use serde_json::{Value, json};
 
-use super::args::{Args, ReadBackArg};
+use super::args::Args;
 use super::run::{Input, TimedLog};
 use crate::cli::Out;
 use crate::report::visible::visible_line;
@@ -241,7 +242,7 @@ pub(super) fn document(args: &Args, input: &Input, log: &[Event], timed: &[Timed
         "rays": input.rays(),
         "version": env!("CARGO_PKG_VERSION"),
         "device": input.profile().name,
-        "readback": args.readback.map(|mode| if mode == ReadBackArg::Sync { "sync" } else { "async" }),
+        "readback": args.readback.map(|mode| if mode == ReadBackMode::Synchronous { "sync" } else { "async" }),
         "double_buffered": args.double_buffer,
         "texture_cache": args.cache.then(|| cache(log).json()),
         "events": log.len(),

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use glam::DVec3;
 
+use crate::cli::one_of::variants;
 use crate::cli::{Problem, number, view};
 use crate::io::{load_cube_table, load_light_sources};
 use crate::report::digits::{Quantity, shown};
@@ -52,15 +52,6 @@ impl FromStr for DistantLightArg {
     }
 }
 
-/// A window over the light's bands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum WindowArg {
-    /// Half a cosine wave
-    Hann,
-    /// sin(x) / x
-    Lanczos,
-}
-
 /// Light for transfer of all frequencies and bi-scale transfer: radiances of the texels of a cube.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct LightArgs {
@@ -97,8 +88,8 @@ pub(in crate::cli) struct HarmonicLightArgs {
     light: DistantLightArg,
 
     /// Damp the light's higher bands, so that it rings less
-    #[arg(long, value_enum, value_name = "W")]
-    window: Option<WindowArg>,
+    #[arg(long, value_name = "W", value_parser = variants::<BandWindow>())]
+    window: Option<BandWindow>,
 }
 
 impl HarmonicLightArgs {
@@ -115,11 +106,7 @@ impl HarmonicLightArgs {
     /// The light at an order, its window as wide as the first band that is left out.
     pub(in crate::cli) fn of_order(&self, order: usize) -> miette::Result<HarmonicLight> {
         let light = self.light.of_order(order)?;
-        let window = self.window.map(|window| match window {
-            WindowArg::Hann => BandWindow::Hann,
-            WindowArg::Lanczos => BandWindow::Lanczos,
-        });
-        Ok(match window {
+        Ok(match self.window {
             Some(window) => light.windowed(window, order as f64),
             None => light,
         })

@@ -3,9 +3,12 @@
 use std::path::Path;
 
 use glam::DVec3;
+use serde_json::json;
 
 use crate::cli::model_name::{self, Model};
+use crate::cli::words::counted;
 use crate::cli::{Problem, model_file};
+use crate::report::Findings;
 use crate::scene::Material;
 use crate::transfer::{Tangents, TransferError, Vertices};
 
@@ -21,6 +24,19 @@ pub(in crate::cli) fn load(path: &Path, tangents: Tangents) -> miette::Result<Mo
 /// The vertices that transfer is computed at.
 pub(in crate::cli) fn vertices(model: &Model, tangents: Tangents) -> miette::Result<Vertices> {
     Ok(Vertices::with_materials(&model.mesh, &model.material_of, tangents).map_err(refused)?)
+}
+
+/// Adds what is odd about the vertices of a model to the findings of `precompute`: those without a triangle, those
+/// without a tangent, and as many of `more` as there are.
+pub(in crate::cli) fn note_vertices(found: &mut Findings, vertices: &Vertices, more: &[(usize, &str)]) {
+    found.fields(json!({ "unused_vertices": vertices.unused, "replaced_tangents": vertices.replaced_tangents }));
+    let of_model = [
+        (vertices.unused, "vertices of the model belong to no triangle and were left out"),
+        (vertices.replaced_tangents.len(), "vertices had no tangent across their normal and got any"),
+    ];
+    for (count, what) in of_model.iter().chain(more).filter(|(count, _)| *count > 0) {
+        found.print(format!("note      {} {what}", counted(*count)));
+    }
 }
 
 /// Why there is no transfer of a model.

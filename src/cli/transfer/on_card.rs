@@ -1,10 +1,10 @@
 //! Pictures on an emulated card.
 
-use clap::ValueEnum;
 use refsim::isa::Version;
 use refsim::texture::TexelFormat;
 
 use crate::cli::card::CardArgs;
+use crate::cli::one_of::{OneOf, one_of};
 use crate::study::prt::CardSetting;
 
 /// The card, its target, and what of it is varied.
@@ -31,20 +31,7 @@ impl OnCardArgs {
     }
 }
 
-/// A vertex language.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum VertexArg {
-    #[value(name = "vs_1_1")]
-    Vs1_1,
-    #[value(name = "vs_2_0")]
-    Vs2_0,
-}
-
-impl From<VertexArg> for Version {
-    fn from(arg: VertexArg) -> Self {
-        match arg {
-            VertexArg::Vs1_1 => Self::Vs1_1,
-            VertexArg::Vs2_0 => Self::Vs2_0,
-        }
-    }
+/// The languages of vertex programs, for `--vertex`.
+pub(in crate::cli) fn vertex_versions() -> OneOf<Version> {
+    one_of([("vs_1_1", "That of Direct3D 8", Version::Vs1_1), ("vs_2_0", "That of Direct3D 9", Version::Vs2_0)])
 }

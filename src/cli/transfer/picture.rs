@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-
 use crate::cli::memory::{self, MemoryNeed};
+use crate::cli::one_of::variants;
 use crate::cli::scene_name::EyeArgs;
 use crate::cli::size::Size;
 use crate::cli::transfer::vertex_names::VertexNames;
@@ -61,41 +60,19 @@ impl PictureArgs {
     }
 }
 
-/// How radiance of vertices is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ValuesArg {
-    /// vertices.csv: vertex, its number in the model's file, position, red, green, blue
-    Csv,
-    /// vertices.npy: a row per vertex of position, red, green, blue
-    Npy,
-}
-
 /// Radiance of vertices as numbers.
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct ValuesArgs {
     /// Write the radiance of each vertex towards the camera to --out as numbers, hidden or not
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    values: Option<ValuesArg>,
+    #[arg(long, value_name = "FORMAT", value_parser = variants::<ValuesFormat>())]
+    values: Option<ValuesFormat>,
 }
 
 impl ValuesArgs {
     /// The format and the names of a model's vertices, if their radiance is to be written.
     pub(in crate::cli) fn of(&self, model: &Path, vertices: &Vertices) -> Option<VertexValues> {
-        let format = match self.values? {
-            ValuesArg::Csv => ValuesFormat::Csv,
-            ValuesArg::Npy => ValuesFormat::Npy,
-        };
-        Some(VertexValues { format, numbers: VertexNames::new(model, vertices).numbers() })
+        Some(VertexValues { format: self.values?, numbers: VertexNames::new(model, vertices).numbers() })
     }
-}
-
-/// What frames turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TurnArg {
-    /// The light, around z
-    Light,
-    /// The camera, around the model
-    Camera,
 }
 
 /// Pictures in which something turns.
@@ -106,14 +83,14 @@ pub(in crate::cli) struct FramesArgs {
     pub(in crate::cli) frames: u32,
 
     /// What --frames turns
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "light", requires = "frames")]
-    turn: TurnArg,
+    #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
+    turn: Turning,
 }
 
 impl FramesArgs {
     /// What frames turn.
     pub(in crate::cli) fn turning(&self) -> Turning {
-        if self.turn == TurnArg::Camera { Turning::Camera } else { Turning::Light }
+        self.turn
     }
 
     /// Memory of a picture and of these.

@@ -1,14 +1,12 @@
-//! Values of options: reflectance, tangents, how points are shared out to clusters.
+//! Values of options: reflectance, tangents.
 
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use glam::DVec3;
 
 use crate::cli::number;
 use crate::transfer::Tangents;
 use crate::transfer::brdf::Brdf;
-use crate::transfer::clustering::CpcaMethod;
 
 const BRDF: &str = "lambert:ALBEDO, phong:ALBEDO,SPECULAR,EXPONENT, cook-torrance:ALBEDO,SPECULAR,ROUGHNESS,F0, \
                     schlick:ALBEDO,SPECULAR,ROUGHNESS,ISOTROPY,F0, ward:ALBEDO,SPECULAR,ROUGHNESS_X,ROUGHNESS_Y or ashikhmin-shirley:ALBEDO,SPECULAR,EXPONENT_U,EXPONENT_V";
@@ -61,31 +59,6 @@ impl FromStr for TangentsArg {
                 }
                 Ok(Self(Tangents::Along(axis)))
             }
-        }
-    }
-}
-
-/// How points are shared out to clusters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(in crate::cli) enum MethodArg {
-    /// By distance from the means, then principal components once
-    Static,
-    /// By the error of their approximation, while vectors are added one by one
-    Iterative,
-    /// The same, while the number of vectors is doubled
-    Doubling,
-    /// As iterative; then vectors are redistributed among the clusters
-    Adaptive,
-}
-
-impl MethodArg {
-    /// The method, with at most so many rounds of redistribution.
-    pub(in crate::cli) const fn method(self, rounds: usize) -> CpcaMethod {
-        match self {
-            Self::Static => CpcaMethod::Static,
-            Self::Iterative => CpcaMethod::Iterative,
-            Self::Doubling => CpcaMethod::Doubling,
-            Self::Adaptive => CpcaMethod::Adaptive { rounds },
         }
     }
 }

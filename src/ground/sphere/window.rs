@@ -6,12 +6,16 @@ use super::harmonics::function_band;
 use crate::elementary::sin_cos;
 
 /// Window function: falloff of a band's factor with l.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum BandWindow {
+    /// Half a cosine wave.
+    ///
     /// (1 + cos(pi l / w)) / 2.
     Hann,
-    /// sin(pi l / w) / (pi l / w).
+    /// sin(x) / x.
+    ///
+    /// With x = pi l / w.
     Lanczos,
 }
 

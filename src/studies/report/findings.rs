@@ -176,6 +176,7 @@ pub struct Findings {
     pub(super) conclusion: Vec<String>,
     pub(super) tally: Vec<TallyEntry>,
     fields: Map<String, Value>,
+    introduction: Vec<String>,
     printed: Vec<String>,
     verdict: Verdict,
 }
@@ -276,6 +277,18 @@ impl Findings {
         self.fields.insert(name.to_owned(), value);
     }
 
+    /// Adds all fields of an object to the document.
+    pub fn fields(&mut self, object: Value) {
+        if let Value::Object(fields) = object {
+            self.fields.extend(fields);
+        }
+    }
+
+    /// Adds a line that the command prints before the tables.
+    pub fn introduce(&mut self, line: String) {
+        self.introduction.push(line);
+    }
+
     /// Adds a line that the command prints after the tables.
     pub fn print(&mut self, line: String) {
         self.printed.push(line);
@@ -306,6 +319,11 @@ impl Findings {
         self.tables.iter().filter(|found| found.printed && !found.table.rows().is_empty()).map(|found| &found.table)
     }
 
+    /// Lines that the command prints before the tables.
+    pub fn introduction(&self) -> &[String] {
+        &self.introduction
+    }
+
     /// Lines that the command prints after the tables.
     pub fn printed_lines(&self) -> &[String] {
         &self.printed
@@ -313,14 +331,15 @@ impl Findings {
 
     /// Builds the document for programs: provenance, conclusion, tables, fields.
     pub fn document(&self, provenance: &Provenance) -> Value {
-        let mut document = self.fields.clone();
-        document.insert("provenance".to_owned(), json!(provenance));
-        document.insert("conclusion".to_owned(), json!(self.conclusion));
-        for found in &self.tables {
-            if let Some(name) = found.field {
-                document.insert(name.to_owned(), found.whole().json());
-            }
-        }
-        Value::Object(document)
+        let mut document = self.plain_document();
+        document["provenance"] = json!(provenance);
+        document["conclusion"] = json!(self.conclusion);
+        document
+    }
+
+    /// Builds the document of a command without provenance: fields, and the tables that have one.
+    pub fn plain_document(&self) -> Value {
+        let tables = self.tables.iter().filter_map(|found| Some((found.field?.to_owned(), found.whole().json())));
+        Value::Object(self.fields.clone().into_iter().chain(tables).collect())
     }
 }

@@ -15,11 +15,12 @@ use crate::card::Texels;
 use crate::linalg::Matrix;
 
 /// The layout of elements in texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Packing {
-    /// One texel per element, three systems at once: the red, green and blue channels.
+    /// One element per texel, red, green and blue at once: three systems.
     Rgb,
-    /// Four elements per texel, one system.
+    /// Four elements per texel, one channel after the other.
     Luminance,
 }
 

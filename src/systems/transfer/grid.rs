@@ -26,13 +26,19 @@ pub const LIGHT_MAP: CubeMap = CubeMap::new(LIGHT_SIDE);
 pub const FINE_MAP: CubeMap = CubeMap::new(FINE_SIDE);
 
 /// The division of the cube into squares, each with its own Haar transform.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Segmentation {
-    /// 24 segments of 16 x 16 texels, four per face: the paper's. Segment face 4 + 2 (row / 16) + column / 16.
+    /// 24 segments of 16 x 16 texels, four per face: the paper's.
+    ///
+    /// Segment face 4 + 2 (row / 16) + column / 16.
     #[default]
+    #[strum(to_string = "24")]
     Quarters,
-    /// The six faces, 32 x 32 texels each: \[NRH03\]'s, for comparison (Figure 6).
+    /// The six faces, 32 x 32 texels each, for comparison (Figure 6).
+    ///
+    /// Those of \[NRH03\].
+    #[strum(to_string = "6")]
     Faces,
 }
 

@@ -54,12 +54,13 @@ pub struct Rendering {
 }
 
 /// What is carried round a model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Turning {
-    /// The light.
+    /// The light, around z.
     #[default]
     Light,
-    /// The camera.
+    /// The camera, around the model.
     Camera,
 }
 

@@ -3,19 +3,20 @@
 use crate::io::{NumberTable, write_npy};
 use crate::report::{Cell, Findings, FoundTable, Table};
 
-/// How radiance of vertices is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Format of a file with the radiance of vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum ValuesFormat {
-    /// `vertices.csv`: vertex, number in the model's file, position, red, green, blue; all digits.
+    /// vertices.csv: vertex, its number in the model's file, position, red, green, blue.
     Csv,
-    /// `vertices.npy`: a row of f32 per vertex: position, red, green, blue.
+    /// vertices.npy: a row per vertex of position, red, green, blue, in f32.
     Npy,
 }
 
 /// That radiance of vertices is written, and the vertices' numbers in the model's file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VertexValues {
-    /// How.
+    /// The format.
     pub format: ValuesFormat,
     /// One per vertex; `None` where the file gives none.
     pub numbers: Vec<Option<u32>>,

@@ -15,7 +15,8 @@ pub struct CodeOptions {
 
 /// The numbers that share a step, which the paper leaves open.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum ScaleOf {
     /// Each representative has a step, and the weights of that representative have another.
     Representative,

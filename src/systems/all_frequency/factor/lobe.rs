@@ -16,12 +16,14 @@ use crate::transfer::brdf::fresnel::{dielectric, schlick};
 use crate::transfer::brdf::{Brdf, BrdfError};
 
 /// The factor before distribution, shadowing and Fresnel reflectance. Distributions are pi times the usual ones.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Denominators {
     /// 1 / (4 pi v_z s_z): facets conserve energy; Schlick 1994, and Cook and Torrance's model in textbooks.
     #[default]
     Normalised,
     /// 1 / (pi v_z s_z), as Cook and Torrance 1982 print it: four times the above.
+    #[strum(to_string = "printed-1982")]
     Printed1982,
     /// 1: without pi and cosines.
     Product,
@@ -30,7 +32,8 @@ pub enum Denominators {
 }
 
 /// Fresnel reflectance from the reflectance at normal incidence and the angle to the half vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum FresnelForm {
     /// Fresnel's formula for dielectrics, unpolarised: Cook and Torrance.
     Dielectric,
@@ -41,7 +44,8 @@ pub enum FresnelForm {
 }
 
 /// Shadowing and masking between facets.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Shadowing {
     /// That of the model: V-grooves for Cook and Torrance, G(v) G(v') for Schlick.
     #[default]
@@ -51,9 +55,11 @@ pub enum Shadowing {
 }
 
 /// Definition of w in Schlick's azimuth factor.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "kebab-case")]
 pub enum TangentCosine {
-    /// The cosine of the angle between the tangent and the half vector's projection onto the surface, as he defines it.
+    /// The cosine of the angle between the tangent and the half vector's projection onto the surface, as
+    /// Schlick defines it.
     #[default]
     Projected,
     /// The half vector's component along the tangent, not divided by the length of the projection.

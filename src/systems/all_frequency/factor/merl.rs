@@ -28,13 +28,14 @@ const BYTES: usize = HEADER + 3 * CELLS * 8;
 const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
 
 /// A channel of a measurement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum MerlChannel {
-    /// The first.
+    /// The first in the file.
     Red,
-    /// The second.
+    /// The second in the file.
     Green,
-    /// The third.
+    /// The third in the file.
     Blue,
 }
 

@@ -41,7 +41,8 @@ impl Supersamples {
 
 /// Values of samples outside the disc of a map, whose directions lie below the horizon: 212 of 1,024 texels of a map of
 /// 32 x 32 have their centers there, and others have some of their samples there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum OutsideDisc {
     /// 0.
     #[default]

@@ -15,7 +15,7 @@ use crate::card::{KernelError, checked};
 
 /// The interpolation between texels of G.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum MapFilter {
     /// By the sampler, whose weights have few bits.

@@ -44,7 +44,7 @@ pub enum ViewMaker {
 
 /// The format of transferred radiance in vertices.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum RadianceFormat {
     /// Single precision.

@@ -3,11 +3,13 @@
 
 /// Borders between the blocks of a layer.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumString)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum BlockEdges {
-    /// Blocks touch, as in Figure 4. Reads stay half a texel inside, so that nothing is interpolated between the last
-    /// texel's center and the first one's of the next repetition: the patch has a seam one texel wide.
+    /// Blocks touch, as in Figure 4: the patch has a seam one texel wide.
+    ///
+    /// Reads stay half a texel inside, so that nothing is interpolated between the last texel's center and the first
+    /// one's of the next repetition.
     Touching,
     /// A border of one texel around each block repeats the opposite edge, so that the patch repeats without a seam.
     #[default]

@@ -14,7 +14,7 @@ pub(super) const FACE: usize = LIGHT_SIDE * LIGHT_SIDE;
 const BYTE: f64 = 127.0;
 
 /// The criterion by which a row's coefficients are chosen; among equal ones the lowest number comes first.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientPriority {
     /// Magnitude times the number of texels under the basis function, as in the paper.
@@ -25,14 +25,15 @@ pub enum CoefficientPriority {
 }
 
 /// Storage of a coefficient's value, next to its number of two bytes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum CoefficientStorage {
-    /// A byte, in steps of 1/127 of the largest coefficient of all rows: three bytes per coefficient, which agrees with
-    /// the paper's 37.1 MB.
+    /// A byte, in steps of 1/127 of the largest coefficient of all rows.
+    ///
+    /// Three bytes per coefficient agree with the paper's 37.1 MB.
     #[default]
     Byte,
-    /// An f32.
+    /// Four bytes, an f32.
     Single,
 }
 

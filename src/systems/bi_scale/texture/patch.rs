@@ -17,7 +17,7 @@ use crate::transfer::brdf::BrdfError;
 
 /// Detail of the heights that is drawn (section VII: normal maps and spatially invariant BRDFs in place of a
 /// bidirectional texture).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum MesoDetail {
     /// Everything: parallax, normals, shadows.

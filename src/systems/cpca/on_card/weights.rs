@@ -4,7 +4,7 @@ use crate::card::through_half;
 use crate::transfer::clustering::Clustering;
 
 /// The format of a weight in a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum WeightFormat {
     /// Single precision.

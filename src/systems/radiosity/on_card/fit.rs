@@ -14,7 +14,8 @@ use crate::radiosity::{System, model};
 const MAX_TEXELS: usize = 16384;
 
 /// The number format of textures and registers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Storage {
     /// Single floats throughout.
     #[default]

@@ -15,7 +15,8 @@ use super::LightKernel;
 use crate::card::{KernelError, KernelText, checked, instructions};
 
 /// The Fresnel transmittance towards the eye.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum EyeTransmittance {
     /// Computed by the program.
     #[default]
@@ -39,12 +40,17 @@ pub enum DirectLight {
 }
 
 /// How scattered and direct light make a color.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Combine {
-    /// Their sum (section 4.2: "added in").
+    /// Their sum.
+    ///
+    /// Section 4.2: "added in".
     #[default]
     Added,
-    /// Their product (4.2.4: "modulated").
+    /// Their product.
+    ///
+    /// Section 4.2.4: "modulated".
     Modulated,
 }
 

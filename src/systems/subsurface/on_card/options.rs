@@ -5,11 +5,12 @@ use refsim::texture::TexelFormat;
 use crate::card::MeshError;
 
 /// Floats of a texture or target.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum FloatTexels {
-    /// Four half floats.
+    /// Half precision: four floats per texel.
     Fp16,
-    /// Four single floats.
+    /// Single precision: four floats per texel.
     #[default]
     Fp32,
 }
@@ -73,12 +74,14 @@ impl MapFormat {
 }
 
 /// Where pass 1 computes light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumIter, strum::EnumMessage)]
 pub enum LightStage {
     /// At the vertices of each face's rectangle, interpolated.
     #[default]
+    #[strum(to_string = "vertex")]
     Vertices,
     /// At each texel, from a geometry image and a normal map.
+    #[strum(to_string = "fragment")]
     Texels,
 }
 

@@ -38,16 +38,24 @@ pub enum CpcaForm {
 
 /// The measure by which points are assigned to clusters.
 #[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum CpcaMethod {
-    /// Distance from the means; then principal components are computed once per cluster (section 4.1).
+    /// Distance from the means; then principal components are computed once per cluster.
+    ///
+    /// Section 4.1.
     Static,
-    /// Error of the approximation, while vectors are added one by one (section 4.2).
+    /// Error of the approximation, while vectors are added one by one.
+    ///
+    /// Section 4.2.
     Iterative,
-    /// The same error, while the number of vectors is doubled: 1, 2, 4 and so on up to the requested number. Not in the
-    /// papers; for signals with thousands of dimensions, where it saves most of the time.
+    /// The same error, while the number of vectors is doubled: 1, 2, 4 and so on up to the requested number.
+    ///
+    /// Not in the papers; for signals with thousands of dimensions, where it saves most of the time.
     Doubling,
-    /// As [`CpcaMethod::Iterative`], followed by redistribution of vectors among the clusters (section 4.3).
+    /// As iterative, followed by redistribution of vectors among the clusters.
+    ///
+    /// Section 4.3.
     Adaptive {
         /// Largest number of rounds of redistribution.
         rounds: usize,
@@ -122,6 +130,15 @@ impl StartPoints {
 }
 
 impl CpcaMethod {
+    /// The method with this maximum number of rounds of redistribution, if it redistributes.
+    #[must_use]
+    pub const fn with_rounds(self, rounds: usize) -> Self {
+        match self {
+            Self::Adaptive { .. } => Self::Adaptive { rounds },
+            other => other,
+        }
+    }
+
     /// The successive numbers of vectors per cluster, up to `vectors`; every one of the static method's
     /// if `one_by_one`.
     pub(super) fn growth(self, vectors: usize, one_by_one: bool) -> Vec<usize> {

@@ -7,12 +7,15 @@ use super::{CpcaError, CpcaMethod, CpcaOptions, StartPoints};
 use crate::transfer::Signal;
 
 /// The number that grows until an error is met.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
+#[strum(serialize_all = "lowercase")]
 pub enum Grown {
     /// Vectors per cluster, from 0 on as the method adds them: one by one, or doubled.
     #[default]
     Vectors,
-    /// Clusters: doubled from 1 on, then halved in between. The number found meets the error; one cluster less does
+    /// Clusters, from 1 on.
+    ///
+    /// Doubled, then halved in between. The number found meets the error; one cluster less does
     /// not. (Larger numbers may miss it again: the error of k-means does not fall with each cluster.)
     Clusters,
 }

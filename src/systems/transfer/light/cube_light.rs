@@ -14,13 +14,15 @@ use crate::transfer::grid::{
 /// The weights by which 4 x 4 samples are averaged to a texel.
 ///
 /// The paper says "supersample the lighting 4 x 4 and decimate", without weights.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Decimation {
     /// Their mean, weighted by the solid angles of the samples: keeps the flux through the texel.
     #[default]
     SolidAngle,
-    /// Their plain mean, the plain reading of the text. Samples of a texel differ by up to 1.4 in solid angle.
+    /// Their plain mean, the plain reading of the text.
+    ///
+    /// Samples of a texel differ by up to 1.4 in solid angle.
     Plain,
 }
 

@@ -34,7 +34,7 @@ impl VisibilitySampling {
 }
 
 /// The horizon that limits the view of a vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Horizon {
     /// The plane of its normal, and the triangles around it.
