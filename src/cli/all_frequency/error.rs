@@ -8,7 +8,7 @@ use serde_json::json;
 use super::file::FileOfModel;
 use crate::all_frequency::file::load_all_frequency;
 use crate::cli::transfer::model::refused;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::write_file;
 use crate::study::prt::coded_errors;
@@ -84,8 +84,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         }))?);
     }
     out.line(format_args!("vertices       {}", counted(vertices.len())))?;
-    out.sentence(format_args!("squared error  {squared:.6e}, {:.4e} of the transfer's squares", squared / squares))?;
-    out.line(format_args!("largest        {:.6e} at vertex {largest}", found.squared_errors[largest]))?;
+    out.sentence(format_args!(
+        "squared error  {}, {} of the transfer's squares",
+        measured(squared),
+        measured(squared / squares)
+    ))?;
+    out.line(format_args!("largest        {} at vertex {largest}", measured(found.squared_errors[largest])))?;
     if let Some(path) = &args.csv {
         out.line(format_args!("written        {}", path.display()))?;
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::cli::transfer::values::MethodArg;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, ProgressBar, memory, view};
 use crate::io::{ReadError, read_limited};
 use crate::report::{Cell, Table};
@@ -114,7 +114,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("signal    {} points of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
     let share = 100.0 * stored as f64 / numbers as f64;
     out.line(format_args!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)))?;
-    out.line(format_args!("error     {:.4e} of the signal's squares", error.relative()))?;
+    out.line(format_args!("error     {} of the signal's squares", measured(error.relative())))?;
     out.line(format_args!("written   {}", args.out.display()))?;
     Ok(())
 }

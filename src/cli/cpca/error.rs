@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::file::clusters;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
 use crate::study::prt::CompressionError;
@@ -73,9 +73,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         }))?);
     }
     out.line(format_args!("points         {} of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
-    out.line(format_args!("squared error  {:.6e}, {:.4e} of the signal's squares", error.total, error.relative()))?;
-    out.line(format_args!("root mean sq.  {:.6e} over all numbers", error.root_mean_square()))?;
-    out.line(format_args!("largest        {:.6e} at point {largest}, of cluster {cluster}", error.squared[largest]))?;
+    out.line(format_args!(
+        "squared error  {}, {} of the signal's squares",
+        measured(error.total),
+        measured(error.relative())
+    ))?;
+    out.line(format_args!("root mean sq.  {} over all numbers", measured(error.root_mean_square())))?;
+    out.line(format_args!(
+        "largest        {} at point {largest}, of cluster {cluster}",
+        measured(error.squared[largest])
+    ))?;
     out.line("")?;
     out.titled_table(&error.histogram())?;
     if let Some(path) = &args.csv {

@@ -9,7 +9,7 @@ use crate::cli::materials::published;
 use crate::cli::model_name::{Model, transfer_model_help};
 use crate::cli::transfer::model::{load, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, ProgressBar, given, memory, number};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::study::prt::{ExitRadiance, Precomputation, Precomputed, Scatterer};
@@ -227,7 +227,7 @@ fn tell(args: &Args, vertices: &Vertices, found: &Precomputed, out: &mut Out) ->
         found.directions
     ))?;
     for (channel, shares) in found.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
-        let shares: Vec<String> = shares.iter().map(|share| format!("{share:.2e}")).collect();
+        let shares: Vec<String> = shares.iter().map(|share| measured(*share)).collect();
         out.sentence(format_args!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")))?;
     }
     for (count, what) in [

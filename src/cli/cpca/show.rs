@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::arrays;
 use super::file::FileOfModel;
 use crate::cli::transfer::model::nearest;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, number, view};
 use crate::report::{Cell, Table};
 use crate::transfer::clustering::Clustering;
@@ -137,7 +137,7 @@ fn one(file: &PrtFile, vertex: usize, out: &mut Out) -> miette::Result<()> {
     out.line(format_args!("point     {vertex}"))?;
     let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
     if let Some(clustering) = &file.clustering {
-        let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| format!("{weight:.4e}")).collect();
+        let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| measured(*weight)).collect();
         out.line(format_args!("cluster   {}", clustering.of_point()[vertex]))?;
         out.sentence(format_args!(
             "weights   {}",
