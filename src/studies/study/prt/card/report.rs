@@ -10,6 +10,7 @@ use crate::card::seen_pixels;
 use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Findings, FoundTable, Provenance};
 use crate::study::prt::exit_radiance::Lit;
+use crate::study::prt::light_picture;
 use crate::study::prt::render::auto_exposure;
 use crate::study::{ProgressFn, Study, timeline_trace};
 
@@ -42,6 +43,8 @@ impl Study for OnCard {
         }
         let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
         compared.report(&self.camera, (title, FROM), &mut found)?;
+        let radiance = |direction| self.light.radiance(direction);
+        found.pictures(vec![light_picture("light", &self.light_name, radiance)?]);
         found.heading("What is drawn");
         found.table(FoundTable::from(tables::sizes(&drawn.size, &drawn.draws)).field("sizes"));
         if let Some(time) = &time {

@@ -1,5 +1,6 @@
 //! What was found, as a page.
 
+use glam::DMat3;
 use serde_json::json;
 
 use super::picture::{CardLight, Drawn, doubles};
@@ -14,7 +15,9 @@ use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
 use crate::study::prt::card::factored::{Blame, report_blame};
 use crate::study::prt::card::frame;
 use crate::study::prt::render::auto_exposure;
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::{ProgressFn, Study, timeline_trace};
+use crate::transfer::light::Decimation;
 
 const SWEEP: &str = "Each row is one thing held in fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
     double precision of light multiplied in double precision. Fractions of 8 bits are of the largest number.";
@@ -58,6 +61,8 @@ impl Study for BiScaleOnCard {
         }
         let title = format!("{} under {} on the {}", self.model, self.light_name, self.profile.title);
         compared.report(&self.camera, (title, FROM), &mut found)?;
+        let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
+        found.pictures(vec![light_picture("light", &self.light_name, of_texels(cube.texels()))?]);
         let whole = self.exact(&exact, (&seen, exposure), edges);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },

@@ -17,6 +17,7 @@ use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
 use crate::study::prt::card::difference::{ComparedPicture, PixelErrors};
 use crate::study::prt::card::frame;
 use crate::study::prt::render::auto_exposure;
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::{ProgressFn, Study, timeline_trace};
 
 const SWEEP: &str = "Each row is one thing made coarse and the rest without rounding to speak of, in 255ths of white. \
@@ -59,6 +60,8 @@ impl Study for AllFrequencyOnCard {
         }
         let title = format!("{} under {} on the {}", self.lit.model, self.lit.light_name, self.profile.title);
         compared.report(&self.lit.camera, (title, FROM), &mut found)?;
+        let radiances = steps.cut.light.radiances();
+        found.pictures(vec![light_picture("light", &self.lit.light_name, of_texels(&radiances))?]);
         let blames = self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?;
         report_blame(&blames, &mut found);
         found.heading("What is drawn");
