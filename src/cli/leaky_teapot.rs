@@ -34,7 +34,8 @@ Examples:
       rays of your own, as for `crossbar intersect`, on two cards
 
 With --device and --format both, every device runs in every format. Written to --out: index.html (self-contained), rows.csv,
-edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where), NAME.exr (t and triangle).";
+edges.csv, study.json, and per row NAME: NAME.png (shaded), NAME-map.png (what is wrong where),
+NAME.exr (t and triangle); rows with the same bits have them once: see same_bits in study.json.";
 
 /// Trace the teapot, or a model of your own, in each number format, against exact arithmetic: leaks, false hits, wrong
 /// triangles

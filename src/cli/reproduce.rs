@@ -19,8 +19,8 @@ Examples:
   crossbar reproduce --list
       the entries
 
-Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, and a drawing
-NAME.svg per chart.
+Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, a drawing NAME.svg
+per chart and a picture NAME.png.
 Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
 bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
 vague to judge.

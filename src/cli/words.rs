@@ -2,7 +2,7 @@
 
 use refsim::{isa::Mask, output::FragmentFate};
 
-use crate::report::digits::count;
+use crate::report::digits::{Quantity, count, shown};
 
 /// What became of a fragment.
 pub(super) const fn fate(fate: FragmentFate) -> &'static str {
@@ -18,6 +18,11 @@ pub(super) const fn fate(fate: FragmentFate) -> &'static str {
 /// A number of things, for a sentence: `177,694`.
 pub(super) fn counted(number: usize) -> String {
     count(number as u64)
+}
+
+/// A measured number, for a sentence: `39.57`, `0.0001235`.
+pub(super) fn measured(number: f64) -> String {
+    shown(number, Quantity::Measured)
 }
 
 /// The components of a mask: `xz`.

@@ -101,3 +101,21 @@ fn banned_words_are_seen_where_a_block_begins() {
     let names = "pub struct Way;\nenum Ways { A }\npub(crate) trait Wayward {}\ntype Kept = u8;\n// struct Told\nlet way = 1;\n";
     assert_eq!(banned_names(names), [1, 2, 4]);
 }
+
+/// Digits for people are decided by `report::digits`: no format of the program's text has digits and an exponent.
+#[test]
+fn no_text_chooses_digits_of_an_exponent() {
+    let mut found = Vec::new();
+    for folder in ["src/cli", "src/studies"] {
+        for file in rust_files(&root().join(folder)) {
+            let text = read(&file);
+            let chosen = |line: &&str| {
+                line.split(":.")
+                    .skip(1)
+                    .any(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()).starts_with("e}"))
+            };
+            found.extend(text.lines().filter(chosen).map(|line| format!("{}: {}", file.display(), line.trim())));
+        }
+    }
+    assert_eq!(found, Vec::<String>::new());
+}

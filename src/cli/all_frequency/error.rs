@@ -9,7 +9,7 @@ use super::file::FileOfModel;
 use crate::all_frequency::file::load_all_frequency;
 use crate::cli::transfer::model::refused;
 use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, ProgressBar, view};
 use crate::io::write_file;
 use crate::study::prt::coded_errors;
@@ -88,9 +88,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         }))?);
     }
     out.line(format_args!("vertices       {}", counted(vertices.len())))?;
-    out.sentence(format_args!("squared error  {squared:.6e}, {:.4e} of the transfer's squares", squared / squares))?;
-    let (squared, name) = (found.squared_errors[largest], names.phrase(largest));
-    out.sentence(format_args!("largest        {squared:.6e} at vertex {largest} ({name})"))?;
+    out.sentence(format_args!(
+        "squared error  {}, {} of the transfer's squares",
+        measured(squared),
+        measured(squared / squares)
+    ))?;
+    let (squared, name) = (measured(found.squared_errors[largest]), names.phrase(largest));
+    out.sentence(format_args!("largest        {squared} at vertex {largest} ({name})"))?;
     if let Some(path) = &args.csv {
         out.line(format_args!("written        {}", path.display()))?;
     }

@@ -11,7 +11,7 @@ use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
 use crate::cli::transfer::model::nearest;
 use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, number, view};
 use crate::report::{Cell, Table};
 use crate::transfer::visibility::VisibilityMaps;
@@ -193,7 +193,7 @@ fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, 
     out.line("")?;
     let mut table = Table::new("Code", &["segment", "cluster", "norm", "weights"]);
     for part in parts {
-        let weights: Vec<String> = part.weights.iter().map(|weight| format!("{weight:.3e}")).collect();
+        let weights: Vec<String> = part.weights.iter().map(|weight| measured(*weight)).collect();
         table.push([
             part.segment.into(),
             u64::from(part.cluster).into(),

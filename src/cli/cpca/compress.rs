@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::coherence::{Coherence, CoherenceArgs};
 use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::one_of::{name, variants};
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, ProgressBar, given, memory, number, view};
 use crate::io::{ReadError, read_limited};
 use crate::study::prt::CompressionError;
@@ -138,7 +138,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     if let Some(coherence) = &coherence {
         coherence.report(error.energy, out)?;
     }
-    out.line(format_args!("error     {:.4e} of the signal's squares", error.relative()))?;
+    out.line(format_args!("error     {} of the signal's squares", measured(error.relative())))?;
     out.line(format_args!("written   {}", args.out.display()))?;
     Ok(())
 }

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::file::{clusters, model_of};
 use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem};
 use crate::io::write_file;
 use crate::study::prt::CompressionError;
@@ -84,11 +84,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         }))?);
     }
     out.line(format_args!("points         {} of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
-    out.line(format_args!("squared error  {:.6e}, {:.4e} of the signal's squares", error.total, error.relative()))?;
-    out.line(format_args!("root mean sq.  {:.6e} over all numbers", error.root_mean_square()))?;
+    out.line(format_args!(
+        "squared error  {}, {} of the signal's squares",
+        measured(error.total),
+        measured(error.relative())
+    ))?;
+    out.line(format_args!("root mean sq.  {} over all numbers", measured(error.root_mean_square())))?;
     let name = names.as_ref().map_or_else(String::new, |names| format!(" ({})", names.phrase(largest)));
-    let squared = error.squared[largest];
-    out.sentence(format_args!("largest        {squared:.6e} at point {largest}{name}, of cluster {cluster}"))?;
+    let squared = measured(error.squared[largest]);
+    out.sentence(format_args!("largest        {squared} at point {largest}{name}, of cluster {cluster}"))?;
     out.line("")?;
     out.titled_table(&error.histogram())?;
     if let Some(path) = &args.csv {

@@ -11,7 +11,7 @@ use crate::cli::one_of::{OneOf, one_of};
 use crate::cli::study::written;
 use crate::cli::transfer::model::{load, note_vertices, vertices};
 use crate::cli::transfer::values::{BrdfArg, TangentsArg};
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Problem, ProgressBar, given, memory, number};
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions, TransferCounts};
 use crate::report::Findings;
@@ -238,7 +238,7 @@ fn findings(args: &Args, vertices: &Vertices, made: &Precomputed) -> Findings {
     let directions = made.directions;
     found.print(format!("rays      {rays}: {directions} directions per vertex; {traced} traced, {blocked} blocked"));
     for (channel, shares) in made.bounces.iter().enumerate().filter(|(_, shares)| !shares.is_empty()) {
-        let shares: Vec<String> = shares.iter().map(|share| format!("{share:.2e}")).collect();
+        let shares: Vec<String> = shares.iter().map(|share| measured(*share)).collect();
         found.print(format!("bounces   channel {channel}: {} of the direct transfer (RMS)", shares.join(", ")));
     }
     let more = [

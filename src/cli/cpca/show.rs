@@ -10,7 +10,7 @@ use super::coherence::count;
 use super::file::model_of;
 use crate::cli::transfer::model::nearest;
 use crate::cli::transfer::vertex_names::VertexNames;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, number, view};
 use crate::report::{Cell, Table};
 use crate::transfer::clustering::Clustering;
@@ -153,7 +153,7 @@ fn one(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>, out: &mut
     }
     let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
     if let Some(clustering) = &file.clustering {
-        let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| format!("{weight:.4e}")).collect();
+        let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| measured(*weight)).collect();
         out.line(format_args!("cluster   {}", clustering.of_point()[vertex]))?;
         out.sentence(format_args!(
             "weights   {}",

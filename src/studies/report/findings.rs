@@ -5,6 +5,7 @@ use std::ops::Range;
 use serde_json::{Map, Value, json};
 
 use super::palette::Color;
+use super::summary::{SummaryLine, TallyEntry, Tone};
 use super::{Chart, Provenance, Table};
 use crate::picture::{Picture, RgbImage};
 
@@ -31,7 +32,9 @@ impl Verdict {
 /// Part of a page; tables, charts and pictures are given by their indices in the findings.
 #[derive(Clone, Debug)]
 pub(super) enum Passage {
-    Heading(String),
+    /// Text, and the counts of what stands below it.
+    Heading(String, Vec<TallyEntry>),
+    SummaryLines(Vec<SummaryLine>),
     Paragraph(String),
     Table(usize),
     Chart(usize),
@@ -42,28 +45,6 @@ pub(super) enum Passage {
 
 /// Colors of a false-color picture with their meanings.
 pub type Legend = Vec<(Color, String)>;
-
-/// Evaluation of a tally's count.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tone {
-    /// Desirable.
-    Good,
-    /// Neutral.
-    Neutral,
-    /// Undesirable.
-    Bad,
-}
-
-/// Number of the things counted by a study that have the same outcome.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TallyEntry {
-    /// The number.
-    pub count: u64,
-    /// Name of the things, in the number of the count: `row missed`, `rows missed`.
-    pub what: String,
-    /// Evaluation of the outcome.
-    pub tone: Tone,
-}
 
 /// Table with its destinations besides the page.
 #[derive(Clone, Debug)]
@@ -202,7 +183,17 @@ impl Findings {
 
     /// Appends a heading to the page.
     pub fn heading(&mut self, text: impl Into<String>) {
-        self.text.push(Passage::Heading(text.into()));
+        self.counted_heading(text, Vec::new());
+    }
+
+    /// Appends a heading with the counts of what stands below it; the table of contents shows them too.
+    pub fn counted_heading(&mut self, text: impl Into<String>, tally: Vec<TallyEntry>) {
+        self.text.push(Passage::Heading(text.into(), tally));
+    }
+
+    /// Appends lines to the page, each on a part of the study.
+    pub fn summary_lines(&mut self, lines: Vec<SummaryLine>) {
+        self.text.push(Passage::SummaryLines(lines));
     }
 
     /// Appends a paragraph of plain text to the page.

@@ -17,6 +17,7 @@ mod page;
 pub mod palette;
 mod provenance;
 mod source_text;
+mod summary;
 mod table;
 pub mod trace;
 pub mod visible;
@@ -26,12 +27,11 @@ mod write;
 pub use self::cell::{Cell, Figure};
 pub use self::chart::{Chart, Scale, Series};
 pub use self::excerpt::{Excerpt, quoted_line};
-pub use self::findings::{
-    Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, TallyEntry, Tone, Verdict,
-};
+pub use self::findings::{Findings, FoundTable, Legend, NamedChart, NamedFile, NamedPicture, Verdict};
 pub use self::fold::Folded;
 pub use provenance::{Provenance, sha256};
 pub use source_text::SourceText;
+pub use summary::{SummaryLine, TallyEntry, Tone};
 pub use table::Table;
 
 use crate::picture::PictureError;

@@ -1,6 +1,6 @@
 //! Tables.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
@@ -16,13 +16,15 @@ pub struct Table {
     title: String,
     headings: Vec<String>,
     rows: Vec<Vec<Cell>>,
+    /// Names of rows in links, by their indices.
+    names: BTreeMap<usize, String>,
 }
 
 impl Table {
     /// Creates an empty table. CSV and JSON name its columns by [`Table::keys`].
     pub fn new(title: impl Into<String>, headings: &[impl AsRef<str>]) -> Self {
         let headings = headings.iter().map(|heading| heading.as_ref().to_owned()).collect();
-        Self { title: title.into(), headings, rows: Vec::new() }
+        Self { title: title.into(), headings, ..Self::default() }
     }
 
     /// Creates an empty table whose columns are named by the words of a text.
@@ -35,6 +37,17 @@ impl Table {
         let mut row: Vec<Cell> = row.into_iter().collect();
         row.resize(self.headings.len(), Cell::Empty);
         self.rows.push(row);
+    }
+
+    /// Adds a row with a name for links to it, unique among all tables of a page and without blanks.
+    pub fn push_named(&mut self, name: String, row: impl IntoIterator<Item = Cell>) {
+        self.names.insert(self.rows.len(), name);
+        self.push(row);
+    }
+
+    /// Name of a row in links, if it has one.
+    pub(super) fn name(&self, row: usize) -> Option<&str> {
+        self.names.get(&row).map(String::as_str)
     }
 
     /// Title.
@@ -107,9 +120,13 @@ impl Table {
         if first.len() != self.rows.len() {
             return self.clone();
         }
-        let mut table = Self { rows: Vec::new(), ..self.clone() };
+        let mut table = Self { rows: Vec::new(), names: BTreeMap::new(), ..self.clone() };
         for (row, others) in fold::groups(first) {
-            table.rows.push(self.rows[row].clone());
+            let cells = self.rows[row].iter().cloned();
+            match self.name(row) {
+                Some(name) => table.push_named(name.to_owned(), cells),
+                None => table.push(cells),
+            }
             if !others.is_empty() {
                 let names = others.into_iter().map(&called).collect();
                 let folded = Folded { rows, same, first: called(row), names };

@@ -4,6 +4,7 @@
 
 pub mod atlas;
 pub mod configuration;
+pub mod framing;
 pub mod leaky_teapot;
 pub mod picture_difference;
 pub mod prt;

@@ -8,10 +8,25 @@ use maud::{Markup, PreEscaped, html};
 use super::super::{NamedPicture, ReportError};
 use crate::picture::png;
 
-/// Widths of pictures on a page, in pixels: on a phone, and two side by side on a screen.
-const WIDTHS: [(&str, u32); 2] = [("narrow", 340), ("wide", 600)];
+/// Width of a page's text on a screen of 1280 pixels, and the gap between pictures, in pixels.
+const PAGE: u32 = 1226;
+const GAP: u32 = 20;
+/// Most pictures side by side on a screen.
+const ABREAST: u32 = 3;
+/// Width of a picture that is shown alone, in pixels.
+const ZOOMED: u32 = 1200;
+/// Width up to which a smaller picture is enlarged by a whole factor, and the largest factor.
+const SMALL: u32 = 320;
+const LARGEST: u32 = 8;
 
-/// One size of a picture: its reduction factor, its place, and its file.
+/// Places of one picture of `count` on a page and their widths in pixels: on a phone and in a narrow window one below
+/// the other, on a screen side by side.
+fn widths(count: usize) -> [(&'static str, u32); 3] {
+    let abreast = u32::try_from(count).unwrap_or(ABREAST).clamp(1, ABREAST);
+    [("narrow", 340), ("middle", 560), ("wide", (PAGE - GAP * (abreast - 1)) / abreast)]
+}
+
+/// One size of a picture: its reduction factor, its size on the page, its place, and its file.
 struct SizedPicture {
     factor: u32,
     pixels: (u32, u32),
@@ -29,38 +44,38 @@ pub(super) fn drawing(svg: &str, caption: &str) -> Markup {
     }
 }
 
-/// Renders pictures side by side at their native resolution; larger ones are reduced by a whole factor, and shown in
-/// full when clicked.
+/// Renders pictures side by side at their native resolution; larger ones are reduced by a whole factor. A click shows
+/// all pixels, enlarged by a whole factor. The script adds a slider between pictures of the same size.
 pub(super) fn pictures(all: &[NamedPicture], pngs: &[Vec<u8>], places: Range<usize>) -> Result<Markup, ReportError> {
+    let count = places.len();
     let figures: Vec<Markup> =
-        places.map(|place| figure(&all[place], &pngs[place], place)).collect::<Result<_, _>>()?;
+        places.map(|place| figure(&all[place], &pngs[place], (place, count))).collect::<Result<_, _>>()?;
     Ok(html! { div.figures { @for figure in figures { (figure) } } })
 }
 
-fn figure(picture: &NamedPicture, full: &[u8], place: usize) -> Result<Markup, ReportError> {
-    let sizes = sizes(picture, full)?;
-    let images = html! {
-        @for SizedPicture { pixels: (width, height), classes, source, .. } in &sizes {
-            img class=[(sizes.len() > 1).then_some(classes)] src=(source) alt=(picture.caption) width=(width) height=(height);
-        }
-    };
+fn figure(picture: &NamedPicture, full: &[u8], (place, count): (usize, usize)) -> Result<Markup, ReportError> {
+    let sizes = sizes(picture, full, count)?;
     let (id, caption) = (format!("picture-{place}"), format!("caption-{place}"));
+    let width = picture.image.width();
+    let zoomed = width * (ZOOMED / width.max(1)).max(1);
     Ok(html! {
-        @if sizes.len() > 1 {
-            figure.picture.zoom id=(id) {
-                a.close href=(format!("#{caption}")) { "Back to the page" }
-                div.frame { a href=(format!("#{id}")) title="All pixels" { (images) } }
-                figcaption id=(caption) { (picture.caption) (notes(picture, &sizes)) }
+        figure.picture id=(id) style=(format!("--zoomed: {zoomed}px")) {
+            a.close href=(format!("#{caption}")) { "Back to the page" }
+            div.frame {
+                a href=(format!("#{id}")) title="All pixels" {
+                    @for SizedPicture { pixels: (width, height), classes, source, .. } in &sizes {
+                        img class=(classes) src=(source) alt=(picture.caption) width=(width) height=(height);
+                    }
+                }
             }
-        } @else {
-            figure.picture { div.frame { (images) } figcaption { (picture.caption) } }
+            figcaption id=(caption) { (picture.caption) (notes(picture, &sizes)) }
         }
     })
 }
 
 /// Returns each size that some place requires, once; the last is the picture itself.
-fn sizes(picture: &NamedPicture, full: &[u8]) -> Result<Vec<SizedPicture>, ReportError> {
-    let wanted = WIDTHS.map(|(class, width)| (class, picture.reduction(width)));
+fn sizes(picture: &NamedPicture, full: &[u8], count: usize) -> Result<Vec<SizedPicture>, ReportError> {
+    let wanted = widths(count).map(|(class, width)| (class, picture.reduction(width)));
     let mut sizes: Vec<SizedPicture> = Vec::new();
     for (class, factor) in wanted.into_iter().chain([("full", 1)]) {
         match sizes.iter_mut().find(|size| size.factor == factor) {
@@ -74,7 +89,7 @@ fn sizes(picture: &NamedPicture, full: &[u8]) -> Result<Vec<SizedPicture>, Repor
                 let source = STANDARD.encode(reduced.as_deref().unwrap_or(full));
                 sizes.push(SizedPicture {
                     factor,
-                    pixels: image.dimensions(),
+                    pixels: enlarged(image.dimensions()),
                     classes: format!("size {class}"),
                     source: format!("data:image/png;base64,{source}"),
                 });
@@ -84,6 +99,12 @@ fn sizes(picture: &NamedPicture, full: &[u8]) -> Result<Vec<SizedPicture>, Repor
     Ok(sizes)
 }
 
+/// Size at which a picture is shown: one of few pixels, enlarged by a whole factor.
+fn enlarged((width, height): (u32, u32)) -> (u32, u32) {
+    let factor = (SMALL / width.max(1)).clamp(1, LARGEST);
+    (factor * width, factor * height)
+}
+
 /// Notes on which pixels a reduced picture shows.
 fn notes(picture: &NamedPicture, sizes: &[SizedPicture]) -> Markup {
     let which = if picture.ranks.is_empty() { "the middle one" } else { "the worst" };
@@ -91,5 +112,34 @@ fn notes(picture: &NamedPicture, sizes: &[SizedPicture]) -> Markup {
         @for SizedPicture { factor, classes, .. } in sizes.iter().filter(|size| size.factor > 1) {
             span class=(format!("note {classes}")) { "Of each " (factor) " x " (factor) " pixels " (which) " is shown; click for all." }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::rgb8;
+
+    fn shown(width: u32, count: usize) -> Vec<(String, u32)> {
+        let picture = NamedPicture::new("p", rgb8(width, 1, vec![[0; 3]; width as usize]), "");
+        let sizes = sizes(&picture, &[], count).expect("sizes");
+        sizes.into_iter().map(|size| (size.classes, size.pixels.0)).collect()
+    }
+
+    #[test]
+    fn three_pictures_share_a_row_of_a_screen() {
+        let [_, _, (_, third)] = widths(3);
+        assert!(3 * third + 2 * GAP <= PAGE && widths(7) == widths(3));
+        let reduced = ("size narrow middle wide".to_owned(), 320);
+        assert_eq!(shown(640, 3), [reduced, ("size full".to_owned(), 640)]);
+        assert_eq!([20, 40, 160, 300].map(|width| enlarged((width, 1)).0), [160, 320, 320, 300]);
+        assert_eq!(shown(320, 3), [("size narrow middle wide full".to_owned(), 320)]);
+    }
+
+    #[test]
+    fn a_picture_alone_is_enlarged_by_a_whole_factor() {
+        let picture = NamedPicture::new("p", rgb8(160, 1, vec![[0; 3]; 160]), "a caption");
+        let html = figure(&picture, &[], (4, 1)).expect("a figure").into_string();
+        assert!(html.contains("id=\"picture-4\" style=\"--zoomed: 1120px\"") && html.contains("href=\"#caption-4\""));
     }
 }

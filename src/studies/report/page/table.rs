@@ -2,35 +2,49 @@
 
 use maud::{Markup, html};
 
+use super::super::summary::TallyEntry;
 use super::super::{Cell, Table};
 
-/// Name of the column that stays visible at the right edge.
-const SAID: &str = "verdict";
+/// Name of the column that stands second on the page, wherever it stands in the files.
+const VERDICT: &str = "verdict";
 
-/// Renders a table in a box that scrolls; `place` makes its id.
-pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
+/// Most rows of a table that is shown in full: a longer one scrolls in a box as high as the window.
+const LONG: usize = 25;
+
+/// Renders a table in a box that scrolls; `place` makes its id, and `tally` has the evaluation of verdicts.
+///
+/// The script of the page adds search, choices and sorting.
+pub(super) fn scrolling(table: &Table, place: usize, tally: &[TallyEntry]) -> Markup {
     let id = format!("table-{place}");
-    let said = |column: usize| table.headings()[column] == SAID;
+    let headings = table.shown_headings();
+    let verdict = table.headings().iter().position(|heading| heading == VERDICT).filter(|column| *column > 0);
+    let columns: Vec<usize> = [0].into_iter().chain(verdict).chain(others(headings.len(), verdict)).collect();
+    let style = |row: &[Cell]| {
+        if row.iter().any(|cell| matches!(cell, Cell::Folded(_))) {
+            return Some("folded");
+        }
+        let said = row[verdict?].text();
+        tally.iter().find(|entry| entry.what == said).map(|entry| entry.tone.class())
+    };
+    let class = |column: usize, cell: &Cell| if Some(column) == verdict { Some("said") } else { number(cell) };
     html! {
         // Scrollable regions are focusable by keyboard, and have a name.
-        div.scroll tabindex="0" role="region" aria-labelledby=(id) {
+        div.scroll.long[table.rows().len() > LONG] tabindex="0" role="region" aria-labelledby=(id) {
             table {
                 caption id=(id) { (table.title()) }
-                thead {
-                    tr {
-                        @for (column, heading) in table.shown_headings().iter().enumerate() {
-                            th class=[said(column).then_some("said")] scope="col" { (heading) }
-                        }
-                    }
-                }
+                thead { tr { @for &column in columns.iter().take(headings.len()) { th scope="col" { (headings[column]) } } } }
                 tbody {
-                    @for row in table.rows() {
-                        tr {
-                            @for (column, cell) in row.iter().enumerate() {
-                                @if column == 0 {
-                                    th scope="row" { (cell.text()) }
+                    @for (n, row) in table.rows().iter().enumerate() {
+                        @let name = table.name(n);
+                        tr id=[name] class=[style(row)] {
+                            @for &column in columns.iter().take(row.len()) {
+                                @let text = row[column].text();
+                                @if column > 0 {
+                                    td class=[class(column, &row[column])] { (text) }
+                                } @else if let Some(name) = name {
+                                    th scope="row" { (text) " " a.anchor href=(format!("#{name}")) title="Link to this row" { "#" } }
                                 } @else {
-                                    td class=[class(cell, said(column))] { (cell.text()) }
+                                    th scope="row" { (text) }
                                 }
                             }
                         }
@@ -41,11 +55,43 @@ pub(super) fn scrolling(table: &Table, place: usize) -> Markup {
     }
 }
 
-/// CSS class of a cell; a verdict is not formatted as a number.
-const fn class(cell: &Cell, said: bool) -> Option<&'static str> {
-    match (said, cell.is_number()) {
-        (true, _) => Some("said"),
-        (false, true) => Some("number"),
-        (false, false) => None,
+/// Columns after the first, without the verdicts'.
+fn others(count: usize, verdict: Option<usize>) -> impl Iterator<Item = usize> {
+    (1..count).filter(move |column| Some(*column) != verdict)
+}
+
+/// CSS class of a number.
+fn number(cell: &Cell) -> Option<&'static str> {
+    cell.is_number().then_some("number")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::summary::Tone;
+    use super::*;
+
+    #[test]
+    fn verdicts_stand_second_and_rows_have_links() {
+        let mut table = Table::of("Rows", "what paper ours verdict");
+        table.push_named("figure-7.1".to_owned(), ["rate".into(), 1.0.into(), 2.0.into(), "missed".into()]);
+        table.push(["other".into(), 3.0.into(), 4.0.into(), "unknown".into()]);
+        let missed = TallyEntry { count: 1, what: "missed".to_owned(), tone: Tone::Bad };
+        let html = scrolling(&table, 0, &[missed]).into_string();
+        let after = |text: &str| html.find(text).unwrap_or_else(|| panic!("{text} in {html}"));
+        let headings =
+            ["what", "verdict", "paper", "ours"].map(|name| after(&format!("<th scope=\"col\">{name}</th>")));
+        assert!(headings.is_sorted());
+        let row = "<tr id=\"figure-7.1\" class=\"bad\"><th scope=\"row\">rate <a class=\"anchor\" href=\"#figure-7.1\"";
+        assert!(after(row) < after("<td class=\"said\">missed</td><td class=\"number\">1</td>"));
+        assert!(html.contains("<tr><th scope=\"row\">other</th>"), "a row without name or known verdict: {html}");
+    }
+
+    #[test]
+    fn the_fold_of_a_named_row_keeps_its_name() {
+        let mut table = Table::of("Rows", "what");
+        ["a", "b", "c"].into_iter().for_each(|name| table.push_named(name.to_owned(), [name.into()]));
+        let folded = table.folded(&[0, 0, 0], |row| row.to_string(), (["row", "rows"], "the same"));
+        let html = scrolling(&folded, 0, &[]).into_string();
+        assert!(html.contains("<tr id=\"a\">") && html.contains("<tr class=\"folded\">"), "{html}");
     }
 }

@@ -2,6 +2,8 @@
 
 use std::cmp::Reverse;
 
+use serde_json::{Map, Value, json};
+
 use super::conclusion::conclude;
 use super::{Parameters, PixelVerdict, TeapotOutcome, TeapotRow};
 use crate::picture::{ChannelUnit, Picture, PictureError, RgbImage, Samples};
@@ -106,6 +108,12 @@ fn groups(outcome: &TeapotOutcome) -> Vec<Group<'_>> {
     groups
 }
 
+/// Per row without files of its own, the row with the same bits whose files stand for it.
+fn same_bits(groups: &[Group<'_>]) -> Value {
+    let pair = |row: &TeapotRow, other: &TeapotRow| (row.configuration.label.clone(), json!(other.configuration.label));
+    groups.iter().flat_map(|group| group.same.iter().map(|row| pair(row, group.row))).collect::<Map<_, _>>().into()
+}
+
 impl Group<'_> {
     /// Phrase on the other rows: `, and the same bits with a, b and c`
     fn others(&self) -> String {
@@ -159,8 +167,13 @@ pub(super) fn findings(parameters: &Parameters, outcome: TeapotOutcome) -> Resul
     let of = if switched { ["switch", "switches"] } else { ["row", "rows"] };
     let folded = |table: Table, same| FoundTable::from(table).folded(&first, |row| names[row].clone(), (of, same));
     let (rows, edges) = (folded(rows, "the same bits"), folded(edges, "the same counts"));
+    let groups = groups(&outcome);
+    // Files of rows with the same bits would be copies.
+    found.field("same_bits", same_bits(&groups));
+    let kept: Vec<&str> = groups.iter().map(|group| group.row.configuration.label.as_str()).collect();
+    let is_kept: Vec<bool> = outcome.rows.iter().map(|row| kept.contains(&row.configuration.label.as_str())).collect();
     found.keep_layers("exact", layers(parameters, outcome.exact_t, outcome.exact_triangle)?);
-    for row in outcome.rows {
+    for (row, _) in outcome.rows.into_iter().zip(is_kept).filter(|(_, is_kept)| *is_kept) {
         found.keep_layers(&row.configuration.label, layers(parameters, row.t, row.triangle)?);
     }
     found.heading("The figures");
@@ -216,9 +229,5 @@ fn pictures(found: &mut Findings, parameters: &Parameters, outcome: &TeapotOutco
         found.heading("The other rows");
         found.legend(PixelVerdict::legend());
         found.pictures(groups.iter().flat_map(|group| pair(group, &outcome.exact_picture)).collect());
-    }
-    for same in first.into_iter().chain(groups).flat_map(|group| group.same) {
-        found.keep_picture(&same.configuration.label, same.picture.clone());
-        found.keep_picture(format!("{}-map", same.configuration.label), same.map.clone());
     }
 }

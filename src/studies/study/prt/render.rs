@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::compression_error::CompressionError;
 use super::exit_radiance::Lit;
 use super::interpolate::{Seen, linear_picture};
+use super::light_picture::light_picture;
 use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
@@ -96,11 +97,9 @@ impl Study for Rendering {
         let mut found = Findings::new("Precomputed radiance transfer");
         found.taken_from(self.camera.world_to_camera());
         let picture = linear_picture(&self.camera, &drawn);
-        found.pictures(vec![NamedPicture::new(
-            "picture",
-            picture.display(exposure)?,
-            format!("{} under {}", self.model, self.light_name),
-        )]);
+        let caption = format!("{} under {}", self.model, self.light_name);
+        let light = light_picture("light", &self.light_name, |direction| self.light.radiance(direction))?;
+        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
         found.keep_layers("picture", picture);
         if let Some(values) = &self.values {
             values.keep(self.vertices.positions(), &of_vertex, &mut found);

@@ -9,3 +9,13 @@ pub enum ModelSize {
     /// As printed: minutes to hours per entry.
     Printed,
 }
+
+impl ModelSize {
+    /// Side of the pictures, in pixels.
+    pub(super) const fn picture_side(self) -> u32 {
+        match self {
+            Self::Reduced => 320,
+            Self::Printed => 640,
+        }
+    }
+}

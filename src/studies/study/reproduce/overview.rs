@@ -3,23 +3,38 @@
 use strum::VariantArray as _;
 
 use super::{EntryChart, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
-use crate::report::{Chart, Findings, NamedChart, Scale, Series, Tone};
+use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
 const JUDGED: &str =
     "Of {} figures predicted or counted {} are reproduced within their bounds, {} explained and {} missed.";
-const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
+const CALIBRATED: &str =
+    "Figures that chose a constant of a model and are no evidence: {}, of them missed all the same: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
-/// Adds conclusion, tally and chart to the findings.
+/// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    for sentence in [Some(judged(&rows)), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
+    for sentence in [judged(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
         all.conclusion(sentence.to_string());
     }
-    for verdict in RowVerdict::VARIANTS {
-        let words = verdict.to_string();
-        all.tally(count(&rows, |row| row.verdict() == *verdict) as u64, [&words, &words], tone(*verdict));
+    for entry in tally(&rows) {
+        all.tally(entry.count, [&entry.what, &entry.what], entry.tone);
     }
+}
+
+/// Counts of all verdicts, in their order.
+pub(super) fn tally(rows: &[&PaperRow]) -> Vec<TallyEntry> {
+    let entry = |verdict: &RowVerdict| TallyEntry {
+        count: count(rows, |row| row.verdict() == *verdict) as u64,
+        what: verdict.to_string(),
+        tone: tone(*verdict),
+    };
+    RowVerdict::VARIANTS.iter().map(entry).collect()
+}
+
+/// Adds the chart of all rows to the findings.
+pub(super) fn overview_chart(all: &mut Findings, found: &Reproduced) {
+    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
     if let Some(EntryChart { name, chart, caption }) = chart(&rows) {
         all.chart(NamedChart { name: name.to_owned(), chart, caption: caption.to_string() });
     }
@@ -41,15 +56,11 @@ const fn chose_a_constant(row: &PaperRow) -> bool {
     matches!(row.standing, Standing::Calibrated { .. })
 }
 
-fn judged(rows: &[&PaperRow]) -> Prose {
+fn judged(rows: &[&PaperRow]) -> Option<Prose> {
     let of = |verdict: RowVerdict| count(rows, |row| !chose_a_constant(row) && row.verdict() == verdict);
-    let figures = [
-        count(rows, |row| !chose_a_constant(row)),
-        of(RowVerdict::Reproduced),
-        of(RowVerdict::Explained),
-        of(RowVerdict::Missed),
-    ];
-    Prose::new(JUDGED, figures.map(|figure| figure.to_string()))
+    let judged = count(rows, |row| !chose_a_constant(row));
+    let figures = [judged, of(RowVerdict::Reproduced), of(RowVerdict::Explained), of(RowVerdict::Missed)];
+    (judged > 0).then(|| Prose::new(JUDGED, figures.map(|figure| figure.to_string())))
 }
 
 fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {

@@ -3,7 +3,8 @@
 use serde_json::json;
 use strum::VariantArray as _;
 
-use super::overview::overview;
+use super::overview::{overview, overview_chart, tally as counts};
+use super::papers::summary_lines;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
@@ -76,7 +77,11 @@ fn calibrated(row: &PaperRow) -> bool {
 pub fn tables(found: &Reproduced) -> [Table; 2] {
     let of = |title: &str, wanted: bool| {
         let mut table = Table::new(title, &SHOWN);
-        all(found).filter(|(_, row)| calibrated(row) == wanted).for_each(|(_, row)| table.push(shown(row)));
+        for (entry, found) in found {
+            for (n, row) in found.rows.iter().enumerate().filter(|(_, row)| calibrated(row) == wanted) {
+                table.push_named(format!("{}.{}", entry.id, n + 1), shown(row));
+            }
+        }
         table
     };
     [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
@@ -171,15 +176,17 @@ const HOW: &str = "The papers' figures beside ours. A figure is printed, implied
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
     overview(&mut all, found);
+    all.summary_lines(summary_lines(found));
     let how = super::Prose::new(HOW, [super::number(100.0 * super::Bound::SHARE, 0)]);
-    all.paragraph(how.to_string());
     all.keep_table(FoundTable::from(tally(found)).csv("tally").field("tally"));
     all.keep_table(FoundTable::from(rows(found)).csv("rows").field("rows"));
     all.heading("All rows");
+    overview_chart(&mut all, found);
+    all.paragraph(how.to_string());
     tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
     let mut entries = Vec::new();
     for (entry, found) in found {
-        all.heading(entry.title);
+        all.counted_heading(entry.title, counts(&found.rows.iter().collect::<Vec<_>>()));
         found.text.iter().for_each(|paragraph| all.paragraph(paragraph.to_string()));
         found.questions.iter().for_each(|question| all.paragraph(format!("Open: {question}")));
         for EntryChart { name, chart, caption } in &found.charts {

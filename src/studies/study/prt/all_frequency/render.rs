@@ -19,7 +19,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table,
 use crate::scene::Camera;
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::{carried, cluster_color};
-use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, linear_picture};
+use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, light_picture, linear_picture, of_texels};
 use crate::study::{ProgressFn, Study};
 use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 use crate::transfer::{TransferError, Vertices};
@@ -105,7 +105,8 @@ impl Study for AllFrequencyRendering {
         found.taken_from(self.lit.camera.world_to_camera());
         let picture = linear_picture(&self.lit.camera, &drawn);
         let caption = format!("{} under {}", self.lit.model, self.lit.light_name);
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
+        let light = light_picture("light", &self.lit.light_name, of_texels(&cut.light.radiances()))?;
+        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
         found.keep_layers("picture", picture);
         if let Some(values) = &self.values {
             values.keep(self.lit.vertices.positions(), &of_vertex, &mut found);

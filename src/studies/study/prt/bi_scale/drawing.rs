@@ -66,7 +66,7 @@ impl<'a> BiScaleDrawing<'a> {
     }
 
     /// The same as another camera sees it.
-    pub(super) fn shade_from(&self, camera: &Camera, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub(in crate::study) fn shade_from(&self, camera: &Camera, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
         self.shade_pixels(&self.rendering.surface.pixels(camera), local)
     }
 

@@ -15,7 +15,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table};
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::carried;
-use crate::study::prt::{Turning, auto_exposure, linear_picture};
+use crate::study::prt::{Turning, auto_exposure, light_picture, linear_picture, of_texels};
 use crate::study::{ProgressFn, Study};
 
 /// What steps of a frame took, in seconds.
@@ -51,7 +51,8 @@ impl Study for BiScaleRendering {
         found.taken_from(self.camera.world_to_camera());
         let picture = linear_picture(&self.camera, &drawn);
         let caption = format!("{} under {}", self.model, self.light_name);
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption)]);
+        let light = light_picture("light", &self.light_name, of_texels(cube.texels()))?;
+        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
         found.keep_layers("picture", picture);
         if let Some(values) = &self.values {
             let radiance = drawing.radiance_of_vertices(&local.rows);

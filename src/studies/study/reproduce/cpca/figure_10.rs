@@ -7,7 +7,7 @@ use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::signals::BIRD;
-use super::views::ModelView;
+use super::views::{ModelView, RED_AND_BLUE};
 use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
     order,
@@ -67,6 +67,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         pictures.push(view.picture(Some(clustering), format!("cpca-figure-10-{name}"), (*name).to_owned())?);
     }
     pictures.push(view.picture(None, "cpca-figure-10-uncompressed".to_owned(), "uncompressed".to_owned())?);
+    pictures.push(view.light("cpca-figure-10", RED_AND_BLUE)?);
     let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         number(size.stored_numbers() as f64 / 1e6, 2)

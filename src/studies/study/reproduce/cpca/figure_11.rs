@@ -7,7 +7,7 @@ use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
-use super::views::ModelView;
+use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryFindings, PaperFigure, PaperRow, Prose, ReproduceError, Shared, number, order};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, NamedPicture, Table};
@@ -57,6 +57,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             pictures.push(picture);
         }
         pictures.push(view.picture(None, format!("cpca-figure-11-{name}"), format!("{name}, uncompressed"))?);
+        pictures.push(view.light(&format!("cpca-figure-11-{name}"), RED_AND_BLUE)?);
         rows.extend(falling(name, "squared error", printed, &errors));
         timed.extend(falling(name, "frames per second", frames, &rates));
         timed.push(rate_row(

@@ -1,7 +1,7 @@
 //! Figures 3 and 4: static, iterative and adaptive compression by the number of vectors, and the error per vertex.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::views::ModelView;
+use super::views::{ModelView, RED_AND_BLUE};
 use super::{
     Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
     Standing, number,
@@ -138,6 +138,7 @@ fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPic
         rendered.push(view.picture(Some(&clustering), format!("cpca-figure-4-{name}-rendered"), caption)?);
     }
     rendered.push(view.picture(None, "cpca-figure-4-uncompressed".to_owned(), "uncompressed".to_owned())?);
+    rendered.push(view.light("cpca-figure-4", RED_AND_BLUE)?);
     pictures.extend(rendered);
     Ok(pictures)
 }

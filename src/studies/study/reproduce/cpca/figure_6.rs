@@ -46,6 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             rows.push(row(printed, vectors, ratio));
         }
     }
+    pictures.push(view.light("cpca-figure-6", "a small disk at order 10")?);
     let low = low_order(&light)?;
     for (order, light) in ORDERS.into_iter().zip([&light, &low]) {
         let view = ModelView::new(computed, light, EYE)?;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::figure_3::EYE;
 use super::signals::{BIRD, ComputedSignal, SIGNALS};
-use super::views::{ModelView, RIM};
+use super::views::{ModelView, RED_AND_BLUE, RIM};
 use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
@@ -46,7 +46,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         least_squares,
         incident,
     };
-    let (mut exact, mut points) = (Vec::new(), 0);
+    let (mut exact, mut exact_radiance, mut points) = (Vec::new(), Vec::new(), 0);
     let mut table = Table::of("Errors of pictures", "figure projection rows error_% silhouettes_%");
     let (mut errors, mut pictures) = (Vec::new(), Vec::new());
     for (mark, name, order, least_squares) in PROJECTIONS {
@@ -54,7 +54,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let computed = ComputedSignal::projected(paper, glossy(order, least_squares, incident), shared.models)?;
         let mut view = ModelView::new(&computed, &light, EYE)?;
         if exact.is_empty() {
-            exact = view.of_vertices(&exit_radiance(&computed, &light, view.eye())?);
+            exact_radiance = exit_radiance(&computed, &light, view.eye())?;
+            exact = view.of_vertices(&exact_radiance);
         }
         view.expose(&exact);
         let error = view.difference(None, &exact, |_| true)?;
@@ -67,7 +68,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         pictures.push(view.picture(None, file, format!("{name}, {rows} rows"))?);
         if points == 0 {
             let file = "cpca-figure-7-exact".to_owned();
-            pictures.insert(0, view.shown(&exact, file, "what they are held against".to_owned())?);
+            pictures.insert(0, view.shown(&exact_radiance, file, "what they are held against".to_owned())?);
+            pictures.push(view.light("cpca-figure-7", RED_AND_BLUE)?);
             points = computed.signal.points();
         }
     }

@@ -6,7 +6,7 @@ use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
-use super::views::{ModelView, RIM};
+use super::views::{ModelView, RED_AND_BLUE, RIM};
 use super::{
     Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared, Standing,
     Sweep, number,
@@ -47,11 +47,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "Compressed and uncompressed",
         "model error_of_picture_% silhouettes_% overdraw Hz_printed Hz host_ms constants_ms draws_ms",
     );
-    let (mut rows, mut gains, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut gains, mut pictures, mut shown_light) = (Vec::new(), Vec::new(), Vec::new(), None);
     for ((at, name, printed, without), factor) in PRINTED.into_iter().zip(FACTORS) {
         let (computed, clustering) = shared.cpca.iterative(at, shared.models)?;
         let drawn = shared.cpca.drawn(at, shared.models)?;
         let view = ModelView::new(computed, &light, EYE)?;
+        shown_light = Some(view.light("cpca-figure-8", RED_AND_BLUE)?);
         let plain = view.colors(None)?;
         let errors = [
             view.difference(Some(clustering), &plain, |_| true)?,
@@ -83,6 +84,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             pictures.push(view.picture(clustering, format!("cpca-figure-8-{name}-{how}"), format!("{name}, {how}"))?);
         }
     }
+    pictures.extend(shown_light);
     let (newer, swept) = newer_card(&gains);
     rows.extend(newer);
     let size = SIGNALS[HEAD].size;

@@ -36,6 +36,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         pictures.push(glossy.picture(None, file("gloss"), format!("{name}: the glossy part"))?);
         pictures.push(sum.picture(None, file("sum"), format!("{name}: the sum"))?);
         pictures.push(sum.picture(Some(clustering), file("compressed"), format!("{name}: the sum, compressed"))?);
+        pictures.push(sum.light(&format!("cpca-figure-9-{}", name.replace(' ', "-")), name)?);
     }
     let vectors = computed.paper.size.vectors;
     let figures = [computed.signal.points(), clustering.subspaces().len(), vectors].map(|n| number(n as f64, 0));

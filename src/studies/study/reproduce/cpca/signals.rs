@@ -121,7 +121,7 @@ pub(super) struct ComputedSignal {
     pub(super) vertices: Vertices,
     pub(super) meaning: PrtMeaning,
     pub(super) signal: Signal,
-    models: ModelSize,
+    pub(super) models: ModelSize,
 }
 
 impl ComputedSignal {

@@ -9,11 +9,14 @@ use crate::picture::rgb8;
 use crate::report::{NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
-use crate::study::prt::{Lit, Seen, auto_exposure, cluster_color, linear_picture};
+use crate::study::prt::{FineView, Lit, Seen, auto_exposure, cluster_color, light_picture};
 use crate::transfer::clustering::Clustering;
 
-/// Side of the pictures, in pixels.
+/// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
+
+/// Caption of the light of most figures.
+pub(super) const RED_AND_BLUE: &str = "a red and a blue disk at order 5";
 
 /// Cosine between view and normal below which a pixel counts as silhouette.
 pub(super) const RIM: f64 = 0.35;
@@ -24,6 +27,8 @@ pub(super) struct ModelView<'a> {
     light: &'a HarmonicLight,
     camera: Camera,
     seen: Seen,
+    /// View of the pictures that are shown.
+    fine: FineView,
     exposure: f64,
 }
 
@@ -37,7 +42,10 @@ impl<'a> ModelView<'a> {
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
         let camera = camera.map_err(|e| failed(HOST)(&e))?;
         let seen = Seen::new(&computed.mesh, &computed.vertices, &camera);
-        let mut view = Self { computed, light, camera, seen, exposure: 1.0 };
+        let all: Vec<u32> = (0..computed.vertices.len() as u32).collect();
+        let model = (&computed.mesh, &computed.vertices);
+        let fine = FineView::new(model, eye, (computed.models.picture_side(), &all)).map_err(|e| failed(HOST)(&e))?;
+        let mut view = Self { computed, light, camera, seen, fine, exposure: 1.0 };
         view.exposure = auto_exposure(&view.colors(None)?);
         Ok(view)
     }
@@ -49,17 +57,23 @@ impl<'a> ModelView<'a> {
         name: String,
         caption: String,
     ) -> Result<NamedPicture, ReproduceError> {
-        self.shown(&self.colors(clustering)?, name, caption)
+        self.shown(&self.radiance(clustering)?, name, caption)
     }
 
-    /// Converts colors of pixels to a picture.
+    /// Picture of the light, named for a figure.
+    pub(super) fn light(&self, figure: &str, caption: &str) -> Result<NamedPicture, ReproduceError> {
+        let radiance = |direction| self.light.radiance(direction);
+        light_picture(format!("{figure}-light"), caption, radiance).map_err(|e| failed(HOST)(&e))
+    }
+
+    /// Converts radiance of vertices towards the eye to a picture.
     pub(super) fn shown(
         &self,
-        colors: &[[f64; 3]],
+        radiance: &[[f64; 3]],
         name: String,
         caption: String,
     ) -> Result<NamedPicture, ReproduceError> {
-        let image = linear_picture(&self.camera, colors).display(self.exposure).map_err(|e| failed(HOST)(&e))?;
+        let image = self.fine.picture(radiance).display(self.exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(name, image, caption))
     }
 
@@ -86,8 +100,8 @@ impl<'a> ModelView<'a> {
 
     /// Picture of the group of each pixel's nearest vertex, each in a color of its own.
     pub(super) fn groups(&self, of_vertex: &[u32], (name, caption): (String, String)) -> NamedPicture {
-        let color = |vertex: Option<u32>| vertex.map_or([0; 3], |vertex| cluster_color(of_vertex[vertex as usize]));
-        NamedPicture::new(name, rgb8(SIDE, SIDE, self.seen.nearest().map(color)), caption)
+        let colors = self.fine.nearest(|vertex| cluster_color(of_vertex[vertex as usize]));
+        NamedPicture::new(name, rgb8(self.fine.side(), self.fine.side(), colors), caption)
     }
 
     /// Relative difference of a picture from another one of the same model and camera: root mean square of the
@@ -130,18 +144,21 @@ impl<'a> ModelView<'a> {
         most: f64,
         (name, caption): (String, String),
     ) -> NamedPicture {
-        let error = |point: usize| [(clustering.squared_error_of(point, &self.computed.signal) / most).sqrt(); 3];
-        let of_vertex: Vec<[f64; 3]> = (0..self.computed.signal.points()).map(error).collect();
-        let map: Vec<f64> = self.seen.colors(&of_vertex, [f64::NAN; 3]).into_iter().map(|[value, ..]| value).collect();
-        NamedPicture::new(name, false_color::magnitude(SIDE, &map), caption)
+        let error = |point: usize| (clustering.squared_error_of(point, &self.computed.signal) / most).sqrt();
+        let of_vertex: Vec<f64> = (0..self.computed.signal.points()).map(error).collect();
+        NamedPicture::new(name, false_color::magnitude(self.fine.side(), &self.fine.values(&of_vertex)), caption)
     }
 
     /// Colors of pixels by a clustering, or by the transfer itself.
     pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, ReproduceError> {
+        Ok(self.of_vertices(&self.radiance(clustering)?))
+    }
+
+    /// Radiance of vertices towards the eye, by a clustering or by the transfer itself.
+    fn radiance(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, ReproduceError> {
         let missing = || failed(HOST)(&"the signal is no transfer");
         let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;
         let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));
-        let radiance = lit.radiance(&exit, &self.computed.vertices, wide(self.camera.eye()));
-        Ok(self.seen.colors(&radiance, [0.0; 3]))
+        Ok(lit.radiance(&exit, &self.computed.vertices, wide(self.camera.eye())))
     }
 }

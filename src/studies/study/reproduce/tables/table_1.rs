@@ -5,13 +5,13 @@ use std::rc::Rc;
 use rayon::prelude::*;
 
 use super::super::shared::Shared;
-use super::super::{Bound, EntryChart, EntryFindings, Method, PaperFigure, PaperRow, ReproduceError};
+use super::super::{Bound, EntryChart, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, ReproduceError};
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
-use super::workload::{Job, JobRenderer, TIMES};
+use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
 use super::{HOST_ALONE, QUESTION, RATE, commands, speed_up};
-use crate::report::{Cell, Chart, Series, Table};
+use crate::report::{Cell, Chart, NamedPicture, Series, Table};
 
 /// Line of both tables.
 struct PrintedScene {
@@ -76,6 +76,9 @@ const SCENES: [PrintedScene; 5] = [
     },
 ];
 
+/// Samples per pixel of the pictures, relative to those of the renderings that are counted.
+const SAMPLES: u32 = 4;
+
 /// Section 6.3, of the first row: "a 52% speedup over the CPU".
 const TUNED: f64 = 52.0;
 
@@ -124,7 +127,10 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let (share_rows, readings) = shares::rows(&shares, "Table 2");
     rows.extend(share_rows);
     let ticks = SCENES.each_ref().map(|scene| scene.tick);
+    let pictures = (1..).zip(&SCENES).map(|(row, scene)| picture(row, scene, shared.models));
+    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
     Ok(EntryFindings {
+        pictures,
         text: vec![HOW.into(), READINGS.into()],
         rows,
         questions: vec![QUESTION],
@@ -143,6 +149,12 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         ],
         ..EntryFindings::default()
     })
+}
+
+/// Picture of a row's scene, by its renderer.
+fn picture(row: usize, scene: &PrintedScene, models: ModelSize) -> Result<NamedPicture, ReproduceError> {
+    let image = scene.job.unwrap_or(CLASSICAL_TEAPOT).picture(models.picture_side(), SAMPLES)?;
+    Ok(NamedPicture::new(format!("ray-engine-table-1-scene-{row}"), image, scene.what))
 }
 
 fn rates(ran: &[SceneRun]) -> Vec<PaperRow> {

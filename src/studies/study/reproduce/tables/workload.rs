@@ -6,8 +6,10 @@ use super::super::ReproduceError;
 use super::super::pipeline::failed;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
-use crate::renderer::{RenderError, Settings, distributed, eye, whitted};
+use crate::picture::RgbImage;
+use crate::renderer::{RenderError, RenderedPicture, Settings, distributed, eye, whitted};
 use crate::scene::{Camera, Scene, built};
+use crate::study::prt::{auto_exposure, linear_picture};
 use crate::tracer::octree::OctreeParameters;
 use crate::tracer::{self, CastError, Caster, HostTracer};
 
@@ -83,6 +85,23 @@ impl Caster for Recording {
 impl Job {
     /// Runs the renderer and records its workload.
     pub(super) fn workload(&self) -> Result<Workload, ReproduceError> {
+        let (scene, camera) = self.scene_and_camera(self.side)?;
+        let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
+        let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
+        self.render(&scene, &camera, &mut recording, 1).map_err(|e| failed(TIMES)(&e))?;
+        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })
+    }
+
+    /// Renders a picture to look at by rays of the host, with `samples` times the job's samples per pixel.
+    pub(super) fn picture(&self, side: u32, samples: u32) -> Result<RgbImage, ReproduceError> {
+        let (scene, camera) = self.scene_and_camera(side)?;
+        let mut tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
+        let rendered = self.render(&scene, &camera, &mut tracer, samples).map_err(|e| failed(TIMES)(&e))?;
+        let exposure = auto_exposure(&rendered.color);
+        linear_picture(&camera, &rendered.color).display(exposure).map_err(|e| failed(TIMES)(&e))
+    }
+
+    fn scene_and_camera(&self, side: u32) -> Result<(Scene, Camera), ReproduceError> {
         let fail = failed(TIMES);
         let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
         let view = match self.view {
@@ -90,22 +109,25 @@ impl Job {
             None => scene.views.first(),
         };
         let view = view.ok_or_else(|| fail(&format!("scene `{}` lacks its view", self.scene)))?;
-        let camera = view.camera(self.side, self.side).map_err(|e| fail(&e))?;
-        let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
-        let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
-        self.render(&scene, &camera, &mut recording).map_err(|e| fail(&e))?;
-        Ok(Workload { mesh: scene.mesh().clone(), bundles: recording.bundles, alone: HostOnly::of(&recording.cost) })
+        let camera = view.camera(side, side).map_err(|e| fail(&e))?;
+        Ok((scene, camera))
     }
 
-    fn render(&self, scene: &Scene, camera: &Camera, caster: &mut dyn Caster) -> Result<(), RenderError> {
-        let settings = Settings::default();
+    fn render(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        caster: &mut dyn Caster,
+        samples: u32,
+    ) -> Result<RenderedPicture, RenderError> {
+        let settings = Settings { samples, ..Settings::default() };
         let mut watch = |_| {};
         match self.renderer {
-            JobRenderer::Eyes => eye::render(scene, camera, &settings, caster, &mut watch).map(drop),
-            JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch).map(drop),
-            JobRenderer::MonteCarlo(samples) => {
-                let settings = Settings { samples, ..settings };
-                distributed::render(scene, camera, &settings, caster, &mut watch).map(drop)
+            JobRenderer::Eyes => eye::render(scene, camera, &settings, caster, &mut watch),
+            JobRenderer::Classical => whitted::render(scene, camera, &settings, caster, &mut watch),
+            JobRenderer::MonteCarlo(per_pixel) => {
+                let settings = Settings { samples: samples * per_pixel, ..settings };
+                distributed::render(scene, camera, &settings, caster, &mut watch)
             }
         }
     }

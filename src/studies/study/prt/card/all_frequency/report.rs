@@ -17,6 +17,7 @@ use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors, frame};
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::{ProgressFn, Study};
 
 const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
@@ -54,6 +55,8 @@ impl Study for AllFrequencyOnCard {
         let compared = ComparedPicture::new(&seen, &drawn, (&host, is_clamped));
         let mut found = study.findings("All-frequency transfer on a card", &compared, exposure)?;
         conclude(&drawing, &mut found);
+        let radiances = steps.cut.light.radiances();
+        found.pictures(vec![light_picture("light", &lit.light_name, of_texels(&radiances))?]);
         report_blame(&self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?, &mut found);
         report_sizes(self.sizes(&steps, &drawing), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawing.log, host_of_table_1())? {

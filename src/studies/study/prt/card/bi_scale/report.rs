@@ -1,5 +1,7 @@
 //! Findings of bi-scale transfer on a card.
 
+use glam::DMat3;
+
 use super::picture::{CardLight, Drawn, doubles};
 use super::precision::{count, variants};
 use super::subject::BiScaleOnCard;
@@ -13,7 +15,9 @@ use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::card::{CardPictureError, PixelErrors, frame};
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::{ProgressFn, Study};
+use crate::transfer::light::Decimation;
 
 const SWEEP: &str = "Each row is one number format of fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
     double precision of light multiplied in double precision. Fractions of 8 bits are of the largest number.";
@@ -47,6 +51,8 @@ impl Study for BiScaleOnCard {
         let drawn = self.draw(&local.local, (self.options, card.format), exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, card.is_clamped()));
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
+        let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
+        found.pictures(vec![light_picture("light", &self.light_name, of_texels(cube.texels()))?]);
         let whole = self.exact(&exact, (&seen, exposure), edges);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },

@@ -11,6 +11,7 @@ use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
 use crate::study::prt::card::{CardPictureError, frame};
 use crate::study::prt::exit_radiance::Lit;
+use crate::study::prt::light_picture;
 use crate::study::{ProgressFn, Study};
 
 impl Study for OnCard {
@@ -36,6 +37,8 @@ impl Study for OnCard {
         let drawn = way.draw(self, transfer, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
+        let radiance = |direction| self.light.radiance(direction);
+        found.pictures(vec![light_picture("light", &self.light_name, radiance)?]);
         report_sizes(tables::sizes(&drawn.size, &drawn.draws), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawn.log, host_of_section_7())? {
             found.conclusion(tables::time_sentence(&time, &card.profile.title));

@@ -41,7 +41,7 @@ struct MethodColors {
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
-    let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3))?;
+    let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3), size)?;
     let light = stand_in()?;
     let methods = methods(&scene, &light, models::options(size, VECTORS))?;
     let exposure = scene.exposure(&methods.exact);

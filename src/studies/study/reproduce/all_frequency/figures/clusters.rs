@@ -26,7 +26,7 @@ const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {
     vertices each on average.";
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
-    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
+    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
     let light = HaarLight::new(&stand_in()?, Segmentation::Quarters);
     let surface =
         Surface { scene: &scene, maps: &scene.of_model, reflectance: &Reflectance::Diffuse, color: COLORS[0] };
@@ -79,11 +79,11 @@ fn of_segments(scene: &FigureScene, coded: &CodedTransfer) -> Vec<NamedPicture> 
     let mut largest: Vec<_> = coded.segments.iter().collect();
     largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
     let picture = |part: &&crate::all_frequency::code::CodedSegment| {
-        let color = |vertex: Option<u32>| {
-            let at = vertex.and_then(|vertex| part.vertices.binary_search(&vertex).ok());
+        let color = |vertex: u32| {
+            let at = part.vertices.binary_search(&vertex);
             at.map_or([0; 3], |at| cluster_color(u32::from(part.cluster_of[at])))
         };
-        let image = rgb8(scene.camera.width(), scene.camera.height(), scene.seen.nearest().map(color));
+        let image = rgb8(scene.fine.side(), scene.fine.side(), scene.fine.nearest(color));
         let caption =
             format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
         NamedPicture::new(format!("figure-4-{}", part.segment), image, caption)

@@ -14,6 +14,7 @@ use super::{
     Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
     number,
 };
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::ModelSize;
 use parts::FigureParts;
 
@@ -34,5 +35,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         found.tables.extend(parts.tables);
         found.pictures.extend(parts.pictures);
     }
+    let light = scene::stand_in()?;
+    let light = light_picture("all-frequency-light", "a clear sky with a small sun", of_texels(light.texels()));
+    found.pictures.push(light.map_err(|e| failed(HOST)(&e))?);
     Ok(found)
 }

@@ -115,7 +115,7 @@ fn pictures(
     size: ModelSize,
     all: &[GroundedModel],
 ) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), ReproduceError> {
-    let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2))?;
+    let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
     let mut found = Vec::new();
     for GroundedModel { name, caption, lobe, light } in all {
         let reflectance = match lobe {

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, ModelSize, ReproduceError, failed};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::picture::metrics::{ScreenPicture, flip};
@@ -10,7 +10,7 @@ use crate::report::NamedPicture;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
 use crate::sphere::{function_count, harmonics};
-use crate::study::prt::{Seen, auto_exposure, linear_picture};
+use crate::study::prt::{FineView, Seen, auto_exposure, linear_picture};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
 use crate::transfer::grid::LIGHT_MAP;
@@ -19,7 +19,7 @@ use crate::transfer::light::{CubeLight, Decimation, DistantLight};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{Tangents, Vertices};
 
-/// Side of the pictures, in pixels.
+/// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
 /// Pixels per degree of the observer, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
@@ -32,8 +32,10 @@ pub(super) struct FigureScene {
     /// Visibility at the vertices of the ground.
     pub(super) of_ground: VisibilityMaps,
     pub(super) hats: Hats,
-    pub(super) camera: Camera,
-    pub(super) seen: Seen,
+    camera: Camera,
+    seen: Seen,
+    /// View of the pictures that are shown.
+    pub(super) fine: FineView,
 }
 
 /// Difference of a picture from the exact one.
@@ -46,8 +48,9 @@ pub(super) struct PictureDifference {
 }
 
 impl FigureScene {
-    /// Creates the scene, seen from an eye in units of the model's size, relative to its center.
-    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3) -> Result<Self, ReproduceError> {
+    /// Creates the scene, seen from an eye in units of the model's size, relative to its center. The model fills the
+    /// pictures that are shown, of the size that goes with that of the models.
+    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3, models: ModelSize) -> Result<Self, ReproduceError> {
         let problem = |reason: &dyn std::fmt::Display| failed(HOST)(reason);
         let (mesh, materials) = on_ground(model, ground).map_err(|e| problem(&e))?;
         let vertices =
@@ -63,7 +66,9 @@ impl FigureScene {
         let camera = Camera::new(place, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.3, SIDE, SIDE);
         let camera = camera.map_err(|e| problem(&e))?;
         let seen = Seen::new(&mesh, &vertices, &camera);
-        Ok(Self { vertices, of_model, of_ground, hats: Hats::new(HatWidth::default()), camera, seen })
+        let framed = (models.picture_side(), &own[..]);
+        let fine = FineView::new((&mesh, &vertices), place, framed).map_err(|e| problem(&e))?;
+        Ok(Self { vertices, of_model, of_ground, hats: Hats::new(HatWidth::default()), camera, seen, fine })
     }
 
     pub(super) fn eye(&self) -> DVec3 {
@@ -93,8 +98,7 @@ impl FigureScene {
         exposure: f64,
         (name, caption): (String, String),
     ) -> Result<NamedPicture, ReproduceError> {
-        let picture = linear_picture(&self.camera, &self.pixels(of_vertex));
-        let image = picture.display(exposure).map_err(|e| failed(HOST)(&e))?;
+        let image = self.fine.picture(of_vertex).display(exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(name, image, caption))
     }
 

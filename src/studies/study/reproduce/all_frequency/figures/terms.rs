@@ -28,7 +28,7 @@ fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance) -> Surface<
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
-    let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1))?;
+    let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
     let light = stand_in()?;
     let lobe = models::cook_torrance();
     let most = TERMS[TERMS.len() - 1];

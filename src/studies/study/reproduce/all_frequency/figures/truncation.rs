@@ -115,7 +115,7 @@ impl FlickerFrames {
 }
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
-    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6))?;
+    let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
     let hats: &Hats = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
     let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;

@@ -57,7 +57,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         order: ORDER,
     };
     let lights = lights()?;
-    let mut pictures = VertexPictures::new(&scene, &lights[0])?;
+    let mut pictures = VertexPictures::new(&scene, &lights[0], shared.models.picture_side())?;
     let mut visit = |name: &str, stored: &dyn StoredTransfer| {
         pictures.add(name, |light| stored.multiply(light));
     };

@@ -2,14 +2,17 @@
 
 use glam::DMat3;
 
-use super::scene::{FigureSize, TexturedModel};
+use super::scene::{FigureSize, SAMPLES, TexturedModel};
 use super::{HOST, ReproduceError, failed};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
+use crate::picture::Picture;
 use crate::report::NamedPicture;
-use crate::study::prt::{BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, linear_picture};
+use crate::study::prt::{
+    BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, filtered, linear_picture,
+};
 
 /// Order of the harmonics of low-frequency bi-scale transfer.
 pub(super) const ORDER: usize = 5;
@@ -19,6 +22,8 @@ pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
     /// Picture by low-frequency light.
     pub(super) smooth: Option<Vec<[f64; 3]>>,
+    /// Larger picture by biclusters, which the model fills.
+    fine: Picture,
     /// Rendering of the model.
     pub(super) rendering: BiScaleRendering,
 }
@@ -45,7 +50,11 @@ impl DrawnFigure {
             }
             _ => None,
         };
-        Ok(Self { causes, smooth, rendering })
+        let samples = drawing.shade_from(&model.fine_camera(size)?, &local.rows);
+        let colors = filtered(&samples, size.shown, SAMPLES);
+        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+        let fine = Picture::rgb(size.shown[0], size.shown[1], &single);
+        Ok(Self { causes, smooth, fine, rendering })
     }
 
     /// Errors of a picture relative to that by rays, and to that by rays with the same textures, in percent.
@@ -57,9 +66,11 @@ impl DrawnFigure {
     pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
         let model = &self.rendering.model;
         let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
+        let fine = self.fine.display(auto_exposure(exact)).map_err(|e| failed(HOST)(&e))?;
         let mut shown = vec![
+            NamedPicture::new(format!("bi-scale-{name}"), fine, format!("{model}, by biclusters")),
             self.picture(&format!("{name}-rays"), exact, format!("{model}, by rays"))?,
-            self.picture(&format!("{name}-transfer"), drawn, format!("{model}, by biclusters"))?,
+            self.picture(&format!("{name}-transfer"), drawn, format!("{model}, by biclusters, as compared"))?,
         ];
         if let Some(smooth) = &self.smooth {
             let caption = format!("{model}, harmonics of order {ORDER} on both sides");

@@ -10,7 +10,11 @@ use super::{
     Standing, failed, number,
 };
 use crate::report::{Cell, NamedPicture, Table};
+use crate::study::prt::{light_picture, of_texels};
+use crate::study::reproduce::sky::HARD_SUN;
+use crate::transfer::light::{Decimation, DistantLight};
 use drawn::{DrawnFigure, ORDER, by_transfer};
+use glam::DMat3;
 use scene::{FigureSize, TexturedModel};
 
 const HOW: &str = "Models, materials, light and cameras are not at hand. Stand-ins are drawn in {} x {} pixels under a clear sky with a small sun: by biclusters of \
@@ -62,6 +66,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (table, pictures) = more_directions(&models::rough_bunny(size), size)?;
     found.tables.push(table);
     found.pictures.extend(pictures);
+    let light = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
+    let light = light.map_err(|e| failed(HOST)(&e))?;
+    let light = light_picture("bi-scale-light", "a clear sky with a small sun", of_texels(light.texels()));
+    found.pictures.push(light.map_err(|e| failed(HOST)(&e))?);
     Ok(found)
 }
 

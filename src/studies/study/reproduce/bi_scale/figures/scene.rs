@@ -11,19 +11,25 @@ use crate::bi_scale::texture::{PatchKind, TextureSampling};
 use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::scene::built::flat_models::MaterialMesh;
+use crate::study::framing::framed;
 use crate::study::prt::{BiScaleRendering, SurfaceTexture, TexturedSurface, Turning};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
 use crate::transfer::visibility::Horizon;
 
+/// Samples along an edge of a pixel of [`FigureSize::shown`].
+pub(super) const SAMPLES: u32 = 2;
+
 /// Sizes of models, pictures and textures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FigureSize {
     /// Edge length of models, relative to the paper's.
     pub(super) coarser: u32,
-    /// Size of the pictures, in pixels.
+    /// Size of the pictures that are compared with those by rays, in pixels.
     pub(super) picture: [u32; 2],
+    /// Size of pictures by transfer alone, in pixels, with [`SAMPLES`] along an edge of each.
+    pub(super) shown: [u32; 2],
     /// Texels along an edge of patches: of fine ones, and of others.
     pub(super) texels: [usize; 2],
     /// View directions along an edge.
@@ -35,8 +41,12 @@ pub(super) struct FigureSize {
 impl FigureSize {
     pub(super) fn of(models: ModelSize) -> Self {
         match models {
-            ModelSize::Reduced => Self { coarser: 3, picture: [40, 30], texels: [20, 10], views: 12, repeat: 2.0 },
-            ModelSize::Printed => Self { coarser: 1, picture: [160, 120], texels: [64, 32], views: 12, repeat: 5.0 },
+            ModelSize::Reduced => {
+                Self { coarser: 3, picture: [40, 30], shown: [320, 240], texels: [20, 10], views: 12, repeat: 2.0 }
+            }
+            ModelSize::Printed => {
+                Self { coarser: 1, picture: [160, 120], shown: [640, 480], texels: [64, 32], views: 12, repeat: 5.0 }
+            }
         }
     }
 }
@@ -94,10 +104,25 @@ impl TexturedModel {
         self.patches.iter().map(texture).collect()
     }
 
-    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, ReproduceError> {
+    /// Camera of the samples of a picture by transfer alone, which the model fills.
+    pub(super) fn fine_camera(&self, size: FigureSize) -> Result<Camera, ReproduceError> {
+        let [_, eye] = self.middle_and_eye();
+        let points: Vec<DVec3> = self.model.mesh.positions().iter().map(|&at| wide(at)).collect();
+        let [width, height] = size.shown.map(|side| side * SAMPLES);
+        let view = framed(eye, &points, f64::from(width) / f64::from(height));
+        view.camera(width, height).map_err(|e| failed(HOST)(&e))
+    }
+
+    /// Center of the model, and the eye.
+    fn middle_and_eye(&self) -> [DVec3; 2] {
         let [low, high] = self.model.mesh.bounds().unwrap_or_default().map(wide);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
-        let eye = (middle + size * self.eye).as_vec3().to_array();
+        [middle, middle + size * self.eye]
+    }
+
+    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, ReproduceError> {
+        let [middle, eye] = self.middle_and_eye();
+        let eye = eye.as_vec3().to_array();
         Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.17, width, height)
             .map_err(|e| failed(HOST)(&e))
     }

@@ -1,0 +1,154 @@
+//! The first screen of a page: conclusion, counts, a line per part and the table of contents.
+
+use base64::{Engine as _, engine::general_purpose::STANDARD};
+use maud::{Markup, PreEscaped, html};
+
+use super::super::findings::{Findings, Passage, Verdict};
+use super::super::summary::{SummaryLine, TallyEntry};
+
+/// Id of a heading, by its index in the text.
+pub(super) fn section(place: usize) -> String {
+    format!("section-{place}")
+}
+
+/// Renders the conclusion, its first sentence as the verdict, and the tally as counts and as a bar.
+pub(super) fn summary(findings: &Findings) -> Markup {
+    let failed = findings.verdict() == Verdict::Failed;
+    html! {
+        @if !(findings.conclusion.is_empty() && findings.tally.is_empty()) {
+            section.summary.failed[failed] aria-label="Conclusion" {
+                @for (n, sentence) in findings.conclusion.iter().enumerate() { p class=[(n == 0).then_some("verdict")] { (sentence) } }
+                @if !findings.tally.is_empty() { (counts(findings.tally.iter())) (bar(&findings.tally)) }
+            }
+        }
+    }
+}
+
+/// Renders counts as a list.
+fn counts<'a>(tally: impl Iterator<Item = &'a TallyEntry>) -> Markup {
+    html! { ul.tally { @for entry in tally { li class=(entry.tone.class()) { b { (entry.count) } " " (entry.what) } } } }
+}
+
+/// Renders the counts that are not 0 as a list; nothing if there are none.
+pub(super) fn small_counts(tally: &[TallyEntry]) -> Markup {
+    let found = || tally.iter().filter(|entry| entry.count > 0);
+    html! { @if found().next().is_some() { (counts(found())) } }
+}
+
+fn bar(tally: &[TallyEntry]) -> Markup {
+    html! {
+        div.bar aria-hidden="true" {
+            @for entry in tally.iter().filter(|entry| entry.count > 0) {
+                span class=(entry.tone.class()) style=(format!("flex-grow:{}", entry.count)) {}
+            }
+        }
+    }
+}
+
+/// Renders lines: picture, title, counts and a sentence.
+pub(super) fn summary_lines(
+    lines: &[SummaryLine],
+    findings: &Findings,
+    pngs: &[Vec<u8>],
+    drawings: &[String],
+) -> Markup {
+    let heading = |line: &SummaryLine| {
+        findings.text.iter().position(|passage| matches!(passage, Passage::Heading(text, _) if *text == line.heading))
+    };
+    html! {
+        ul.lines {
+            @for line in lines {
+                li {
+                    div.thumbnail { (thumbnail(line, findings, pngs, drawings)) }
+                    div {
+                        strong {
+                            @match heading(line) {
+                                Some(place) => a href=(format!("#{}", section(place))) { (line.title) },
+                                None => (line.title),
+                            }
+                        }
+                        (small_counts(&line.tally))
+                        @if !line.text.is_empty() { p { (line.text) } }
+                    }
+                    (bar(&line.tally))
+                }
+            }
+        }
+    }
+}
+
+/// Renders a line's picture or chart. Unlike those of the page it is scaled and smoothed: it only shows where it leads.
+fn thumbnail(line: &SummaryLine, findings: &Findings, pngs: &[Vec<u8>], drawings: &[String]) -> Markup {
+    let name = line.picture.as_deref();
+    let picture = findings.pictures.iter().position(|found| Some(found.name.as_str()) == name);
+    let chart = findings.charts.iter().position(|found| Some(found.name.as_str()) == name);
+    html! {
+        @if let Some(place) = picture {
+            @let picture = &findings.pictures[place];
+            @let (width, height) = picture.image.dimensions();
+            img src=(format!("data:image/png;base64,{}", STANDARD.encode(&pngs[place]))) alt=(picture.caption)
+                width=(width) height=(height);
+        } @else if let Some(place) = chart {
+            (PreEscaped(&drawings[place]))
+        }
+    }
+}
+
+/// Renders the table of contents, each heading with its counts.
+pub(super) fn contents(findings: &Findings) -> Markup {
+    let headings: Vec<(usize, &str, &[TallyEntry])> = findings
+        .text
+        .iter()
+        .enumerate()
+        .filter_map(|(place, passage)| match passage {
+            Passage::Heading(text, tally) => Some((place, text.as_str(), tally.as_slice())),
+            _ => None,
+        })
+        .collect();
+    html! {
+        @if !headings.is_empty() {
+            nav aria-label="Contents" {
+                strong { "On this page" }
+                ul {
+                    @for (place, text, tally) in headings {
+                        li { a href=(format!("#{}", section(place))) { (text) } (small_counts(tally)) }
+                    }
+                    li { a href="#provenance" { "Provenance" } }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::NamedPicture;
+    use super::super::super::summary::Tone;
+    use super::*;
+    use crate::picture::rgb8;
+
+    #[test]
+    fn a_line_links_to_its_heading_and_shows_its_picture() {
+        let counted = |count, what: &str| TallyEntry { count, what: what.to_owned(), tone: Tone::Good };
+        let line = |heading: &str, picture: &str| SummaryLine {
+            title: "One".to_owned(),
+            heading: heading.to_owned(),
+            tally: vec![counted(3, "held"), counted(0, "missed")],
+            text: "A sentence.".to_owned(),
+            picture: Some(picture.to_owned()),
+        };
+        let mut found = Findings::new("t");
+        found.counted_heading("Section <1>", vec![counted(3, "held")]);
+        found.pictures(vec![NamedPicture::new("p", rgb8(2, 1, [[0; 3]; 2]), "a picture")]);
+        let html = summary_lines(&[line("Section <1>", "p"), line("none", "none")], &found, &[vec![1, 2, 3]], &[])
+            .into_string();
+        assert_eq!(html.matches("<a href=\"#section-0\">One</a>").count(), 1, "{html}");
+        assert_eq!(html.matches("alt=\"a picture\" width=\"2\" height=\"1\"").count(), 1, "{html}");
+        assert!(html.contains("<b>3</b> held") && !html.contains("missed"), "{html}");
+        let contents = contents(&found).into_string();
+        assert!(
+            contents.contains("Section &lt;1&gt;</a><ul class=\"tally\"><li class=\"good\"><b>3</b> held"),
+            "{contents}"
+        );
+    }
+}

@@ -1,0 +1,49 @@
+//! Counts of outcomes, and the lines at the top of a page.
+
+/// Evaluation of a tally's count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tone {
+    /// Desirable.
+    Good,
+    /// Neutral.
+    Neutral,
+    /// Undesirable.
+    Bad,
+}
+
+impl Tone {
+    /// CSS class.
+    pub(super) const fn class(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Neutral => "neutral",
+            Self::Bad => "bad",
+        }
+    }
+}
+
+/// Number of the things counted by a study that have the same outcome.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TallyEntry {
+    /// The number.
+    pub count: u64,
+    /// Name of the things, in the number of the count: `row missed`, `rows missed`.
+    pub what: String,
+    /// Evaluation of the outcome.
+    pub tone: Tone,
+}
+
+/// Part of a study in one line at the top of its page: title, counts and a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SummaryLine {
+    /// Title.
+    pub title: String,
+    /// Heading of the page that the title links to; no link if there is none of this text.
+    pub heading: String,
+    /// Counts of outcomes; those of 0 are not shown.
+    pub tally: Vec<TallyEntry>,
+    /// Sentence on the part.
+    pub text: String,
+    /// Name of a picture or chart of the page, shown reduced; none is shown if there is none of this name.
+    pub picture: Option<String>,
+}

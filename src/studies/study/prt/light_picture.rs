@@ -1,0 +1,80 @@
+//! Picture of a distant light, beside the pictures that it lights.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::elementary::sin_cos;
+use crate::picture::{Picture, PictureError};
+use crate::report::NamedPicture;
+use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
+
+/// Width of the picture in pixels, twice its height.
+const WIDTH: u32 = 320;
+/// Linear light of the median of what is not black.
+const MIDDLE_GREY: f64 = 0.18;
+
+/// Picture of the radiance from every direction, as a lat-long picture that `--light` reads: its middle is +y, its
+/// right +x, and up is +z. The median of what is not black is 18 % grey, whatever the sun does.
+pub(in crate::study) fn light_picture(
+    name: impl Into<String>,
+    light: &str,
+    radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+) -> Result<NamedPicture, PictureError> {
+    let height = WIDTH / 2;
+    let pixel = |at: u32| {
+        let [column, row] = [at % WIDTH, at / WIDTH].map(|center| f64::from(center) + 0.5);
+        let (sine, cosine) = sin_cos(row * PI / f64::from(height));
+        let (x, y) = sin_cos((column / f64::from(WIDTH) - 0.5) * TAU);
+        radiance(DVec3::new(sine * x, sine * y, cosine)).map(|channel| channel.max(0.0))
+    };
+    let colors: Vec<[f64; 3]> = (0..WIDTH * height).into_par_iter().map(pixel).collect();
+    let mut bright: Vec<f64> =
+        colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&l| l > 0.0).collect();
+    bright.sort_by(f64::total_cmp);
+    let exposure = bright.get(bright.len() / 2).map_or(1.0, |median| MIDDLE_GREY / median);
+    let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+    let caption = format!("the light, {light}: its middle is +y, its right +x, up +z");
+    Ok(NamedPicture::new(name, Picture::rgb(WIDTH, height, &single).display(exposure)?, caption))
+}
+
+/// Radiance of the texels of a cube of light by direction, for [`light_picture`].
+pub(in crate::study) fn of_texels(texels: &[[f64; 3]]) -> impl Fn(DVec3) -> [f64; 3] + Sync {
+    |direction| {
+        let [face, column, row] = LIGHT_MAP.texel_of(direction);
+        texels[(face * LIGHT_SIDE + row) * LIGHT_SIDE + column]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sphere::EnvironmentPicture;
+    use crate::transfer::grid::texel_center;
+    use crate::transfer::light::{CubeLight, Decimation, DiskSource};
+    use glam::DMat3;
+
+    /// A disk lies where the picture, read as a light, has it.
+    #[test]
+    fn the_picture_read_as_a_light_comes_from_the_same_direction() {
+        let towards = DVec3::new(0.6, -0.5, 0.4).normalize();
+        let disk = DiskSource { towards, radius: 0.3, radiance: [5.0, 4.0, 3.0] };
+        let cube = CubeLight::from_disks(&[disk], &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+        let shown = light_picture("light", "a disk", of_texels(cube.texels())).expect("a picture");
+        let pixels: Vec<[f32; 3]> =
+            shown.image.pixels().map(|pixel| pixel.0.map(|channel| f32::from(channel) / 255.0)).collect();
+        let picture = Picture::rgb(shown.image.width(), shown.image.height(), &pixels);
+        let read = EnvironmentPicture::new(&picture).expect("a lat-long picture");
+        let read = CubeLight::from_picture(&read, &DMat3::IDENTITY, Decimation::SolidAngle).expect("a light");
+        let texels = read.texels().iter().enumerate();
+        let middle: DVec3 = texels.map(|(n, texel)| texel[0] * texel_center(n)).sum();
+        assert!(middle.normalize().dot(towards) > 0.999, "{towards} {}", middle.normalize());
+    }
+
+    #[test]
+    fn a_black_light_is_black() {
+        let shown = light_picture("light", "nothing", |_| [0.0; 3]).expect("a picture");
+        assert!(shown.image.pixels().all(|pixel| pixel.0 == [0; 3]));
+    }
+}

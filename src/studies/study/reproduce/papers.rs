@@ -1,0 +1,153 @@
+//! The six papers, and the lines that sum each of them up at the top of the page.
+
+use std::fmt::Write as _;
+
+use strum::VariantArray as _;
+
+use super::overview::tally;
+use super::{EntryFindings, PaperRow, ReproduceEntry, Reproduced, RowVerdict};
+use crate::report::SummaryLine;
+use crate::report::words::listed;
+
+/// Paper, named as in the titles of entries; in the order of the systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::VariantArray)]
+pub enum ReproducedPaper {
+    /// Carr, Hall and Hart 2002.
+    #[strum(to_string = "Ray Engine")]
+    RayEngine,
+    /// Carr, Hall and Hart 2003, sections 1 to 3.
+    #[strum(to_string = "radiosity")]
+    Radiosity,
+    /// Carr, Hall and Hart 2003, sections 4 and 5.
+    #[strum(to_string = "subsurface scattering")]
+    Subsurface,
+    /// Sloan, Hall, Hart and Snyder 2003.
+    #[strum(to_string = "CPCA")]
+    Cpca,
+    /// Liu, Sloan, Shum and Snyder 2004.
+    #[strum(to_string = "all-frequency transfer")]
+    AllFrequency,
+    /// "Real-time all-frequency bi-scale radiance transfer".
+    #[strum(to_string = "bi-scale transfer")]
+    BiScale,
+}
+
+impl ReproduceEntry {
+    /// Paper of the entry, by its title: `... (PAPER, place)`.
+    pub fn paper(&self) -> Option<ReproducedPaper> {
+        let place = self.title.rsplit_once('(')?.1;
+        ReproducedPaper::VARIANTS.iter().copied().find(|paper| place.starts_with(&format!("{paper},")))
+    }
+}
+
+type Part = (ReproduceEntry, EntryFindings);
+
+/// Most entries that a line names.
+const NAMED: usize = 3;
+
+/// One line per paper with an entry, each with the counts of its verdicts.
+pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
+    let line = |paper: &ReproducedPaper| {
+        let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper() == Some(*paper)).collect();
+        let (first, _) = parts.first()?;
+        let rows: Vec<&PaperRow> = parts.iter().flat_map(|(_, found)| &found.rows).collect();
+        Some(SummaryLine {
+            title: capital(&paper.to_string()),
+            heading: first.title.to_owned(),
+            tally: tally(&rows),
+            text: text(&parts),
+            picture: picture(&parts),
+        })
+    };
+    ReproducedPaper::VARIANTS.iter().filter_map(line).collect()
+}
+
+fn missed(found: &EntryFindings) -> usize {
+    found.rows.iter().filter(|row| row.verdict() == RowVerdict::Missed).count()
+}
+
+/// Entries without a missed row, and those with the most.
+fn text(parts: &[&Part]) -> String {
+    let judged = || parts.iter().filter(|(_, found)| !found.rows.is_empty());
+    let whole = judged().filter(|(_, found)| missed(found) == 0).count();
+    let mut text = match (whole, judged().count()) {
+        (_, 0) => return String::new(),
+        (all, count) if all == count => "No row is missed.".to_owned(),
+        (0, _) => "Every entry misses rows".to_owned(),
+        (whole, count) => format!("{whole} of {count} entries miss no row"),
+    };
+    let mut worst: Vec<(usize, usize, &str)> = judged()
+        .map(|(entry, found)| (missed(found), found.rows.len(), entry.id))
+        .filter(|(missed, ..)| *missed > 0)
+        .collect();
+    worst.sort_by_key(|(missed, ..)| std::cmp::Reverse(*missed));
+    let names: Vec<String> =
+        worst.iter().take(NAMED).map(|(missed, rows, id)| format!("{id} ({missed} of {rows})")).collect();
+    if !names.is_empty() {
+        let most = if worst.len() > NAMED { "the most in" } else { "missed in" };
+        _ = write!(text, "; {most} {}.", listed(&names));
+    }
+    text
+}
+
+/// Picture that an entry of the paper was found fit to stand for it, else its first picture, else its first chart.
+fn picture(parts: &[&Part]) -> Option<String> {
+    let pictures = || parts.iter().flat_map(|(_, found)| &found.pictures);
+    let best = pictures().find(|picture| BEST.contains(&picture.name.as_str()));
+    let chart = || parts.iter().flat_map(|(_, found)| &found.charts).next();
+    let name = best.or_else(|| pictures().next()).map(|picture| picture.name.clone());
+    name.or_else(|| chart().map(|chart| chart.name.to_owned()))
+}
+
+/// Pictures that stand for their papers.
+const BEST: [&str; 0] = [];
+
+fn capital(text: &str) -> String {
+    let mut rest = text.chars();
+    rest.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(rest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Bound, ENTRIES, Method, PaperFigure, Standing};
+    use super::*;
+
+    /// Row that is reproduced at 1.
+    fn row(ours: f64) -> PaperRow {
+        let target = PaperFigure::printed(1.0, 1, "M/s", "section 6.1");
+        let found = (ours, Standing::Predicted { from: "" });
+        PaperRow::new("tests", ("nv20", Method::Pipeline), target, found, Bound::PREDICTION)
+    }
+
+    #[test]
+    fn every_entry_names_its_paper_and_every_paper_has_entries() {
+        for entry in ENTRIES {
+            assert!(entry.paper().is_some(), "{}", entry.title);
+        }
+        for paper in ReproducedPaper::VARIANTS {
+            assert!(ENTRIES.iter().any(|entry| entry.paper() == Some(*paper)), "{paper}");
+        }
+    }
+
+    #[test]
+    fn a_line_counts_the_rows_of_its_paper_alone() {
+        let with = |values: &[f64]| EntryFindings {
+            rows: values.iter().map(|value| row(*value)).collect(),
+            ..EntryFindings::default()
+        };
+        let entry = |id: &str| *ENTRIES.iter().find(|entry| entry.id == id).expect("an entry");
+        let found = vec![
+            (entry("figure-7"), with(&[1.0, 2.0, 2.0])),
+            (entry("equation-11"), with(&[1.0])),
+            (entry("cpca-figure-2"), with(&[1.0])),
+        ];
+        let [engine, cpca] = &summary_lines(&found)[..] else { panic!("two papers have entries") };
+        let count = |line: &SummaryLine, verdict: RowVerdict| {
+            line.tally.iter().find(|counted| counted.what == verdict.to_string()).map(|counted| counted.count)
+        };
+        assert_eq!([RowVerdict::Reproduced, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
+        assert_eq!(engine.text, "1 of 2 entries miss no row; missed in figure-7 (2 of 3).");
+        assert_eq!(engine.heading, entry("figure-7").title);
+        assert_eq!((count(cpca, RowVerdict::Missed), cpca.text.as_str()), (Some(0), "No row is missed."));
+    }
+}
