@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::file::model_of;
-use crate::cli::words::counted;
+use crate::cli::words::{counted, measured};
 use crate::cli::{Out, Problem, given, number};
 use crate::cpca::coherence::{Superclusters, overdraw, reclassify};
 use crate::transfer::clustering::{Clustering, refit};
@@ -110,9 +110,10 @@ impl Coherence {
         if let Some((count, added)) = self.moved {
             let share = if energy > 0.0 { added / energy } else { 0.0 };
             out.line(format_args!(
-                "moved     {} vertices, for {share:.2e} of the signal's squares; triangles drawn {before:.3} times, then \
+                "moved     {} vertices, for {} of the signal's squares; triangles drawn {before:.3} times, then \
                  {moved:.3}",
-                counted(count)
+                counted(count),
+                measured(share)
             ))?;
         }
         if let Some(superclusters) = &self.superclusters {

@@ -130,7 +130,7 @@ mod tests {
     fn each_variant_has_its_own_levels() {
         let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let square = Mesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
-        let found = cost(CARD, &square, 64, &VARIANTS).expect("the card draws it");
+        let found = cost(CARD, &square, 256, &VARIANTS).expect("the card draws it");
         let of = |name: &str| {
             let place = VARIANTS.iter().position(|variant| variant.name == name).expect("a variant");
             found.maps[place]
