@@ -21,9 +21,11 @@ Examples:
 
 Written to --out: index.html (self-contained), rows.csv, tally.csv, study.json, a drawing NAME.svg
 per chart and a picture NAME.png.
-Each row has a bound that was stated beforehand, and a verdict: reproduced, calibrated (within its
-bound, but no evidence), explained (a sweep of the same run reaches the value), missed, or too
-vague to judge.
+Each printed figure has one row, with a bound that was stated beforehand, and a verdict: predicted
+(measured on our side, within a bound in numbers), order only, consistency of print (nothing is
+run), calibrated (within its bound, but no evidence), explained (a sweep of the same run over
+something that the paper leaves open reaches the value), missed, contradictory (the paper
+contradicts itself: the computation is shown), or too vague to judge.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
 entries that are named.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";

@@ -3,18 +3,18 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{
-    Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, figure, number,
-    pipeline,
-};
+use super::{EntryFindings, Method, Prose, ReproduceError, Standing, figure, number, paper_row, pipeline, printed};
 use crate::ray_engine::model::CostRates;
+use crate::report::{Cell, Table};
 
 /// Bytes read back per ray: a triangle id; an id with three barycentric coordinates.
 pub(super) const GAMMAS: [f64; 2] = [4.0, 16.0];
 /// Number of triangles in the paper's example.
 pub(super) const TEN: f64 = 10.0;
-/// Printed millions of tests per second at ten triangles, in the text under figure 7.
-pub(super) const TEN_TRIANGLES: [(&str, f64); 2] = [("nv20", 240.0), ("nv25", 286.0)];
+/// Cards of the paper: GeForce3 and GeForce4 Ti4600.
+pub(super) const CARDS: [&str; 2] = ["nv20", "nv25"];
+/// Printed millions of tests per second at ten triangles, in the text under figure 7, by card.
+pub(super) const TEN_TRIANGLES: [&str; 2] = ["ray-engine/ten-triangles-geforce3", "ray-engine/ten-triangles-geforce4"];
 /// Numbers per million.
 pub(super) const MEGA: f64 = 1e6;
 
@@ -28,25 +28,28 @@ pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
     })
 }
 
-const PLACE: &str = "section 6.1";
 const READ_BACK: &str = "250 MB/s (read-back)";
-const RATES: &str = "390 M/s (fill rate), 250 MB/s (read-back)";
-/// Derivation of the GeForce4's fill rate.
-const IMPLIED: &str = "equation 11 solved for the fill rate: T / (T / 286 M/s - gamma / 250 MB/s), T = 10, gamma = 4 B, if it reads back like a GeForce3";
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
+    let mut worked = Table::of("Worked numbers, M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
-    for (gamma, value) in GAMMAS.into_iter().zip([62.5, 15.6]) {
-        rows.extend(read_back(gamma, PaperFigure::printed(value, 1, "M/s", PLACE))?);
+    for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
+        let equation = rates("nv20")?.results_per_s(gamma) / MEGA;
+        let ours = (equation, Standing::Predicted { from: READ_BACK });
+        rows.push(paper_row(id, ("nv20", Method::Equation), ours)?);
+        worked.push(line(id, "nv20", [equation, pipeline::results_per_s("nv20", gamma)? / MEGA])?);
     }
-    rows.extend(fill("nv20", PaperFigure::printed(390.0, 0, "M/s", PLACE), "this figure")?);
-    let [_, ti4600] = TEN_TRIANGLES;
-    let implied = CostRates::implied_fill(ti4600.1 * MEGA, TEN, GAMMAS[0], rates("nv25")?.readback_bytes_per_s) / MEGA;
-    let implied =
-        PaperFigure { origin: Origin::Implied(IMPLIED.to_owned()), ..PaperFigure::printed(implied, 1, "M/s", PLACE) };
-    rows.extend(fill("nv25", implied, "286 M/s at ten triangles, which implies it")?);
-    for (device, value) in TEN_TRIANGLES {
-        rows.extend(ten_triangles(device, PaperFigure::printed(value, 0, "M/s", PLACE))?);
+    for (id, device) in ["ray-engine/fill-geforce3", "ray-engine/fill-geforce4"].into_iter().zip(CARDS) {
+        let drawn = pipeline::dual_textured(device)?.pixels_per_s() / MEGA;
+        worked.push(line(id, device, [rates(device)?.fill_pixels_per_s / MEGA, drawn])?);
+        if device == "nv20" {
+            rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Standing::Predicted { from: "" }))?);
+        }
+    }
+    for (device, id) in CARDS.into_iter().zip(TEN_TRIANGLES) {
+        let drawn = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
+        worked.push(line(id, device, [rates(device)?.tests_per_s(TEN, GAMMAS[0]) / MEGA, drawn])?);
+        rows.push(paper_row(id, (device, Method::Pipeline), (drawn, Standing::Predicted { from: READ_BACK }))?);
     }
     let pixel = pipeline::dual_textured("nv20")?;
     let bytes =
@@ -54,7 +57,9 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     Ok(EntryFindings {
         text: vec![
             "Equation 11 is seconds = T R / fill + R gamma / readback. The GeForce3's fill and read-back rates are printed; the \
-             GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3."
+             GeForce4's fill rate follows from its tests a second at ten triangles, if it reads back as fast as the GeForce3. \
+             A printed figure has one row: that of the pipeline where it is drawn, and of the equation where it is a quotient of \
+             printed values; the table has both."
                 .into(),
             Prose::new(
                 "The pipeline model knows neither fill rate, but reads back at the printed rate. It draws screen-filling quads with two textures of \
@@ -64,47 +69,29 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
             ),
         ],
         rows,
-        tables: vec![pipeline::cost_table(&["nv20", "nv25"])?],
+        tables: vec![worked, pipeline::cost_table(&CARDS)?],
         ..EntryFindings::default()
     })
 }
 
-/// Rows on read-back: the equation's quotient of printed values, and the pipeline's bus, which has the printed rate.
-fn read_back(gamma: f64, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
-    let what = format!("results read back, {gamma} B each");
-    let equation = (rates("nv20")?.results_per_s(gamma) / MEGA, Standing::Predicted { from: READ_BACK });
-    let pipeline = (pipeline::results_per_s("nv20", gamma)? / MEGA, Standing::Calibrated { on: READ_BACK });
-    Ok([
-        PaperRow::new(what.clone(), ("nv20", Method::Equation), target.clone(), equation, Bound::Print),
-        PaperRow::new(what, ("nv20", Method::Pipeline), target, pipeline, Bound::PREDICTION),
-    ])
+/// Line of a printed figure with the values of equation and pipeline.
+fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], ReproduceError> {
+    let figure = printed(id)?;
+    let [equation, pipeline] = ours.map(|value| figure.beside(value));
+    Ok([figure.what.as_str().into(), device.into(), figure.cell(), equation, pipeline])
 }
 
-/// Rows on the fill rate: the equation's input, and the pipeline's prediction.
-fn fill(device: &'static str, target: PaperFigure, on: &'static str) -> Result<[PaperRow; 2], ReproduceError> {
-    let what = "fill rate, two textures a pixel";
-    let equation = (rates(device)?.fill_pixels_per_s / MEGA, Standing::Calibrated { on });
-    let pipeline = (pipeline::dual_textured(device)?.pixels_per_s() / MEGA, Standing::Predicted { from: "" });
-    Ok([
-        PaperRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        PaperRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
-    ])
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// Rows on ten triangles: equation 11 on both cards, the GeForce4's with the fill rate implied by this value; and the
-/// pipeline.
-fn ten_triangles(device: &'static str, target: PaperFigure) -> Result<[PaperRow; 2], ReproduceError> {
-    let what = "tests, ten triangles, 4 B a ray";
-    let standing = if device == "nv20" {
-        Standing::Predicted { from: RATES }
-    } else {
-        Standing::Calibrated { on: "this figure, by the fill rate that it implies" }
-    };
-    let equation = (rates(device)?.tests_per_s(TEN, GAMMAS[0]) / MEGA, standing);
-    let pipeline = pipeline::tests_per_s(device, TEN, GAMMAS[0])? / MEGA;
-    let pipeline = (pipeline, Standing::Predicted { from: READ_BACK });
-    Ok([
-        PaperRow::new(what, (device, Method::Equation), target.clone(), equation, Bound::Print),
-        PaperRow::new(what, (device, Method::Pipeline), target, pipeline, Bound::PREDICTION),
-    ])
+    /// The implied fill rate is equation 11 solved for it.
+    #[test]
+    fn the_fill_rate_of_the_geforce4_is_implied() {
+        let value = |id: &str| printed(id).expect("a figure").value;
+        let tests = value("ray-engine/ten-triangles-geforce4") * MEGA;
+        let readback = value("ray-engine/read-back") * MEGA;
+        let implied = CostRates::implied_fill(tests, TEN, GAMMAS[0], readback) / MEGA;
+        assert_eq!(number(implied, 1), number(value("ray-engine/fill-geforce4"), 1));
+    }
 }

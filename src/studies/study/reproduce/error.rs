@@ -23,6 +23,10 @@ pub enum ReproduceError {
     #[error("device `{device}` has no figure `{figure}`, which this entry needs")]
     #[diagnostic(code(reproduce::no_figure))]
     NoFigure { device: String, figure: &'static str },
+    /// The data of the papers' printed figures is malformed, or lacks a figure.
+    #[error("printed figures of the papers: {reason}")]
+    #[diagnostic(code(reproduce::papers), help("this is a bug: please report it with the command line"))]
+    Papers { reason: String },
     /// A device is invalid.
     #[error(transparent)]
     #[diagnostic(transparent)]

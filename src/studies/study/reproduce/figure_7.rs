@@ -1,19 +1,17 @@
 //! Figure 7: tests per second by the number of triangles, and the minimum number at which a card is faster than the
 //! host.
 
-use super::equation_11::{GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
-use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline};
+use super::equation_11::{CARDS, GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
+use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, Series, Table};
 
-/// Cards of the figure, with their names in it.
-const CARDS: [(&str, &str); 2] = [("nv20", "GeForce3"), ("nv25", "GeForce4 Ti4600")];
+/// Names of the cards in the figure.
+const NAMES: [&str; 2] = ["GeForce3", "GeForce4 Ti4600"];
 /// Numbers of triangles in the table.
 const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 /// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;
-/// Tests per second of hosts: section 4.4's 20 to 40 M on an 800 MHz Pentium III, and "doubling the CPU numbers".
-const HOSTS: [f64; 4] = [20e6, 40e6, 80e6, 200e6];
 
 pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
@@ -21,24 +19,27 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
         "Where a card pays: T_min by the host's tests a second",
         "device gamma_B half_rate_T T_min_20M T_min_40M T_min_80M T_min_200M",
     );
+    // "Doubling the CPU numbers", and a host of later years.
+    let most = printed_value("ray-engine/host-most")? * MEGA;
+    let hosts = [printed_value("ray-engine/host-least")? * MEGA, most, 2.0 * most, 5.0 * most];
     let mut charts = Vec::new();
     for gamma in GAMMAS {
         let mut lines = Vec::new();
-        for (device, title) in CARDS {
+        for (device, title) in CARDS.into_iter().zip(NAMES) {
             let card = rates(device)?;
             let pipeline = pipeline_rates(device)?;
             for triangles in TRIANGLES {
                 let of = |rates: &CostRates| Cell::measured(rates.tests_per_s(f64::from(triangles), gamma) / MEGA);
                 tests.push([device.into(), gamma.into(), triangles.into(), of(&card), of(&pipeline)]);
             }
-            let least = HOSTS.map(|host| card.least_triangles(host, gamma).into());
+            let least = hosts.map(|host| card.least_triangles(host, gamma).into());
             limits.push(
                 [device.into(), gamma.into(), Cell::measured(card.half_rate_triangles(gamma))].into_iter().chain(least),
             );
             lines.push(line(format!("{title}, equation 11"), &card, gamma));
             lines.push(line(format!("{title}, pipeline model"), &pipeline, gamma));
         }
-        charts.push(chart(gamma, lines));
+        charts.push(chart(gamma, lines)?);
     }
     Ok(EntryFindings {
         text: vec![
@@ -67,10 +68,11 @@ fn line(label: String, card: &CostRates, gamma: f64) -> Series {
     Series { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
 }
 
-fn chart(gamma: f64, lines: Vec<Series>) -> EntryChart {
+fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, ReproduceError> {
     // The text gives the points for the id alone.
-    let printed = if gamma == GAMMAS[0] { TEN_TRIANGLES.map(|(_, rate)| (TEN, rate)).into() } else { Vec::new() };
-    EntryChart {
+    let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
+    let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, ReproduceError>>()?;
+    Ok(EntryChart {
         name: if gamma == GAMMAS[0] { "figure-7-gamma-4" } else { "figure-7-gamma-16" },
         chart: Chart {
             title: format!("Ray-triangle tests, {gamma} bytes read back a ray"),
@@ -81,5 +83,5 @@ fn chart(gamma: f64, lines: Vec<Series>) -> EntryChart {
             ..Chart::default()
         },
         caption: Prose::new("Figure 7 of the Ray Engine paper for gamma = {}, in both models.", [gamma.to_string()]),
-    }
+    })
 }

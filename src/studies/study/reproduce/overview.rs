@@ -5,16 +5,16 @@ use strum::VariantArray as _;
 use super::{EntryChart, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
-const JUDGED: &str =
-    "Of {} figures predicted or counted {} are reproduced within their bounds, {} explained and {} missed.";
-const CALIBRATED: &str =
-    "Figures that chose a constant of a model and are no evidence: {}, of them missed all the same: {}.";
+const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted within bounds in numbers, {} are met in order only, and {} are \
+    the paper's own values set against each other; {} are explained, {} missed, and {} contradicted by their own paper.";
+const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
+const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
 /// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    for sentence in [judged(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
+    for sentence in [judged(&rows), rounded(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
         all.conclusion(sentence.to_string());
     }
     for entry in tally(&rows) {
@@ -42,9 +42,14 @@ pub(super) fn overview_chart(all: &mut Findings, found: &Reproduced) {
 
 const fn tone(verdict: RowVerdict) -> Tone {
     match verdict {
-        RowVerdict::Reproduced => Tone::Good,
+        RowVerdict::Predicted => Tone::Good,
         RowVerdict::Missed => Tone::Bad,
-        RowVerdict::Calibrated | RowVerdict::Explained | RowVerdict::TooVague => Tone::Neutral,
+        RowVerdict::OrderOnly
+        | RowVerdict::Consistent
+        | RowVerdict::Calibrated
+        | RowVerdict::Explained
+        | RowVerdict::Contradictory
+        | RowVerdict::TooVague => Tone::Neutral,
     }
 }
 
@@ -58,9 +63,22 @@ const fn chose_a_constant(row: &PaperRow) -> bool {
 
 fn judged(rows: &[&PaperRow]) -> Option<Prose> {
     let of = |verdict: RowVerdict| count(rows, |row| !chose_a_constant(row) && row.verdict() == verdict);
+    let verdicts = [
+        RowVerdict::Predicted,
+        RowVerdict::OrderOnly,
+        RowVerdict::Consistent,
+        RowVerdict::Explained,
+        RowVerdict::Missed,
+        RowVerdict::Contradictory,
+    ];
     let judged = count(rows, |row| !chose_a_constant(row));
-    let figures = [judged, of(RowVerdict::Reproduced), of(RowVerdict::Explained), of(RowVerdict::Missed)];
+    let figures = std::iter::once(judged).chain(verdicts.map(of));
     (judged > 0).then(|| Prose::new(JUDGED, figures.map(|figure| figure.to_string())))
+}
+
+fn rounded(rows: &[&PaperRow]) -> Option<Prose> {
+    let all = count(rows, |row| row.contradiction().is_none() && row.holds_by_rounding());
+    (all > 0).then(|| Prose::new(ROUNDED, [all.to_string()]))
 }
 
 fn calibrated(rows: &[&PaperRow]) -> Option<Prose> {
@@ -83,13 +101,21 @@ fn ratio(row: &PaperRow) -> f64 {
 fn farthest(rows: &[&PaperRow]) -> Option<Prose> {
     let missed = rows.iter().filter(|row| row.verdict() == RowVerdict::Missed);
     let (row, _) = missed.filter_map(|row| Some((row, distance(row)?))).max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let figures = [row.what.clone(), row.device.to_owned(), row.target.place.to_owned(), number(ratio(row), 2)];
+    let figures = [row.target.what.clone(), row.device.to_owned(), row.target.place.clone(), number(ratio(row), 2)];
     Some(Prose::new(FARTHEST, figures))
 }
 
 /// Verdicts in the order of the chart: the first two have the colors of the tally.
-const ORDER: [RowVerdict; 5] =
-    [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Calibrated, RowVerdict::Explained, RowVerdict::TooVague];
+const ORDER: [RowVerdict; 8] = [
+    RowVerdict::Predicted,
+    RowVerdict::Missed,
+    RowVerdict::OrderOnly,
+    RowVerdict::Consistent,
+    RowVerdict::Calibrated,
+    RowVerdict::Explained,
+    RowVerdict::Contradictory,
+    RowVerdict::TooVague,
+];
 
 /// Chart of our values relative to the papers', a point per row, in the order of `rows.csv`; `None` for fewer than two
 /// rows that can be shown.

@@ -4,12 +4,12 @@ use serde_json::json;
 use strum::VariantArray as _;
 
 use super::overview::{overview, overview_chart, tally as counts};
-use super::papers::summary_lines;
+use super::summary::summary_lines;
 use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
-const COLUMNS: &str = "entry what device method place origin unit paper ours difference_% standing printed_inputs bound low high \
-     verdict explanation";
+const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% standing \
+     printed_inputs bound low high by_rounding verdict explanation contradiction";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -19,51 +19,59 @@ fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
 fn rows(found: &Reproduced) -> Table {
     let mut table = Table::of("The papers' figures and ours", COLUMNS);
     for (entry, row) in all(found) {
-        let [low, high] = limits(row);
+        let [low, high] = ends(row.interval());
+        let [least, most] = ends(row.range());
         let target = &row.target;
         table.push([
             entry.into(),
-            row.what.as_str().into(),
+            target.id.as_str().into(),
+            target.what.as_str().into(),
             row.device.into(),
             row.method.to_string().into(),
-            target.place.into(),
+            target.place.as_str().into(),
             format!("{} {}", target.origin, target.origin.how()).trim().into(),
-            target.unit.into(),
+            target.unit.as_str().into(),
             target.value.into(),
             row.ours.into(),
+            least,
+            most,
             Cell::percent(100.0 * row.difference()),
             row.standing.to_string().into(),
             row.standing.inputs().into(),
             row.bound.text().into(),
             low,
             high,
+            row.holds_by_rounding().into(),
             row.verdict().to_string().into(),
             row.explanation().map(super::Explanation::text).into(),
+            row.contradiction().map(|contradiction| contradiction.text().to_owned()).into(),
         ]);
     }
     table
 }
 
-fn limits(row: &PaperRow) -> [Cell; 2] {
-    let limit = |value: Option<f64>| value.into();
-    let interval = row.bound.interval(&row.target);
-    [limit(interval.map(|[low, _]| low)), limit(interval.map(|[_, high]| high))]
+fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
+    let end = |value: Option<f64>| value.into();
+    [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
 }
 
-const SHOWN: [&str; 10] =
-    ["what", "place", "unit", "paper", "ours", "difference_%", "verdict", "bound", "device", "method"];
+const SHOWN: [&str; 11] =
+    ["what", "place", "unit", "paper", "ours", "readings", "difference_%", "verdict", "bound", "device", "method"];
 
-fn shown(row: &PaperRow) -> [Cell; 10] {
+fn shown(row: &PaperRow) -> [Cell; 11] {
     let target = &row.target;
+    let readings = row.range().map(|range| range.map(|end| target.beside(end).text()).join(" to "));
+    let rounded = if row.holds_by_rounding() { ", by the rounding of the print" } else { "" };
     [
-        row.what.as_str().into(),
-        target.place.into(),
-        target.unit.into(),
+        target.what.as_str().into(),
+        target.place.as_str().into(),
+        target.unit.as_str().into(),
         target.cell(),
         target.beside(row.ours),
+        readings.into(),
         Cell::decimals(100.0 * row.difference(), 1),
         row.verdict().to_string().into(),
-        row.bound.text().into(),
+        format!("{}{rounded}", row.bound.text()).into(),
         row.device.into(),
         row.method.to_string().into(),
     ]
@@ -87,12 +95,12 @@ pub fn tables(found: &Reproduced) -> [Table; 2] {
     [of("Predicted and counted", false), of("Calibrated: no evidence", true)]
 }
 
-/// Table of notes: origins of values that are not printed, inputs of calibration, and explanations of rows outside
-/// their bounds; each reason once, with its rows.
+/// Table of notes: origins of values that are not printed, inputs of calibration, explanations of rows outside their
+/// bounds, and contradictions within the paper; each reason once, with its rows.
 pub fn notes(found: &Reproduced) -> Table {
     let mut notes: Vec<([String; 2], Vec<String>)> = Vec::new();
     for (_, row) in all(found) {
-        let name = format!("{} ({})", row.what, row.target.place);
+        let name = format!("{} ({})", row.target.what, row.target.place);
         let mut note = |kind: &str, reason: String, row: String| {
             let key = [kind.to_owned(), reason];
             match notes.iter_mut().find(|(other, _)| *other == key) {
@@ -111,8 +119,11 @@ pub fn notes(found: &Reproduced) -> Table {
             let value = row.target.beside(explanation.value()).text();
             note("explained", explanation.reason(), format!("{name}: {value} there"));
         }
+        if let Some(contradiction) = row.contradiction() {
+            note("contradictory", contradiction.text().to_owned(), name);
+        }
     }
-    let mut table = Table::of("Origins, calibrations and explanations", "count kind reason figures");
+    let mut table = Table::of("Origins, calibrations, explanations and contradictions", "count kind reason figures");
     for ([kind, reason], rows) in notes {
         table.push([rows.len().into(), kind.into(), reason.into(), rows.join("; ").into()]);
     }
@@ -132,21 +143,21 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
     all(found).filter(|(_, row)| row.verdict() == verdict).count()
 }
 
-/// Formats the tally in one line: explained rows do not count as reproduced.
+/// Formats the tally in one line: explained rows do not count as met, and what is met is told apart by its evidence.
 pub fn tally_line(found: &Reproduced) -> String {
-    let [reproduced, calibrated, explained, missed, vague] = [
-        RowVerdict::Reproduced,
-        RowVerdict::Calibrated,
-        RowVerdict::Explained,
-        RowVerdict::Missed,
-        RowVerdict::TooVague,
-    ]
-    .map(|verdict| count(found, verdict));
+    let of = |verdict| count(found, verdict);
+    let [explained, missed] = [of(RowVerdict::Explained), of(RowVerdict::Missed)];
     format!(
-        "{} figures: {reproduced} reproduced; {} outside their bounds, {explained} of them explained and {missed} missed; \
-         {calibrated} calibrated, no evidence; {vague} too vague to judge",
+        "{} figures: {} predicted, {} in order only, {} consistent in print; {} outside their bounds, {explained} of them \
+         explained and {missed} missed; {} contradicted by their own paper; {} calibrated, no evidence; {} too vague to judge",
         all(found).count(),
+        of(RowVerdict::Predicted),
+        of(RowVerdict::OrderOnly),
+        of(RowVerdict::Consistent),
         explained + missed,
+        of(RowVerdict::Contradictory),
+        of(RowVerdict::Calibrated),
+        of(RowVerdict::TooVague),
     )
 }
 
@@ -166,12 +177,13 @@ pub fn held(found: &Reproduced) -> bool {
     count(found, RowVerdict::Missed) == 0
 }
 
-const HOW: &str = "The papers' figures beside ours. A figure is printed, implied by printed ones, or inferred by us. Ours is predicted, counted, or \
-    calibrated, which means that the figure chose a constant of the model: those stand apart and are no evidence. A row is reproduced \
-    within a bound that was stated before ours was worked out: every printed digit where a paper's own equation is \
-    worked with its printed rates; {} % of the paper's value for predictions, or of the gain over the host alone where the host was calibrated. \
-    Outside it is missed, unless a sweep of this run over something that the papers leave open reaches the value without losing \
-    another row that holds: then it is explained, with the setting. Differences are shares of the paper's value.";
+const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us; its bound is \
+    data, and was stated before ours was worked out. Within the bound a row is predicted if ours is drawn, solved, counted or timed and the bound is in \
+    numbers ({} % of the paper's value, or of the gain over the host alone where the host was calibrated; every digit of what is counted or solved); order only if the bound \
+    is which of two values is larger; and consistent in print if nothing is run and the paper's values are set against each other. Calibrated rows chose a constant of \
+    the model: they stand apart and are no evidence. Where the text allows several readings, all must lie within the bound. Outside it a row is missed, unless a sweep of this \
+    run over something that the papers leave open reaches the value without losing another row that holds: then it is explained, with the setting. \
+    Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value.";
 
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");

@@ -1,60 +1,27 @@
 //! Section 3: errors of ten terms and of spherical harmonics for two reflectances, and Figure 3.
 
 use super::forms::{Form, FormErrors, ORDERS, TERMS, cook_torrance, schlick};
-use super::{
-    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared,
-    Standing, Sweep, number, roughness,
-};
+use super::{EntryFindings, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, number, roughness, solved};
 
-const PLACE: &str = "section 3";
-
-/// Reflectance with its printed errors: RMS and maximum of the terms, then of each order.
-struct Printed {
+/// PrintedReflectance in the names of its figures, with its forms.
+struct PrintedReflectance {
+    id: &'static str,
     name: &'static str,
     forms: fn() -> Vec<Form>,
     sweep: &'static str,
-    /// Errors with their digits after the point.
-    errors: [(f64, u8); 10],
 }
 
-const PRINTED: [Printed; 2] = [
-    Printed {
+const REFLECTANCES: [PrintedReflectance; 2] = [
+    PrintedReflectance {
+        id: "cook-torrance",
         name: "Cook-Torrance",
         forms: cook_torrance,
         sweep: "forms of Cook and Torrance's model",
-        errors: [
-            (0.0677, 4),
-            (0.554, 3),
-            (0.156, 3),
-            (1.21, 2),
-            (0.102, 3),
-            (0.967, 3),
-            (0.0708, 4),
-            (0.727, 3),
-            (0.0538, 4),
-            (0.532, 3),
-        ],
     },
-    Printed {
-        name: "Schlick",
-        forms: schlick,
-        sweep: "forms of Schlick's model",
-        errors: [
-            (0.0389, 4),
-            (0.298, 3),
-            (0.121, 3),
-            (0.634, 3),
-            (0.0766, 4),
-            (0.438, 3),
-            (0.0511, 4),
-            (0.333, 3),
-            (0.038, 3),
-            (0.267, 3),
-        ],
-    },
+    PrintedReflectance { id: "schlick", name: "Schlick", forms: schlick, sweep: "forms of Schlick's model" },
 ];
 
-const HOW: &str = "Reflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
+const HOW: &str = "PrintedReflectance times cosine on parabolic maps of {} x {} texels, {} samples per pair of texels, means cut off at {}; {} terms of the \
     singular value decomposition, and spherical harmonics by integrals over the hemisphere for view and light. Errors are over the {} x {} pairs \
     of texels whose directions lie above the horizon. The paper names the models and their parameters, and none of their factors: the rows have \
     the form of the textbooks, in which no energy is made; the tables beside them have the other printed denominators, and forms that a search beforehand had found nearer. \
@@ -63,19 +30,22 @@ const QUESTION: &str = "which denominators, Fresnel and shadowing terms the pape
     taken, and whether the harmonics expand view, light or both.";
 
 pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let (mut rows, mut tables) = (Vec::new(), Vec::new());
-    for printed in &PRINTED {
+    let (mut rows, mut tables, mut functions) = (Vec::new(), Vec::new(), Vec::new());
+    for reflectance in &REFLECTANCES {
         let mut settings = Vec::new();
-        for form in (printed.forms)() {
+        for form in (reflectance.forms)() {
             settings.push(Setting { at: form.0.to_owned(), values: FormErrors::new(&form)?.values() });
         }
-        let sweep = Sweep { name: printed.sweep, parameter: "form", settings };
-        let mut found = printed.rows(&sweep.settings[0].values);
+        let sweep = Sweep { name: reflectance.sweep, parameter: "form", settings };
+        let stated = &sweep.settings[0].values;
+        let mut found = reflectance.rows(stated)?;
+        functions.extend(stated.last());
         sweep.explain(&mut found);
-        let title = format!("{}: errors by the form of its factors", printed.name);
+        let title = format!("{}: errors by the form of its factors", reflectance.name);
         tables.push(sweep.table(&title, &found, (None, |value| value)));
         rows.extend(found);
     }
+    rows.push(solved("functions-over-terms", functions[0])?.with_readings(functions[1..].iter().copied()));
     let swept = roughness::sweep()?;
     rows.push(swept.row);
     tables.extend(swept.tables);
@@ -101,33 +71,13 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     })
 }
 
-impl Printed {
-    /// Rows for the values of [`FormErrors::values`].
-    fn rows(&self, values: &[f64]) -> Vec<PaperRow> {
-        let row = |what: String, target: PaperFigure, ours: f64, bound: Bound| {
-            PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), bound)
-        };
-        let name = self.name;
-        let basis = |at: usize| match at.checked_sub(1) {
-            None => format!("{TERMS} terms"),
-            Some(at) => format!("harmonics of order {}", ORDERS[at]),
-        };
-        let mut rows = Vec::new();
-        for (at, &(printed, decimals)) in self.errors.iter().enumerate() {
-            let kind = ["RMS", "largest"][at % 2];
-            let target = PaperFigure::printed(printed, decimals, "1/sr", PLACE);
-            rows.push(row(format!("{name}, {}: {kind} error", basis(at / 2)), target, values[at], Bound::PREDICTION));
-        }
-        let rms = |at: usize| self.errors[2 * at].0;
-        let mut order = |what: &str, above: f64, below: f64, ours: f64| {
-            let implied = Origin::Implied(format!("{above} / {below}"));
-            let target = PaperFigure { origin: implied, ..PaperFigure::printed(above / below, 2, "times", PLACE) };
-            rows.push(row(format!("{name}: {what}"), target, ours, Bound::Order));
-        };
-        order("RMS error of order 6 over that of 10 terms", rms(3), rms(0), values[10]);
-        order("RMS error of 10 terms over that of order 7", rms(0), rms(4), values[11]);
-        let target = PaperFigure::printed(4.0, 1, "times", PLACE);
-        rows.push(row(format!("{name}: functions as near as 10 terms, over 10"), target, values[12], Bound::AtLeast));
-        rows
+impl PrintedReflectance {
+    /// Rows for the values of [`FormErrors::values`], but for the last.
+    fn rows(&self, values: &[f64]) -> Result<Vec<PaperRow>, ReproduceError> {
+        let bases = std::iter::once("terms".to_owned()).chain(ORDERS.map(|order| format!("order-{order}")));
+        let errors = bases.flat_map(|basis| ["rms", "largest"].map(|kind| format!("{basis}-{kind}")));
+        let orders = ["order-6-over-terms", "terms-over-order-7"].map(str::to_owned);
+        let figures = errors.chain(orders).zip(values);
+        figures.map(|(figure, &ours)| solved(&format!("{}-{figure}", self.id), ours)).collect()
     }
 }

@@ -39,7 +39,7 @@ pub(super) const CODINGS: [Coding; 5] = [
 pub(super) struct Coding {
     pub(super) name: &'static str,
     /// Bits of the largest number.
-    bits: u8,
+    pub(super) bits: u8,
     scale: ScaleOf,
 }
 

@@ -1,7 +1,7 @@
 //! Figure 3: ten terms of Cook and Torrance's model by roughness.
 
 use super::forms::{TERMS, bare};
-use super::{Bound, HOST, Method, PaperFigure, PaperRow, ReproduceError, Standing, failed};
+use super::{HOST, PaperRow, ReproduceError, failed, solved};
 use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
 use crate::report::{NamedPicture, Table};
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
@@ -24,15 +24,7 @@ pub(super) fn sweep() -> Result<Figure3, ReproduceError> {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     let textbook = swept("normalised", lobe)?;
     let bare = swept("distribution alone", bare(lobe))?;
-    let target = PaperFigure::printed(0.3, 1, "-", "figure 3");
-    let what = "roughness below which spheres of ten terms differ to the eye";
-    let row = PaperRow::new(
-        what,
-        (HOST, Method::Solver),
-        target,
-        (threshold(&textbook.1), Standing::Counted),
-        Bound::TooVague,
-    );
+    let row = solved("roughness", threshold(&textbook.1))?;
     let centers = FactorSampling { supersamples: Supersamples::NONE, ..FactorSampling::default() };
     let table = centers.table(&lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
     let [inside, _] = DiscSamples::new(&table).counts();

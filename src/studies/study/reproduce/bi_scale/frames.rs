@@ -1,9 +1,10 @@
 //! Frame rates of both tables: with only the view changing, and with changing light too.
 
 use super::display::{CARD, DisplayRun, display};
-use super::printed::{PrintedScene, SCENES};
+use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, number,
+    Contradiction, EntryFindings, Method, PaperRow, Prose, ReproduceError, Shared, Standing, number, paper_row,
+    printed_value, solved,
 };
 use crate::report::{Cell, Table};
 
@@ -18,36 +19,41 @@ const PICTURE: [u32; 2] = [640, 480];
 struct PrintedFrames {
     scene: &'static PrintedScene,
     place: &'static str,
-    /// Frames per second: with only the view changing, and with changing light too.
+    /// Names of the figures: with only the view changing, and with changing light too.
+    ids: [String; 2],
+    /// Frames per second of these.
     rates: [f64; 2],
+    /// Operations of a transfer, for one channel.
+    operations: f64,
 }
 
-const fn printed(scene: &'static PrintedScene, place: &'static str, rates: [f64; 2]) -> PrintedFrames {
-    PrintedFrames { scene, place, rates }
-}
-
-const FRAMES: [PrintedFrames; 7] = [
-    printed(&SCENES[0], "table 1", [97.0, 56.1]),
-    printed(&SCENES[1], "table 1", [42.8, 24.9]),
-    printed(&SCENES[2], "table 1", [51.8, 33.7]),
-    printed(&SCENES[3], "table 1", [61.1, 34.3]),
-    printed(&SCENES[0], "table 2", [277.9, 86.8]),
-    printed(&SCENES[4], "table 2", [115.8, 32.3]),
-    printed(&SCENES[5], "table 2", [48.5, 11.9]),
+/// Scenes with their tables, and the endings of the names of their figures.
+const FRAMES: [(&PrintedScene, &str, &str); 7] = [
+    (&SCENES[0], "table 1", ""),
+    (&SCENES[1], "table 1", ""),
+    (&SCENES[2], "table 1", ""),
+    (&SCENES[3], "table 1", ""),
+    (&SCENES[0], "table 2", "-2"),
+    (&SCENES[4], "table 2", "-2"),
+    (&SCENES[5], "table 2", "-2"),
 ];
 /// Number of these that are in Table I.
 const IN_TABLE_1: usize = 4;
 
 impl PrintedFrames {
+    fn all() -> Result<Vec<Self>, ReproduceError> {
+        let frames = |&(scene, place, ending): &(&'static PrintedScene, &'static str, &str)| {
+            let ids = ["view", "light"].map(|what| format!("{}{ending}", scene.figure(what)));
+            let rates = [printed_value(&ids[0])?, printed_value(&ids[1])?];
+            Ok(Self { scene, place, ids, rates, operations: 1e6 * scene.printed("operations-after")?.value })
+        };
+        FRAMES.iter().map(frames).collect()
+    }
+
     /// Seconds of a transfer.
     fn transfer(&self) -> f64 {
         let [view, light] = self.rates;
         1.0 / light - 1.0 / view
-    }
-
-    /// Operations of a transfer, for one channel.
-    fn operations(&self) -> f64 {
-        1e6 * self.scene.operations[1]
     }
 
     fn name(&self) -> String {
@@ -56,19 +62,20 @@ impl PrintedFrames {
 }
 
 /// Operations per second over all transfers of Table I.
-fn constant() -> f64 {
-    let all = &FRAMES[..IN_TABLE_1];
-    all.iter().map(PrintedFrames::operations).sum::<f64>() / all.iter().map(PrintedFrames::transfer).sum::<f64>()
+fn constant(printed: &[PrintedFrames]) -> f64 {
+    let all = &printed[..IN_TABLE_1];
+    all.iter().map(|frames| frames.operations).sum::<f64>() / all.iter().map(PrintedFrames::transfer).sum::<f64>()
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let constant = constant();
+    let printed = PrintedFrames::all()?;
+    let constant = constant(&printed);
     let bunny = shared.bi_scale.bunny()?;
     let run = display((&bunny.mesh, &bunny.vertices), SCENES[0].side, PICTURE)?;
-    let mut rows: Vec<PaperRow> =
-        FRAMES.iter().enumerate().map(|(at, frames)| light_row(frames, at < IN_TABLE_1, constant)).collect();
-    rows.extend([&FRAMES[0], &FRAMES[IN_TABLE_1]].map(|frames| view_row(frames, &run)));
-    rows.extend(sentences(shared, &run, constant)?);
+    let light = printed.iter().enumerate().map(|(at, frames)| light_row(frames, at < IN_TABLE_1, constant));
+    let mut rows: Vec<PaperRow> = light.collect::<Result<_, _>>()?;
+    rows.extend(view_rows(&printed, &run)?);
+    rows.extend(sentences(shared, &run, printed[0].operations / constant)?);
     let [reads, others] = run.counts.pixel_slots;
     let numbers = [f64::from(PICTURE[0]), f64::from(PICTURE[1]), run.counts.passes as f64].into_iter().chain([
         run.counts.directions_per_pass as f64,
@@ -80,70 +87,57 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         text: vec![Prose::new(HOW, values)],
         rows,
         questions: vec![QUESTION],
-        tables: vec![table(constant), of_display(&run)],
+        tables: vec![table(&printed, constant), of_display(&run)],
         ..EntryFindings::default()
     })
 }
 
-fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> PaperRow {
-    let target = PaperFigure::printed(frames.rates[1], 1, "frames/s", frames.place);
+fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, ReproduceError> {
     let standing = if is_of_table_1 {
         Standing::Calibrated { on: "rates of table I" }
     } else {
         Standing::Predicted { from: "rates of table I, operations, rates of views" }
     };
-    let ours = 1.0 / (1.0 / frames.rates[0] + frames.operations() / constant);
-    let what = format!("{}: light changed too", frames.scene.name);
-    PaperRow::new(what, (CARD, Method::Equation), target, (ours, standing), Bound::PREDICTION)
+    let ours = 1.0 / (1.0 / frames.rates[0] + frames.operations / constant);
+    paper_row(&frames.ids[1], (CARD, Method::Equation), (ours, standing))
 }
 
-fn view_row(frames: &PrintedFrames, run: &DisplayRun) -> PaperRow {
-    let target = PaperFigure::printed(frames.rates[0], 1, "frames/s", frames.place);
-    let standing = Standing::Predicted { from: "" };
-    let what = format!("{}: view changed alone", frames.scene.name);
-    PaperRow::new(what, (CARD, Method::Pipeline), target, (run.time.per_second(), standing), Bound::PREDICTION)
+/// Rows on the views of the small bunny, whose rates in the two tables contradict each other.
+fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, ReproduceError> {
+    let [one, two] = [&all[0], &all[IN_TABLE_1]];
+    let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
+        let ours = (run.time.per_second(), Standing::Predicted { from: "" });
+        let row = paper_row(&frames.ids[0], (CARD, Method::Pipeline), ours)?;
+        let how = format!("the same bunny on the same card in {}", other.place);
+        let contradiction = Contradiction::between(&row.target, other.rates[0], &how);
+        Ok(row.contradicted(contradiction))
+    };
+    [(one, two), (two, one)].into_iter().map(row).collect()
 }
 
 /// Rows on "roughly comparable", and on the dominant cost.
-fn sentences(shared: &Shared, run: &DisplayRun, constant: f64) -> Result<[PaperRow; 2], ReproduceError> {
-    let comparable = PaperFigure {
-        origin: Origin::Inferred("\"roughly comparable\"".to_owned()),
-        ..PaperFigure::printed(1.0, 0, "times", "section 6")
-    };
-    let ratio = FRAMES[0].operations() / constant / run.time.frame.seconds();
+fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], ReproduceError> {
     let from = Standing::Predicted { from: "rates of table I, operations" };
+    let comparable = (transfer / run.time.frame.seconds(), from);
     let biclusters = &shared.bi_scale.biclusters()?.biclusters;
     let gathered = biclusters.row_entries() as f64;
     let share = 100.0 * gathered / (gathered + 2.0 * biclusters.column_entries() as f64);
-    let dominates = PaperFigure {
-        origin: Origin::Inferred("\"dominated by the gathering phase\": more than half".to_owned()),
-        ..PaperFigure::printed(50.0, 0, "%", "section 6")
-    };
-    Ok([
-        PaperRow::new("transfer over display", (CARD, Method::Pipeline), comparable, (ratio, from), Bound::TooVague),
-        PaperRow::new(
-            "share of a transfer's operations that gather",
-            (super::HOST, Method::Solver),
-            dominates,
-            (share, Standing::Counted),
-            Bound::AtLeast,
-        ),
-    ])
+    Ok([paper_row("bi-scale/comparable", (CARD, Method::Pipeline), comparable)?, solved("gathering", share)?])
 }
 
-fn table(constant: f64) -> Table {
+fn table(printed: &[PrintedFrames], constant: f64) -> Table {
     let mut table = Table::of(
         "What light costs, from printed rates",
         "scene operations_M transfer_ms_printed billion_operations_per_second transfer_ms view_ms transfer_over_view",
     );
-    for frames in &FRAMES {
+    for frames in printed {
         let (transfer, view) = (frames.transfer(), 1.0 / frames.rates[0]);
         table.push([
             frames.name().into(),
-            Cell::decimals(1e-6 * frames.operations(), 1),
+            Cell::decimals(1e-6 * frames.operations, 1),
             Cell::decimals(1e3 * transfer, 1),
-            Cell::measured(1e-9 * frames.operations() / transfer),
-            Cell::decimals(1e3 * frames.operations() / constant, 1),
+            Cell::measured(1e-9 * frames.operations / transfer),
+            Cell::decimals(1e3 * frames.operations / constant, 1),
             Cell::decimals(1e3 * view, 1),
             Cell::measured(transfer / view),
         ]);

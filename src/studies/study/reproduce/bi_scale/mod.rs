@@ -7,7 +7,7 @@ mod figure_8;
 mod figures;
 mod frames;
 mod models;
-mod printed;
+mod scenes;
 mod table_1;
 mod table_2;
 
@@ -24,6 +24,12 @@ use super::once::get_or_try;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Bound, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number,
+    Contradiction, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number,
+    paper_row, printed, printed_value,
 };
-use printed::HOST;
+use scenes::HOST;
+
+/// Row of a value that is computed in f64 and uses no printed one.
+fn solved(id: &str, ours: f64) -> Result<PaperRow, ReproduceError> {
+    paper_row(&format!("bi-scale/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
+}

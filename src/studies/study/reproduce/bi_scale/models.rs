@@ -46,7 +46,7 @@ impl BiScaleShared {
 
     /// Its biclusters with the directions of both tables.
     pub(super) fn biclusters(&self) -> Result<&ClusteredModel, ReproduceError> {
-        get_or_try(&self.biclusters, || self.bunny()?.clustered(super::printed::SCENES[0].side))
+        get_or_try(&self.biclusters, || self.bunny()?.clustered(super::scenes::SCENES[0].side))
     }
 }
 

@@ -1,11 +1,8 @@
 //! Table I on stand-ins: biclusters of an armor, a chair and a temple; the bunny is Table II's.
 
 use super::models::{ClusteredModel, ModelVisibility};
-use super::printed::{PrintedScene, SCENES};
-use super::{
-    Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
-    Standing, number,
-};
+use super::scenes::{PrintedScene, SCENES};
+use super::{EntryFindings, ModelSize, PaperRow, Prose, ReproduceError, Shared, number, solved};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::flat_models::FlatModel;
@@ -36,16 +33,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (scene, mesh) in models {
         let seen = ModelVisibility::new(&mesh, Horizon::Geometry)?;
         let (vertices, found) = (seen.vertices.len(), seen.clustered(scene.side)?);
-        rows.extend(scene_rows(scene, vertices, &found));
+        rows.extend(scene_rows(scene, vertices, &found)?);
         table.push([
             scene.name.into(),
-            scene.vertices.into(),
+            scene.vertices()?.into(),
             vertices.into(),
             Cell::decimals(1e-6 * found.nonzeros as f64, 2),
             found.biclusters.len().into(),
-            Cell::decimals(1e3 * scene.nonzeros / scene.vertices as f64, 2),
+            scene.printed("per-vertex")?.cell(),
             Cell::decimals(per_vertex(&found, vertices), 2),
-            Cell::decimals(scene.operations_left, 1),
+            scene.printed("left")?.cell(),
             Cell::decimals(found.operations_left(), 1),
             Cell::decimals(found.megabytes(), 1),
             Cell::decimals(3e-6 * found.nonzeros as f64, 1),
@@ -65,18 +62,7 @@ fn per_vertex(found: &ClusteredModel, vertices: usize) -> f64 {
     1e-3 * found.nonzeros as f64 / vertices as f64
 }
 
-fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> [PaperRow; 2] {
-    let implied = Origin::Implied(format!("{} million of {} vertices", scene.nonzeros, scene.vertices));
-    let printed = 1e3 * scene.nonzeros / scene.vertices as f64;
-    let values =
-        PaperFigure { origin: implied, ..PaperFigure::printed(printed, 2, "thousand per vertex", scene.place) };
-    let left = PaperFigure::printed(scene.operations_left, 1, "%", scene.place);
-    let row = |what: &str, target, ours| {
-        let name = format!("{}: {what}", scene.name);
-        PaperRow::new(name, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
-    };
-    [
-        row("values of our model's T other than 0", values, per_vertex(found, vertices)),
-        row("operations that our model's biclusters leave", left, found.operations_left()),
-    ]
+fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> Result<[PaperRow; 2], ReproduceError> {
+    let row = |what: &str, ours| solved(&format!("{what}-{}", scene.id), ours);
+    Ok([row("per-vertex", per_vertex(found, vertices))?, row("left", found.operations_left())?])
 }

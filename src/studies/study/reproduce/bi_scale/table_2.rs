@@ -1,11 +1,8 @@
 //! Table II on stand-ins: biclusters of models with the printed vertex counts.
 
 use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
-use super::printed::{BUNNIES, PrintedScene};
-use super::{
-    Bound, EntryFindings, HOST, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
-    number,
-};
+use super::scenes::{BUNNIES, PrintedScene};
+use super::{EntryFindings, ModelSize, PaperRow, Prose, ReproduceError, Shared, number, solved};
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::visibility::Horizon;
@@ -25,10 +22,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
          operations_left_%_printed operations_left_% MB_printed MB by_rows_3_bytes_MB",
     );
     let computed = if shared.models == ModelSize::Reduced { 1 } else { BUNNIES.len() };
-    let (mut rows, mut fewer) = (Vec::new(), 0.0);
-    for (scene, model) in BUNNIES.into_iter().zip(MODELS).take(computed) {
+    let mut fewer = 0.0;
+    for (at, (scene, model)) in BUNNIES.into_iter().zip(MODELS).take(computed).enumerate() {
         let larger;
-        let found = if rows.is_empty() {
+        let found = if at == 0 {
             let found = shared.bi_scale.biclusters()?;
             let above = ModelVisibility::new(&model.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
@@ -37,47 +34,43 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             larger = ModelVisibility::new(&model.mesh(1), Horizon::Geometry)?.clustered(scene.side)?;
             &larger
         };
-        rows.extend(scene_rows(scene, found));
-        table.push(line(scene, found));
+        table.push(line(scene, found)?);
     }
     let side = BUNNIES[0].side as f64;
     let samples = f64::from(1_u32 << LOG2_SAMPLES);
     let values = [number(side, 0), number(side, 0), number(samples, 0), number(samples, 0), number(fewer, 1)];
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, values)],
-        rows,
+        rows: rows(shared.bi_scale.biclusters()?)?,
         questions: vec![QUESTION],
         tables: vec![table],
         ..EntryFindings::default()
     })
 }
 
-fn scene_rows(scene: &PrintedScene, found: &ClusteredModel) -> [PaperRow; 3] {
-    let row = |what: &str, value, unit, ours| {
-        let target = PaperFigure::printed(value, 1, unit, "table 2");
-        let name = format!("{}: {what}", scene.name);
-        PaperRow::new(name, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::PREDICTION)
-    };
-    [
-        row("values other than 0", scene.nonzeros, "million", 1e-6 * found.nonzeros as f64),
-        row("operations left", scene.operations_left, "%", found.operations_left()),
-        row("biclusters", scene.megabytes[1], "MB", found.megabytes()),
-    ]
+/// Rows of the small bunny. The rows of the larger ones are those of sizes; what full size gives stands in the table.
+fn rows(found: &ClusteredModel) -> Result<Vec<PaperRow>, ReproduceError> {
+    Ok(vec![
+        solved("nonzeros-bunny", 1e-6 * found.nonzeros as f64)?,
+        solved("left-bunny", found.operations_left())?,
+        solved("biclusters-bunny", found.megabytes())?,
+    ])
 }
 
-fn line(scene: &PrintedScene, found: &ClusteredModel) -> Vec<Cell> {
-    vec![
+fn line(scene: &PrintedScene, found: &ClusteredModel) -> Result<Vec<Cell>, ReproduceError> {
+    let printed = |what: &str| Ok::<_, ReproduceError>(scene.printed(what)?.cell());
+    Ok(vec![
         scene.name.into(),
-        scene.vertices.into(),
-        Cell::decimals(scene.nonzeros, 1),
+        scene.vertices()?.into(),
+        printed("nonzeros")?,
         Cell::decimals(1e-6 * found.nonzeros as f64, 2),
         found.biclusters.len().into(),
         found.biclusters.row_entries().into(),
         found.biclusters.column_entries().into(),
-        Cell::decimals(scene.operations_left, 1),
+        printed("left")?,
         Cell::decimals(found.operations_left(), 1),
-        Cell::decimals(scene.megabytes[1], 1),
+        printed("biclusters")?,
         Cell::decimals(found.megabytes(), 1),
         Cell::decimals(3e-6 * found.nonzeros as f64, 1),
-    ]
+    ])
 }

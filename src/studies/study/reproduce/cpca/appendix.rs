@@ -1,58 +1,26 @@
 //! Section 9 and the related part of section 3.2: hemispherical projections.
 
-use super::{EntryFindings, HOST, PaperRow, ReproduceError, every_digit, failed};
+use super::{EntryFindings, HOST, PaperRow, ReproduceError, failed, solved};
 use crate::report::{Cell, Table};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
 /// Order of the projected functions.
 const ORDER: usize = 5;
 
-/// Projection with its target order, and the printed values: functions with a coefficient, worst and average error with
-/// their digits.
-struct Printed {
-    name: &'static str,
+/// Projection with its target order, as the names of its figures begin.
+struct Projected {
+    id: &'static str,
     projection: HemisphereProjection,
     order: usize,
-    functions: Option<f64>,
-    worst: (f64, u8),
-    average: (f64, u8),
 }
 
 use HemisphereProjection::{EvenReflection, OddReflection, ZeroHemisphere};
 
-const PRINTED: [Printed; 4] = [
-    Printed {
-        name: "zero hemisphere",
-        projection: ZeroHemisphere,
-        order: 5,
-        functions: None,
-        worst: (0.125, 3),
-        average: (0.0402, 4),
-    },
-    Printed {
-        name: "odd reflection, order 8",
-        projection: OddReflection,
-        order: 8,
-        functions: Some(28.0),
-        worst: (0.145, 3),
-        average: (0.044, 3),
-    },
-    Printed {
-        name: "even reflection, order 7",
-        projection: EvenReflection,
-        order: 7,
-        functions: Some(28.0),
-        worst: (0.022, 3),
-        average: (0.0036, 4),
-    },
-    Printed {
-        name: "even reflection, order 5",
-        projection: EvenReflection,
-        order: 5,
-        functions: Some(15.0),
-        worst: (0.193, 3),
-        average: (0.030, 3),
-    },
+const PROJECTIONS: [Projected; 4] = [
+    Projected { id: "zero", projection: ZeroHemisphere, order: 5 },
+    Projected { id: "odd-8", projection: OddReflection, order: 8 },
+    Projected { id: "even-7", projection: EvenReflection, order: 7 },
+    Projected { id: "even-5", projection: EvenReflection, order: 5 },
 ];
 
 const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spectrum and the errors of projections in f64. Odd and even reflection are \
@@ -64,17 +32,14 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     let values = &hemisphere.spectrum().values;
     let [largest, second, least] = [values[0], values[values.len() - 2], values[values.len() - 1]];
     let cost = hemisphere.drop_costs()[function_index(1, 0)];
-    let number = |what: &str, printed: f64, decimals: u8, ours: f64| -> PaperRow {
-        every_digit(what, (printed, decimals, "-"), "section 9.1", ours)
-    };
     let mut rows = vec![
-        number("smallest singular value of A", 6.59e-6, 8, least),
-        number("second smallest singular value of A", 3.10e-4, 6, second),
-        number("largest singular value of A", 1.0, 0, largest),
-        number("squared error without (l, m) = (1, 0)", 1.48e-5, 7, cost),
+        solved("singular-least", least)?,
+        solved("singular-second", second)?,
+        solved("singular-largest", largest)?,
+        solved("dropped", cost)?,
     ];
-    for printed in &PRINTED {
-        rows.extend(projection_rows(printed)?);
+    for projected in &PROJECTIONS {
+        rows.extend(projection_rows(projected)?);
     }
     Ok(EntryFindings { text: vec![HOW.into()], rows, tables: vec![orders()?], ..EntryFindings::default() })
 }
@@ -83,21 +48,16 @@ fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Resul
     projection.error(signal, order).map_err(|e| failed(HOST)(&e))
 }
 
-fn projection_rows(printed: &Printed) -> Result<Vec<PaperRow>, ReproduceError> {
-    let Printed { name, projection, order, .. } = *printed;
+fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<Vec<PaperRow>, ReproduceError> {
     let ProjectionErrors { worst, average } = error(projection, [ORDER, order])?;
-    let row = |what: &str, (value, decimals): (f64, u8), ours: f64| {
-        every_digit(format!("{name}: {what} error"), (value, decimals, "-"), "section 9.2", ours)
-    };
-    let mut rows = vec![row("worst", printed.worst, worst), row("average", printed.average, average)];
-    if let Some(functions) = printed.functions {
-        let ours = (0..function_count(order)).filter(|&index| projection.uses(order, index)).count() as f64;
-        rows.push(every_digit(format!("{name}: functions"), (functions, 0, "functions"), "section 9.2", ours));
+    let row = |what: &str, ours: f64| solved(&format!("{id}-{what}"), ours);
+    let mut rows = vec![row("worst", worst)?, row("average", average)?];
+    if projection == ZeroHemisphere {
+        let percent = |error: f64| 100.0 * error.sqrt();
+        rows.extend([row("worst-rms", percent(worst))?, row("average-rms", percent(average))?]);
     } else {
-        let root = |what: &str, percent: f64, ours: f64| {
-            every_digit(format!("{name}: {what} RMS error"), (percent, 0, "%"), "section 3.2", 100.0 * ours.sqrt())
-        };
-        rows.extend([root("worst", 35.0, worst), root("average", 20.0, average)]);
+        let functions = (0..function_count(order)).filter(|&index| projection.uses(order, index)).count();
+        rows.push(row("functions", functions as f64)?);
     }
     Ok(rows)
 }
@@ -129,7 +89,8 @@ mod tests {
     #[test]
     fn odd_and_even_are_told_apart() {
         let literal = error(EvenReflection, [ORDER, 8]).expect("errors");
-        let printed = PRINTED.iter().find(|printed| printed.projection == OddReflection).expect("odd reflection");
-        assert!(literal.worst < printed.worst.0 / 10.0 && literal.average < printed.average.0 / 10.0);
+        let [worst, average] = ["odd-8-worst", "odd-8-average"]
+            .map(|id| super::super::printed_value(&format!("cpca/{id}")).expect("a figure"));
+        assert!(literal.worst < worst / 10.0 && literal.average < average / 10.0);
     }
 }

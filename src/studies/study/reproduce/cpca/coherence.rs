@@ -1,21 +1,17 @@
 //! Figure 5 and the table of section 7: overdraw before and after the two optimisations of section 5.
 
-use super::drawn::{BUDGET, COLUMNS};
+use super::drawn::{BUDGET, COLUMN_IDS, COLUMNS};
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::rates;
 use super::signals::{BIRD, BUDDHA};
 use super::views::ModelView;
-use super::{EntryFindings, Prose, REGISTERS, ReproduceError, Shared, number, order};
+use super::{EntryFindings, Prose, REGISTERS, ReproduceError, Shared, number, printed, solved};
 use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
 
-const PLACE: &str = "section 7";
-/// Signal, its name, and the printed overdraw and frames per second.
-const PRINTED: [(usize, &str, [f64; 4], [f64; 4]); 2] = [
-    (BUDDHA, "Buddha", [1.93, 1.72, 1.61, 1.48], [26.8, 29.6, 29.7, 33.2]),
-    (BIRD, "bird", [1.25, 1.23, 1.14, 1.138], [39.3, 39.3, 45.2, 45.3]),
-];
+/// Signal, its name, and the same in the names of its figures.
+const MODELS: [(usize, &str, &str); 2] = [(BUDDHA, "Buddha", "buddha"), (BIRD, "bird", "bird")];
 
 const HOW: &str = "Overdraw is the mean number of clusters, or superclusters, of a triangle's vertices. Reclassification may add {} % of the error; superclusters \
     fill {} registers, {} clusters each. \"sc+rec\" is reclassification, then superclusters. Our models have as many points per cluster as the paper's, so that \
@@ -32,17 +28,18 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     );
     let (mut rows, mut originals, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
     let light = HarmonicLight::red_and_blue(5);
-    for (at, name, printed, _) in PRINTED {
+    for (at, name, id) in MODELS {
         let computed = shared.cpca.signal(at, shared.models)?;
         let found = shared.cpca.drawn(at, shared.models)?;
-        let pairs = printed.iter().zip(found.overdraw);
-        let cells = pairs.flat_map(|(&printed, ours)| [Cell::decimals(printed, 3), Cell::decimals(ours, 3)]);
+        let mut cells = Vec::new();
+        for (how, ours) in COLUMN_IDS.into_iter().zip(found.overdraw) {
+            cells.extend([printed(&format!("cpca/overdraw-{id}-{how}"))?.cell(), Cell::decimals(ours, 3)]);
+        }
         let rest = [Cell::percent(100.0 * found.added_error), found.superclusters.into()];
         table.push([Cell::from(name)].into_iter().chain(cells).chain(rest));
         for (column, above) in [(1, 0), (2, 0), (3, 1), (3, 2)] {
-            let what = format!("{name}: overdraw of {} over {}", COLUMNS[column], COLUMNS[above]);
-            let ours = found.overdraw[column] / found.overdraw[above];
-            rows.push(order(what, PLACE, [printed[column], printed[above]], ours));
+            let figure = format!("overdraw-{id}-{}-over-{}", COLUMN_IDS[column], COLUMN_IDS[above]);
+            rows.push(solved(&figure, found.overdraw[column] / found.overdraw[above])?);
         }
         originals.push(found.overdraw[0]);
         let view = ModelView::new(computed, &light, EYE)?;
@@ -52,11 +49,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             pictures.push(view.groups(of_vertex, (format!("cpca-figure-5-{name}-{}", how.replace('+', "-")), caption)));
         }
     }
-    let what = "overdraw of the bumpy model over the smooth one's".to_owned();
-    rows.push(order(what, PLACE, [PRINTED[0].2[0], PRINTED[1].2[0]], originals[0] / originals[1]));
+    rows.push(solved("overdraw-bumpy-over-smooth", originals[0] / originals[1])?);
     let size = super::signals::SIGNALS[BIRD].size;
     let figures = [100.0 * BUDGET, REGISTERS as f64, size.clusters_per_batch(REGISTERS) as f64];
-    let (timed, frames) = rates(&PRINTED, &shared.cpca)?;
+    let (timed, frames) = rates(&MODELS, &shared.cpca)?;
     rows.extend(timed);
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures.map(|figure| number(figure, 0))), Prose::new(TIMES, [CARD.to_owned()])],

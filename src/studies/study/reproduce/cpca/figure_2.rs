@@ -1,10 +1,7 @@
 //! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
 
 use super::signals::DIFFUSE_BIRD;
-use super::{
-    Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
-    Standing, number,
-};
+use super::{EntryChart, EntryFindings, Prose, ReproduceError, Shared, number, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
 use crate::report::{Cell, Chart, Scale, Series, Table};
@@ -47,7 +44,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let last = counts.last().copied().unwrap_or(1);
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, [points as f64, 5.0, 1.0, last as f64].map(|figure| number(figure, 0)))],
-        rows: vec![row("worse than the one before with fewest clusters", worse), row("better with most", better)],
+        rows: vec![solved("curves-worse", worse as f64)?, solved("curves-better", better as f64)?],
         questions: vec!["the axes of the figure, which the scan has lost."],
         tables: vec![table],
         charts: vec![EntryChart {
@@ -70,14 +67,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 fn line((vectors, points): (&usize, Curve)) -> Series {
     let shown = points.into_iter().filter(|(_, error)| *error > 0.0).collect();
     Series { label: format!("n' = {vectors}"), points: shown }
-}
-
-fn row(what: &str, ours: usize) -> PaperRow {
-    let curves = VECTORS.len() - 1;
-    let origin = Origin::Implied("every curve after the first".to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(curves as f64, 0, "curves", "section 4.1") };
-    let ours = (ours as f64, Standing::Counted);
-    PaperRow::new(format!("numbers of vectors that are {what}"), (HOST, Method::Solver), target, ours, Bound::Print)
 }
 
 /// Number of curves that are above the previous one at the smallest common storage, and below it at the largest.

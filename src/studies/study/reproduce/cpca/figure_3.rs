@@ -2,10 +2,7 @@
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::views::{ModelView, RED_AND_BLUE};
-use super::{
-    Bound, EntryChart, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
-    Standing, number,
-};
+use super::{EntryChart, EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
 use crate::sphere::HarmonicLight;
@@ -39,7 +36,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "Squared errors, and the vectors that iteration and redistribution gain",
         "vectors static iterative adaptive iterative_gains adaptive_gains",
     );
-    let mut rows = Vec::new();
+    let mut gained: [Vec<f64>; 2] = Default::default();
     for vectors in 1..=VECTORS {
         let gains = [
             reaching(&still, iterative[vectors]) - vectors as f64,
@@ -48,14 +45,17 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let errors = [still[vectors], iterative[vectors], adaptive[vectors]].map(Cell::measured);
         table.push([Cell::from(vectors)].into_iter().chain(errors).chain(gains.map(|gain| Cell::decimals(gain, 2))));
         if vectors.is_power_of_two() {
-            rows.push(at_least("vectors gained by iteration", vectors, ("vectors", "section 4.2"), gains[0]));
-            rows.push(at_least("vectors gained by redistribution", vectors, ("vectors", "section 4.3"), gains[1]));
+            gained.iter_mut().zip(gains).for_each(|(all, gain)| all.push(gain));
         }
     }
-    rows.sort_by(|a, b| a.target.place.cmp(b.target.place));
     let ratio = |above: &[f64], below: &[f64]| above[FIGURE_4] / below[FIGURE_4];
-    rows.push(at_least("static over iterative error", FIGURE_4, ("times", "figure 4"), ratio(&still, &iterative)));
-    rows.push(at_least("iterative over adaptive error", FIGURE_4, ("times", "figure 4"), ratio(&iterative, &adaptive)));
+    let [by_iteration, by_redistribution] = gained;
+    let rows = vec![
+        over_readings("gained-by-iteration", &by_iteration)?,
+        over_readings("gained-by-redistribution", &by_redistribution)?,
+        solved("figure-4-iterative", ratio(&still, &iterative))?,
+        solved("figure-4-adaptive", ratio(&iterative, &adaptive))?,
+    ];
     let points = computed.signal.points();
     let figures = [points as f64, 5.0, clusters as f64, ROUNDS as f64].map(|figure| number(figure, 0));
     Ok(EntryFindings {
@@ -68,23 +68,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
+/// Row on a sentence that holds for several numbers of vectors or clusters: the first is ours, the others are readings.
+pub(super) fn over_readings(id: &str, values: &[f64]) -> Result<PaperRow, ReproduceError> {
+    let [first, others @ ..] = values else { return solved(id, f64::NAN) };
+    Ok(solved(id, *first)?.with_readings(others.iter().copied()))
+}
+
 fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64>, ReproduceError> {
     let method = CpcaMethod::Adaptive { rounds: ROUNDS };
     let error = |vectors| Ok(computed.error(&computed.compressed_to(clusters, vectors, method)?));
     (0..=VECTORS).map(error).collect()
-}
-
-/// Row on "1-4 additional PCA vectors", "an additional vector", or less error: at least 1.
-fn at_least(what: &str, vectors: usize, (unit, place): (&'static str, &'static str), ours: f64) -> PaperRow {
-    let target = match place {
-        "figure 4" => PaperFigure {
-            origin: Origin::Inferred("the text says that the error falls".to_owned()),
-            ..PaperFigure::printed(1.0, 2, unit, place)
-        },
-        _ => PaperFigure::printed(1.0, 2, unit, place),
-    };
-    let what = format!("{what}, n' = {vectors}");
-    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
 /// Number of vectors at which a curve falls to an error, interpolated logarithmically; the last for lower errors.

@@ -1,11 +1,9 @@
 //! Figure 6: diffuse transfer of order 10 on a ground below a blocker.
 
+use super::figure_3::over_readings;
 use super::signals::POLYGONS;
 use super::views::ModelView;
-use super::{
-    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
-    number,
-};
+use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
 use crate::report::{Cell, Table};
 use crate::sphere::{HarmonicLight, function_count};
 use crate::transfer::clustering::CpcaMethod;
@@ -19,7 +17,7 @@ const LIGHT: (glam::DVec3, f64) = (glam::DVec3::new(0.6, 0.4, 1.0), 0.15);
 const EYE: ([f32; 3], f32) = ([0.8, -3.4, 3.2], 0.42);
 
 const HOW: &str = "A ground and a blocker of {} vertices together, light of order {}. The caption has {} clusters, Table 1's row for the figure {}: \
-    both are compressed, each by its share for a model of our size. Pictures are under a small disk, exposed alike.";
+    both are compressed, each by its share for a model of our size, and the row has all of them. Pictures are under a small disk, exposed alike.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let computed = shared.cpca.signal(POLYGONS, shared.models)?;
@@ -27,7 +25,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let view = ModelView::new(computed, &light, EYE)?;
     let mut table =
         Table::of("Squared errors", "clusters_printed clusters vectors static iterative static_over_iterative");
-    let (mut rows, mut pictures) = (Vec::new(), Vec::new());
+    let (mut ratios, mut pictures) = (Vec::new(), Vec::new());
     for printed in CLUSTERS {
         for vectors in VECTORS {
             let methods = [(CpcaMethod::Static, "static"), (CpcaMethod::Iterative, "iterative")];
@@ -43,7 +41,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             let ratio = errors[0] / errors[1];
             let counts = [printed, computed.clusters(printed), vectors].map(Cell::from);
             table.push(counts.into_iter().chain(errors.map(Cell::measured)).chain([Cell::ratio(ratio)]));
-            rows.push(row(printed, vectors, ratio));
+            ratios.push(ratio);
         }
     }
     pictures.push(view.light("cpca-figure-6", "a small disk at order 10")?);
@@ -56,20 +54,11 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let figures = [computed.signal.points(), ORDERS[0], CLUSTERS[0], CLUSTERS[1]].map(|count| number(count as f64, 0));
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures)],
-        rows,
+        rows: vec![over_readings("figure-6", &ratios)?],
         tables: vec![table],
         pictures,
         ..EntryFindings::default()
     })
-}
-
-/// Row on "Iterative PCA adapts cluster shapes to the transfer signal better than static PCA".
-fn row(clusters: usize, vectors: usize, ours: f64) -> PaperRow {
-    let how = "the caption says that iterative clusters fit better";
-    let origin = Origin::Inferred(how.to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 2, "times", "figure 6") };
-    let what = format!("static over iterative error, {clusters} clusters, n' = {vectors}");
-    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
 fn disk() -> Result<HarmonicLight, ReproduceError> {

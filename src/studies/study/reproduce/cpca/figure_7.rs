@@ -6,10 +6,7 @@ use rayon::prelude::*;
 use super::figure_3::EYE;
 use super::signals::{BIRD, ComputedSignal, SIGNALS};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
-use super::{
-    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
-    number,
-};
+use super::{EntryFindings, HOST, PaperRow, Prose, ReproduceError, Shared, failed, number, solved};
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
@@ -19,7 +16,6 @@ use crate::study::prt::ExitRadiance;
 use crate::tracer::HostTracer;
 use crate::transfer::brdf::ExitBasis;
 
-const PLACE: &str = "figure 7";
 /// Degree of the rule that integrates exit radiance without a projection.
 const DEGREE: usize = 62;
 
@@ -77,7 +73,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let figures = [points, 16, 16, 25, directions].map(|count| number(count as f64, 0));
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)]))],
-        rows: rows(&errors),
+        rows: rows(&errors)?,
         questions: vec![QUESTION],
         tables: vec![table],
         pictures,
@@ -113,29 +109,12 @@ fn exit_radiance(
     Ok((0..vertices.len()).into_par_iter().map(of_vertex).collect())
 }
 
-fn rows(errors: &[[f64; 2]]) -> Vec<PaperRow> {
+fn rows(errors: &[[f64; 2]]) -> Result<Vec<PaperRow>, ReproduceError> {
     let [zero, least, zero_25] = [errors[0], errors[1], errors[2]];
-    let row = |what: &str, how: &str, ours: f64| {
-        let target =
-            PaperFigure { origin: Origin::Inferred(how.to_owned()), ..PaperFigure::printed(1.0, 2, "times", PLACE) };
-        PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
-    };
-    vec![
-        row(
-            "error of zero hemisphere over least squares, 16 rows",
-            "the caption says that least squares is more faithful",
-            zero[0] / least[0],
-        ),
-        row("the same at silhouettes", "the caption says that least squares is more faithful", zero[1] / least[1]),
-        row(
-            "the same at silhouettes over that of all pixels",
-            "the caption says so especially of silhouettes",
-            zero[1] / least[1] * least[0] / zero[0],
-        ),
-        row(
-            "error of zero hemisphere, 25 rows, over least squares, 16 rows",
-            "the caption says that the smaller matrix matches the larger one's accuracy",
-            zero_25[0] / least[0],
-        ),
-    ]
+    Ok(vec![
+        solved("figure-7-16", zero[0] / least[0])?,
+        solved("figure-7-silhouettes", zero[1] / least[1])?,
+        solved("figure-7-especially", zero[1] / least[1] * least[0] / zero[0])?,
+        solved("figure-7-25", zero_25[0] / least[0])?,
+    ])
 }

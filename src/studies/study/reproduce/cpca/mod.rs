@@ -2,7 +2,7 @@
 //!
 //! The paper's models and BRDFs are not available. Ours have its vertex counts, or a sixteenth or less of them with the
 //! same fraction of the clusters ([`ModelSize`]), so that the number of points per cluster is the same. The rows
-//! compare which of two errors is larger.
+//! on errors and overdraw compare which of two is larger.
 
 mod appendix;
 mod coherence;
@@ -43,26 +43,11 @@ use signals::HOST;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Bound, EntryChart, EntryFindings, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting,
-    Standing, Sweep, number,
+    Contradiction, EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, ReproduceError, Setting, Standing,
+    Sweep, number, paper_row, printed, printed_value,
 };
 
-/// Row on the ratio of two of the paper's values: the bound is that the same one of the two is larger.
-fn order(what: String, place: &'static str, [above, below]: [f64; 2], ours: f64) -> PaperRow {
-    let target = PaperFigure {
-        origin: Origin::Implied(format!("{above} / {below}")),
-        ..PaperFigure::printed(above / below, 2, "times", place)
-    };
-    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::Order)
-}
-
-/// Row on a value that follows from others of the paper, and is computed to every printed digit.
-fn every_digit(
-    what: impl Into<String>,
-    (value, decimals, unit): (f64, u8, &'static str),
-    place: &'static str,
-    ours: f64,
-) -> PaperRow {
-    let target = PaperFigure::printed(value, decimals, unit, place);
-    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::Print)
+/// Row of a value that is computed in f64 and uses no printed one.
+fn solved(id: &str, ours: f64) -> Result<PaperRow, ReproduceError> {
+    paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
 }

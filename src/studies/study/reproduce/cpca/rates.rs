@@ -3,10 +3,13 @@
 use refsim::device::Profile;
 use refsim::timing::host::HostOperation;
 
-use super::drawn::{COLUMNS, DrawnClusters};
+use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
-use super::{Bound, CpcaShared, HOST, Method, PaperFigure, PaperRow, REGISTERS, ReproduceError, Standing, failed};
+use super::{
+    Contradiction, CpcaShared, HOST, Method, PaperRow, REGISTERS, ReproduceError, Standing, failed, paper_row, printed,
+    printed_value,
+};
 use crate::card::frame_time::{FrameTime, frame_time};
 use crate::cpca::on_card::estimate::FrameCounts;
 use crate::cpca::on_card::model::TransferSize;
@@ -14,7 +17,6 @@ use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 
-const PLACE: &str = "section 7";
 /// Index of both optimisations in [`COLUMNS`].
 const BOTH: usize = 3;
 /// Inputs of the modelled rates: calibration of the host's rate, and overdraw.
@@ -58,14 +60,28 @@ pub(super) fn uncompressed(size: TransferSize) -> Result<f64, ReproduceError> {
 }
 
 /// Row on a frame rate, or a ratio of two.
-pub(super) fn rate_row(what: String, target: PaperFigure, ours: f64, from: &'static str) -> PaperRow {
-    PaperRow::new(what, (CARD, Method::Pipeline), target, (ours, Standing::Predicted { from }), Bound::PREDICTION)
+pub(super) fn rate_row(id: &str, ours: f64, from: &'static str) -> Result<PaperRow, ReproduceError> {
+    paper_row(&format!("cpca/{id}"), (CARD, Method::Pipeline), (ours, Standing::Predicted { from }))
 }
 
-/// Rows on printed rates, and a table of the time per unit. Per signal its index, its name, overdraw and rates in the
-/// order of [`COLUMNS`].
+/// Names of the two printed rates of the Buddha with anisotropic gloss: of Table 1, and of section 7 with both
+/// optimisations.
+pub(super) const CONTRADICTORY: [&str; 2] = ["rate-buddha-gloss-anis", "rate-buddha-both"];
+
+/// Contradiction of one of these rates by the other one: signal, clusters, vectors, card and host are the same.
+pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, ReproduceError> {
+    let [table_1, section_7] = CONTRADICTORY;
+    let other = if id == table_1 { section_7 } else { table_1 };
+    let other = printed(&format!("cpca/{other}"))?;
+    let figure = printed(&format!("cpca/{id}"))?;
+    let how = format!("the same signal, clusters and card in {}", other.place);
+    Ok(Contradiction::between(figure, other.value, &how))
+}
+
+/// Rows on printed rates, and a table of the time per unit. Per signal its index, its name, and the same in the names
+/// of its figures.
 pub(super) fn rates(
-    printed: &[(usize, &str, [f64; 4], [f64; 4])],
+    models: &[(usize, &'static str, &'static str)],
     shared: &CpcaShared,
 ) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     let mut table = Table::of(
@@ -73,17 +89,18 @@ pub(super) fn rates(
         "model how overdraw_printed printed ours host_ms constants_ms draws_ms vertices_run run_per_triangle",
     );
     let (mut rows, card) = (Vec::new(), Profile::named(CARD)?);
-    for &(at, name, overdraw, frames) in printed {
+    for &(at, name, id) in models {
         let paper = &SIGNALS[at];
         let mesh = shared.mesh_cost(paper.model)?;
         for (column, how) in COLUMNS.into_iter().enumerate() {
             let fit = if column < 2 { 1 } else { paper.size.clusters_per_batch(REGISTERS) };
             let groups = paper.size.clusters.div_ceil(fit);
-            let time = modelled(&card, mesh, paper.size, (overdraw[column], groups))?;
-            table.push(line(name, how, (overdraw[column], frames[column]), &time, mesh.run_per_triangle));
-            let target = PaperFigure::printed(frames[column], 1, "Hz", PLACE);
-            let what = format!("{name}: frames per second, {how}");
-            rows.push(rate_row(what, target, time.per_second(), INPUTS));
+            let overdraw = printed_value(&format!("cpca/overdraw-{id}-{}", COLUMN_IDS[column]))?;
+            let time = modelled(&card, mesh, paper.size, (overdraw, groups))?;
+            let id = format!("rate-{id}-{}", COLUMN_IDS[column]);
+            let row = rate_row(&id, time.per_second(), INPUTS)?;
+            table.push(line(name, how, (overdraw, row.target.value), &time, mesh.run_per_triangle));
+            rows.push(if id == CONTRADICTORY[1] { row.contradicted(same_signal(&id)?) } else { row });
         }
     }
     Ok((rows, table))

@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{Bound, EntryFindings, HOST, Method, PaperFigure, PaperRow, Prose, REGISTERS, Standing, number};
+use super::{EntryFindings, HOST, Method, Prose, REGISTERS, ReproduceError, Standing, number, paper_row};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -9,18 +9,16 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
     ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
     without compression, every vertex's matrix.";
 
-pub(in crate::study::reproduce) fn findings() -> EntryFindings {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let square = TransferSize { vertices: 1, rows: 25, columns: 25, clusters: 1, vectors: 5 };
     let per_vertex = (square.vectors + 1) * square.rows;
     let factor = (square.rows * square.columns) as f64 / per_vertex as f64;
-    let target = PaperFigure::printed(4.0, 2, "times", "section 6");
-    let what = "computation saved per vertex by 5 vectors for 25 x 25 matrices";
-    EntryFindings {
+    Ok(EntryFindings {
         text: vec![Prose::new(HOW, [number(4.0, 0)])],
-        rows: vec![PaperRow::new(what, (HOST, Method::Equation), target, (factor, Standing::Counted), Bound::AtLeast)],
+        rows: vec![paper_row("cpca/computation-saved", (HOST, Method::Equation), (factor, Standing::Counted))?],
         tables: vec![sizes()],
         ..EntryFindings::default()
-    }
+    })
 }
 
 /// Table of the sizes of Table 1's signals, and of the encodings of Figures 10 and 11 that are not among them.

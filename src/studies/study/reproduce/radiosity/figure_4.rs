@@ -1,10 +1,10 @@
 //! Figure 4: the time of an iteration by the size of the matrix, on the card and on the host.
 
-use super::{CARD, EntryFindings, PATCHES, PRINTED_CARD, PRINTED_HOST, ReproduceError, Storage, host, iteration};
+use super::{CARD, EntryFindings, PATCHES, PrintedRates, ReproduceError, Storage, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, Scale, Series, Table};
-use crate::study::reproduce::{Bound, EntryChart, Method, Origin, PaperFigure, PaperRow, Prose, Standing, number};
+use crate::study::reproduce::{EntryChart, Method, PaperRow, Prose, Standing, number, paper_row};
 
 /// Numbers of patches; the card of the paper had textures of at most 2048 texels per side.
 const SIZES: [u32; 7] = [128, 256, 384, 512, 1024, 1540, 2048];
@@ -24,7 +24,7 @@ impl Point {
             patches,
             rgb: card(Packing::Rgb)?,
             luminance: card(Packing::Luminance)?,
-            host: 1e3 * host::iteration(patches),
+            host: 1e3 * host::iteration(patches)?,
         })
     }
 
@@ -45,6 +45,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         points: std::iter::once((0.0, 0.0)).chain(points.iter().map(|p| (p.elements() / 1e6, of(p)))).collect(),
     };
     let size = f64::from(PATCHES) * f64::from(PATCHES) / 1e6;
+    let printed = [PrintedRates::card()?, PrintedRates::host()?];
     let chart = Chart {
         title: "An iteration by the size of the matrix".to_owned(),
         x: "M elements, N x N".to_owned(),
@@ -57,12 +58,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
             line("nv35, four elements a texel", |p| p.luminance),
             line("Athlon 2800+, Gauss-Seidel", |p| p.host),
         ],
-        printed: [PRINTED_CARD, PRINTED_HOST].map(|(per_s, _)| (size, 1e3 / per_s)).into(),
+        printed: printed.iter().map(|rates| (size, 1e3 / rates.per_s)).collect(),
         ..Chart::default()
     };
     Ok(EntryFindings {
-        text: text(&points),
-        rows: overtakes(&points).into_iter().collect(),
+        text: text(&points, &printed)?,
+        rows: overtakes(&points)?.into_iter().collect(),
         questions: vec!["what would make the host's time grow faster than the bytes that it reads, as the authors' belief needs."],
         tables: vec![table(&points)],
         charts: vec![EntryChart {
@@ -77,18 +78,10 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 }
 
 /// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
-fn overtakes(points: &[Point]) -> Option<PaperRow> {
-    let largest = points.last()?;
-    let implied = Origin::Implied(
-        "the card overtakes the host above 2000 patches: time of the host over the card's, at least 1".to_owned(),
-    );
-    Some(PaperRow::new(
-        format!("host's time over the card's at {} patches", largest.patches),
-        (CARD, Method::Pipeline),
-        PaperFigure { origin: implied, ..PaperFigure::printed(1.0, 2, "times", "section 3.1") },
-        (largest.host / largest.rgb, Standing::Predicted { from: "40 iterations/s of the host" }),
-        Bound::AtLeast,
-    ))
+fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, ReproduceError> {
+    let Some(largest) = points.last() else { return Ok(None) };
+    let ours = (largest.host / largest.rgb, Standing::Predicted { from: "40 iterations/s of the host" });
+    paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours).map(Some)
 }
 
 fn table(points: &[Point]) -> Table {
@@ -128,19 +121,17 @@ const BELIEF: &str = "In this model the card overtakes the host {} with one texe
     above {} patches, if it does; from their printed rates the host's time would have to grow with the power {} of the number of patches between {} and \
     there, faster than the bytes that it reads.";
 
-/// Size at which the authors expect the curves to cross.
-const BELIEVED: f64 = 2000.0;
-
-fn text(points: &[Point]) -> Vec<Prose> {
+fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<Prose>, ReproduceError> {
+    let believed = printed_value("radiosity/crossing")?;
     let largest = points.last().map_or(0, |point| point.patches);
     let said = |card: fn(&Point) -> f64| match crossing(points, card) {
         Some(patches) => format!("at about {} patches", number(patches, 0)),
         None => format!("nowhere up to {largest} patches"),
     };
     // From the printed rates: how fast the host's time has to grow to be the card's where the curves cross.
-    let n = BELIEVED / f64::from(PATCHES);
-    let needed = ln(PRINTED_HOST.0 / PRINTED_CARD.0 * n * n) / ln(n);
+    let n = believed / f64::from(PATCHES);
+    let needed = ln(host.per_s / card.per_s * n * n) / ln(n);
     let figures =
-        [said(|p| p.rgb), said(|p| p.luminance), number(BELIEVED, 0), number(needed, 1), number(f64::from(PATCHES), 0)];
-    vec![HOW.into(), Prose::new(BELIEF, figures)]
+        [said(|p| p.rgb), said(|p| p.luminance), number(believed, 0), number(needed, 1), number(f64::from(PATCHES), 0)];
+    Ok(vec![HOW.into(), Prose::new(BELIEF, figures)])
 }

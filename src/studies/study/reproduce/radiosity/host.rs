@@ -4,7 +4,7 @@
 //! part of a cache line from memory. The matrix is read sequentially again and again, so that of W bytes a cache of C
 //! bytes still holds at most a fraction C / W at the next read.
 
-use super::{PATCHES, PRINTED_HOST};
+use super::{PATCHES, PrintedRates, ReproduceError};
 
 /// Clock in Hz: Athlon XP 2800+ with Barton core, as reviewed (Tom's Hardware).
 const CLOCK_HZ: f64 = 2.083e9;
@@ -26,15 +26,15 @@ fn cached() -> f64 {
 }
 
 /// Additional seconds per element from memory: the remainder of the printed rate, the one printed value of the host.
-fn from_memory() -> f64 {
+fn from_memory() -> Result<f64, ReproduceError> {
     let n = f64::from(PATCHES);
-    (1.0 / (PRINTED_HOST.0 * n * n) - cached()) / missed(n)
+    Ok((1.0 / (PrintedRates::host()?.per_s * n * n) - cached()) / missed(n))
 }
 
 /// Seconds of a Gauss-Seidel iteration over `patches` patches.
-pub(super) fn iteration(patches: u32) -> f64 {
+pub(super) fn iteration(patches: u32) -> Result<f64, ReproduceError> {
     let n = f64::from(patches);
-    n * n * (cached() + from_memory() * missed(n))
+    Ok(n * n * (cached() + from_memory()? * missed(n)))
 }
 
 #[cfg(test)]
@@ -44,7 +44,8 @@ mod tests {
 
     #[test]
     fn the_printed_rate_comes_back() {
-        assert_abs_diff_eq!(1.0 / iteration(PATCHES), PRINTED_HOST.0, epsilon = 1e-9);
+        let printed = PrintedRates::host().expect("printed rates").per_s;
+        assert_abs_diff_eq!(1.0 / iteration(PATCHES).expect("seconds"), printed, epsilon = 1e-9);
         // 362 x 362 elements are the cache.
         assert_eq!((missed(362.0), missed(64.0)), (0.0, 0.0));
         assert!(missed(363.0) > 0.0);

@@ -7,7 +7,7 @@ mod rates;
 
 use refsim::device::Profile;
 
-use super::{EntryFindings, ReproduceError, pipeline::failed};
+use super::{EntryFindings, ReproduceError, pipeline::failed, printed_value};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
@@ -21,10 +21,29 @@ const CARD: &str = "nv35";
 /// Patches of the paper's scene, which are not printed: the smallest number consistent with both pairs of printed rates
 /// (docs/papers/radiosity.md). The table of [`rates`] shows other numbers.
 const PATCHES: u32 = 1540;
-/// Section 3.1: Jacobi iterations per second on the card, and MFLOP/s.
-const PRINTED_CARD: (f64, f64) = (29.7, 141.0);
-/// Gauss-Seidel iterations per second on the host, and MFLOP/s.
-const PRINTED_HOST: (f64, f64) = (40.0, 190.0);
+/// Printed rates of section 3.1.
+struct PrintedRates {
+    /// Iterations per second.
+    per_s: f64,
+    /// Operations per second, in millions.
+    mflops: f64,
+}
+
+impl PrintedRates {
+    /// Jacobi's iteration on the card.
+    fn card() -> Result<Self, ReproduceError> {
+        Self::named("radiosity/jacobi-rate", "radiosity/jacobi-operations")
+    }
+
+    /// Gauss and Seidel's iteration on the host.
+    fn host() -> Result<Self, ReproduceError> {
+        Self::named("radiosity/gauss-seidel-rate", "radiosity/gauss-seidel-operations")
+    }
+
+    fn named(rate: &str, operations: &str) -> Result<Self, ReproduceError> {
+        Ok(Self { per_s: printed_value(rate)?, mflops: printed_value(operations)? })
+    }
+}
 
 /// Times an iteration of `patches` patches on the paper's card, by the pipeline model.
 fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, ReproduceError> {

@@ -1,6 +1,5 @@
 //! Tolerances, stated before values are computed.
 
-use super::figure::{Origin, PaperFigure};
 use crate::study::reproduce::prose::number;
 
 /// Tolerance of a value, stated before it was computed. The rounding of the printed value is allowed in addition.
@@ -27,25 +26,30 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// Bound of predictions, unless a narrower one can be stated.
-    pub const PREDICTION: Self = Self::Relative(Self::SHARE);
-    /// Fraction by which a prediction may differ.
+    /// Fraction by which a prediction may differ, unless a narrower one can be stated.
     pub const SHARE: f64 = 0.15;
 
-    /// Smallest and largest value within the bound; `None` if all values are.
-    pub fn interval(&self, target: &PaperFigure) -> Option<[f64; 2]> {
-        let around = |by: f64| Some([target.value - by, target.value + by]);
+    /// Smallest and largest value within the bound around a printed value, which may be off by `rounding`; `None` if
+    /// all values are.
+    pub fn interval(&self, printed: f64, rounding: f64) -> Option<[f64; 2]> {
+        let around = |by: f64| Some([printed - by, printed + by]);
         match *self {
-            Self::Print => around(target.rounding()),
-            Self::Relative(share) => around(share * target.value.abs() + target.rounding()),
-            Self::Gain { share, over } => around(share * (target.value - over).abs() + target.rounding()),
-            // Inferred values were not rounded in print.
-            Self::AtLeast if matches!(target.origin, Origin::Inferred(_)) => Some([target.value, f64::INFINITY]),
-            Self::AtLeast => Some([target.value - target.rounding(), f64::INFINITY]),
-            Self::Order if target.value > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
+            Self::Print => around(rounding),
+            Self::Relative(share) => around(share * printed.abs() + rounding),
+            Self::Gain { share, over } => around(share * (printed - over).abs() + rounding),
+            Self::AtLeast => Some([printed - rounding, f64::INFINITY]),
+            Self::Order if printed > 1.0 => Some([1.0_f64.next_up(), f64::INFINITY]),
             Self::Order => Some([f64::NEG_INFINITY, 1.0_f64.next_down()]),
             Self::TooVague => None,
         }
+    }
+
+    /// Returns `true` if a value lies within the bound only because the printed value was rounded. To have every
+    /// printed digit is no such case.
+    pub fn needs_rounding(&self, (printed, rounding): (f64, f64), value: f64) -> bool {
+        let within = |[low, high]: [f64; 2]| (low..=high).contains(&value);
+        let held = |rounding: f64| self.interval(printed, rounding).is_some_and(within);
+        !matches!(self, Self::Print) && held(rounding) && !held(0.0)
     }
 
     /// Formats the bound.
@@ -66,49 +70,53 @@ impl Bound {
 mod tests {
     use super::*;
 
-    fn target(value: f64, decimals: u8) -> PaperFigure {
-        PaperFigure::printed(value, decimals, "M/s", "section 6.1")
-    }
+    const PREDICTION: Bound = Bound::Relative(Bound::SHARE);
 
-    fn admits(bound: Bound, target: &PaperFigure, value: f64) -> bool {
-        bound.interval(target).is_some_and(|[low, high]| (low..=high).contains(&value))
+    fn admits(bound: Bound, (printed, rounding): (f64, f64), value: f64) -> bool {
+        bound.interval(printed, rounding).is_some_and(|[low, high]| (low..=high).contains(&value))
     }
 
     #[test]
     fn digits_are_compared_as_printed() {
-        let rate = target(15.6, 1);
-        assert!(admits(Bound::Print, &rate, 15.625) && !admits(Bound::Print, &rate, 15.66));
-        assert!(admits(Bound::Print, &target(114.0, 0), 113.6) && !admits(Bound::Print, &target(114.0, 0), 114.6));
+        assert!(admits(Bound::Print, (15.6, 0.05), 15.625) && !admits(Bound::Print, (15.6, 0.05), 15.66));
+        assert!(admits(Bound::Print, (114.0, 0.5), 113.6) && !admits(Bound::Print, (114.0, 0.5), 114.6));
     }
 
     #[test]
     fn a_share_is_of_what_is_printed() {
-        let rate = target(100.0, 0);
-        assert_eq!(Bound::Relative(0.1).interval(&rate), Some([89.5, 110.5]));
+        assert_eq!(Bound::Relative(0.1).interval(100.0, 0.5), Some([89.5, 110.5]));
     }
 
     /// Equal values have no order.
     #[test]
     fn an_order_is_a_side_of_1() {
-        let [more, less] = [target(3.05, 2), target(0.4, 1)];
-        assert_eq!([1.01, 1.0, 0.9].map(|value| admits(Bound::Order, &more, value)), [true, false, false]);
-        assert_eq!([1.01, 1.0, 0.9].map(|value| admits(Bound::Order, &less, value)), [false, false, true]);
+        let side = |printed: f64| [1.01, 1.0, 0.9].map(|value| admits(Bound::Order, (printed, 0.005), value));
+        assert_eq!(side(3.05), [true, false, false]);
+        assert_eq!(side(0.4), [false, false, true]);
     }
 
     /// "About twice" is not satisfied by everything that rounds to 2.
     #[test]
     fn about_twice_is_no_wider_than_any_prediction() {
-        let twice = target(2.0, 1);
-        assert!(admits(Bound::PREDICTION, &twice, 1.8) && !admits(Bound::PREDICTION, &twice, 1.6));
-        assert!(!admits(Bound::PREDICTION, &twice, 2.4));
+        let twice = (2.0, 0.05);
+        assert!(admits(PREDICTION, twice, 1.8) && !admits(PREDICTION, twice, 1.6) && !admits(PREDICTION, twice, 2.4));
+    }
+
+    /// "About 8" is met by 6.713 within 15 % only if 8 may have been 7.9.
+    #[test]
+    fn rounding_is_told_from_the_bound() {
+        let eight = (8.0, 0.5);
+        assert!(admits(PREDICTION, eight, 6.713) && PREDICTION.needs_rounding(eight, 6.713));
+        assert!(!PREDICTION.needs_rounding(eight, 6.9) && !PREDICTION.needs_rounding(eight, 6.0));
+        assert!(!Bound::Print.needs_rounding(eight, 8.4));
     }
 
     /// A prediction that the card brings no gain is outside.
     #[test]
     fn the_calibrated_value_itself_is_outside() {
-        let gained = target(147_630.0, 0);
+        let gained = (147_630.0, 0.5);
         let bound = Bound::Gain { share: 0.15, over: 135_812.0 };
-        assert!(!admits(bound, &gained, 135_812.0) && admits(bound, &gained, 148_000.0));
-        assert!(admits(Bound::Relative(0.15), &gained, 135_812.0), "as a share of the whole it would pass");
+        assert!(!admits(bound, gained, 135_812.0) && admits(bound, gained, 148_000.0));
+        assert!(admits(PREDICTION, gained, 135_812.0), "as a share of the whole it would pass");
     }
 }

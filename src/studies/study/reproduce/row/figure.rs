@@ -1,5 +1,6 @@
 //! Printed values of a paper with their origin.
 
+use super::Bound;
 use crate::report::Cell;
 
 /// Origin of a value.
@@ -24,29 +25,42 @@ impl Origin {
     }
 }
 
+/// Judgement of a figure, stated before our value was computed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Judgement {
+    /// A row judges the figure within this bound.
+    Within(Bound),
+    /// No row judges the figure, for this reason.
+    Not(String),
+}
+
 /// Value of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
+    /// Name: the paper's and the figure's, as in `ray-engine/host-alone`.
+    pub id: String,
+    /// Measured quantity.
+    pub what: String,
     /// Value, in units of `unit`.
     pub value: f64,
     /// Digits after the point, as printed.
     pub decimals: u8,
     /// Unit.
-    pub unit: &'static str,
+    pub unit: String,
     /// Place in the paper.
-    pub place: &'static str,
+    pub place: String,
     /// Origin: printed, implied or inferred.
     pub origin: Origin,
+    /// Bound of the row that judges it, or the reason why there is none.
+    pub judgement: Judgement,
 }
 
 impl PaperFigure {
-    /// Creates a printed value.
-    pub const fn printed(value: f64, decimals: u8, unit: &'static str, place: &'static str) -> Self {
-        Self { value, decimals, unit, place, origin: Origin::Printed }
-    }
-
-    /// Half a unit of the last printed digit.
+    /// Half a unit of the last printed digit; 0 for inferred values, which were not rounded in print.
     pub fn rounding(&self) -> f64 {
+        if matches!(self.origin, Origin::Inferred(_)) {
+            return 0.0;
+        }
         (0..self.decimals).fold(0.5, |half: f64, _| half / 10.0)
     }
 

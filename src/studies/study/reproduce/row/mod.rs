@@ -1,16 +1,18 @@
 //! Rows: a printed value of a paper and ours, with a bound that was stated beforehand and the verdict.
 //!
-//! [`Explanation`]s are created only by a [`Sweep`] of the same run, and calibrated values are listed separately and
-//! still have to lie within their bounds.
+//! [`Explanation`]s are created only by a [`Sweep`] of the same run, [`Contradiction`]s only by computations from
+//! printed values; calibrated values are listed separately and still have to lie within their bounds.
 
 mod bound;
+mod contradiction;
 mod explanation;
 mod figure;
 mod sweep;
 
 pub use bound::Bound;
+pub use contradiction::Contradiction;
 pub use explanation::Explanation;
-pub use figure::{Origin, PaperFigure};
+pub use figure::{Judgement, Origin, PaperFigure};
 pub use sweep::{Setting, Sweep};
 
 /// Method by which our value was computed.
@@ -63,14 +65,22 @@ impl Standing {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
 #[strum(serialize_all = "lowercase")]
 pub enum RowVerdict {
-    /// Within the bound, and the value was not used.
-    Reproduced,
+    /// Measured on our side (drawn, solved, counted or timed), and within a bound in numbers.
+    Predicted,
+    /// Measured on our side; the bound is only which of two values is larger.
+    #[strum(to_string = "order only")]
+    OrderOnly,
+    /// Nothing is run: the paper's printed values agree with each other.
+    #[strum(to_string = "consistency of print")]
+    Consistent,
     /// Within the bound, but the value determined a constant of the model: no evidence.
     Calibrated,
     /// Outside the bound, and a sweep of this run reaches it.
     Explained,
     /// Outside the bound.
     Missed,
+    /// The paper contradicts itself, so that no value of ours can be judged.
+    Contradictory,
     /// The text is too vague to be tested; not a success either.
     #[strum(to_string = "too vague to judge")]
     TooVague,
@@ -79,8 +89,6 @@ pub enum RowVerdict {
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
-    /// Measured quantity.
-    pub what: String,
     /// Card or host.
     pub device: &'static str,
     /// Method by which ours was computed.
@@ -89,29 +97,70 @@ pub struct PaperRow {
     pub target: PaperFigure,
     /// Our value, in the unit of the paper's.
     pub ours: f64,
+    /// Our values by the other readings and models that the text allows.
+    pub readings: Vec<f64>,
     /// Dependence of ours on printed values.
     pub standing: Standing,
     /// Tolerance, stated beforehand.
     pub bound: Bound,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
+    contradiction: Option<Contradiction>,
 }
 
 impl PaperRow {
-    /// Creates a row without explanation.
+    /// Creates a row with a single reading, without explanation. `None` for a figure that is not judged.
     pub fn new(
-        what: impl Into<String>,
         (device, method): (&'static str, Method),
-        target: PaperFigure,
+        target: &PaperFigure,
         (ours, standing): (f64, Standing),
-        bound: Bound,
-    ) -> Self {
-        Self { what: what.into(), device, method, target, ours, standing, bound, explanation: None }
+    ) -> Option<Self> {
+        let Judgement::Within(bound) = target.judgement else { return None };
+        let (target, readings) = (target.clone(), Vec::new());
+        Some(Self { device, method, target, ours, readings, standing, bound, explanation: None, contradiction: None })
+    }
+
+    /// Adds the values of the other readings and models that the text allows: all of them must lie within the bound.
+    #[must_use]
+    pub fn with_readings(self, readings: impl IntoIterator<Item = f64>) -> Self {
+        Self { readings: readings.into_iter().collect(), ..self }
+    }
+
+    /// Adds a contradiction of the paper with itself, if there is one.
+    #[must_use]
+    pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
+        Self { contradiction, ..self }
+    }
+
+    /// Smallest and largest value within the bound; `None` where the text is too vague.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        self.bound.interval(self.target.value, self.target.rounding())
     }
 
     /// Returns `true` if a value of ours would lie within the bound; always `false` where the text is too vague.
     pub fn admits(&self, value: f64) -> bool {
-        self.bound.interval(&self.target).is_some_and(|[low, high]| (low..=high).contains(&value))
+        self.interval().is_some_and(|[low, high]| (low..=high).contains(&value))
+    }
+
+    /// Returns `true` if our value lies within the bound, by every reading.
+    pub fn holds(&self) -> bool {
+        self.values().all(|value| self.admits(value))
+    }
+
+    /// Returns `true` if the row holds only because the printed value was rounded.
+    pub fn holds_by_rounding(&self) -> bool {
+        let printed = (self.target.value, self.target.rounding());
+        self.holds() && self.values().any(|value| self.bound.needs_rounding(printed, value))
+    }
+
+    /// Smallest and largest value over all readings; `None` if there is only one reading.
+    pub fn range(&self) -> Option<[f64; 2]> {
+        let range = [self.values().fold(f64::INFINITY, f64::min), self.values().fold(f64::NEG_INFINITY, f64::max)];
+        (!self.readings.is_empty()).then_some(range)
+    }
+
+    fn values(&self) -> impl Iterator<Item = f64> {
+        std::iter::once(self.ours).chain(self.readings.iter().copied())
     }
 
     /// Relative difference: (ours - printed) / printed.
@@ -121,11 +170,12 @@ impl PaperRow {
 
     /// Verdict.
     pub fn verdict(&self) -> RowVerdict {
-        let calibrated = matches!(self.standing, Standing::Calibrated { .. });
-        if matches!(self.bound, Bound::TooVague) {
+        if self.contradiction.is_some() {
+            RowVerdict::Contradictory
+        } else if matches!(self.bound, Bound::TooVague) {
             RowVerdict::TooVague
-        } else if self.admits(self.ours) {
-            if calibrated { RowVerdict::Calibrated } else { RowVerdict::Reproduced }
+        } else if self.holds() {
+            self.class()
         } else if self.explanation.is_some() {
             RowVerdict::Explained
         } else {
@@ -133,9 +183,24 @@ impl PaperRow {
         }
     }
 
+    /// Verdict of a row that holds.
+    const fn class(&self) -> RowVerdict {
+        match (self.standing, self.method, self.bound) {
+            (Standing::Calibrated { .. }, ..) => RowVerdict::Calibrated,
+            (_, Method::Equation, _) => RowVerdict::Consistent,
+            (.., Bound::Order | Bound::AtLeast) => RowVerdict::OrderOnly,
+            _ => RowVerdict::Predicted,
+        }
+    }
+
     /// Explanation of the row by a sweep, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
         self.explanation.as_ref()
+    }
+
+    /// Computation that shows how the paper contradicts itself.
+    pub fn contradiction(&self) -> Option<&Contradiction> {
+        self.contradiction.as_ref()
     }
 }
 
@@ -143,18 +208,61 @@ impl PaperRow {
 pub(super) mod tests {
     use super::*;
 
+    pub(super) fn target(value: f64, decimals: u8) -> PaperFigure {
+        PaperFigure {
+            id: "ray-engine/tests".to_owned(),
+            what: "tests".to_owned(),
+            value,
+            decimals,
+            unit: "M/s".to_owned(),
+            place: "section 6.1".to_owned(),
+            origin: Origin::Printed,
+            judgement: Judgement::Within(Bound::Relative(0.1)),
+        }
+    }
+
     pub(super) fn row(ours: f64) -> PaperRow {
-        let target = PaperFigure::printed(15.6, 1, "M/s", "section 6.1");
         let standing = Standing::Predicted { from: "" };
-        PaperRow::new("tests", ("nv20", Method::Pipeline), target, (ours, standing), Bound::Relative(0.1))
+        PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, standing)).expect("a judged figure")
     }
 
     #[test]
     fn a_value_outside_its_bound_is_missed_and_no_word_changes_that() {
         assert_eq!(
             [15.0, 18.0, 13.0].map(|ours| row(ours).verdict()),
-            [RowVerdict::Reproduced, RowVerdict::Missed, RowVerdict::Missed]
+            [RowVerdict::Predicted, RowVerdict::Missed, RowVerdict::Missed]
         );
+    }
+
+    /// Print set against print, and an order, are told from predictions.
+    #[test]
+    fn classes_of_success_are_told_apart() {
+        let equation = PaperRow { method: Method::Equation, ..row(15.6) };
+        let [at_least, order] = [Bound::AtLeast, Bound::Order].map(|bound| PaperRow { bound, ..row(200.0) }.verdict());
+        assert_eq!(equation.verdict(), RowVerdict::Consistent);
+        assert_eq!([at_least, order], [RowVerdict::OrderOnly; 2]);
+        assert_eq!(PaperRow { bound: Bound::Order, ..equation }.verdict(), RowVerdict::Consistent);
+    }
+
+    /// A reading that fits does not hide another one that the text allows as well.
+    #[test]
+    fn every_reading_must_lie_within_the_bound() {
+        assert_eq!(row(15.6).with_readings([15.0, 16.0]).verdict(), RowVerdict::Predicted);
+        let apart = row(15.6).with_readings([15.0, 18.0]);
+        assert_eq!((apart.verdict(), apart.range()), (RowVerdict::Missed, Some([15.0, 18.0])));
+        assert_eq!(row(15.6).range(), None);
+    }
+
+    #[test]
+    fn a_row_says_that_it_needs_the_rounding() {
+        assert!(row(14.0).holds_by_rounding() && !row(14.1).holds_by_rounding() && !row(13.0).holds_by_rounding());
+    }
+
+    #[test]
+    fn a_figure_that_its_paper_contradicts_is_neither_met_nor_missed() {
+        let contradiction = || Contradiction::between(&target(15.6, 1), 33.2, "the other table");
+        let verdicts = [15.6, 30.0].map(|ours| row(ours).contradicted(contradiction()).verdict());
+        assert_eq!(verdicts, [RowVerdict::Contradictory; 2]);
     }
 
     #[test]

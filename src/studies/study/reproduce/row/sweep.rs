@@ -27,17 +27,18 @@ pub struct Sweep {
 impl Sweep {
     /// Explains those rows outside their bounds that lie within them at one setting, the first such. A setting explains
     /// nothing if any row leaves its bound there that is within it now: a single card or host must satisfy all rows.
-    /// Calibrated rows are never explained.
+    /// Calibrated rows are never explained, and contradictory ones have no say.
     pub fn explain<'a>(&self, rows: impl IntoIterator<Item = &'a mut PaperRow>) {
         let mut rows: Vec<&mut PaperRow> = rows.into_iter().collect();
         for setting in &self.settings {
             let held: Vec<bool> = rows.iter().zip(&setting.values).map(|(row, value)| row.admits(*value)).collect();
-            if rows.iter().zip(&held).any(|(row, held)| row.admits(row.ours) && !held) {
+            let judged = |row: &PaperRow| row.contradiction.is_none();
+            if rows.iter().zip(&held).any(|(row, held)| judged(row) && row.holds() && !held) {
                 continue;
             }
             let others = [held.iter().filter(|held| **held).count(), held.len()];
             for ((row, value), held) in rows.iter_mut().zip(&setting.values).zip(&held) {
-                let judged = !matches!(row.standing, Standing::Calibrated { .. }) && !row.admits(row.ours);
+                let judged = judged(row) && !matches!(row.standing, Standing::Calibrated { .. }) && !row.holds();
                 if *held && judged && row.explanation.is_none() {
                     row.explanation = Some(Explanation {
                         sweep: self.name,
@@ -61,12 +62,12 @@ impl Sweep {
             ["what", "place", "unit", "paper", "ours"].map(str::to_owned).into_iter().chain(settings).collect();
         let mut table = Table::new(format!("{title}; * within the bound"), &headings);
         for (i, row) in rows.iter().enumerate() {
-            let unit = unit.unwrap_or(row.target.unit);
+            let unit = unit.unwrap_or(&row.target.unit);
             let cell = |value: f64| if unit == "%" { Cell::percent(show(value)) } else { Cell::measured(show(value)) };
             let judged = |value: f64| cell(value).marked(if row.admits(value) { "*" } else { "" });
             let head: [Cell; 5] = [
-                row.what.as_str().into(),
-                row.target.place.into(),
+                row.target.what.as_str().into(),
+                row.target.place.as_str().into(),
                 unit.into(),
                 cell(row.target.value),
                 judged(row.ours),
@@ -94,7 +95,7 @@ mod tests {
     fn what_a_setting_reaches_is_explained_by_it() {
         let mut rows = [row(20.0), row(15.6)];
         sweep(&[[19.0, 15.6], [16.0, 15.0]]).explain(&mut rows);
-        assert_eq!(rows.each_ref().map(PaperRow::verdict), [RowVerdict::Explained, RowVerdict::Reproduced]);
+        assert_eq!(rows.each_ref().map(PaperRow::verdict), [RowVerdict::Explained, RowVerdict::Predicted]);
         let explanation = rows[0].explanation().expect("the second setting");
         assert_eq!((explanation.at(), explanation.value()), ("1", 16.0));
         assert!(rows[1].explanation().is_none(), "what holds needs no explanation");

@@ -2,8 +2,7 @@
 
 use super::gather::{GatherCost, VARIANTS};
 use super::{
-    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing,
-    failed, number,
+    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number, paper_row,
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
@@ -24,18 +23,10 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
-    let links = LINKS as f64;
-    let formula = |how: &str| Origin::Implied(how.to_owned());
-    let lookups = |what: &str, ours: f64, paper: f64, how: &str| {
-        let target = PaperFigure { origin: formula(how), ..PaperFigure::printed(paper, 0, "lookups", "section 4.2.3") };
-        PaperRow::new(what, (CARD, Method::Pipeline), target, (ours, Standing::Counted), Bound::Print)
-    };
-    let mut rows = vec![
-        lookups("reads of pass 2 for 16 fixed links", fixed, 1.25 * links, "1.25 L"),
-        lookups("reads of pass 2 for 16 adaptive links", adaptive, 2.0 * links, "2 L"),
-    ];
-    for (model, faces, stand_in) in MODELS {
-        rows.push(nodes(model, faces, stand_in)?);
+    let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Standing::Counted));
+    let mut rows = vec![lookups("subsurface/lookups-fixed", fixed)?, lookups("subsurface/lookups-adaptive", adaptive)?];
+    for (model, _, stand_in) in MODELS {
+        rows.push(nodes(model, stand_in)?);
     }
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0)])],
@@ -47,16 +38,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Row on the number of nodes of the clustering: 2 T - 1.
-fn nodes(model: &str, faces: u32, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
+fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
     let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
-    let target = PaperFigure {
-        origin: Origin::Implied(format!("2 T - 1 for {faces} faces")),
-        ..PaperFigure::printed(f64::from(2 * faces - 1), 0, "nodes", "section 2.3")
-    };
     let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);
-    Ok(PaperRow::new(format!("nodes of the clustering, {model}"), ("host", Method::Solver), target, ours, Bound::Print))
+    paper_row(&format!("subsurface/nodes-{model}"), ("host", Method::Solver), ours)
 }
 
 /// Table of all pairs and link textures by the size of the atlas.

@@ -49,6 +49,12 @@ pub(super) const VARIANTS: [Variant; 8] = [
     Variant { name: "adaptive, fp32 map", fixed: false, map: MapFormat::Fp32, half: false },
 ];
 
+/// Variants that may explain a time, with their costs: those with fixed links. Section 4.3 gives adaptive links up,
+/// which leaves open the format of the map and the precision. With the place of each in [`VARIANTS`].
+pub(super) fn left_open(costs: &[GatherCost]) -> impl Iterator<Item = (usize, (&'static Variant, &GatherCost))> {
+    VARIANTS.iter().zip(costs).enumerate().filter(|(_, (variant, _))| variant.fixed)
+}
+
 /// Cost of a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::study::reproduce) struct GatherCost {

@@ -15,6 +15,6 @@ pub(super) use table_1::findings as table_1;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Bound, EntryFindings, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Standing, Sweep,
-    number,
+    Contradiction, EntryFindings, Method, PaperRow, Prose, ReproduceError, Setting, Standing, Sweep, number, paper_row,
+    printed_value,
 };

@@ -4,10 +4,10 @@
 //! waits. Only pass 2 at 1024 x 1024 is longer than the possible wait, and the same on all three models.
 
 use super::counts::MODELS;
-use super::gather::{GatherCost, VARIANTS, all_costs};
+use super::gather::{GatherCost, VARIANTS, all_costs, left_open};
 use super::{
-    Bound, CARD, EntryFindings, LINKS, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Setting, Shared,
-    Standing, Sweep, number,
+    CARD, Contradiction, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing,
+    Sweep, number, paper_row, printed_value,
 };
 use crate::report::{Cell, Table};
 
@@ -16,21 +16,48 @@ const OTHER_CARDS: [&str; 3] = ["nv35", "fx5800", "nv30"];
 /// Printed row of Table 1: frames per second, and the fractions of the passes in per cent.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PrintedFrame {
+    pub(super) model: &'static str,
+    /// Texels along a side.
+    pub(super) side: f64,
     pub(super) rate: f64,
     pub(super) shares: [f64; 3],
 }
 
-/// Printed rows at 512 and at 1024 texels.
-pub(super) const PRINTED: [[PrintedFrame; 2]; 3] = [
-    [PrintedFrame { rate: 61.10, shares: [11.0, 82.0, 7.0] }, PrintedFrame { rate: 15.40, shares: [13.0, 85.0, 2.0] }],
-    [PrintedFrame { rate: 30.35, shares: [43.0, 43.0, 14.0] }, PrintedFrame { rate: 15.09, shares: [8.0, 85.0, 7.0] }],
-    [
-        PrintedFrame { rate: 30.33, shares: [37.0, 34.0, 28.0] },
-        PrintedFrame { rate: 12.05, shares: [18.0, 68.0, 14.0] },
-    ],
-];
+impl PrintedFrame {
+    /// All rows, model by model.
+    pub(super) fn all() -> Result<Vec<Self>, ReproduceError> {
+        let all = MODELS.iter().flat_map(|(model, ..)| SIDES.map(|side| (*model, side)));
+        all.map(|(model, side)| Self::of(model, side)).collect()
+    }
+
+    fn of(model: &'static str, side: f64) -> Result<Self, ReproduceError> {
+        let share = |pass: usize| printed_value(&format!("subsurface/share-{model}-{side}-{pass}"));
+        let rate = printed_value(&format!("subsurface/rate-{model}-{side}"))?;
+        Ok(Self { model, side, rate, shares: [share(1)?, share(2)?, share(3)?] })
+    }
+
+    /// Periods of the display that the frame takes.
+    pub(super) fn periods(&self) -> f64 {
+        (DISPLAY / self.rate).round()
+    }
+
+    /// Milliseconds of a pass, counted from 1.
+    pub(super) fn milliseconds(&self, pass: usize) -> f64 {
+        1e3 / self.rate * self.shares[pass - 1] / 100.0
+    }
+
+    /// Name of the figure of a pass's time.
+    pub(super) fn pass_id(&self, pass: usize) -> String {
+        format!("subsurface/pass-{}-{}-{pass}", self.model, self.side)
+    }
+}
+
 /// Refresh rate of the display that the rates are synchronised to, in Hz.
 pub(super) const DISPLAY: f64 = 60.0;
+/// Largest relative difference of a rate from a whole number of periods.
+const LOCKED_WITHIN: f64 = 0.03;
+/// Sum of three shares of whole per cents that are all of a frame, at least.
+const ALL_BUT_ROUNDING: f64 = 98.5;
 /// Texels along a side.
 pub(super) const SIDES: [f64; 2] = [512.0, 1024.0];
 
@@ -42,34 +69,26 @@ const OPEN: &str = "Neither the format of the radiosity map nor which links were
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let costs = shared.gather()?;
     let ms = |cost: &GatherCost| 1e3 * cost.seconds(SIDES[1]);
+    let printed = PrintedFrame::all()?;
     let mut rows: Vec<PaperRow> = Vec::new();
-    for ((model, ..), [_, PrintedFrame { rate, shares: [_, share, _] }]) in MODELS.iter().zip(PRINTED) {
-        let target = PaperFigure {
-            origin: Origin::Implied(format!("{share} % of 1/{rate} s")),
-            ..PaperFigure::printed(1e3 / rate * share / 100.0, 1, "ms", "table 1")
-        };
+    for frame in printed.iter().filter(|frame| frame.side == SIDES[1]) {
         let ours = (ms(&costs[0]), Standing::Predicted { from: "" });
-        rows.push(PaperRow::new(
-            format!("pass 2 at 1024 x 1024, {model}"),
-            (CARD, Method::Pipeline),
-            target,
-            ours,
-            Bound::PREDICTION,
-        ));
+        rows.push(paper_row(&frame.pass_id(2), (CARD, Method::Pipeline), ours)?);
     }
     let setting = |(variant, cost): (&super::gather::Variant, &GatherCost)| Setting {
         at: variant.name.to_owned(),
         values: vec![ms(cost); rows.len()],
     };
-    let settings = VARIANTS.iter().zip(costs).map(setting).collect();
-    let sweep = Sweep { name: "What the text leaves open of pass 2", parameter: "variant", settings };
+    let settings = left_open(costs).map(|(_, variant)| setting(variant)).collect();
+    let sweep =
+        Sweep { name: "format and precision of pass 2, which the text leaves open", parameter: "variant", settings };
     sweep.explain(&mut rows);
     let times: Vec<f64> = costs.iter().map(ms).collect();
     let spread = times.iter().copied().fold(0.0, f64::max) / times.iter().copied().fold(f64::INFINITY, f64::min);
     let target = |row: &PaperRow| row.target.value;
     let apart =
         rows.iter().map(target).fold(0.0, f64::max) / rows.iter().map(target).fold(f64::INFINITY, f64::min) - 1.0;
-    let [factors, least, most] = locked();
+    let [factors, least, most] = locked(&printed);
     Ok(EntryFindings {
         text: vec![
             Prose::new(
@@ -87,7 +106,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             Prose::new(OPEN, [number(spread, 1)]),
         ],
         rows,
-        tables: vec![variants(costs)?, frames()],
+        tables: vec![variants(costs)?, frames(&printed)],
         questions: vec![
             "the format of the radiosity map, the choice of links, and whether waits for the display are in the times.",
         ],
@@ -95,10 +114,34 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
+/// Contradiction of the times of the passes by the display: the rates are those of whole periods, and the shares of the
+/// passes sum to the frame, so that the times contain waits. The computation is from the paper's values alone.
+pub(super) fn display_lock(printed: &[PrintedFrame]) -> Option<Contradiction> {
+    let on_periods = printed.iter().all(|frame| (frame.periods() * frame.rate / DISPLAY - 1.0).abs() < LOCKED_WITHIN);
+    let sums: Vec<f64> = printed.iter().map(|frame| frame.shares.iter().sum()).collect();
+    let least = sums.iter().copied().fold(f64::INFINITY, f64::min);
+    let without_waits = |frame: &&PrintedFrame| frame.side == SIDES[0];
+    // The first pass draws the same vertices at both sizes, and at the larger one more levels.
+    let shorter = printed.iter().filter(without_waits).find(|small| {
+        let large = printed.iter().find(|frame| frame.model == small.model && frame.side == SIDES[1]);
+        large.is_some_and(|large| large.milliseconds(1) < small.milliseconds(1) / 2.0)
+    });
+    let [factors, low, high] = locked(printed);
+    let computation = format!(
+        "the six frame rates times {factors} are {low} to {high}, whole periods of one display, and the shares of the passes sum \
+         to {} % of the frame or more, so that waits are inside{}",
+        number(least, 0),
+        shorter.map_or_else(String::new, |frame| format!(
+            "; pass 1 of the {} takes more than twice as long at the smaller size",
+            frame.model
+        )),
+    );
+    Contradiction::if_holds(on_periods && least >= ALL_BUT_ROUNDING && shorter.is_some(), computation)
+}
+
 /// Factor of the rates, and the smallest and the largest product.
-fn locked() -> [String; 3] {
-    let products: Vec<(f64, f64)> =
-        PRINTED.iter().flatten().map(|printed| ((DISPLAY / printed.rate).round(), printed.rate)).collect();
+fn locked(printed: &[PrintedFrame]) -> [String; 3] {
+    let products: Vec<(f64, f64)> = printed.iter().map(|frame| (frame.periods(), frame.rate)).collect();
     let factors: Vec<String> = products.iter().map(|(factor, _)| number(*factor, 0)).collect();
     let product = |&(factor, rate): &(f64, f64)| factor * rate;
     let least = products.iter().map(product).fold(f64::INFINITY, f64::min);
@@ -124,23 +167,22 @@ fn variants(costs: &[GatherCost]) -> Result<Table, ReproduceError> {
 }
 
 /// Table 1 as printed, with derived values.
-fn frames() -> Table {
+fn frames(printed: &[PrintedFrame]) -> Table {
     let mut table = Table::of(
         "Table 1 as printed: frames, and pass 2 as far as shares of whole per cents tell",
         "model faces atlas frames_per_s display_periods pass_2_% pass_2_ms",
     );
-    for ((model, faces, _), printed) in MODELS.iter().zip(PRINTED) {
-        for (side, PrintedFrame { rate, shares: [_, share, _] }) in SIDES.iter().zip(printed) {
-            table.push([
-                (*model).into(),
-                (*faces).into(),
-                format!("{side} x {side}").into(),
-                Cell::decimals(rate, 2),
-                ((DISPLAY / rate).round() as u32).into(),
-                Cell::decimals(share, 0),
-                Cell::decimals(1e3 / rate * share / 100.0, 2),
-            ]);
-        }
+    for frame in printed {
+        let faces = MODELS.iter().find(|(model, ..)| *model == frame.model).map(|(_, faces, _)| *faces);
+        table.push([
+            frame.model.into(),
+            faces.into(),
+            format!("{0} x {0}", frame.side).into(),
+            Cell::decimals(frame.rate, 2),
+            (frame.periods() as u32).into(),
+            Cell::decimals(frame.shares[1], 0),
+            Cell::decimals(frame.milliseconds(2), 2),
+        ]);
     }
     table
 }

@@ -15,7 +15,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun]) -> Table {
     let mut table = Table::new("The host's time a ray", &headings);
     table.push(row("host alone", &room.host, &room.work.alone.counts, room.work.alone.rays));
     for line in lines {
-        table.push(row(&line.row.what, &room.host, &counted(line.run.log()), line.run.counts.rays));
+        table.push(row(line.name, &room.host, &counted(line.run.log()), line.run.counts.rays));
     }
     table
 }

@@ -22,7 +22,7 @@ mod teapot;
 mod workload;
 
 pub(super) use speed_ups::{SpeedUps, work_out};
-use stated::{HOST_ALONE, QUESTION, RATE, commands, how, speed_up};
+use stated::{QUESTION, RATE, commands, how, speed_up};
 pub(super) use table_1::findings as table_1;
 pub(super) use table_3::findings as table_3;
 pub(super) use table_4::findings as table_4;

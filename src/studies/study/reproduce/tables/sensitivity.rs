@@ -24,7 +24,7 @@ fn keys() -> Vec<String> {
 /// calibrated anew each time, so that its time alone is unchanged.
 pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
-        .chain(lines.iter().map(|line| format!("{}_%", line.row.what.replace(' ', "_"))))
+        .chain(lines.iter().map(|line| format!("{}_%", line.name.replace(' ', "_"))))
         .collect();
     let mut table = Table::new("Speed-ups of Table 3 with one guess doubled", &headings);
     let stated = speed_ups(alone, lines, HostWeights::default(), QueueFigures::default())?;

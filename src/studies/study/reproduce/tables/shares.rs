@@ -1,6 +1,6 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
 
-use super::super::{Bound, Method, PaperFigure, PaperRow, Setting, Standing, Sweep};
+use super::super::{Method, PaperRow, ReproduceError, Setting, Standing, Sweep, paper_row, printed};
 use super::workload::TIMES;
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
@@ -16,30 +16,18 @@ const READINGS: [(&str, Reading); 2] = [
     ("visits", EngineCounts::share_of_visits_on_card),
 ];
 
-/// Printed fraction with the counts of our run.
-pub(super) struct Share<'a> {
-    pub(super) what: &'a str,
-    pub(super) printed: f64,
-    pub(super) counts: &'a EngineCounts,
-}
+/// Name of a printed fraction, with the counts of our run.
+pub(super) type Share<'a> = (&'static str, &'a EngineCounts);
 
 /// Rows by the first interpretation, explained by the second where that reaches them, and a table of both.
-pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<PaperRow>, Table) {
-    let row = |share: &Share<'_>| {
-        let target = PaperFigure::printed(share.printed, 0, "%", place);
-        let what = format!("{}: rays on the card", share.what);
-        PaperRow::new(
-            what,
-            (TIMES, Method::Engine),
-            target,
-            (100.0 * READINGS[0].1(share.counts), Standing::Counted),
-            Bound::PREDICTION,
-        )
+pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
+    let row = |&(id, counts): &Share<'_>| {
+        paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Standing::Counted))
     };
-    let mut rows: Vec<PaperRow> = shares.iter().map(row).collect();
+    let mut rows: Vec<PaperRow> = shares.iter().map(row).collect::<Result<_, _>>()?;
     let setting = |(at, of): (&str, Reading)| Setting {
         at: at.to_owned(),
-        values: shares.iter().map(|share| 100.0 * of(share.counts)).collect(),
+        values: shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect(),
     };
     let sweep = Sweep {
         name: "what is called a ray on the card",
@@ -48,15 +36,16 @@ pub(super) fn rows(shares: &[Share<'_>], place: &'static str) -> (Vec<PaperRow>,
     };
     sweep.explain(&mut rows);
     let table = sweep.table(&format!("Two readings of the rays on the card, {place}"), &rows, (None, |share| share));
-    (rows, table)
+    Ok((rows, table))
 }
 
 /// Chart of the printed fractions and both interpretations.
-pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Chart {
-    let points =
-        |of: &dyn Fn(&Share<'_>) -> f64| (1..).zip(shares).map(|(x, share)| (f64::from(x), of(share))).collect();
-    let [rays, visits] = READINGS.map(|(_, of)| points(&|share| 100.0 * of(share.counts)));
-    Chart {
+pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, ReproduceError> {
+    let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
+    let [rays, visits] = READINGS.map(|(_, of)| points(shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect()));
+    let values: Vec<f64> =
+        shares.iter().map(|(id, _)| Ok(printed(id)?.value)).collect::<Result<_, ReproduceError>>()?;
+    Ok(Chart {
         title: title.to_owned(),
         y: "%".to_owned(),
         ticks: ticks.iter().map(ToString::to_string).collect(),
@@ -64,7 +53,7 @@ pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Chart 
             Series { label: "rays that met the card".to_owned(), points: rays },
             Series { label: "visits of caches that ended on the card".to_owned(), points: visits },
         ],
-        printed: points(&|share| share.printed),
+        printed: points(values),
         ..Chart::default()
-    }
+    })
 }

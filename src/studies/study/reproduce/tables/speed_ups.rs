@@ -3,21 +3,24 @@
 
 use std::rc::Rc;
 
-use super::super::{Bound, Method, PaperFigure, PaperRow, ReproduceError, Standing, Sweep};
+use super::super::{Method, PaperRow, ReproduceError, Standing, Sweep, paper_row};
 use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::TIMES;
-use super::{HOST_ALONE, RATE, commands, speed_up, sweeps};
+use super::{RATE, commands, speed_up, sweeps};
 use crate::ray_engine::engine::Readback;
 use crate::report::{Cell, Table};
 
 /// Passes in flight in the asynchronous run.
 const IN_FLIGHT: usize = 4;
-/// Bound relative to the printed gain over the host alone.
-const GAIN: Bound = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
 
-/// Row of Tables 3 to 5 with its run. The run of 5 to 15 triangles and 64 rays is printed in all three.
+/// Line of Tables 3 to 5 with its run. That of 5 to 15 triangles and 64 rays is printed in all three and is one figure,
+/// whose row stands with Table 3.
 pub(super) struct SpeedUpRun {
+    /// Name in its table.
+    pub(super) name: &'static str,
+    /// Table of the line.
+    pub(super) place: &'static str,
     pub(super) row: PaperRow,
     pub(super) run: Rc<Run>,
 }
@@ -44,14 +47,12 @@ pub(crate) struct SpeedUps {
 impl SpeedUps {
     /// Lines of a table.
     pub(super) fn of(&self, place: &'static str) -> Vec<&SpeedUpRun> {
-        self.lines.iter().filter(|line| line.row.target.place == place).collect()
+        self.lines.iter().filter(|line| line.place == place).collect()
     }
 
-    /// Rows of a table, including that of the host alone.
-    pub(super) fn rows(&self, room: &TeapotRoom, place: &'static str) -> Vec<PaperRow> {
-        std::iter::once(host_alone(room, place))
-            .chain(self.of(place).into_iter().map(|line| line.row.clone()))
-            .collect()
+    /// Rows of the figures that are printed first in this table.
+    pub(super) fn rows(&self, place: &'static str) -> Vec<PaperRow> {
+        self.of(place).into_iter().filter(|line| line.row.target.place == place).map(|line| line.row.clone()).collect()
     }
 
     /// Table of all rows under each setting of a sweep, as speed-ups.
@@ -64,47 +65,44 @@ impl SpeedUps {
     pub(super) fn under(&self, sweep: &Sweep, place: &'static str) -> Vec<(String, Vec<f64>)> {
         let of = |values: &[f64]| {
             let pairs = self.lines.iter().zip(values);
-            pairs.filter(|(line, _)| line.row.target.place == place).map(|(_, value)| speed_up(*value)).collect()
+            pairs.filter(|(line, _)| line.place == place).map(|(_, value)| speed_up(*value)).collect()
         };
         sweep.settings.iter().map(|setting| (setting.at.clone(), of(&setting.values))).collect()
     }
 }
 
-/// Printed rows: name, table, rays per second, and the engine's variant.
-fn printed() -> Vec<(String, &'static str, f64, Variant)> {
+/// Lines of the tables: table, name, printed figure, and the engine's variant.
+fn lines() -> Vec<(&'static str, &'static str, &'static str, Variant)> {
+    const PLUS_CARD: &str = "ray-engine/plus-card";
     let plus = Variant::PLUS_CARD;
     let readback = |readback| Variant { readback, ..plus.clone() };
     let triangles = |triangles| Variant { triangles, ..plus.clone() };
     let rays = |rays| Variant { rays, ..plus.clone() };
-    let mut lines = Vec::new();
-    for (what, value, variant) in [
-        ("plus card", 165_098.0, plus.clone()),
-        ("asynchronous read-back", 183_273.0, readback(Readback::Asynchronous { passes: IN_FLIGHT })),
-        ("infinitely fast card", 234_102.0, readback(Readback::InfinitelyFast)),
-    ] {
-        lines.push((what.to_owned(), "Table 3", value, variant));
-    }
-    for (range, value) in [(4..=16, 147_630.0), (5..=12, 157_839.0), (5..=15, 165_098.0)] {
-        let what = format!("{} to {} triangles", range.start(), range.end());
-        lines.push((what, "Table 4", value, triangles(range)));
-    }
-    for (count, value) in [(64, 165_098.0), (128, 177_647.0), (256, 180_558.0), (512, 175_904.0)] {
-        lines.push((format!("{count} rays"), "Table 5", value, rays(count)));
-    }
-    lines
+    let asynchronous = readback(Readback::Asynchronous { passes: IN_FLIGHT });
+    vec![
+        ("Table 3", "plus card", PLUS_CARD, plus.clone()),
+        ("Table 3", "asynchronous read-back", "ray-engine/asynchronous", asynchronous),
+        ("Table 3", "infinitely fast card", "ray-engine/infinitely-fast", readback(Readback::InfinitelyFast)),
+        ("Table 4", "4 to 16 triangles", "ray-engine/triangles-4-16", triangles(4..=16)),
+        ("Table 4", "5 to 12 triangles", "ray-engine/triangles-5-12", triangles(5..=12)),
+        ("Table 4", "5 to 15 triangles", PLUS_CARD, triangles(5..=15)),
+        ("Table 5", "64 rays", PLUS_CARD, rays(64)),
+        ("Table 5", "128 rays", "ray-engine/rays-128", rays(128)),
+        ("Table 5", "256 rays", "ray-engine/rays-256", rays(256)),
+        ("Table 5", "512 rays", "ray-engine/rays-512", rays(512)),
+    ]
 }
 
 /// Computes runs, times and sweeps.
 pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
-    let printed = printed();
-    let variants: Vec<Variant> = printed.iter().map(|(.., variant)| variant.clone()).collect();
+    let stated = lines();
+    let variants: Vec<Variant> = stated.iter().map(|(.., variant)| variant.clone()).collect();
     let runs = room.runs(&variants)?;
     let ours = sweeps::rates(&runs, &room.host, commands())?;
     let mut lines = Vec::new();
-    for (((what, place, value, _), run), ours) in printed.into_iter().zip(&runs).zip(ours) {
-        let target = PaperFigure::printed(value, 0, "rays/s", place);
-        let row = PaperRow::new(what, (TIMES, Method::Engine), target, (ours, RATE), GAIN);
-        lines.push(SpeedUpRun { row, run: Rc::clone(run) });
+    for (((place, name, id, _), run), ours) in stated.into_iter().zip(&runs).zip(ours) {
+        let row = paper_row(id, (TIMES, Method::Engine), (ours, RATE))?;
+        lines.push(SpeedUpRun { name, place, row, run: Rc::clone(run) });
     }
     let (commands, host_leaf) = (sweeps::commands(room, &runs)?, sweeps::host_leaf(room, &runs)?);
     for sweep in [&commands, &host_leaf] {
@@ -114,11 +112,9 @@ pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
 }
 
 /// First row of Tables 3 to 5, which calibrates the host's scale.
-fn host_alone(room: &TeapotRoom, place: &'static str) -> PaperRow {
+pub(super) fn host_alone(room: &TeapotRoom) -> Result<PaperRow, ReproduceError> {
     let standing = Standing::Calibrated { on: "this figure" };
-    let ours = room.work.alone.rays_per_s(&room.host);
-    let target = PaperFigure::printed(HOST_ALONE, 0, "rays/s", place);
-    PaperRow::new("host alone", (TIMES, Method::Engine), target, (ours, standing), Bound::Print)
+    paper_row("ray-engine/host-alone", (TIMES, Method::Engine), (room.work.alone.rays_per_s(&room.host), standing))
 }
 
 const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% points_off ours_if_commands_were_free_% \
@@ -133,7 +129,7 @@ pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Re
         let (counts, rays) = (&line.run.counts, line.run.counts.rays as f64);
         let of = |part: u64, whole: f64| Cell::ratio(part as f64 / whole.max(1.0));
         table.push([
-            line.row.what.as_str().into(),
+            line.name.into(),
             Cell::decimals(line.row.target.value, 0),
             Cell::measured(line.row.ours),
             Cell::percent(line.printed()),

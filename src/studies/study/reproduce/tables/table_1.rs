@@ -5,22 +5,23 @@ use std::rc::Rc;
 use rayon::prelude::*;
 
 use super::super::shared::Shared;
-use super::super::{Bound, EntryChart, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, ReproduceError};
+use super::super::{
+    EntryChart, EntryFindings, Method, ModelSize, PaperRow, ReproduceError, paper_row, printed, printed_value,
+};
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
 use super::teapot::Variant;
 use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
-use super::{HOST_ALONE, QUESTION, RATE, commands, speed_up};
+use super::{QUESTION, RATE, commands};
 use crate::report::{Cell, Chart, NamedPicture, Series, Table};
 
-/// Line of both tables.
+/// Line of both tables, with the names of its printed figures.
 struct PrintedScene {
-    what: &'static str,
+    rate: &'static str,
+    share: &'static str,
+    polygons: &'static str,
     tick: &'static str,
     job: Option<Job>,
-    polygons: u64,
-    rays_per_s: f64,
-    share: f64,
     /// `R_min`.
     rays: usize,
 }
@@ -30,57 +31,49 @@ const EYES: Job = Job { scene: "office-floor", view: Some("top"), renderer: JobR
 const SCENES: [PrintedScene; 5] = [
     // The room of Tables 3 to 5. Section 6.3: 256 rays and an octree tuned by hand; ours is not tuned.
     PrintedScene {
-        what: "teapot room, classical",
+        rate: "ray-engine/teapot-classical",
+        share: "ray-engine/share-teapot-classical",
+        polygons: "ray-engine/polygons-teapot",
         tick: "teapot, classical",
         job: None,
-        polygons: 2650,
-        rays_per_s: 206_905.0,
-        share: 89.0,
         rays: 256,
     },
     PrintedScene {
-        what: "teapot room, Monte Carlo",
+        rate: "ray-engine/teapot-monte-carlo",
+        share: "ray-engine/share-teapot-monte-carlo",
+        polygons: "ray-engine/polygons-teapot",
         tick: "teapot, Monte Carlo",
         job: Some(Job { scene: "teapot-room", view: None, renderer: JobRenderer::MonteCarlo(4), side: 112 }),
-        polygons: 2650,
-        rays_per_s: 149_233.0,
-        share: 71.0,
         rays: 64,
     },
     PrintedScene {
-        what: "office",
+        rate: "ray-engine/office",
+        share: "ray-engine/share-office",
+        polygons: "ray-engine/polygons-office",
         tick: "office",
         job: Some(Job { scene: "office", view: None, renderer: JobRenderer::Classical, side: 224 }),
-        polygons: 34_000,
-        rays_per_s: 114_499.0,
-        share: 65.0,
         rays: 64,
     },
     PrintedScene {
-        what: "office floor, top view",
+        rate: "ray-engine/floor-top",
+        share: "ray-engine/share-floor-top",
+        polygons: "ray-engine/polygons-floor",
         tick: "floor, top",
         job: Some(EYES),
-        polygons: 11_052,
-        rays_per_s: 129_485.0,
-        share: 70.0,
         rays: 64,
     },
     PrintedScene {
-        what: "office floor, side view",
+        rate: "ray-engine/floor-side",
+        share: "ray-engine/share-floor-side",
+        polygons: "ray-engine/polygons-floor",
         tick: "floor, side",
         job: Some(Job { view: Some("side"), ..EYES }),
-        polygons: 11_052,
-        rays_per_s: 131_302.0,
-        share: 89.0,
         rays: 64,
     },
 ];
 
 /// Samples per pixel of the pictures, relative to those of the renderings that are counted.
 const SAMPLES: u32 = 4;
-
-/// Section 6.3, of the first row: "a 52% speedup over the CPU".
-const TUNED: f64 = 52.0;
 
 const HOW: &str = "Five renderings as in Table 1, of scenes with as many polygons, on the host that Table 3 calibrates. Nothing of the scenes, pictures and \
     octrees is printed; the paper's first row has an octree tuned by hand, ours has the one of all runs.";
@@ -118,13 +111,9 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         })
     });
     let ran: Vec<SceneRun> = ran.collect::<Result<_, ReproduceError>>()?;
-    let mut rows = rates(&ran);
-    let shares: Vec<Share<'_>> = SCENES
-        .iter()
-        .zip(&ran)
-        .map(|(scene, ran)| Share { what: scene.what, printed: scene.share, counts: &ran.run.counts })
-        .collect();
-    let (share_rows, readings) = shares::rows(&shares, "Table 2");
+    let mut rows = rates(&ran)?;
+    let shares: Vec<Share<'_>> = SCENES.iter().zip(&ran).map(|(scene, ran)| (scene.share, &ran.run.counts)).collect();
+    let (share_rows, readings) = shares::rows(&shares, "Table 2")?;
     rows.extend(share_rows);
     let ticks = SCENES.each_ref().map(|scene| scene.tick);
     let pictures = (1..).zip(&SCENES).map(|(row, scene)| picture(row, scene, shared.models));
@@ -134,16 +123,16 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         text: vec![HOW.into(), READINGS.into()],
         rows,
         questions: vec![QUESTION],
-        tables: vec![table(&ran), readings],
+        tables: vec![table(&ran)?, readings],
         charts: vec![
             EntryChart {
                 name: "ray-engine-table-1",
-                chart: rates_chart(&ran, &ticks),
+                chart: rates_chart(&ran, &ticks)?,
                 caption: "Rays a second of the five rows of Table 1.".into(),
             },
             EntryChart {
                 name: "ray-engine-table-2",
-                chart: shares::chart(&shares, &ticks, "Share of rays on the card"),
+                chart: shares::chart(&shares, &ticks, "Share of rays on the card")?,
                 caption: "Table 2, and both readings of our runs.".into(),
             },
         ],
@@ -154,29 +143,21 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
 /// Picture of a row's scene, by its renderer.
 fn picture(row: usize, scene: &PrintedScene, models: ModelSize) -> Result<NamedPicture, ReproduceError> {
     let image = scene.job.unwrap_or(CLASSICAL_TEAPOT).picture(models.picture_side(), SAMPLES)?;
-    Ok(NamedPicture::new(format!("ray-engine-table-1-scene-{row}"), image, scene.what))
+    Ok(NamedPicture::new(format!("ray-engine-table-1-scene-{row}"), image, scene.tick))
 }
 
-fn rates(ran: &[SceneRun]) -> Vec<PaperRow> {
-    let by = (TIMES, Method::Engine);
-    let row = |(i, (scene, ran)): (usize, (&PrintedScene, &SceneRun))| {
-        let target = PaperFigure::printed(scene.rays_per_s, 0, "rays/s", "Table 1");
-        // The first row's room is the one on which the host was calibrated; for the others no rate of the host alone is printed.
-        let gain = Bound::Gain { share: Bound::SHARE, over: HOST_ALONE };
-        let bound = if i == 0 { gain } else { Bound::PREDICTION };
-        PaperRow::new(scene.what, by, target, (ran.rays_per_s, RATE), bound)
+fn rates(ran: &[SceneRun]) -> Result<Vec<PaperRow>, ReproduceError> {
+    let row = |(scene, ran): (&PrintedScene, &SceneRun)| {
+        paper_row(scene.rate, (TIMES, Method::Engine), (ran.rays_per_s, RATE))
     };
-    let mut rows: Vec<PaperRow> = SCENES.iter().zip(ran).enumerate().map(row).collect();
-    let tuned = PaperFigure::printed(TUNED, 0, "%", "section 6.3");
-    let ours = ran.first().map_or(f64::NAN, |ran| speed_up(ran.rays_per_s));
-    rows.insert(1, PaperRow::new("the same, over the host alone", by, tuned, (ours, RATE), Bound::PREDICTION));
-    rows
+    SCENES.iter().zip(ran).map(row).collect()
 }
 
-fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Chart {
+fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Result<Chart, ReproduceError> {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value / 1000.0)).collect();
     let dots = |label: &str, values: Vec<f64>| Series { label: label.to_owned(), points: points(values) };
-    Chart {
+    let stated = SCENES.iter().map(|scene| printed_value(scene.rate)).collect::<Result<_, _>>()?;
+    Ok(Chart {
         title: "Rays a second".to_owned(),
         y: "thousand rays/s".to_owned(),
         ticks: ticks.iter().map(ToString::to_string).collect(),
@@ -184,25 +165,26 @@ fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Chart {
             dots("ours", ran.iter().map(|ran| ran.rays_per_s).collect()),
             dots("ours, host alone", ran.iter().map(|ran| ran.alone_rays_per_s).collect()),
         ],
-        printed: points(SCENES.iter().map(|scene| scene.rays_per_s).collect()),
+        printed: points(stated),
         ..Chart::default()
-    }
+    })
 }
 
-fn table(ran: &[SceneRun]) -> Table {
+fn table(ran: &[SceneRun]) -> Result<Table, ReproduceError> {
     let columns =
         "scene polygons_printed triangles rays_traced printed_rays_per_s ours_rays_per_s host_alone_rays_per_s";
     let mut table = Table::of("Five scenes", columns);
     for (scene, ran) in SCENES.iter().zip(ran) {
+        let rate = printed(scene.rate)?;
         table.push([
-            scene.what.into(),
-            scene.polygons.into(),
+            rate.what.as_str().into(),
+            printed(scene.polygons)?.cell(),
             ran.triangles.into(),
             ran.run.counts.rays.into(),
-            Cell::decimals(scene.rays_per_s, 0),
+            rate.cell(),
             Cell::measured(ran.rays_per_s),
             Cell::measured(ran.alone_rays_per_s),
         ]);
     }
-    table
+    Ok(table)
 }

@@ -4,7 +4,7 @@
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
 use super::super::{EntryChart, EntryFindings, ReproduceError};
-use super::speed_ups::{SpeedUpRun, SpeedUps, table};
+use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::{QUESTION, host_work, how, sensitivity};
 use crate::report::{Chart, Series};
 
@@ -21,7 +21,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],
-        rows: found.rows(room, PLACE),
+        rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).collect(),
         questions: vec![
             QUESTION,
             "how full the leaves of the host's octree were when it was timed alone, and whether the engine had the same octree.",
@@ -81,7 +81,7 @@ fn octree(found: &SpeedUps) -> Prose {
 fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
     let settings = found.under(&found.host_leaf, PLACE);
     let line = |(i, line): (usize, &&SpeedUpRun)| Series {
-        label: line.row.what.clone(),
+        label: line.name.to_owned(),
         points: settings.iter().filter_map(|(at, values)| Some((at.parse().ok()?, values[i]))).collect(),
     };
     let stated = super::workload::OCTREE.most_triangles as f64;

@@ -8,8 +8,8 @@ use super::{QUESTION, how};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 4";
-/// Printed fraction of rays on the card, in per cent.
-const SHARES: [f64; 3] = [78.0, 81.0, 89.0];
+/// Printed fractions of rays on the card.
+const SHARES: [&str; 3] = ["ray-engine/share-4-16", "ray-engine/share-5-12", "ray-engine/share-5-15"];
 
 const ORDER: &str = "Printed, the widest range brings the fewest rays to the card. Ours can't: a GPU cell is the largest \
     cell whose triangles lie in the range, so a wider range has more of them, and more rays meet one. Our speed-ups are {}, {} and {} % \
@@ -19,16 +19,12 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let room = shared.teapot()?;
     let found = shared.speed_ups()?;
     let lines = found.of(PLACE);
-    let shares: Vec<Share<'_>> = lines
-        .iter()
-        .zip(SHARES)
-        .map(|(line, printed)| Share { what: &line.row.what, printed, counts: &line.run.counts })
-        .collect();
-    let (share_rows, readings) = shares::rows(&shares, PLACE);
-    let ticks: Vec<&str> = lines.iter().map(|line| line.row.what.as_str()).collect();
+    let shares: Vec<Share<'_>> = SHARES.into_iter().zip(lines.iter().map(|line| &line.run.counts)).collect();
+    let (share_rows, readings) = shares::rows(&shares, PLACE)?;
+    let ticks: Vec<&str> = lines.iter().map(|line| line.name).collect();
     let speed_ups_of = |of: fn(&SpeedUpRun) -> f64| lines.iter().map(move |line| number(of(line), 1));
     let order = Prose::new(ORDER, speed_ups_of(SpeedUpRun::ours).chain(speed_ups_of(SpeedUpRun::printed)));
-    let mut rows = found.rows(room, PLACE);
+    let mut rows = found.rows(PLACE);
     rows.extend(share_rows);
     Ok(EntryFindings {
         text: vec![how(room), order],
@@ -46,7 +42,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
             },
             EntryChart {
                 name: "ray-engine-table-4-shares",
-                chart: shares::chart(&shares, &ticks, "Share of rays on the card"),
+                chart: shares::chart(&shares, &ticks, "Share of rays on the card")?,
                 caption: "The share of rays on the card of Table 4, and both readings of our runs.".into(),
             },
         ],

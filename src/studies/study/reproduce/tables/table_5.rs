@@ -17,7 +17,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), size(&lines)],
-        rows: found.rows(room, PLACE),
+        rows: found.rows(PLACE),
         questions: vec![
             QUESTION,
             "what draws, uploads and read-backs cost the authors' driver: a factor on our guesses moves all rows.",
@@ -38,11 +38,11 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
 fn size(lines: &[&SpeedUpRun]) -> Prose {
     let forced = |line: &SpeedUpRun| number(line.run.counts.forced_rays as f64 / line.run.counts.rays as f64, 2);
     let (Some(first), Some(last)) = (lines.first(), lines.last()) else { return Prose::from("") };
-    Prose::new(SIZE, [forced(first), first.row.what.clone(), forced(last), last.row.what.clone()])
+    Prose::new(SIZE, [forced(first), first.name.to_owned(), forced(last), last.name.to_owned()])
 }
 
 fn chart(found: &SpeedUps, lines: &[&SpeedUpRun]) -> Chart {
-    let rays: Vec<f64> = lines.iter().filter_map(|line| line.row.what.split(' ').next()?.parse().ok()).collect();
+    let rays: Vec<f64> = lines.iter().filter_map(|line| line.name.split(' ').next()?.parse().ok()).collect();
     let points = |values: Vec<f64>| rays.iter().copied().zip(values).collect();
     let line =
         |(at, values): (String, Vec<f64>)| Series { label: format!("ours, commands x {at}"), points: points(values) };

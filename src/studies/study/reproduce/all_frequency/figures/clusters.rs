@@ -5,10 +5,7 @@ use glam::DVec3;
 use super::baselines::COLORS;
 use super::lit::Surface;
 use super::scene::{FigureScene, stand_in};
-use super::{
-    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
-    models, number,
-};
+use super::{FigureParts, ModelSize, Prose, ReproduceError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::picture::rgb8;
@@ -56,15 +53,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     pictures.push(scene.picture(&exact, exposure, ("figure-5-exact".to_owned(), caption))?);
     let coded = last.as_ref();
     pictures.extend(coded.into_iter().flat_map(|coded| of_segments(&scene, coded)));
-    let origin = Origin::Inferred("the figure shows fewer artifacts with more representatives".to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", "figure 5") };
-    let row = PaperRow::new(
-        format!("squared error of {} representative over {}", VECTORS[0], VECTORS[3]),
-        (HOST, Method::Solver),
-        target,
-        (errors[0] / errors[3], Standing::Counted),
-        Bound::AtLeast,
-    );
+    let row = solved("one-representative-over-16", errors[0] / errors[3])?;
     let [clusters, segments] = coded.map_or([0, 0], |coded| [coded.clusters(), coded.segments.len()]);
     let text = vec![Prose::new(
         HOW,

@@ -11,8 +11,7 @@ mod terms;
 mod truncation;
 
 use super::{
-    Bound, EntryFindings, HOST, Method, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared, Standing, failed,
-    number,
+    EntryFindings, HOST, Method, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number, paper_row, solved,
 };
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::ModelSize;

@@ -4,10 +4,7 @@ use glam::DVec3;
 
 use super::lit::Surface;
 use super::scene::{FigureScene, stand_in};
-use super::{
-    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
-    models, number,
-};
+use super::{FigureParts, ModelSize, Prose, ReproduceError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::rivals::{FixedView, RivalSubject};
 use crate::report::{Cell, Table};
@@ -61,16 +58,8 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
         pictures.push(scene.picture(&found, exposure, (name(&terms.to_string()), format!("terms: {terms}")))?);
         errors.push(of_table);
     }
-    let origin = Origin::Inferred("the figure's errors fall with the number of terms".to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", "figure 2") };
     let at = |terms: usize| TERMS.iter().position(|&other| other == terms).map_or(f64::NAN, |at| errors[at]);
-    let row = PaperRow::new(
-        "squared error of reflectance by 1 term over 10",
-        (HOST, Method::Solver),
-        target,
-        (at(1) / at(10), Standing::Counted),
-        Bound::AtLeast,
-    );
+    let row = solved("one-term-over-ten", at(1) / at(10))?;
     let text = vec![Prose::new(HOW, [number(scene.of_model.len() as f64, 0)])];
     Ok(FigureParts { text, rows: vec![row], tables: vec![table], pictures })
 }

@@ -4,10 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{
-    Bound, FigureParts, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Standing,
-    failed, models, number,
-};
+use super::{FigureParts, HOST, ModelSize, PaperRow, Prose, ReproduceError, failed, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
@@ -19,7 +16,6 @@ use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 use crate::transfer::hats::Hats;
 use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
 
-const PLACE: &str = "figure 6";
 const SOURCES: u64 = 40;
 /// Angular radii of sources in degrees; the rows use the third.
 const RADII: [f64; 5] = [1.4, 2.0, 3.0, 4.0, 5.0];
@@ -161,16 +157,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
 }
 
 fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, ReproduceError> {
-    let origin = Origin::Implied("800 / 0.68".to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(1176.0, 0, "coefficients", PLACE) };
-    let found = (nonzero as f64, Standing::Counted);
-    let mut counted = [PaperRow::new(
-        "light coefficients of six faces that are not 0",
-        (HOST, Method::Solver),
-        target,
-        found,
-        Bound::PREDICTION,
-    )];
+    let mut counted = [solved("coefficients-of-faces", nonzero as f64)?];
     let setting = |degrees: &f64| -> Result<Setting, ReproduceError> {
         let values = vec![on_faces(*degrees, &DMat3::IDENTITY)?.nonzero() as f64];
         Ok(Setting { at: number(*degrees, 1), values })
@@ -179,13 +166,6 @@ fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, ReproduceError
     Sweep { name: "sizes of sources", parameter: "radius in degrees", settings }.explain(&mut counted);
     let needed =
         KEPT.iter().zip(flicker).find(|(_, flicker)| **flicker < SEEN).map_or(f64::NAN, |(&keep, _)| keep as f64);
-    let target = PaperFigure::printed(70.0, 0, "%", "section 7");
-    let share = PaperRow::new(
-        "share of the coefficients without flicker to see",
-        (HOST, Method::Solver),
-        target,
-        (100.0 * needed.min(nonzero as f64) / nonzero as f64, Standing::Counted),
-        Bound::TooVague,
-    );
+    let share = solved("without-flicker", 100.0 * needed.min(nonzero as f64) / nonzero as f64)?;
     Ok(counted.into_iter().chain([share]).collect())
 }

@@ -1,45 +1,35 @@
 //! Bytes of the chair by each method, from printed numbers alone.
 
-use super::super::printed::SCENES;
-use super::{Bound, HOST, Method, PaperFigure, PaperRow, Standing};
+use super::super::scenes::SCENES;
+use super::{HOST, Method, PaperRow, ReproduceError, Standing, paper_row, printed_value};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
-pub(super) const PLACE: &str = "figure 6";
 /// Printed values: clusters of rows, vectors of each, wavelets per row.
 const CLUSTERS: usize = 32;
 const VECTORS: usize = 8;
 const WAVELETS: usize = 12;
-/// Printed megabytes of wavelets.
-const PRINTED_WAVELETS: f64 = 37.1;
+/// Name of the figure of the wavelets' megabytes.
+const PRINTED_WAVELETS: &str = "bi-scale/wavelets-chair";
 /// Bytes of a wavelet: two for its index, one for its value.
 const WAVELET_BYTES: usize = 3;
 
-/// Number of rows of the chair's matrix.
-fn chair_rows() -> usize {
-    SCENES[2].vertices * SCENES[2].side * SCENES[2].side
-}
-
-fn wavelets(bytes: usize) -> f64 {
-    1e-6 * (chair_rows() * WAVELETS * bytes) as f64
+fn wavelets(bytes: usize) -> Result<f64, ReproduceError> {
+    Ok(1e-6 * (SCENES[2].rows()? * WAVELETS * bytes) as f64)
 }
 
 /// Row on the size of wavelets, with a guessed number of bytes that reproduces it.
-pub(super) fn wavelet_row() -> PaperRow {
-    PaperRow::new(
-        "chair: wavelets of all rows, three bytes each",
-        (HOST, Method::Equation),
-        PaperFigure::printed(PRINTED_WAVELETS, 1, "MB", PLACE),
-        (wavelets(WAVELET_BYTES), Standing::Predicted { from: "printed vertices, directions and wavelets" }),
-        Bound::Print,
-    )
+pub(super) fn wavelet_row() -> Result<PaperRow, ReproduceError> {
+    let standing = Standing::Calibrated { on: "this figure, which chose three bytes per wavelet" };
+    paper_row(PRINTED_WAVELETS, (HOST, Method::Equation), (wavelets(WAVELET_BYTES)?, standing))
 }
 
 /// Table of every method with its layouts, beside the printed values; the size of clusters is illegible in the scan.
-pub(super) fn chair_sizes() -> Table {
+pub(super) fn chair_sizes() -> Result<Table, ReproduceError> {
     let mut table = Table::of("The chair by printed numbers", "way layout MB MiB MB_printed");
-    let nonzeros = 1e6 * SCENES[2].nonzeros;
-    let (rows, vectors) = (chair_rows() as f64, (CLUSTERS * VECTORS * LIGHT_TEXELS) as f64);
+    let of_print = |what: &str| Ok::<_, ReproduceError>(SCENES[2].printed(what)?.value);
+    let nonzeros = 1e6 * of_print("nonzeros")?;
+    let (rows, vectors) = (SCENES[2].rows()? as f64, (CLUSTERS * VECTORS * LIGHT_TEXELS) as f64);
     let (weights, means) = (rows * VECTORS as f64, (CLUSTERS * LIGHT_TEXELS) as f64);
     let mut line = |way: &str, layout: &str, megabytes: f64, printed: Option<f64>| {
         table.push([
@@ -50,14 +40,13 @@ pub(super) fn chair_sizes() -> Table {
             printed.map_or(Cell::Empty, |printed| Cell::decimals(printed, 1)),
         ]);
     };
-    let [_, biclusters] = SCENES[2].megabytes;
-    line("dense", "a byte a value", 1e-6 * rows * LIGHT_TEXELS as f64, Some(SCENES[2].megabytes[0]));
+    line("dense", "a byte a value", 1e-6 * rows * LIGHT_TEXELS as f64, Some(of_print("dense")?));
     line("rows", "8 bytes an entry, 4 a row", 1e-6 * (8.0 * nonzeros + 4.0 * rows), None);
     line("rows", "3 bytes an entry, 4 a row", 1e-6 * (3.0 * nonzeros + 4.0 * rows), None);
-    line("biclusters", "4 bytes an operation", 4.0 * SCENES[2].operations[1], Some(biclusters));
+    line("biclusters", "4 bytes an operation", 4.0 * of_print("operations-after")?, Some(of_print("biclusters")?));
     line("clusters of rows", "4 bytes a number, no means", 4e-6 * (weights + vectors), None);
     line("clusters of rows", "4 bytes a number", 4e-6 * (weights + vectors + means), None);
-    line("wavelets", "3 bytes each", wavelets(WAVELET_BYTES), Some(PRINTED_WAVELETS));
-    line("wavelets", "6 bytes each", wavelets(2 * WAVELET_BYTES), None);
-    table
+    line("wavelets", "3 bytes each", wavelets(WAVELET_BYTES)?, Some(printed_value(PRINTED_WAVELETS)?));
+    line("wavelets", "6 bytes each", wavelets(2 * WAVELET_BYTES)?, None);
+    Ok(table)
 }

@@ -1,7 +1,7 @@
 //! Figure 3: light directions of a local direction, and the matrix of its vertex.
 
 use super::super::models::ModelVisibility;
-use super::{Bound, HOST, Method, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number};
+use super::{PaperRow, Prose, ReproduceError, number, solved};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::picture::rgb8;
 use crate::report::NamedPicture;
@@ -33,13 +33,7 @@ pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, Reproduc
     let most = of_vertex(vertex).max().unwrap_or_default();
     let direction = of_vertex(vertex).position(|texels| texels == most).unwrap_or_default();
     let share = 100.0 * matrix.nonzeros() as f64 / (matrix.rows() * matrix.columns()) as f64;
-    let row = PaperRow::new(
-        "values of our bunny's T other than 0",
-        (HOST, Method::Solver),
-        PaperFigure::printed(0.69, 2, "%", "section 4"),
-        (share, Standing::Counted),
-        Bound::PREDICTION,
-    );
+    let row = solved("nonzero-share", share)?;
     let sizes = [seen.vertices.len(), lights, most, LIGHT_TEXELS].map(|size| number(size as f64, 0));
     let rows = Rows { matrix: &matrix, first: vertex * lights, count: lights, marked: vertex * lights + direction };
     Ok(MatrixFigure { text: Prose::new(HOW, sizes), row, pictures: vec![rows.cube(), rows.picture()] })

@@ -5,10 +5,7 @@ mod matrix;
 mod models;
 mod scene;
 
-use super::{
-    Bound, EntryFindings, HOST, Method, ModelSize, Origin, PaperFigure, PaperRow, Prose, ReproduceError, Shared,
-    Standing, failed, number,
-};
+use super::{EntryFindings, HOST, ModelSize, PaperRow, Prose, ReproduceError, Shared, failed, number, solved};
 use crate::report::{Cell, NamedPicture, Table};
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::sky::HARD_SUN;
@@ -58,7 +55,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let errors = [ours[0], low[0], ours[1], low[1]].map(Cell::measured);
         smooth.push(std::iter::once(Cell::from(place)).chain(errors));
         if ["figure 1", "figure 5"].contains(&place) {
-            found.rows.push(faithful(place, model.name, low[1] / ours[1]));
+            found.rows.push(solved(&format!("low-frequency-{}", model.name), low[1] / ours[1])?);
         }
     }
     found.tables.insert(0, smooth);
@@ -71,13 +68,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let light = light_picture("bi-scale-light", "a clear sky with a small sun", of_texels(light.texels()));
     found.pictures.push(light.map_err(|e| failed(HOST)(&e))?);
     Ok(found)
-}
-
-fn faithful(place: &'static str, model: &str, ours: f64) -> PaperRow {
-    let origin = Origin::Inferred("the figure shows low frequency farther off".to_owned());
-    let target = PaperFigure { origin, ..PaperFigure::printed(1.0, 0, "times", place) };
-    let what = format!("error of low frequency over ours with the same textures, {model}");
-    PaperRow::new(what, (HOST, Method::Solver), target, (ours, Standing::Counted), Bound::AtLeast)
 }
 
 /// Figure 8: effect of more local directions on the picture.

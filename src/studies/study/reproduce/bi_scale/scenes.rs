@@ -1,0 +1,55 @@
+//! Scenes of Tables I and II.
+
+use super::{PaperFigure, ReproduceError, printed};
+
+/// Name of the host on which biclusters are computed.
+pub(super) const HOST: &str = "host";
+
+/// Scene of either table.
+pub(super) struct PrintedScene {
+    /// Name in the names of its figures.
+    pub(super) id: &'static str,
+    pub(super) name: &'static str,
+    /// Local directions along an edge.
+    pub(super) side: usize,
+    /// Numbers of bidirectional textures with patches of 64 x 64 and of 32 x 32 texels; Table I alone.
+    pub(super) textures: Option<[usize; 2]>,
+}
+
+impl PrintedScene {
+    const fn new(id: &'static str, name: &'static str, side: usize, textures: Option<[usize; 2]>) -> Self {
+        Self { id, name, side, textures }
+    }
+
+    /// Name of one of the scene's figures.
+    pub(super) fn figure(&self, what: &str) -> String {
+        format!("bi-scale/{what}-{}", self.id)
+    }
+
+    /// One of the scene's printed figures.
+    pub(super) fn printed(&self, what: &str) -> Result<&'static PaperFigure, ReproduceError> {
+        printed(&self.figure(what))
+    }
+
+    /// Number of vertices.
+    pub(super) fn vertices(&self) -> Result<usize, ReproduceError> {
+        Ok(self.printed("vertices")?.value as usize)
+    }
+
+    /// Number of rows of the matrix.
+    pub(super) fn rows(&self) -> Result<usize, ReproduceError> {
+        Ok(self.vertices()? * self.side * self.side)
+    }
+}
+
+pub(super) const SCENES: [PrintedScene; 6] = [
+    PrintedScene::new("bunny", "bunny", 8, Some([1, 0])),
+    PrintedScene::new("armor", "armor", 12, Some([1, 0])),
+    PrintedScene::new("chair", "chair", 8, Some([1, 2])),
+    PrintedScene::new("temple", "temple", 8, Some([1, 4])),
+    PrintedScene::new("middle-bunny", "middle bunny", 8, None),
+    PrintedScene::new("fine-bunny", "fine bunny", 8, None),
+];
+
+/// Bunnies of Table II, of which the first is that of Table I.
+pub(super) const BUNNIES: [&PrintedScene; 3] = [&SCENES[0], &SCENES[4], &SCENES[5]];

@@ -1,0 +1,221 @@
+//! Files of printed figures: their format, and figures from it.
+//!
+//! A file has groups of figures that share a place, and often a unit and a bound. A figure's value is text, whose
+//! digits after the point are those of the print, or the ratio of two figures that stand above it. The README of
+//! `src/studies/papers` describes all keys.
+
+use serde::Deserialize;
+
+use crate::study::reproduce::row::{Bound, Judgement, Origin, PaperFigure};
+
+/// File of a paper.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PaperFile {
+    pub(super) title: String,
+    /// Dates on which bounds were stated, with a digest of what was stated.
+    pub(super) stated: Vec<Stated>,
+    pub(super) group: Vec<FigureGroup>,
+}
+
+/// Bounds that were stated on one day.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Stated {
+    pub(super) date: String,
+    /// Digest of all figures of that date as they were stated.
+    pub(super) digest: String,
+}
+
+/// Figures of one place, with what they share.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FigureGroup {
+    pub(super) place: String,
+    #[serde(flatten)]
+    pub(super) shared: FigureTerms,
+    pub(super) figures: Vec<FileFigure>,
+}
+
+/// Terms on which a figure is judged, of the group or of the figure itself.
+#[derive(Clone, Debug, Default, Deserialize)]
+pub(super) struct FigureTerms {
+    pub(super) unit: Option<String>,
+    /// Bound as text; without one, `unjudged` has the reason.
+    pub(super) bound: Option<String>,
+    pub(super) unjudged: Option<String>,
+    /// Reading that our value takes, where the text allows several.
+    pub(super) reading: Option<String>,
+}
+
+/// Figure as the file has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FileFigure {
+    pub(super) id: String,
+    pub(super) what: String,
+    /// Value with the digits of the print.
+    pub(super) value: Option<String>,
+    /// Two figures above this one: the value is their ratio, times `scale`.
+    pub(super) ratio: Option<[String; 2]>,
+    pub(super) scale: Option<f64>,
+    /// Digits after the point of a ratio; two if not given.
+    pub(super) decimals: Option<u8>,
+    /// Formula of a value that follows from printed ones.
+    pub(super) implied: Option<String>,
+    /// Reason for a value that the paper does not have.
+    pub(super) inferred: Option<String>,
+    /// Date of the statement of its bound; the file's first if not given.
+    pub(super) stated: Option<String>,
+    /// Changes of what was stated, the oldest first.
+    #[serde(default)]
+    pub(super) changed: Vec<Change>,
+    #[serde(flatten)]
+    pub(super) own: FigureTerms,
+}
+
+/// Change of a figure after its statement, with what it had before.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Change {
+    pub(super) date: String,
+    pub(super) why: String,
+    pub(super) value: Option<String>,
+    #[serde(flatten)]
+    pub(super) before: FigureTerms,
+}
+
+impl FileFigure {
+    /// Terms of the figure: its own, and those of its group otherwise.
+    pub(super) fn terms(&self, group: &FigureGroup) -> FigureTerms {
+        let (own, shared) = (self.own.clone(), group.shared.clone());
+        // A figure with a bound is judged, whatever the others of its group are, and the other way round.
+        let is_own = own.bound.is_some() || own.unjudged.is_some();
+        let judged = if is_own { (own.bound, own.unjudged) } else { (shared.bound, shared.unjudged) };
+        FigureTerms {
+            unit: own.unit.or(shared.unit),
+            bound: judged.0,
+            unjudged: judged.1,
+            reading: own.reading.or(shared.reading),
+        }
+    }
+}
+
+/// Parses a file into its title and figures; errors are sentences.
+pub(super) fn parse(paper: &str, text: &str) -> Result<(String, Vec<PaperFigure>), String> {
+    let file: PaperFile = toml::from_str(text).map_err(|error| format!("the file of `{paper}`: {error}"))?;
+    let mut figures: Vec<PaperFigure> = Vec::new();
+    for group in &file.group {
+        for entry in &group.figures {
+            let figure = figure(paper, group, entry, &figures);
+            figures.push(figure.map_err(|reason| format!("figure `{paper}/{}`: {reason}", entry.id))?);
+        }
+    }
+    Ok((file.title, figures))
+}
+
+fn figure(paper: &str, group: &FigureGroup, entry: &FileFigure, above: &[PaperFigure]) -> Result<PaperFigure, String> {
+    let terms = entry.terms(group);
+    let find = |id: &str| {
+        let found = above.iter().find(|figure| figure.id.strip_prefix(paper) == Some(&format!("/{id}")));
+        found.ok_or_else(|| format!("no figure above it is named `{id}`"))
+    };
+    let (value, decimals, formula) = match (&entry.value, &entry.ratio) {
+        (Some(text), None) => {
+            let value = text.parse().map_err(|_| format!("expected a number, found `{text}`"))?;
+            (value, text.split_once('.').map_or(0, |(_, digits)| digits.len() as u8), None)
+        }
+        (None, Some([numerator, denominator])) => {
+            let [one, other] = [find(numerator)?, find(denominator)?];
+            let ratio = entry.scale.unwrap_or(1.0) * one.value / other.value;
+            (ratio, entry.decimals.unwrap_or(2), Some(format!("{} / {}", one.value, other.value)))
+        }
+        _ => return Err("expected one of `value` and `ratio`".to_owned()),
+    };
+    let origin = match (entry.implied.clone().or(formula), entry.inferred.clone()) {
+        (None, None) => Origin::Printed,
+        (Some(formula), None) => Origin::Implied(formula),
+        (None, Some(reason)) => Origin::Inferred(reason),
+        _ => return Err("expected one of `implied` and `inferred`".to_owned()),
+    };
+    let judgement = match (terms.bound, terms.unjudged) {
+        (Some(text), None) => Judgement::Within(bound(&text, |id| Ok(find(id)?.value))?),
+        (None, Some(reason)) => Judgement::Not(reason),
+        _ => return Err("expected one of `bound` and `unjudged`".to_owned()),
+    };
+    Ok(PaperFigure {
+        id: format!("{paper}/{}", entry.id),
+        what: entry.what.clone(),
+        value,
+        decimals,
+        unit: terms.unit.unwrap_or_default(),
+        place: group.place.clone(),
+        origin,
+        judgement,
+    })
+}
+
+/// Bound of its text: `every digit`, `at least`, `order`, `none`, `15 %`, `15 % of the gain over host-alone`.
+fn bound(text: &str, value: impl Fn(&str) -> Result<f64, String>) -> Result<Bound, String> {
+    let unknown = || format!("expected a bound, found `{text}`");
+    let share = |percent: &str| percent.parse().map(|percent: f64| percent / 100.0).map_err(|_| unknown());
+    Ok(match text {
+        "every digit" => Bound::Print,
+        "at least" => Bound::AtLeast,
+        "order" => Bound::Order,
+        "none" => Bound::TooVague,
+        _ => match text.split_once(" %").ok_or_else(unknown)? {
+            (percent, "") => Bound::Relative(share(percent)?),
+            (percent, rest) => {
+                let over = rest.strip_prefix(" of the gain over ").ok_or_else(unknown)?;
+                Bound::Gain { share: share(percent)?, over: value(over)? }
+            }
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "title = \"T\"\nstated = []\n[[group]]\nplace = \"table 1\"\nunit = \"Hz\"\nbound = \"15 %\"\n";
+
+    fn figures(entries: &str) -> Result<Vec<PaperFigure>, String> {
+        parse("p", &format!("{HEAD}figures = [{entries}]")).map(|(_, figures)| figures)
+    }
+
+    #[test]
+    fn values_have_the_digits_of_the_print() {
+        let found = figures(
+            r#"{ id = "a", what = "a", value = "0.0540" }, { id = "b", what = "b", value = "2", bound = "at least" },
+               { id = "c", what = "c", ratio = ["a", "b"], unit = "", bound = "order" },
+               { id = "d", what = "d", value = "3", bound = "15 % of the gain over b" },
+               { id = "e", what = "e", value = "3", unjudged = "printed as b again" }"#,
+        );
+        let found = found.expect("five figures");
+        assert_eq!((found[0].value, found[0].decimals, found[0].judgement.clone()), (0.054, 4, within(0.15)));
+        assert_eq!((found[1].decimals, found[1].judgement.clone()), (0, Judgement::Within(Bound::AtLeast)));
+        assert_eq!((found[2].value, found[2].decimals), (0.027, 2));
+        assert_eq!(found[2].origin, Origin::Implied("0.054 / 2".to_owned()));
+        assert_eq!(found[3].judgement, Judgement::Within(Bound::Gain { share: 0.15, over: 2.0 }));
+        assert_eq!(found[4].judgement, Judgement::Not("printed as b again".to_owned()));
+    }
+
+    fn within(share: f64) -> Judgement {
+        Judgement::Within(Bound::Relative(share))
+    }
+
+    #[test]
+    fn malformed_figures_are_refused() {
+        for (entry, reason) in [
+            (r#"{ id = "a", what = "a" }"#, "expected one of `value` and `ratio`"),
+            (r#"{ id = "a", what = "a", value = "1,5" }"#, "expected a number, found `1,5`"),
+            (r#"{ id = "a", what = "a", ratio = ["b", "c"] }"#, "no figure above it is named `b`"),
+            (r#"{ id = "a", what = "a", value = "1", bound = "about" }"#, "expected a bound, found `about`"),
+            (r#"{ id = "a", what = "a", value = "1", bond = "15 %" }"#, "unknown"),
+        ] {
+            let error = figures(entry).expect_err("malformed");
+            assert!(error.contains(reason), "{error}");
+        }
+    }
+}

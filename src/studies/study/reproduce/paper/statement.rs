@@ -1,0 +1,116 @@
+//! Statements of bounds: a digest per date of what was stated, and the changes since.
+//!
+//! A figure's value, unit, place, bound and reading are stated once. A later change stands in the figure's `changed`,
+//! with its date, its reason and what it replaced; undone, the figures have the digest of their date again. So a bound
+//! or a reading cannot be moved after a result exists without saying so.
+
+use sha2::{Digest, Sha256};
+
+use super::file::{FigureGroup, FileFigure, PaperFile};
+
+/// Holds a file against its digests; the error says what to do.
+pub(super) fn verify(text: &str) -> Result<(), String> {
+    let file: PaperFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    let first = file.stated.first().ok_or("expected at least one date in `stated`")?.date.as_str();
+    for stated in &file.stated {
+        let found = digest(&file, first, &stated.date);
+        if found != stated.digest {
+            return Err(format!(
+                "what was stated on {} has digest {}, and what stands there now {found}: a figure's value, bound or \
+                 reading was changed. List the old one in the figure's `changed`, with date and reason; give a new \
+                 figure a date of its own",
+                stated.date, stated.digest,
+            ));
+        }
+    }
+    let figures = || file.group.iter().flat_map(|group| &group.figures);
+    let dated = |date: &str| file.stated.iter().any(|stated| stated.date == date);
+    if let Some(figure) = figures().find(|figure| figure.stated.as_ref().is_some_and(|date| !dated(date))) {
+        return Err(format!("`{}` is stated on a date that is not listed", figure.id));
+    }
+    let reasoned = |figure: &&FileFigure| {
+        figure.changed.iter().all(|change| !change.why.is_empty())
+            && figure.changed.is_sorted_by(|one, next| one.date <= next.date)
+    };
+    match figures().find(|figure| !reasoned(figure)) {
+        Some(figure) => Err(format!("the changes of `{}` need reasons, the oldest first", figure.id)),
+        None => Ok(()),
+    }
+}
+
+/// Digest of the figures stated on a date, as they were: 16 hexadecimal digits.
+fn digest(file: &PaperFile, first: &str, date: &str) -> String {
+    let mut hash = Sha256::new();
+    for group in &file.group {
+        for figure in group.figures.iter().filter(|figure| figure.stated.as_deref().unwrap_or(first) == date) {
+            hash.update(as_stated(group, figure));
+        }
+    }
+    hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Line of a figure with its changes undone.
+fn as_stated(group: &FigureGroup, figure: &FileFigure) -> String {
+    let (mut terms, mut value) = (figure.terms(group), figure.value.clone());
+    for change in figure.changed.iter().rev() {
+        let before = change.before.clone();
+        value = change.value.clone().or(value);
+        if before.bound.is_some() || before.unjudged.is_some() {
+            (terms.bound, terms.unjudged) = (before.bound, before.unjudged);
+        }
+        terms.unit = before.unit.or(terms.unit);
+        terms.reading = before.reading.or(terms.reading);
+    }
+    // Reasons for not judging are words, and may be put better.
+    let unjudged = terms.unjudged.map(|_| "unjudged");
+    format!(
+        "{}|{value:?}|{:?}|{:?}|{:?}|{}|{:?}|{unjudged:?}|{:?}\n",
+        figure.id, figure.ratio, figure.scale, terms.unit, group.place, terms.bound, terms.reading,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(figure: &str, digest: &str) -> String {
+        format!(
+            "title = \"T\"\nstated = [{{ date = \"2026-11-26\", digest = \"{digest}\" }}]\n[[group]]\n\
+             place = \"table 1\"\nunit = \"Hz\"\nfigures = [{{ id = \"a\", what = \"a\", {figure} }}]"
+        )
+    }
+
+    fn stated() -> String {
+        let text = file(r#"value = "5", bound = "15 %""#, "");
+        let file: PaperFile = toml::from_str(&text).expect("a file");
+        digest(&file, "2026-11-26", "2026-11-26")
+    }
+
+    #[test]
+    fn what_was_stated_passes() {
+        assert_eq!(verify(&file(r#"value = "5", bound = "15 %""#, &stated())), Ok(()));
+    }
+
+    /// A wider bound, another value and a reading that appeared later are refused.
+    #[test]
+    fn silent_changes_are_refused() {
+        for changed in [
+            r#"value = "5", bound = "20 %""#,
+            r#"value = "6", bound = "15 %""#,
+            r#"value = "5", unjudged = "too hard""#,
+            r#"value = "5", bound = "15 %", reading = "late""#,
+        ] {
+            let error = verify(&file(changed, &stated())).expect_err("a silent change");
+            assert!(error.contains("List the old one"), "{error}");
+        }
+    }
+
+    #[test]
+    fn listed_changes_pass() {
+        let before = r#"date = "2026-12-01", bound = "15 %", why = "the text says about""#;
+        let listed = format!(r#"value = "5", bound = "20 %", changed = [{{ {before} }}]"#);
+        assert_eq!(verify(&file(&listed, &stated())), Ok(()));
+        let without = listed.replace("the text says about", "");
+        assert!(verify(&file(&without, &stated())).is_err(), "a change needs a reason");
+    }
+}

@@ -1,0 +1,43 @@
+//! Contradictions between printed values of one paper.
+
+use super::PaperFigure;
+use crate::study::reproduce::prose::number;
+
+/// Computation from printed values alone that gives another value than is printed. Created by the functions below,
+/// which refuse values that agree.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Contradiction(String);
+
+impl Contradiction {
+    /// Contradiction of a figure by a value that follows from other printed ones, with the computation in words; `None`
+    /// if the value rounds to the printed one.
+    pub fn between(figure: &PaperFigure, computed: f64, how: &str) -> Option<Self> {
+        let decimals = figure.decimals + u8::from(figure.value.abs() < 1000.0);
+        let text = || format!("{} {}: {how}", number(computed, decimals), figure.unit);
+        ((computed - figure.value).abs() > figure.rounding()).then(|| Self(text().trim().to_owned()))
+    }
+
+    /// Contradiction that holds on a condition, which is computed from printed values; `None` if it does not hold.
+    pub fn if_holds(condition: bool, computation: impl Into<String>) -> Option<Self> {
+        condition.then(|| Self(computation.into()))
+    }
+
+    /// The computation.
+    pub fn text(&self) -> &str {
+        &self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::target;
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_the_print_does_not_contradict_it() {
+        let rate = target(15.6, 1);
+        assert_eq!(Contradiction::between(&rate, 15.649, "a quotient"), None);
+        let found = Contradiction::between(&rate, 15.7, "a quotient").expect("another value");
+        assert_eq!(found.text(), "15.70 M/s: a quotient");
+    }
+}
