@@ -49,16 +49,15 @@ enum Shown {
 
 struct Scene {
     name: &'static str,
-    mesh: Mesh,
     vertices: Vertices,
     camera: Camera,
     shown: Vec<Shown>,
 }
 
 impl Scene {
-    fn new(name: &'static str, mesh: Mesh, camera: Camera) -> Self {
-        let vertices = Vertices::new(&mesh, Tangents::Along(DVec3::new(0.3, 0.5, 0.7))).expect("vertices");
-        let mut scene = Self { name, mesh, vertices, camera, shown: Vec::new() };
+    fn new(name: &'static str, mesh: &Mesh, camera: Camera) -> Self {
+        let vertices = Vertices::new(mesh, Tangents::Along(DVec3::new(0.3, 0.5, 0.7))).expect("vertices");
+        let mut scene = Self { name, vertices, camera, shown: Vec::new() };
         scene.shown = (0..SIZE[0] * SIZE[1]).map(|pixel| scene.pixel(pixel % SIZE[0], pixel / SIZE[0])).collect();
         let count = |is: fn(&Shown) -> bool| scene.shown.iter().filter(|shown| is(shown)).count();
         let counts = [count(|s| *s == Shown::Nothing), count(|s| matches!(s, Shown::Triangle(_)))];
@@ -79,14 +78,14 @@ impl Scene {
         let faces = walls.chain([[0, 3, 2], [0, 2, 1]]).collect();
         let mesh = Mesh::new((0..8).map(corner).collect(), faces).expect("a box");
         let camera = Camera::new([2.4, -3.1, 2.6], [0.0; 3], [0.0, 0.0, 1.0], 0.3, SIZE[0], SIZE[1]);
-        Self::new("an open box", mesh, camera.expect("a camera"))
+        Self::new("an open box", &mesh, camera.expect("a camera"))
     }
 
     /// Between lid and body of the example's teapot there is a gap, and its bottom is open.
     fn teapot() -> Self {
         let mesh = load_mesh("docs/examples/teapot.obj".as_ref()).expect("the teapot");
         let camera = Camera::new([2.4, -5.2, -2.0], [0.6, 0.0, 1.3], [0.0, 0.0, 1.0], 0.5, SIZE[0], SIZE[1]);
-        Self::new("the teapot", mesh, camera.expect("a camera"))
+        Self::new("the teapot", &mesh, camera.expect("a camera"))
     }
 
     fn place(&self, vertex: u32) -> DVec3 {

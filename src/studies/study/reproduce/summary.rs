@@ -108,15 +108,13 @@ fn capital(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Bound, ENTRIES, Method, PaperFigure, Standing};
+    use super::super::ENTRIES;
+    use super::super::row::tests::row;
     use super::*;
 
-    /// Row that is reproduced at 1.
-    fn row(ours: f64) -> PaperRow {
-        let target = PaperFigure::printed(1.0, 1, "M/s", "section 6.1");
-        let found = (ours, Standing::Predicted { from: "" });
-        PaperRow::new("tests", ("nv20", Method::Pipeline), target, found, Bound::PREDICTION)
-    }
+    /// Values that `row` judges to be predicted, and to be missed.
+    const HIT: f64 = 15.6;
+    const MISS: f64 = 20.0;
 
     #[test]
     fn every_entry_names_its_paper_and_every_paper_has_entries() {
@@ -136,15 +134,15 @@ mod tests {
         };
         let entry = |id: &str| *ENTRIES.iter().find(|entry| entry.id == id).expect("an entry");
         let found = vec![
-            (entry("figure-7"), with(&[1.0, 2.0, 2.0])),
-            (entry("equation-11"), with(&[1.0])),
-            (entry("cpca-figure-2"), with(&[1.0])),
+            (entry("figure-7"), with(&[HIT, MISS, MISS])),
+            (entry("equation-11"), with(&[HIT])),
+            (entry("cpca-figure-2"), with(&[HIT])),
         ];
         let [engine, cpca] = &summary_lines(&found)[..] else { panic!("two papers have entries") };
         let count = |line: &SummaryLine, verdict: RowVerdict| {
             line.tally.iter().find(|counted| counted.what == verdict.to_string()).map(|counted| counted.count)
         };
-        assert_eq!([RowVerdict::Reproduced, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
+        assert_eq!([RowVerdict::Predicted, RowVerdict::Missed].map(|of| count(engine, of)), [Some(2), Some(2)]);
         assert_eq!(engine.text, "No row is missed in 1 of 2 entries; missed in figure-7 (2 of 3).");
         assert_eq!(engine.heading, entry("figure-7").title);
         assert_eq!((count(cpca, RowVerdict::Missed), cpca.text.as_str()), (Some(0), "No row is missed."));

@@ -221,7 +221,7 @@ pub(super) mod tests {
         }
     }
 
-    pub(super) fn row(ours: f64) -> PaperRow {
+    pub(in crate::study::reproduce) fn row(ours: f64) -> PaperRow {
         let standing = Standing::Predicted { from: "" };
         PaperRow::new(("nv20", Method::Pipeline), &target(15.6, 1), (ours, standing)).expect("a judged figure")
     }
