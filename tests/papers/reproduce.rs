@@ -359,10 +359,10 @@ fn figures_have_their_pictures() {
             assert_eq!(picture.image.width(), 320, "{}", picture.name);
             let mut seen: BTreeMap<[u8; 3], usize> = BTreeMap::new();
             pixels(picture).into_iter().for_each(|pixel| *seen.entry(pixel).or_default() += 1);
-            // A ground, and two superclusters at least; between them stand mixed pixels.
+            // A ground and a group at least, whole, and mixed pixels between them.
             let plain = seen.values().filter(|count| **count > 320).count();
-            let least = if id == "cpca-coherence" { plain } else { seen.len() };
-            assert!(least > 2, "{id}, {}: {least} colors", picture.name);
+            let is_whole = id != "cpca-coherence" || plain >= 2;
+            assert!(is_whole && seen.len() > 2, "{id}, {}: {plain} of {} colors", picture.name, seen.len());
             for other in &pictures[..at] {
                 assert!(pixels(other) != pixels(picture), "{id}: {} and {}", other.name, picture.name);
             }

@@ -137,11 +137,7 @@ pub(super) struct TimedLog {
 impl TimedLog {
     pub(super) fn new(level: Level, input: &Input, log: &[Event], args: &Args) -> miette::Result<Self> {
         let model = Model::new(level, input.profile()).map_err(no_figure)?;
-        let options = Options {
-            read_back: args.readback.map(Into::into),
-            double_buffered: args.double_buffer,
-            ..Options::of(level)
-        };
+        let options = Options { read_back: args.readback, double_buffered: args.double_buffer, ..Options::of(level) };
         let replay = replay(log, &model, &options)?;
         let sensitivity = if args.sensitivity { sensitivity(&model, log, &options)? } else { Vec::new() };
         Ok(Self { model, replay, sensitivity })

@@ -50,6 +50,9 @@ fn accuracy(rows: &[WayRow]) -> Option<String> {
     })
 }
 
+/// Error of one of the two choices of links, in a bin of each.
+type ErrorOf = fn((&AngleBin, &AngleBin)) -> f64;
+
 /// At which angles from the light fixed and adaptive links of the same number are each nearer to all pairs, for the
 /// largest such number.
 fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
@@ -65,16 +68,14 @@ fn by_angle(parameters: &Parameters, rows: &[WayRow]) -> Option<String> {
     // Of equal numbers the first.
     let (fixed, adaptive) = pairs.min_by_key(|(fixed, _)| Reverse(count(fixed)))?;
     let bins = || fixed.angles.iter().zip(&adaptive.angles);
-    let better = |[of, other]: [fn((&AngleBin, &AngleBin)) -> f64; 2]| {
-        ranges(bins().filter(|&bins| of(bins) < other(bins)).map(|(bin, _)| bin.degrees))
-    };
-    let errors: [fn((&AngleBin, &AngleBin)) -> f64; 2] =
-        [|(fixed, _)| fixed.links.rms, |(_, adaptive)| adaptive.links.rms];
+    let better =
+        |[of, other]: [ErrorOf; 2]| ranges(bins().filter(|&bins| of(bins) < other(bins)).map(|(bin, _)| bin.degrees));
+    let errors: [ErrorOf; 2] = [|(fixed, _)| fixed.links.rms, |(_, adaptive)| adaptive.links.rms];
     let places = [better([errors[1], errors[0]]), better(errors)];
     let places = ["adaptive", "fixed"].into_iter().zip(places).filter(|(_, places)| !places.is_empty());
     let places: Vec<String> =
         places.map(|(choice, places)| format!("{choice} ones at {} degrees", listed(&places))).collect();
-    let (last, of_adaptive) = bins().last()?;
+    let (last, of_adaptive) = bins().next_back()?;
     let signed = |error: BinError| format!("{}{}", if error.mean > 0.0 { "+" } else { "" }, percent(error.mean));
     let [from, to] = last.degrees;
     Some(format!(

@@ -136,7 +136,6 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
                 caption: "Table 2, and both readings of our runs.".into(),
             },
         ],
-        ..EntryFindings::default()
     })
 }
 
