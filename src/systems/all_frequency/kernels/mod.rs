@@ -1,5 +1,5 @@
 //! The programs that draw all-frequency transfer (section 6, "Per-Vertex Computation", last paragraph), beside those of
-//! [`crate::card::kernels`]: text written here, as the number of terms decides.
+//! [`mod@crate::card::kernels`]: text written here, as the number of terms decides.
 
 mod layout;
 mod product;

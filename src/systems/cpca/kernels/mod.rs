@@ -1,4 +1,4 @@
-//! The programs that draw compressed transfer, beside those of [`crate::card::kernels`]: text written here, as the
+//! The programs that draw compressed transfer, beside those of [`mod@crate::card::kernels`]: text written here, as the
 //! numbers of vectors and of functions decide.
 
 mod exit;
