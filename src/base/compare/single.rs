@@ -4,6 +4,7 @@
 /// if one of them is not finite, or NaN, and they are not equal.
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::compare::f32_ulps;
 ///
 /// assert_eq!((f32_ulps(1.0, 1.0 + f32::EPSILON), f32_ulps(0.0, -0.0)), (Some(1), Some(0)));

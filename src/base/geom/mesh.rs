@@ -57,6 +57,7 @@ impl Mesh {
     /// [`Mesh::degenerate_count`].
     ///
     /// ```
+    /// # extern crate crossbar_base as crossbar;
     /// use crossbar::geom::Mesh;
     ///
     /// # fn main() -> Result<(), crossbar::geom::MeshError> {

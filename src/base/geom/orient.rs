@@ -9,6 +9,7 @@ impl Mesh {
     /// without a consistent orientation (a Moebius strip) is left unchanged.
     ///
     /// ```
+    /// # extern crate crossbar_base as crossbar;
     /// use crossbar::geom::Mesh;
     ///
     /// # fn main() -> Result<(), crossbar::geom::MeshError> {

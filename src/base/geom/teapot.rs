@@ -86,6 +86,7 @@ pub struct Teapot {
 /// Builds the teapot's mesh with `rate` x `rate` quads per patch, two triangles each.
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// let mesh = crossbar::geom::teapot::teapot(6).expect("a rate in range");
 /// assert_eq!((mesh.len(), mesh.degenerate_count()), (2256, 0));
 /// ```

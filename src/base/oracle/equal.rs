@@ -91,6 +91,7 @@ fn numbers(at: usize, left: f32, right: f32) -> String {
 /// Checks that two lists of numbers have the same bits; +0 and -0 differ, and so do two NaN of different bits.
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::oracle::bits_equal;
 ///
 /// let unequal = bits_equal(&[1.0, 0.0], &[1.0, -0.0]).expect_err("the zeros differ");

@@ -105,6 +105,7 @@ impl<R: JudgedRay> JudgedRay for &R {
 /// rays; an empty mesh gives none.
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::geom::teapot::teapot;
 /// use crossbar::oracle::{Aim, hard_rays};
 ///

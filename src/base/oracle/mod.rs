@@ -19,6 +19,7 @@
 //! | [`Oracle::assert_agrees`] | nothing: the exact answer, with t within the tolerance |
 //!
 //! ```
+//! # extern crate crossbar_base as crossbar;
 //! use crossbar::geom::{Hit, Mesh, Ray, Sides};
 //! use crossbar::oracle::{Aim, DisagreementKind, Oracle, Tolerance, hard_rays};
 //!

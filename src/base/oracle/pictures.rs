@@ -55,6 +55,7 @@ impl Sample for f32 {
 /// its counterpart (0: equal; for f32, steps are ULPs).
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::oracle::images_equal;
 ///
 /// let (left, right) = ([[10_u8, 20, 30], [40, 50, 60]], [[10_u8, 20, 30], [40, 52, 60]]);

@@ -8,6 +8,7 @@ use crate::geom::classify::t_error;
 /// Tolerance of t with respect to the exact one: either criterion suffices.
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::oracle::Tolerance;
 ///
 /// let tolerance = Tolerance::ulps(4).or_absolute(1e-6);

@@ -35,6 +35,7 @@ impl Atlas {
     /// Builds the atlas of a mesh with `side` texels along a side: a power of two.
     ///
     /// ```
+    /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*}; }
     /// use crossbar::atlas::Atlas;
     /// use crossbar::geom::Mesh;
     ///

@@ -219,6 +219,7 @@ impl HostTracer {
     /// number of threads.
     ///
     /// ```
+    /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*}; }
     /// use crossbar::geom::{Ray, Sides, teapot::teapot};
     /// use crossbar::tracer::HostTracer;
     ///

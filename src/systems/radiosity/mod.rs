@@ -15,6 +15,7 @@
 //! - [`rooms`]: closed boxes as test scenes.
 //!
 //! ```
+//! # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*, crossbar_systems::*}; }
 //! use crossbar::radiosity::{FormFactors, Patches, Subdivision, System, rooms, solve};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

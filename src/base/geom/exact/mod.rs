@@ -45,6 +45,7 @@ pub fn hits(mesh: &Mesh, ray: &Ray, sides: Sides) -> Vec<ExactHit> {
 /// Returns the first hit of a ray by testing all triangles. For many rays use [`nearest_all`] or a [`Tracer`].
 ///
 /// ```
+/// # extern crate crossbar_base as crossbar;
 /// use crossbar::geom::{Mesh, Ray, Sides, exact};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -141,6 +141,7 @@ impl<'a> RayEngine<'a> {
     /// Traces a bundle and returns its first hits in the order of the rays: the call of a host renderer.
     ///
     /// ```
+    /// # mod crossbar { pub use {crossbar_base::*, crossbar_ground::*, crossbar_systems::*}; }
     /// use crossbar::geom::{Ray, teapot::teapot};
     /// use crossbar::ray_engine::engine::{EngineParameters, RayEngine};
     /// use refsim::{device::Profile, machine::ExecutorKind};
