@@ -7,6 +7,7 @@ use refsim::texture::TexelFormat;
 use serde_json::json;
 
 use super::difference::ComparedPicture;
+use crate::picture::PictureError;
 use crate::report::{Findings, FoundTable, Provenance, Table};
 use crate::scene::Camera;
 use crate::study::prt::render::auto_exposure;
@@ -65,7 +66,7 @@ impl PictureStudy<'_> {
         title: &str,
         compared: &ComparedPicture<'_>,
         exposure: f64,
-    ) -> Result<Findings, crate::picture::PictureError> {
+    ) -> Result<Findings, PictureError> {
         let card = &self.card.profile.title;
         let mut found = Findings::new(title);
         found.taken_from(self.camera.world_to_camera());
