@@ -7,10 +7,29 @@ use super::lane::Lane;
 use super::round::{AWAY, DOWN, EVEN, ZERO};
 use crate::num::{Format, FormatKind, Overflow, Rounding};
 
-/// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own. Roundings of
-/// floats are compiled in; those of fixed point, and all other rules, are constants in registers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum AnyLane {
+/// Defines `AnyLane`, and `with_any_lane`, which runs a block with the arithmetic of one, once compiled for each.
+/// `$d` is a dollar sign, for the parameters of the inner macro.
+macro_rules! any_lane {
+    ($d:tt, $($format:ident($lane:ty),)+) => {
+        /// The arithmetic of a format: a closed list, so that each member is compiled to vector code of its own.
+        /// Roundings of floats are compiled in; those of fixed point, and all other rules, are constants in registers.
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) enum AnyLane {
+            $($format($lane),)+
+        }
+
+        macro_rules! with_any_lane {
+            ($d any:expr, |$d lane:ident| $d body:block) => {
+                match $d any {
+                    $($crate::exec::batch::lanes::AnyLane::$format($d lane) => $d body,)+
+                }
+            };
+        }
+    };
+}
+
+any_lane! {
+    $,
     Fixed16(FixedLane<false, false>),
     Fixed16Wrap(FixedLane<false, true>),
     Fixed32(FixedLane<true, false>),
@@ -32,6 +51,7 @@ pub(crate) enum AnyLane {
     DoubleDown(FloatLane<DOUBLE, DOWN>),
     General(FloatLane<GENERAL, ANY>),
 }
+pub(crate) use with_any_lane;
 
 impl AnyLane {
     /// The arithmetic of a format.
@@ -67,38 +87,7 @@ impl AnyLane {
             },
         }
     }
-}
 
-/// Runs a block with the arithmetic of an [`AnyLane`], once compiled for each.
-macro_rules! with_any_lane {
-    ($any:expr, |$lane:ident| $body:block) => {
-        match $any {
-            $crate::exec::batch::lanes::AnyLane::Fixed16($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed16Wrap($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed32($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::Fixed32Wrap($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::IeeeHost($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::IeeeSingle($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::IeeeDouble($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::HostEven($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::HostAway($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::HostZero($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::HostDown($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::SingleEven($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::SingleAway($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::SingleZero($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::SingleDown($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::DoubleEven($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::DoubleAway($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::DoubleZero($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::DoubleDown($lane) => $body,
-            $crate::exec::batch::lanes::AnyLane::General($lane) => $body,
-        }
-    };
-}
-pub(crate) use with_any_lane;
-
-impl AnyLane {
     /// A bit pattern of the format as a slot holds it.
     pub(crate) fn decode(&self, bits: u32) -> u32 {
         fn decode<L: Lane>(lane: &L, bits: u32) -> u32 {

@@ -223,16 +223,6 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     }
 
     #[inline(always)]
-    fn load(raw: u32) -> i32 {
-        raw.cast_signed()
-    }
-
-    #[inline(always)]
-    fn store(x: i32) -> u32 {
-        x as u32
-    }
-
-    #[inline(always)]
     fn to_f64(&self, x: i32) -> f64 {
         f64::from(x) / (1u64 << self.frac) as f64
     }
@@ -420,21 +410,6 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn saturate(&self, a: i32) -> i32 {
         a.max(0).min(self.one)
-    }
-
-    #[inline(always)]
-    fn lt(&self, a: i32, b: i32) -> bool {
-        a < b
-    }
-
-    #[inline(always)]
-    fn le(&self, a: i32, b: i32) -> bool {
-        a <= b
-    }
-
-    #[inline(always)]
-    fn eq(&self, a: i32, b: i32) -> bool {
-        a == b
     }
 
     #[inline(always)]

@@ -134,16 +134,6 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     #[inline(always)]
-    fn load(raw: u32) -> f32 {
-        f32::from_bits(raw)
-    }
-
-    #[inline(always)]
-    fn store(x: f32) -> u32 {
-        x.to_bits()
-    }
-
-    #[inline(always)]
     fn to_f64(&self, x: f32) -> f64 {
         f64::from(x)
     }
@@ -188,11 +178,6 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
             (SINGLE, _) => self.narrow(toward::short_sum::<R>(a, b)),
             _ => self.narrow(toward::sum::<R>(a, b)),
         }
-    }
-
-    #[inline(always)]
-    fn sub(&self, a: f32, b: f32) -> f32 {
-        self.add(a, -b)
     }
 
     #[inline(always)]
@@ -325,11 +310,6 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     #[inline(always)]
-    fn floor(&self, a: f32) -> f32 {
-        self.round_f64(f64::from(a).floor())
-    }
-
-    #[inline(always)]
     fn frc(&self, a: f32) -> f32 {
         // Not through `floor`: short formats can't hold the floor of their most negative number.
         let a = f64::from(a);
@@ -348,30 +328,10 @@ impl<const PATH: u8, const R: u8> Lane for FloatLane<PATH, R> {
     }
 
     #[inline(always)]
-    fn scale(&self, a: f32, shift: i32) -> f32 {
-        self.round_f64(f64::from(a) * pow2(shift))
-    }
-
-    #[inline(always)]
     fn saturate(&self, a: f32) -> f32 {
         let low = if a > 0.0 { a } else { 0.0 };
         let clamped = if low < 1.0 { low } else { 1.0 };
         if self.nv & a.is_nan() { a } else { clamped }
-    }
-
-    #[inline(always)]
-    fn lt(&self, a: f32, b: f32) -> bool {
-        a < b
-    }
-
-    #[inline(always)]
-    fn le(&self, a: f32, b: f32) -> bool {
-        a <= b
-    }
-
-    #[inline(always)]
-    fn eq(&self, a: f32, b: f32) -> bool {
-        a == b
     }
 
     #[inline(always)]

@@ -102,16 +102,6 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
     }
 
     #[inline(always)]
-    fn load(raw: u32) -> f32 {
-        f32::from_bits(raw)
-    }
-
-    #[inline(always)]
-    fn store(x: f32) -> u32 {
-        x.to_bits()
-    }
-
-    #[inline(always)]
     fn to_f64(&self, x: f32) -> f64 {
         f64::from(x)
     }
@@ -137,11 +127,6 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
             SINGLE => self.narrow_single(a + b),
             _ => self.narrow_double(f64::from(a) + f64::from(b)) as f32,
         }
-    }
-
-    #[inline(always)]
-    fn sub(&self, a: f32, b: f32) -> f32 {
-        self.add(a, -b)
     }
 
     #[inline(always)]
@@ -224,11 +209,6 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
     }
 
     #[inline(always)]
-    fn floor(&self, a: f32) -> f32 {
-        self.round_f64(f64::from(a).floor())
-    }
-
-    #[inline(always)]
     fn frc(&self, a: f32) -> f32 {
         let a = f64::from(a);
         self.round_f64(odd::add_odd(a, -a.floor()))
@@ -245,29 +225,9 @@ impl<const PATH: u8> Lane for IeeeLane<PATH> {
     }
 
     #[inline(always)]
-    fn scale(&self, a: f32, shift: i32) -> f32 {
-        self.round_f64(f64::from(a) * pow2(shift))
-    }
-
-    #[inline(always)]
     fn saturate(&self, a: f32) -> f32 {
         let low = if a > 0.0 { a } else { 0.0 };
         if low < 1.0 { low } else { 1.0 }
-    }
-
-    #[inline(always)]
-    fn lt(&self, a: f32, b: f32) -> bool {
-        a < b
-    }
-
-    #[inline(always)]
-    fn le(&self, a: f32, b: f32) -> bool {
-        a <= b
-    }
-
-    #[inline(always)]
-    fn eq(&self, a: f32, b: f32) -> bool {
-        a == b
     }
 
     #[inline(always)]

@@ -2,12 +2,46 @@
 
 use std::fmt::Debug;
 
+use crate::exec::lower::pow2;
+
 /// Lanes of a batch: the fragments of one 16x16 tile, lane `16 y + x`.
 pub(crate) const LANES: usize = 256;
 
 /// All lanes of one value: raw numbers of a format, masks (0 or all ones) or integers, as the operation that reads them
 /// takes them.
 pub(crate) type LaneRow = [u32; LANES];
+
+/// A number as registers hold it: an integer or a float of the host.
+pub(crate) trait RegisterNumber: Copy + Default + Send + Sync + Debug + PartialOrd {
+    /// The number with these host bits.
+    fn from_bits(bits: u32) -> Self;
+    /// The host bits of a number.
+    fn to_bits(self) -> u32;
+}
+
+impl RegisterNumber for f32 {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> f32 {
+        f32::from_bits(bits)
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        f32::to_bits(self)
+    }
+}
+
+impl RegisterNumber for i32 {
+    #[inline(always)]
+    fn from_bits(bits: u32) -> i32 {
+        bits.cast_signed()
+    }
+
+    #[inline(always)]
+    fn to_bits(self) -> u32 {
+        self.cast_unsigned()
+    }
+}
 
 /// The arithmetic of one number format on single lanes.
 ///
@@ -20,7 +54,7 @@ pub(crate) type LaneRow = [u32; LANES];
 /// exactly. Bits are made only when a value leaves the executor ([`Lane::encode`]); a NaN is one value here.
 pub(crate) trait Lane: Copy + Send + Sync {
     /// Type of a register component.
-    type T: Copy + Default + Send + Sync + Debug + PartialEq;
+    type T: RegisterNumber;
     /// Type of [`Lane::general`].
     type General: Lane;
 
@@ -29,9 +63,15 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// The bit pattern of a number; NaN gives the canonical one.
     fn encode(&self, x: Self::T) -> u32;
     /// The number that a slot holds.
-    fn load(raw: u32) -> Self::T;
+    #[inline(always)]
+    fn load(raw: u32) -> Self::T {
+        Self::T::from_bits(raw)
+    }
     /// The number as a slot holds it: its host bits, whatever the format.
-    fn store(x: Self::T) -> u32;
+    #[inline(always)]
+    fn store(x: Self::T) -> u32 {
+        x.to_bits()
+    }
     /// The number as a double, always exact.
     fn to_f64(&self, x: Self::T) -> f64;
     /// Rounds a double into the format. The double is exact, or rounded to odd (see [`super::odd`]).
@@ -58,7 +98,10 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// `a + b`
     fn add(&self, a: Self::T, b: Self::T) -> Self::T;
     /// `a - b`
-    fn sub(&self, a: Self::T, b: Self::T) -> Self::T;
+    #[inline(always)]
+    fn sub(&self, a: Self::T, b: Self::T) -> Self::T {
+        self.add(a, self.neg(b))
+    }
     /// `a b`
     fn mul(&self, a: Self::T, b: Self::T) -> Self::T;
     /// Products added in order, each product and each sum rounded; `N` at least 1.
@@ -92,7 +135,10 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// The larger one.
     fn max(&self, a: Self::T, b: Self::T) -> Self::T;
     /// The largest integer not above `a`.
-    fn floor(&self, a: Self::T) -> Self::T;
+    #[inline(always)]
+    fn floor(&self, a: Self::T) -> Self::T {
+        self.round_f64(self.to_f64(a).floor())
+    }
     /// `a - floor(a)`
     fn frc(&self, a: Self::T) -> Self::T;
     /// `-a`
@@ -100,15 +146,27 @@ pub(crate) trait Lane: Copy + Send + Sync {
     /// `|a|`
     fn abs(&self, a: Self::T) -> Self::T;
     /// `a 2^shift`, `shift` within -3 to 3.
-    fn scale(&self, a: Self::T, shift: i32) -> Self::T;
+    #[inline(always)]
+    fn scale(&self, a: Self::T, shift: i32) -> Self::T {
+        self.round_f64(self.to_f64(a) * pow2(shift))
+    }
     /// `a` clamped to [0, 1].
     fn saturate(&self, a: Self::T) -> Self::T;
     /// `a < b`; false for NaN.
-    fn lt(&self, a: Self::T, b: Self::T) -> bool;
+    #[inline(always)]
+    fn lt(&self, a: Self::T, b: Self::T) -> bool {
+        a < b
+    }
     /// `a <= b`; false for NaN.
-    fn le(&self, a: Self::T, b: Self::T) -> bool;
+    #[inline(always)]
+    fn le(&self, a: Self::T, b: Self::T) -> bool {
+        a <= b
+    }
     /// `a == b` as numbers; false for NaN.
-    fn eq(&self, a: Self::T, b: Self::T) -> bool;
+    #[inline(always)]
+    fn eq(&self, a: Self::T, b: Self::T) -> bool {
+        a == b
+    }
     /// `a > 1/2`, the half exact; false for NaN.
     fn above_half(&self, a: Self::T) -> bool;
     /// `a`, or 0 where one of `a`, `b` is zero and the other isn't finite.
