@@ -5,7 +5,7 @@ use crossbar::sphere::{
     Hemisphere, HemisphereProjection as Projection, ProjectionErrors, function_count, function_index,
 };
 
-/// Whether a number, written in scientific notation with as many digits as were printed, is what was printed.
+/// Returns `true` if a number, written in scientific notation with as many digits as were printed, is the printed one.
 fn prints_as(value: f64, printed: &str) -> bool {
     let digits = printed.split_once('e').expect("scientific notation").0.len().saturating_sub(2);
     format!("{value:.digits$e}") == printed

@@ -1,4 +1,4 @@
-//! What the papers print, and what follows from it.
+//! Printed figures of the papers, and their consequences.
 
 mod cpca_appendix;
 mod radiosity;

@@ -41,7 +41,7 @@ fn engine<'a>(mesh: &'a Mesh, device: &str, parameters: EngineParameters) -> Ray
     RayEngine::new(mesh, profile, ExecutorKind::Batch, parameters).expect("an engine")
 }
 
-/// What a tree was like, at its fullest and all the time.
+/// Size of a tree, at its fullest and over time.
 struct Cache {
     /// The mean share of full of its buckets, when all rays were in it.
     full: f64,

@@ -111,7 +111,7 @@ fn classes_of_evidence_follow_from_the_rows() {
     }
 }
 
-/// What is neither printed nor read off our own model can be told apart.
+/// Numbers that are neither printed nor read off our own model can be told apart.
 #[test]
 fn origins_are_said() {
     let row = |id: &str| all().find(|row| row.target.id == id).expect("a row");
@@ -148,7 +148,7 @@ fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
     assert!(others.iter().all(|row| !row.admits(alone.ours)));
 }
 
-/// What explains a row lies within its bound, and is a setting of a table of the same entry or its neighbours.
+/// An explanation of a row lies within its bound, and is a setting of a table of the same entry or its neighbours.
 #[test]
 fn explanations_reach_what_they_explain() {
     let explained: Vec<_> = all().filter_map(|row| Some((row, row.explanation()?))).collect();
@@ -422,7 +422,7 @@ fn pictures_get_nearer_with_what_is_kept() {
     }
 }
 
-/// What a row of Table 1 is of, without the model.
+/// Subject of a row of Table 1, without the model.
 fn what(row: &[Cell]) -> String {
     row[0].text().rsplit(": ").next().unwrap_or_default().to_owned()
 }
@@ -475,7 +475,7 @@ fn paper_of(id: &str) -> &'static str {
     PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
 }
 
-/// What the book says of a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
+/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
 fn said(name: &str) -> String {
     let words: Vec<&str> = name.split(' ').collect();
     let of =

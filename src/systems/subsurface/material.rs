@@ -54,7 +54,7 @@ impl Coefficients {
         coefficients.check().map(|()| coefficients)
     }
 
-    /// Whether the coefficients make a medium: both finite, absorption at least 0, scattering above 0.
+    /// Checks that the coefficients make a medium: both finite, absorption at least 0, scattering above 0.
     ///
     /// # Errors
     /// [`MaterialError`] says which figure is wrong.
@@ -90,7 +90,7 @@ impl Coefficients {
     }
 }
 
-/// Whether `eta` is an index of refraction that the dipole takes.
+/// Checks that the dipole takes `eta` as an index of refraction.
 ///
 /// # Errors
 /// [`MaterialError`] if it is not in [1, [`MAX_ETA`]].

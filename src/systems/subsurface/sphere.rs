@@ -68,7 +68,7 @@ impl SphereSeries {
         Self { factors }
     }
 
-    /// What each Legendre coefficient of the irradiance is multiplied by; the first is [`uniform_sphere`].
+    /// Factor of each Legendre coefficient of the irradiance; the first is [`uniform_sphere`].
     pub fn factors(&self) -> &[f64] {
         &self.factors
     }

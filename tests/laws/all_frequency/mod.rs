@@ -1,6 +1,7 @@
 //! System 5: light in cube texels, visibility in fine directions, transfer in Haar wavelets.
 
 mod bad_input;
+mod card;
 mod coding;
 mod file;
 mod geometry;
@@ -8,6 +9,7 @@ mod haar;
 mod hats;
 mod light;
 mod orientation;
+mod reflectance;
 mod rivals;
 mod shadows;
 mod symmetry;

@@ -1,4 +1,4 @@
-//! What the rows say, as sentences.
+//! The conclusion of the rows, as sentences.
 
 use std::cmp::Reverse;
 

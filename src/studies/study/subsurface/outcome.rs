@@ -1,4 +1,4 @@
-//! What the study found.
+//! Results of the study.
 
 use super::link_table::LinkRow;
 use super::model::ModelLengths;
@@ -9,7 +9,7 @@ use super::way::WayRow;
 use crate::atlas::Atlas;
 use crate::subsurface::Dipole;
 
-/// What a study found.
+/// Results of a study.
 #[derive(Debug)]
 pub struct SubsurfaceOutcome {
     /// The model's atlas.

@@ -1,4 +1,4 @@
-//! What the study is asked.
+//! Parameters of the study.
 
 use std::fmt;
 
@@ -22,7 +22,7 @@ pub struct Parameters {
     pub mesh: Mesh,
     /// Millimeters of a unit of the mesh.
     pub mm_per_unit: f64,
-    /// What it is made of.
+    /// Its medium.
     pub material: Material,
     /// Texels along a side of the atlas.
     pub side: u32,
@@ -36,13 +36,13 @@ pub struct Parameters {
     pub stage: LightStage,
     /// Points of the model, in its units, at which radiosity is asked for.
     pub probes: Vec<[f64; 3]>,
-    /// Whether to gather over all pairs of texels too.
+    /// True to gather over all pairs of texels too.
     pub reference: bool,
     /// Photons per channel that walk beside the dipole; `None` for none.
     pub photons: Option<u64>,
     /// `true` to list links: of the probes' texels, or of all without probes.
     pub link_table: bool,
-    /// Whether every way is run with each value of the card's rounding switches too.
+    /// True to run every gather with each value of the card's rounding switches too.
     pub roundings: bool,
     /// The card.
     pub profile: Profile,
@@ -56,7 +56,7 @@ pub struct Parameters {
     pub view: ViewKernel,
     /// Diffuse reflectance for direct light.
     pub diffuse: f64,
-    /// What radiance is multiplied by in pictures; `None` for auto-exposure: 18 % grey on average.
+    /// Factor of radiance in pictures; `None` for auto-exposure: 18 % grey on average.
     pub exposure: Option<f64>,
     /// Pictures with the lights turned all the way round the model in so many steps.
     pub frames: u32,
@@ -67,7 +67,7 @@ pub struct Parameters {
 pub enum Lighting {
     /// Lights, by pass 1.
     Lights(Vec<Light>),
-    /// What has entered each face, per area: E of equation 8.
+    /// Flux that has entered each face, per area: E of equation 8.
     ByFace(Vec<[f64; 3]>),
     /// Distant light of an environment map, per texel and with shadows, in place of pass 1.
     Environment(CubeLight),
@@ -93,7 +93,7 @@ pub struct GatherWay {
     pub links: FloatTexels,
     /// The radiosity map.
     pub map: MapBits,
-    /// Whether pass 2 computes in half precision.
+    /// True if pass 2 computes in half precision.
     pub half: bool,
 }
 

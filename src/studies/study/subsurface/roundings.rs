@@ -1,4 +1,4 @@
-//! What the open questions of the card's rounding change: each value of each rounding switch, over the same links.
+//! Effect of the card's open rounding rules: each value of each rounding switch, over the same links.
 
 use super::truth::GatherError;
 use super::way::{Scene, gathered, lit_card};

@@ -90,7 +90,7 @@ pub(super) fn angles(outcome: &SubsurfaceOutcome) -> Table {
     table
 }
 
-/// What ways take of the card, a row each.
+/// Memory of the card that each way of gathering takes, a row each.
 pub(super) fn storage(outcome: &SubsurfaceOutcome) -> Table {
     let mut table = Table::of(
         "What ways take of the card; reads and instructions per texel of pass 2",

@@ -1,4 +1,4 @@
-//! What the ways are compared with: equation 9 over all pairs of texels.
+//! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
 use super::{Parameters, SubsurfaceError};
 use crate::atlas::Atlas;

@@ -20,7 +20,7 @@ use crate::subsurface::on_card::{
     pass_times,
 };
 
-/// What all ways share.
+/// Inputs that all ways of gathering share.
 pub(super) struct Scene<'a> {
     pub(super) parameters: &'a Parameters,
     pub(super) atlas: &'a Atlas,
@@ -32,7 +32,7 @@ pub(super) struct Scene<'a> {
     pub(super) truth: Option<&'a Truth>,
 }
 
-/// What a way of gathering found.
+/// Results of a way of gathering.
 #[derive(Debug)]
 pub struct WayRow {
     /// Its name.

@@ -27,7 +27,7 @@ pub enum LinkLayout {
     Adaptive,
 }
 
-/// What kind of texture the radiosity map is.
+/// Kind of texture of the radiosity map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MapTexture {
     /// A texture with levels.
@@ -50,13 +50,13 @@ impl MapTexture {
 pub struct GatherKernel {
     /// How links are chosen.
     pub layout: LinkLayout,
-    /// Whether factors are of three channels.
+    /// True for factors of three channels.
     pub rgb: bool,
-    /// What the map is.
+    /// Texture of the radiosity map.
     pub map: MapTexture,
-    /// Whether it computes in half precision.
+    /// True if it computes in half precision.
     pub half: bool,
-    /// Whether it adds to what the pass before wrote.
+    /// True if it adds to the target of the previous pass.
     pub continues: bool,
 }
 

@@ -14,7 +14,7 @@ use crate::card::{KernelError, KernelText, checked};
 pub struct LightKernel {
     /// The file.
     pub kernel: KernelText,
-    /// What stands before the number of a constant: `p[` or `c`.
+    /// Text before the number of a constant: `p[` or `c`.
     pub prefix: &'static str,
     /// The first constant of the first light.
     pub first: usize,
@@ -61,7 +61,7 @@ impl LightKernel {
         program.instructions.iter().map(|instruction| usize::from(slots(instruction))).sum()
     }
 
-    /// What stands before, in and after the part for a light.
+    /// Text before, in and after the part for a light.
     fn parts(&self) -> [&'static str; 3] {
         let text = self.kernel.text;
         let after = |mark: &str| text.find(mark).map_or(text.len(), |at| at + mark.len());

@@ -15,7 +15,7 @@ use crate::subsurface::kernels::{GatherKernel, LinkLayout, MapTexture};
 /// A program of pass 2, accepted by the device.
 #[derive(Clone, Debug)]
 pub struct GatherProgram {
-    /// What it was written from.
+    /// The kernel that it was written from.
     pub kernel: GatherKernel,
     /// The first link that it follows.
     pub from: usize,
@@ -41,7 +41,7 @@ impl GatherProgram {
 pub(super) struct Gather {
     side: u32,
     level: Option<u32>,
-    /// What the sum is multiplied by at the end.
+    /// Factor of the sum at the end.
     factor: f32,
     textures: Vec<TextureId>,
     pub(super) programs: Vec<GatherProgram>,
@@ -115,7 +115,7 @@ impl Gather {
     }
 }
 
-/// What kind of texture the map is.
+/// Kind of texture of the map.
 pub(super) fn map_texture(options: &SubsurfaceCardOptions) -> MapTexture {
     if options.map.is_leveled() { MapTexture::Leveled } else { MapTexture::Rectangle }
 }

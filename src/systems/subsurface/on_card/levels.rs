@@ -90,7 +90,7 @@ impl LeveledMap {
         }
     }
 
-    /// What pass 2 reads: fixed links one level, adaptive ones all.
+    /// Textures that pass 2 reads: one level for fixed links, all for adaptive ones.
     pub(super) fn read(&self, links: FixedLevel) -> ReadTexture {
         let state = SamplerState::NEAREST_CLAMP;
         match (&self.float, links) {

@@ -1,4 +1,4 @@
-//! What the passes take of the card's memory.
+//! Memory of the card that the passes take.
 
 use super::error::SubsurfaceCardError;
 use super::levels::LeveledMap;
@@ -9,7 +9,7 @@ use refsim::device::Profile;
 /// Bytes of textures and targets by what they are for, without the picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CardMemory {
-    /// What, and how many bytes.
+    /// Names, each with its number of bytes.
     pub parts: Vec<(&'static str, u64)>,
 }
 

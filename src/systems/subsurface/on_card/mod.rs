@@ -112,7 +112,7 @@ impl SubsurfaceCard {
         &self.options
     }
 
-    /// What the passes take of the card's memory.
+    /// Memory of the card that the passes take.
     pub fn memory(&self) -> &CardMemory {
         &self.memory
     }

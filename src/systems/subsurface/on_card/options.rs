@@ -1,4 +1,4 @@
-//! What the passes are made of: formats, stages, precision.
+//! Options of the passes: formats, stages, precision.
 
 use refsim::texture::TexelFormat;
 
@@ -30,7 +30,7 @@ impl FloatTexels {
 pub enum MapFormat {
     /// 8 bits per channel, with levels that the card makes itself.
     Unorm8 {
-        /// What irradiance is multiplied by so that it fits 0 to 1; more is cut off.
+        /// Factor of irradiance that brings it to 0 to 1; more is cut off.
         scale: f64,
     },
     /// Half floats: a rectangle, with levels by passes.
@@ -59,7 +59,7 @@ impl MapFormat {
         }
     }
 
-    /// What the map holds in place of 1.
+    /// Number of the map that stands for 1.
     pub fn scale(self) -> f64 {
         match self {
             Self::Unorm8 { scale } => scale,
@@ -67,7 +67,7 @@ impl MapFormat {
         }
     }
 
-    /// Whether the map has levels and filters.
+    /// Returns `true` if the map has levels and filters.
     pub(super) fn is_leveled(self) -> bool {
         matches!(self, Self::Unorm8 { .. })
     }
@@ -96,7 +96,7 @@ pub struct SubsurfaceCardOptions {
     pub links: FloatTexels,
     /// The scattered irradiance, which pass 2 writes.
     pub scattered: FloatTexels,
-    /// Whether pass 2 computes in half precision, but for places in a rectangle.
+    /// True if pass 2 computes in half precision, but for places in a rectangle.
     pub half: bool,
     /// The card's memory in bytes, if it shall be an error to need more.
     pub memory: Option<u64>,

@@ -14,7 +14,7 @@ use super::options::SubsurfaceCardOptions;
 use crate::card::Texels;
 use crate::subsurface::kernels::MapTexture;
 
-/// What the gather computes from the levels of a map (finest first, as [`super::SubsurfaceCard::read_levels`] gives
+/// Sums of the gather over the levels of a map (finest first, as [`super::SubsurfaceCard::read_levels`] gives
 /// them) on a device whose half precision is `half`.
 ///
 /// # Errors

@@ -24,7 +24,7 @@ pub(super) struct LightPass {
     /// Lights per pass.
     most: usize,
     stage: StageData,
-    /// What passes before the last one write.
+    /// Targets of the passes before the last one.
     between: Option<PingPong>,
     /// Irradiances of a table, one per texel.
     table: Option<TextureId>,
@@ -47,7 +47,7 @@ struct RectangleVertices {
     indices: Vec<u32>,
 }
 
-/// What tells a pass from the others of a frame.
+/// Properties in which the passes of a frame differ.
 #[derive(Clone, Copy, Debug)]
 struct Part<'a> {
     lights: &'a [CardLight],

@@ -30,7 +30,7 @@ impl PassKind {
 pub struct PassEvent {
     /// The pass.
     pub pass: PassKind,
-    /// What happened.
+    /// Counts of the pass.
     pub event: Event,
 }
 
@@ -42,7 +42,7 @@ pub struct PassTime {
     pub draws: usize,
     /// Its length.
     pub time: Picoseconds,
-    /// What the longest draw waits for; `None` without draws.
+    /// The unit that the longest draw waits for; `None` without draws.
     pub bottleneck: Option<Bottleneck>,
     /// Clocks of the texture units.
     pub textures: u64,

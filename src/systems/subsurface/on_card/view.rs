@@ -143,7 +143,7 @@ fn direct_lights<'a>(
     Ok(&lights.list)
 }
 
-/// What the constants of a view are made of.
+/// Values from which the constants of a view are made.
 struct ViewConstants<'a> {
     eta: f64,
     view: &'a View,

@@ -76,7 +76,7 @@ impl PhotonRng {
         around(inwards, (1.0 - sine * sine).sqrt(), turn)
     }
 
-    /// Whether a photon leaves at the boundary, which it meets from inside at this cosine.
+    /// Returns `true` if a photon leaves at the boundary, which it meets from inside at this cosine.
     pub(super) fn leaves(&mut self, eta: f64, cosine: f64) -> bool {
         self.pair()[0] < fresnel_transmittance(1.0 / eta, cosine)
     }

@@ -1,4 +1,4 @@
-//! What is walked through, and by how many photons.
+//! The medium that is walked through, and the number of photons.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! What became of the photons, and how sure that is.
+//! Shares of photons by where they ended, with their standard errors.
 
 /// Groups that photons are counted in: their spread gives the error.
 pub const BATCHES: usize = 32;
@@ -60,7 +60,7 @@ impl BatchCounts {
     }
 }
 
-/// What became of all photons.
+/// Counts and weights of all photons by where they ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WalkTally {
     /// Areas of the bins, in mm^2.

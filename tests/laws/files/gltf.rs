@@ -9,7 +9,7 @@ use crossbar::scene::{Scene, Surface};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 /// Two triangles of a square with y up, as singles: positions, then normals along y, then texture coordinates.
 const SQUARE: [[f32; 8]; 4] = [

@@ -6,7 +6,7 @@ use crossbar::geom::Mesh;
 use crossbar::io::{ModelError, load_mesh, load_obj, parse_stl};
 use proptest::prelude::*;
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 const CORNERS: [[[f32; 3]; 3]; 2] =
     [[[0.0, 0.0, 0.0], [1.5, 0.0, 1e-3], [1.0, 1.0, 0.0]], [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [-0.25, 1.0, 7.0]]];

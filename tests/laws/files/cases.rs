@@ -9,9 +9,9 @@ use refsim::machine::ExecutorKind;
 
 /// The good cases, which the mutations start from.
 const CASES: [(&str, &str); 3] = [
-    ("modulate", include_str!("../../fixtures/cases/modulate.toml")),
-    ("two_triangles", include_str!("../../fixtures/cases/two_triangles.toml")),
-    ("transform", include_str!("../../fixtures/cases/transform.toml")),
+    ("modulate", include_str!("../../../fixtures/cases/modulate.toml")),
+    ("two_triangles", include_str!("../../../fixtures/cases/two_triangles.toml")),
+    ("transform", include_str!("../../../fixtures/cases/transform.toml")),
 ];
 
 fn folder() -> &'static Path {

@@ -7,7 +7,7 @@ use crossbar::geom::{Mesh, Sides, exact, teapot};
 use crossbar::io::{load_mesh, load_obj, load_rays, parse_obj, parse_rays, write_hits, write_obj};
 use proptest::prelude::*;
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 const GOOD: &str = "# good\nmtllib a.mtl\no thing\nv 0 0 0\nv 1.5 0 -0\nv 1e-3 +1 0 1\nv -1 0 .5 1 0 0\nvt 0 0\nvn 0 0 1\n\
                     usemtl red\ng part\ns 1\nf 1 2 3\nf 1/1/1 2//1 3/1 4\nf -1 -2 \\\n-3\nl 1 2\np 1\n";

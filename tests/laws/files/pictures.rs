@@ -6,7 +6,7 @@ use crossbar::io::{PictureFileError, load_picture};
 use crossbar::picture::{ChannelUnit, Picture, PictureError, Samples, exr, hdr, png, rgb8};
 use proptest::prelude::*;
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 const SIZE: [u32; 2] = [5, 3];
 const PIXELS: usize = 15;

@@ -6,7 +6,7 @@ use crossbar::geom::Mesh;
 use crossbar::io::{ModelError, load_mesh, load_obj, parse_ply};
 use proptest::prelude::*;
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 const ENCODINGS: [&str; 3] = ["ascii", "binary_little_endian", "binary_big_endian"];
 

@@ -196,7 +196,7 @@ fn every_difference_between_fp32_and_the_truth_is_counted_and_explained() {
             (scene.moderate, [hits.len(), surface], counts)
         })
         .collect();
-    let page = include_str!("../../../docs/papers/ray_engine.md").replace('\r', "");
+    let page = include_str!("../../../../docs/papers/ray_engine.md").replace('\r', "");
     let mut missing = String::new();
     for moderate in [true, false] {
         let (mut rays, mut counts) = ([0; 2], Counts::new());

@@ -12,7 +12,7 @@ use crossbar::io::{
 use crossbar::scene::{Material, Scene, Surface, built};
 use proptest::prelude::*;
 
-use crate::mutation::mutated;
+use super::mutation::mutated;
 
 const OBJ: &str = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 .5\nvn 0 0 1\nvn .6 0 .8\nusemtl red\nf 1//1 2//2 3//-1\n\
                    usemtl glass\nf 1 2 3 4\nusemtl nowhere\nf 1/1/1 -1/2/1 \\\n-2/3/1\n";

@@ -1,0 +1,213 @@
+//! Files that are no such input, claims of huge sizes, and places that cannot be written.
+
+use std::ffi::OsString;
+
+use rayon::prelude::*;
+
+use super::{Files, assert_refused};
+
+/// Every option for an input file with every kind of file that is no such input.
+#[test]
+fn hostile_files() {
+    let commands: [&[&str]; 22] = [
+        &["check", "IN", "--device", "r200"],
+        &["run", "IN"],
+        &["compare", "IN"],
+        &["timeline", "IN"],
+        &["timeline", "--rays", "4x4", "--mesh", "IN"],
+        &["render", "IN"],
+        &["render", "IN", "--renderer", "eye"],
+        &["radiosity", "IN"],
+        &["bi-scale", "bicluster", "IN"],
+        &["bi-scale", "multiply", "IN"],
+        &["bi-scale", "compare", "IN"],
+        &["cpca", "compress", "IN", "--out", "y.prt"],
+        &["cpca", "error", "IN", "IN"],
+        &["all-frequency", "factor", "--table", "IN"],
+        &["all-frequency", "factor", "--merl", "IN"],
+        &["cpca", "precompute", "IN", "--out", "x.prt"],
+        &["cpca", "show", "IN"],
+        &["bi-scale", "texture", "IN", "--out", "b.npy"],
+        &["subsurface", "IN", "--mm-per-unit", "1", "--material", "marble", "--atlas", "4", "--all-pairs", "no"],
+        &[
+            "subsurface",
+            "m.obj",
+            "--mm-per-unit",
+            "1",
+            "--material",
+            "marble",
+            "--atlas",
+            "4",
+            "--all-pairs",
+            "no",
+            "--irradiance",
+            "IN",
+        ],
+        &["intersect", "--mesh", "IN", "--rays", "r.csv", "--out", "h.csv"],
+        &["intersect", "--mesh", "m.obj", "--rays", "IN", "--out", "h.csv"],
+    ];
+    let wide = format!("x{}", "y".repeat(200_000));
+    let contents: [&[u8]; 9] = [
+        b"",
+        b"\n",
+        b"\0",
+        b"\xff\xfe",
+        b"\xef\xbb\xbf",
+        b"v 0 0 0\n\0\n",
+        wide.as_bytes(),
+        b"v 0 0 1e39\nv 0 0 0\nv 0 1 0\nf 1 2 3\n",
+        b"\x1b[2J\xc2\x9b",
+    ];
+    let good: [(&str, &[u8]); 2] =
+        [("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), ("r.csv", b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n")];
+    let mut runs: Vec<(Vec<OsString>, Files<'_>)> = Vec::new();
+    for command in commands {
+        let with = |input: &str| command.iter().map(|a| OsString::from(a.replace("IN", input))).collect::<Vec<_>>();
+        for bytes in contents {
+            for name in ["in.obj", "in.toml", "in.csv"] {
+                runs.push((with(name), [&good[..], &[(name, bytes)]].concat()));
+            }
+        }
+        runs.push((with("."), good.to_vec()));
+        runs.push((with("m.obj/x"), good.to_vec()));
+        #[cfg(target_os = "linux")]
+        for device in ["/dev/null", "/proc/self/mem", "/dev/zero"] {
+            runs.push((with(device), good.to_vec()));
+        }
+    }
+    runs.par_iter().for_each(|(arguments, files)| {
+        let stderr = assert_refused(arguments, files);
+        assert!(stderr.len() < 4000, "{arguments:?}: a message of {} bytes", stderr.len());
+    });
+}
+
+/// Files that claim huge sizes are refused at once, before memory is allocated for them.
+#[test]
+fn claims_of_size() {
+    let mtx = |sizes: &str| format!("%%MatrixMarket matrix coordinate real general\n{sizes}\n1 1 1\n").into_bytes();
+    let prt = biclusters_of_nothing([u32::MAX; 2]);
+    let files: [(&str, &[u8]); 4] = [
+        ("rows.mtx", &mtx("4294967295 1 1")),
+        ("both.mtx", &mtx("4000000000 4000000000 1")),
+        ("columns.mtx", &mtx("1 4294967295 1")),
+        ("claims.prt", &prt),
+    ];
+    for (name, _) in &files {
+        for verb in ["bicluster", "multiply", "compare"] {
+            let start = std::time::Instant::now();
+            let arguments = ["bi-scale", verb, name, "--memory-limit", "64MiB"].map(OsString::from);
+            let stderr = assert_refused(&arguments, &files);
+            assert!(stderr.contains("4294967295") || stderr.contains("4000000000") || verb != "multiply", "{stderr}");
+            assert!(start.elapsed() < std::time::Duration::from_secs(10), "{verb} {name}: {:?}", start.elapsed());
+        }
+    }
+}
+
+/// A `.prt` file without biclusters, with right checksums, that claims a matrix of this size.
+fn biclusters_of_nothing([rows, columns]: [u32; 2]) -> Vec<u8> {
+    let ended = |mut bytes: Vec<u8>| {
+        bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+        bytes
+    };
+    let [version, conventions, sections] = [1_u32, 3, 1];
+    let fields = [version, conventions, 0, 0, rows, columns, 0, sections, 0, 0, 0, 0, 0];
+    let header =
+        [b"\x89PRT\r\n\x1a\n".to_vec(), fields.iter().flat_map(|field| field.to_le_bytes()).collect(), vec![0; 24]];
+    // No biclusters; column indices take two bytes and values one.
+    let body = [0, 0, 0, 0, 2, 1, 0, 0];
+    let section = [&b"BICL"[..], &(body.len() as u64).to_le_bytes(), &body].concat();
+    [ended(header.concat()), ended(section)].concat()
+}
+
+/// A PNG file whose header claims `side` x `side` RGBA pixels, followed by `length` arbitrary bytes.
+fn png_of_noise(side: u32, sample_bits: u8, length: usize) -> Vec<u8> {
+    let header = [&b"IHDR"[..], &side.to_be_bytes(), &side.to_be_bytes(), &[sample_bits, 6, 0, 0, 0]].concat();
+    let chunk = |body: &[u8]| {
+        let length = (body.len() as u32 - 4).to_be_bytes();
+        [&length[..], body, &crc32fast::hash(body).to_be_bytes()].concat()
+    };
+    let noise = [&b"IDAT"[..], &b"nothing ".repeat(length / 8)].concat();
+    [b"\x89PNG\r\n\x1a\n".to_vec(), chunk(&header), chunk(&noise), chunk(b"IEND")].concat()
+}
+
+/// A picture with too many pixels for the program, the command, the memory limit or its file's size is refused by its
+/// header, whatever follows.
+#[test]
+fn large_pictures_are_refused_by_their_headers() {
+    let (huge, large, cut) = (png_of_noise(9000, 16, 8), png_of_noise(7000, 8, 200_000), png_of_noise(7000, 8, 8));
+    let lit = ["all-frequency", "lighting", "--light", "large.png", "--memory-limit", "64MiB"];
+    for (arguments, words) in [
+        (&["diff", "huge.png", "huge.png"][..], "found 9000x9000 with 4 channels"),
+        (&["diff", "huge.png", "huge.png"], "16384 pixels a side"),
+        (&["diff", "large.png", "large.png", "--memory-limit", "1GiB"], "comparing pictures of 7000x7000 pixels"),
+        (&lit, "the picture `large.png` of 7000x7000 pixels takes up to"),
+        (&["bi-scale", "texture", "large.png", "--out", "b.npy"], "expected 1 to 1024 texels"),
+        (&["diff", "cut.png", "cut.png"], "for the 7000x7000 pixels that its header says"),
+    ] {
+        let files: [(&str, &[u8]); 3] = [("huge.png", &huge), ("large.png", &large), ("cut.png", &cut)];
+        let arguments: Vec<OsString> = arguments.iter().map(OsString::from).collect();
+        let stderr = assert_refused(&arguments, &files);
+        let flat = stderr.replace(['|', '\n'], " ").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(words), "{arguments:?}: {stderr}");
+    }
+}
+
+/// A scene without light sources is refused before the work, which would take minutes here.
+#[test]
+fn a_dark_scene_is_refused_before_the_work() {
+    let side = 40;
+    let (mut model, vertex) = (String::new(), |x: u32, y: u32| y * (side + 1) + x + 1);
+    for (x, y) in (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y))) {
+        model.push_str(&format!("v {x} {y} {}\n", (x * 7 + y * 13) % 5));
+    }
+    for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
+        let [a, b, c, d] = [vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)];
+        model.push_str(&format!("f {a} {b} {c}\nf {a} {c} {d}\n"));
+    }
+    let start = std::time::Instant::now();
+    let stderr = assert_refused(&["radiosity", "m.obj"].map(OsString::from), &[("m.obj", model.as_bytes())]);
+    assert!(stderr.contains("radiosity::dark"), "{stderr}");
+    // There are at least as many patches as faces, so their memory is known only once they are counted.
+    let shining = format!("mtllib m.mtl\nusemtl shining\n{model}");
+    let files = [("m.obj", shining.as_bytes()), ("m.mtl", b"newmtl shining\nKd 0.5 0.5 0.5\nKe 1 1 1\n")];
+    let few = ["radiosity", "m.obj", "--patches", "10", "--memory-limit", "256MiB"];
+    let stderr = assert_refused(&few.map(OsString::from), &files);
+    assert!(stderr.contains("crossbar::memory") && !stderr.contains("of 10 patches"), "{stderr}");
+    assert!(start.elapsed() < std::time::Duration::from_secs(20), "{:?}", start.elapsed());
+}
+
+/// Every option for an output path with every kind of path that cannot be written.
+#[test]
+fn hostile_places_for_results() {
+    let files: [(&str, &[u8]); 3] = [
+        ("m.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+        ("r.csv", b"ox,oy,oz,dx,dy,dz\n0,0,1,0,0,-1\n"),
+        ("file", b"mine"),
+    ];
+    let case = crate::case::example("modulate");
+    let folders: [&[&str]; 7] = [
+        &["man"],
+        &["run", &case],
+        &["render", "m.obj", "--size", "4x4"],
+        &["render", "white-box", "--size", "2x2"],
+        &["scene", "white-box"],
+        &["leaky-teapot", "--size", "2x2", "--tessellation", "1", "--format", "fp32"],
+        &["reproduce", "equation-11"],
+    ];
+    let not_folders = ["", "file", "file/x", "/dev/null", "/dev/null/x", "/proc/nowhere", "/dev/stdout"];
+    let single: [&[&str]; 2] =
+        [&["intersect", "--mesh", "m.obj", "--rays", "r.csv", "--out"], &["timeline", &case, "--trace"]];
+    let not_files = ["", ".", "/", "..", "file/x", "/proc/nowhere", "/dev/full"];
+    let mut runs: Vec<Vec<OsString>> = Vec::new();
+    for (commands, places, option) in
+        [(&folders[..], &not_folders[..], Some("--out")), (&single[..], &not_files[..], None)]
+    {
+        for (command, place) in commands.iter().flat_map(|command| places.iter().map(move |place| (command, place))) {
+            let words = command.iter().copied().chain(option).chain([*place]);
+            runs.push(words.map(OsString::from).collect());
+        }
+    }
+    runs.par_iter().for_each(|arguments| {
+        assert_refused(arguments, &files);
+    });
+}

@@ -1,0 +1,10 @@
+//! Readers and writers of files: what is written reads back, and no bytes cause a panic.
+
+mod cases;
+mod gltf;
+mod models;
+mod mutation;
+mod pictures;
+mod ply;
+mod scenes;
+mod stl;

@@ -1,0 +1,5 @@
+//! Output of studies: pages, tables, messages.
+
+mod messages;
+mod pages;
+mod tables;

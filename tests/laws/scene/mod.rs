@@ -1,0 +1,3 @@
+//! The scenes that the project builds.
+
+mod built;

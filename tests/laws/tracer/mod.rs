@@ -1,0 +1,3 @@
+//! Rays on the host.
+
+mod octree;
