@@ -185,6 +185,19 @@ fn the_page_says_what_is_measured() {
     assert!(page.contains(&tables), "docs/examples/foreign_intersector.md has other tables than\n{tables}");
 }
 
+/// The README's sentence on the two tests.
+#[test]
+fn the_readme_says_what_is_measured() {
+    let readme = include_str!("../README.md").replace(['\r', '\n'], " ");
+    let (_, rays, leaky) = report(SIZE, moeller_trumbore, 8);
+    let (_, _, tight) = report(SIZE, woop, 8);
+    assert_eq!(tight.leaks(), 0);
+    let count = rays.len().to_string();
+    let (thousands, rest) = count.split_at(count.len() - 3);
+    let sentence = format!("finds {} holes among {thousands},{rest} rays", leaky.leaks());
+    assert!(readme.contains(&sentence), "README.md does not say: {sentence}");
+}
+
 /// Dot product n . d of a triangle's normal and the ray's direction; its sign tells which side faces the ray.
 fn facing(mesh: &Mesh, triangle: u32, wrong: &Disagreement) -> f64 {
     let [a, b, c] = mesh.corners(triangle).expect("a triangle of the mesh").map(wide);

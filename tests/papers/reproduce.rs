@@ -507,14 +507,14 @@ fn said(name: &str) -> String {
     format!("\n\n{}\n", markdown(&table))
 }
 
-/// The README and the pages of the papers.
+/// The page of what works and those of the papers.
 fn pages() -> Vec<String> {
     let folder = std::fs::read_dir(file("docs/papers")).expect("the papers' pages");
     let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in ASCII"));
     let mut pages: Vec<String> =
         names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/papers/{name}")).collect();
     pages.sort();
-    pages.insert(0, "README.md".to_owned());
+    pages.insert(0, "docs/status.md".to_owned());
     pages
 }
 
