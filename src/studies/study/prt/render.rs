@@ -1,24 +1,23 @@
 //! Pictures of a model under distant light, from its transfer.
 
 use glam::{DMat3, DVec3};
-use miette::Diagnostic;
 use serde_json::json;
-use thiserror::Error;
 
 use super::compression_error::CompressionError;
 use super::exit_radiance::Lit;
+use super::exit_radiance::no_transfer;
 use super::interpolate::{Seen, linear_picture};
 use super::light_picture::light_picture;
 use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
-use crate::picture::{PictureError, rgb8};
+use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError, turn_around_z};
-use crate::study::{ProgressFn, Study};
+use crate::sphere::{HarmonicLight, HarmonicRotation, turn_around_z};
+use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::file::PrtFile;
 use crate::transfer::{Signal, Vertices};
 
@@ -65,28 +64,8 @@ pub enum Turning {
     Camera,
 }
 
-/// Why there are no pictures.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum RenderError {
-    /// A signal that is no transfer.
-    #[error("expected transfer, found numbers without a meaning")]
-    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar cpca precompute` wrote"))]
-    NoTransfer,
-    /// The light cannot be turned.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::turn))]
-    Rotation(#[from] RotationError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
-}
-
 impl Study for Rendering {
-    type Error = RenderError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, RenderError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
         let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
@@ -137,7 +116,7 @@ impl Rendering {
         seen: &Seen,
         from: (&HarmonicLight, &Camera),
         original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, RenderError> {
+    ) -> Result<Vec<[f64; 3]>, StudyError> {
         Ok(seen.colors(&self.radiance(from, original)?, [0.0; 3]))
     }
 
@@ -146,18 +125,18 @@ impl Rendering {
         &self,
         (light, camera): (&HarmonicLight, &Camera),
         original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, RenderError> {
-        let lit = Lit::new(&self.file.meaning, light).ok_or(RenderError::NoTransfer)?;
+    ) -> Result<Vec<[f64; 3]>, StudyError> {
+        let lit = Lit::new(&self.file.meaning, light).ok_or_else(no_transfer)?;
         let exit = match (original, &self.file.clustering, &self.file.transfer) {
             (Some(signal), ..) | (None, None, Some(signal)) => lit.of_signal(signal),
             (None, Some(clustering), _) => lit.of_clusters(clustering),
-            (None, None, None) => return Err(RenderError::NoTransfer),
+            (None, None, None) => return Err(no_transfer()),
         };
         Ok(lit.radiance(&exit, &self.vertices, wide(camera.eye())))
     }
 
     /// The pixels with light or camera carried round z, 1 being all the way.
-    fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, RenderError> {
+    fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, StudyError> {
         let turn = turn_around_z(turns);
         match self.turning {
             Turning::Light => {
@@ -192,7 +171,7 @@ impl Rendering {
         drawn: &[[f64; 3]],
         exposure: f64,
         found: &mut Findings,
-    ) -> Result<(), RenderError> {
+    ) -> Result<(), StudyError> {
         let whole = self.colors(seen, (&self.light, &self.camera), Some(original))?;
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&whole).map(|(a, b)| mean(a) - mean(b)).collect();

@@ -3,26 +3,23 @@
 use std::time::Instant;
 
 use glam::DMat3;
-use miette::Diagnostic;
 use serde_json::json;
-use thiserror::Error;
 
 use super::exact;
 use super::lit_model::LitModel;
-use super::part::{FrameTimes, Part, PartError, Transferred};
+use super::part::{FrameTimes, Part, Transferred};
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::shade::LightSizeError;
 use crate::geom::Mesh;
-use crate::picture::{PictureError, rgb8};
+use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::{carried, cluster_color};
 use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, light_picture, linear_picture, of_texels};
-use crate::study::{ProgressFn, Study};
-use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
-use crate::transfer::{TransferError, Vertices};
+use crate::study::{ProgressFn, Study, StudyError};
+use crate::transfer::Vertices;
+use crate::transfer::light::{HaarLight, LightTruncation};
 
 /// Segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;
@@ -55,41 +52,8 @@ pub struct RenderedGround {
     pub file: AllFrequencyFile,
 }
 
-/// Why there are no pictures.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum AllFrequencyError {
-    /// A light that is none.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::light))]
-    Light(#[from] CubeLightError),
-    /// Transfer cannot be computed.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::precompute))]
-    Transfer(#[from] TransferError),
-    /// Coded transfer of more segments than light has.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::segments))]
-    Size(#[from] LightSizeError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
-}
-
-impl From<PartError> for AllFrequencyError {
-    fn from(error: PartError) -> Self {
-        match error {
-            PartError::Transfer(error) => Self::Transfer(error),
-            PartError::Size(error) => Self::Size(error),
-        }
-    }
-}
-
 impl Study for AllFrequencyRendering {
-    type Error = AllFrequencyError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
         let seen = self.seen(&self.lit.camera);
@@ -133,11 +97,7 @@ impl Study for AllFrequencyRendering {
 }
 
 /// Steps 2 and 3 of all parts.
-fn transferred(
-    parts: &[Part<'_>],
-    light: &HaarLight,
-    times: &mut FrameTimes,
-) -> Result<Vec<Transferred>, AllFrequencyError> {
+fn transferred(parts: &[Part<'_>], light: &HaarLight, times: &mut FrameTimes) -> Result<Vec<Transferred>, StudyError> {
     parts.iter().map(|part| Ok(part.transferred(light, times)?)).collect()
 }
 
@@ -190,7 +150,7 @@ impl AllFrequencyRendering {
     }
 
     /// Step 1: the light's coefficients.
-    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, AllFrequencyError> {
+    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, StudyError> {
         let start = Instant::now();
         let cut = exact::coefficients((&self.lit.light, self.lit.decimation), rotation, self.lit.keep)?;
         times.light = start.elapsed().as_secs_f64();
@@ -230,7 +190,7 @@ impl AllFrequencyRendering {
         exact: &[[f64; 3]],
         exposure: f64,
         found: &mut Findings,
-    ) -> Result<(), AllFrequencyError> {
+    ) -> Result<(), StudyError> {
         let picture = seen.colors(exact, [0.0; 3]);
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&picture).map(|(a, b)| mean(a) - mean(b)).collect();
@@ -296,7 +256,7 @@ impl AllFrequencyRendering {
         (still, exposure): (&[Transferred], f64),
         found: &mut Findings,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<(), AllFrequencyError> {
+    ) -> Result<(), StudyError> {
         let mut frames = Vec::new();
         for frame in 0..self.frames {
             progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));

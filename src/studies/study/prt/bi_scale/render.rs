@@ -7,7 +7,6 @@ use serde_json::json;
 
 use super::causes;
 use super::drawing::BiScaleDrawing;
-use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
@@ -16,7 +15,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table}
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::carried;
 use crate::study::prt::{Turning, auto_exposure, light_picture, linear_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 
 /// What steps of a frame took, in seconds.
 #[derive(Clone, Copy, Debug)]
@@ -34,9 +33,7 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 }
 
 impl Study for BiScaleRendering {
-    type Error = BiScaleError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BiScaleError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
         let drawing = BiScaleDrawing::new(self)?;
@@ -125,7 +122,7 @@ impl BiScaleRendering {
         (still, exposure): (&[[f64; 3]], f64),
         found: &mut Findings,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<(), BiScaleError> {
+    ) -> Result<(), StudyError> {
         let mut frames = Vec::new();
         for frame in 0..self.frames {
             progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));

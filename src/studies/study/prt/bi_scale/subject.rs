@@ -4,6 +4,7 @@ use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
 use crate::scene::Camera;
+use crate::study::StudyError;
 use crate::study::prt::{Turning, VertexValues};
 use crate::transfer::light::DistantLight;
 
@@ -45,4 +46,11 @@ pub struct SurfaceTexture {
     pub samples: BidirectionalTexture,
     /// The patch that it was made of, if it is known.
     pub patch: Option<MesoPatch>,
+}
+
+/// Error of a file that is a matrix of something else than a mesh.
+pub(super) fn no_mesh_transfer() -> StudyError {
+    let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
+    let what = "expected transfer of a mesh, found a matrix of something else";
+    StudyError::new("crossbar::prt::meaning", what).with_help(help)
 }

@@ -10,8 +10,9 @@ use super::difference::ComparedPicture;
 use crate::picture::PictureError;
 use crate::report::{Findings, FoundTable, Provenance, Table};
 use crate::scene::Camera;
+use crate::study::StudyError;
 use crate::study::prt::render::auto_exposure;
-use crate::study::timeline_trace::{self, TimelineError};
+use crate::study::timeline_trace::{self};
 
 /// The card that draws.
 #[derive(Debug)]
@@ -83,7 +84,7 @@ impl PictureStudy<'_> {
         (times, explained): (Table, &'static str),
         (log, frame): (&[Event], &str),
         found: &mut Findings,
-    ) -> Result<(), TimelineError> {
+    ) -> Result<(), StudyError> {
         found.heading("Modelled time");
         found.explained_table(FoundTable::from(times).field("time"), explained);
         if let Some(bytes) = timeline_trace::file(&self.card.profile, log, frame)? {

@@ -39,7 +39,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 
 /// Row on the number of nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
-    let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
+    let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
     let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);

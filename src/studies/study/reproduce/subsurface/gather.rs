@@ -8,7 +8,7 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
-use super::{ReproduceError, failed};
+use super::{ReproduceError, failed, no_time};
 use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
@@ -94,7 +94,7 @@ fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceErr
         machine.record(true);
         machine.light(&[Light::Sky { radiance: [1.0; 3] }]).map_err(|e| failed(card)(&e))?;
         let log = machine.take_log();
-        *seconds = pass_times(&profile, &log)?[GATHER].time.seconds();
+        *seconds = pass_times(&profile, &log).map_err(no_time)?[GATHER].time.seconds();
         found.lookups = lookups(&log);
         let programs = machine.gather_programs();
         found.programs = programs.len();

@@ -12,6 +12,7 @@ use gather::LINKS;
 pub(super) use gather::{CARD, GatherCost, all_costs};
 pub(super) use table_1::findings as table_1;
 
+use super::error::no_time;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{

@@ -16,9 +16,9 @@ use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors, frame};
+use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
 use crate::study::prt::{light_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 
 const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
     Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with the file's \
@@ -27,9 +27,7 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card besid
     fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";
 
 impl Study for AllFrequencyOnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         progress("host", 0, 2);
         let (steps, lit, card) = (self.steps()?, &self.lit, &self.card);
         let mesh = self.mesh_of(&steps.transferred);
@@ -98,7 +96,7 @@ impl AllFrequencyOnCard {
         steps: &HostSteps,
         (seen, exposure): (&[Option<SeenPixel>], f64),
         (mesh, of_card): (&TransferredMesh<'_>, PixelErrors),
-    ) -> Result<Vec<Blame>, CardPictureError> {
+    ) -> Result<Vec<Blame>, StudyError> {
         let view = (self.lit.camera.eye(), exposure);
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
@@ -188,7 +186,7 @@ impl AllFrequencyOnCard {
         (seen, exposure): (&[Option<SeenPixel>], f64),
         mesh: &TransferredMesh<'_>,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<Vec<PictureVariant>, CardPictureError> {
+    ) -> Result<Vec<PictureVariant>, StudyError> {
         let drawn = ways_of_precision(mesh);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
         let mut done = |done| progress("sweep", done, all);

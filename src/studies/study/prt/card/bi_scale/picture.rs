@@ -9,7 +9,7 @@ use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
 use crate::card::{MeshView, SeenPixel};
-use crate::study::prt::card::CardPictureError;
+use crate::study::StudyError;
 
 /// L~ by the card, and what it asked of it.
 pub(super) struct CardLight {
@@ -27,7 +27,7 @@ pub(super) struct Drawn {
 
 impl BiScaleOnCard {
     /// Algorithm 2 on the card.
-    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, CardPictureError> {
+    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, StudyError> {
         let singles: Vec<[f32; 3]> = light.iter().map(|texel| texel.map(|value| value as f32)).collect();
         let mut card =
             GatherCard::new(self.card.profile.clone(), self.card.executor.clone(), &self.biclusters, format)?;
@@ -41,7 +41,7 @@ impl BiScaleOnCard {
         local: &[[f32; 3]],
         (options, format): (DisplayOptions, TexelFormat),
         exposure: f64,
-    ) -> Result<Drawn, CardPictureError> {
+    ) -> Result<Drawn, StudyError> {
         let mut card = BiScaleCard::new(self.card.profile.clone(), self.card.executor.clone(), self.mesh(), options)?;
         let view = MeshView { camera: self.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;

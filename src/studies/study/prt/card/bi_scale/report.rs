@@ -14,9 +14,9 @@ use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, PixelErrors, frame};
+use crate::study::prt::card::{PixelErrors, frame};
 use crate::study::prt::{light_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
 const SWEEP: &str = "Each row is one number format of fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
@@ -28,9 +28,7 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card, to w
 type Times = Option<(FrameTime, FrameTime)>;
 
 impl Study for BiScaleOnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         progress("transfer", 0, 3);
         self.check()?;
         let (light, card) = (self.light_texels()?, &self.card);

@@ -8,7 +8,8 @@ use crate::bi_scale::product::reference;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::scene::Camera;
-use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::study::StudyError;
+use crate::study::prt::card::CardSetting;
 use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
@@ -56,7 +57,7 @@ impl BiScaleOnCard {
     }
 
     /// Refuses biclusters of other vertices, directions or light.
-    pub(super) fn check(&self) -> Result<(), CardPictureError> {
+    pub(super) fn check(&self) -> Result<(), StudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
         for (what, expected, found) in [
@@ -64,7 +65,9 @@ impl BiScaleOnCard {
             ("light texels", LIGHT_TEXELS, columns),
         ] {
             if expected != found {
-                return Err(CardPictureError::Size { what, expected, found });
+                let what = format!("expected transfer of {expected} {what}, found {found}");
+                let help = "precompute transfer with as many `--directions` as the texture has for light";
+                return Err(StudyError::new("crossbar::prt::bi_scale", what).with_help(help));
             }
         }
         Ok(())

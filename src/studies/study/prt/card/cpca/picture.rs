@@ -10,7 +10,7 @@ use crate::card::{MeshView, SeenPixel};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::geom::vector::wide;
-use crate::study::prt::card::CardPictureError;
+use crate::study::StudyError;
 use crate::study::prt::interpolate::Seen;
 use crate::transfer::brdf::ExitBasis;
 
@@ -51,7 +51,7 @@ impl Way<'_> {
         study: &OnCard,
         transfer: CompressedTransfer<'_>,
         exposure: f64,
-    ) -> Result<Drawn, CardPictureError> {
+    ) -> Result<Drawn, StudyError> {
         let mut card = PrtCard::new(self.profile.clone(), study.card.executor.clone(), transfer, &self.options)?;
         let view = MeshView { camera: study.camera, exposure, format: self.format };
         let (texels, log) = if self.timed {

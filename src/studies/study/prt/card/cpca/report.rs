@@ -7,23 +7,22 @@ use crate::card::seen_pixels;
 use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Findings, Provenance};
 use crate::study::prt::card::difference::ComparedPicture;
+use crate::study::prt::card::frame;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, frame};
 use crate::study::prt::exit_radiance::Lit;
+use crate::study::prt::exit_radiance::no_transfer;
 use crate::study::prt::light_picture;
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 
 impl Study for OnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let (basis, card) = (self.basis()?, &self.card);
         let transfer = self.transfer(&basis)?;
         let steps = 2 + if card.sweep { precision::pictures(&transfer) } else { 0 };
         progress("host", 0, steps);
         let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.camera)?;
-        let lit = Lit::new(&self.meaning, &self.light).ok_or(CardPictureError::NoTransfer)?;
+        let lit = Lit::new(&self.meaning, &self.light).ok_or_else(no_transfer)?;
         let study = PictureStudy {
             card,
             camera: &self.camera,

@@ -4,7 +4,9 @@ use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
-use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::study::StudyError;
+use crate::study::prt::card::CardSetting;
+use crate::study::prt::exit_radiance::no_transfer;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::clustering::Clustering;
@@ -38,15 +40,15 @@ pub struct OnCard {
 }
 
 impl OnCard {
-    pub(super) fn basis(&self) -> Result<ExitBasis, CardPictureError> {
+    pub(super) fn basis(&self) -> Result<ExitBasis, StudyError> {
         let PrtMeaning::Transfer { exit_functions, .. } = &self.meaning else {
-            return Err(CardPictureError::NoTransfer);
+            return Err(no_transfer());
         };
         Ok(ExitBasis::of_functions(exit_functions)?)
     }
 
-    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardPictureError> {
-        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardPictureError::NoTransfer) };
+    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, StudyError> {
+        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(no_transfer()) };
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
         let Self { vertices, clustering, superclusters, .. } = self;
         let (channels, superclusters) = (*channels as usize, superclusters.as_ref());
