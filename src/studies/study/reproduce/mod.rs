@@ -13,7 +13,6 @@ mod equation_11;
 mod error;
 mod figure_7;
 mod model_size;
-mod once;
 mod overview;
 mod paper;
 

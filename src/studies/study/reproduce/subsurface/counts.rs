@@ -19,7 +19,7 @@ const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} 
     another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let costs = shared.gather()?;
+    let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);

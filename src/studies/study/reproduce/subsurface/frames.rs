@@ -47,7 +47,7 @@ fn locked(seconds: f64) -> f64 {
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let costs = shared.gather()?;
+    let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let printed = PrintedFrame::all()?;
     let (mut rows, mut frames) = (Vec::new(), Vec::new());
     for (model, _, stand_in) in MODELS {
