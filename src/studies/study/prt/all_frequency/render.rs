@@ -16,7 +16,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table,
 use crate::scene::Camera;
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::{carried, cluster_color};
-use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, light_picture, linear_picture, of_texels};
+use crate::study::prt::{Seen, Turning, VertexValues, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
@@ -56,22 +56,16 @@ impl Study for AllFrequencyRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let steps = 2 + u64::from(self.frames);
         progress("rays", 0, steps);
-        let seen = self.seen(&self.lit.camera);
+        let seen = self.seen(&self.lit.view.camera);
         progress("radiance", 1, steps);
         let parts = self.parts();
         let mut times = FrameTimes::default();
         let cut = self.light(&DMat3::IDENTITY, &mut times)?;
         let transferred = transferred(&parts, &cut.light, &mut times)?;
-        let of_vertex = radiance(&parts, &transferred, &self.lit.camera, &mut times);
+        let of_vertex = radiance(&parts, &transferred, &self.lit.view.camera, &mut times);
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
-        let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&drawn));
-        let mut found = Findings::new("All-frequency transfer");
-        found.taken_from(self.lit.camera.world_to_camera());
-        let picture = linear_picture(&self.lit.camera, &drawn);
-        let caption = format!("{} under {}", self.lit.model, self.lit.light_name);
-        let light = light_picture("light", &self.lit.light_name, of_texels(&cut.light.radiances()))?;
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
-        found.keep_layers("picture", picture);
+        let radiances = cut.light.radiances();
+        let (mut found, exposure) = self.lit.view.findings("All-frequency transfer", &drawn, of_texels(&radiances))?;
         if let Some(values) = &self.values {
             values.keep(self.lit.vertices.positions(), &of_vertex, &mut found);
         }
@@ -81,13 +75,12 @@ impl Study for AllFrequencyRendering {
         }
         if let Some(original) = &self.lit.original {
             let whole = parts[0].exact(original, &cut.light)?;
-            let mut exact = parts[0].radiance(&whole, &self.lit.camera, &mut FrameTimes::default());
+            let mut exact = parts[0].radiance(&whole, &self.lit.view.camera, &mut FrameTimes::default());
             exact.extend_from_slice(&of_vertex[exact.len()..]);
             self.compare(&seen, (&of_vertex, &drawn), &exact, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
         self.frames(&seen, &parts, (&transferred, exposure), &mut found, progress)?;
-        found.field("exposure", json!(exposure));
         Ok(found)
     }
 
@@ -158,9 +151,7 @@ impl AllFrequencyRendering {
     }
 
     fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
-        let pixels = u64::from(self.lit.camera.width()) * u64::from(self.lit.camera.height());
-        let (model, light) = (&self.lit.model, &self.lit.light_name);
-        found.conclusion(format!("{} of {pixels} pixels show {model} under {light}.", seen.count()));
+        found.conclusion(self.lit.view.sentence(seen.count()));
         let share = shown(100.0 * cut.kept_energy, Quantity::Measured);
         found.conclusion(format!(
             "{} of the {} light coefficients that are not 0 are kept, with {share} % of their energy.",
@@ -206,12 +197,12 @@ impl AllFrequencyRendering {
         let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
-        let shown_whole = linear_picture(&self.lit.camera, &picture).display(exposure)?;
+        let shown_whole = self.lit.view.picture(&picture).display(exposure)?;
         let mut pictures = vec![NamedPicture::new("original", shown_whole, "without compression")];
         if largest > 0.0 {
             let caption =
                 format!("coded less uncompressed: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
-            let image = false_color::signed(self.lit.camera.width(), &difference, largest);
+            let image = false_color::signed(self.lit.view.camera.width(), &difference, largest);
             pictures.push(NamedPicture::new("difference", image, caption));
         }
         found.heading("Against uncompressed transfer");
@@ -235,7 +226,7 @@ impl AllFrequencyRendering {
                 let cluster = vertex.and_then(|vertex| of_vertex.get(vertex as usize).copied().flatten());
                 cluster.map_or([0; 3], |cluster| cluster_color(u32::from(cluster)))
             };
-            let image = rgb8(self.lit.camera.width(), self.lit.camera.height(), seen.nearest().map(color));
+            let image = rgb8(self.lit.view.camera.width(), self.lit.view.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
             let caption =
                 format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
@@ -267,16 +258,16 @@ impl AllFrequencyRendering {
                 Turning::Light => {
                     let light = self.light(&turn, &mut times)?.light;
                     let transferred = transferred(parts, &light, &mut times)?;
-                    seen.colors(&radiance(parts, &transferred, &self.lit.camera, &mut times), [0.0; 3])
+                    seen.colors(&radiance(parts, &transferred, &self.lit.view.camera, &mut times), [0.0; 3])
                 }
                 // View alone changed: step 4 alone.
                 Turning::Camera => {
-                    let camera = carried(&self.lit.camera, &self.lit.mesh, &turn);
+                    let camera = carried(&self.lit.view.camera, &self.lit.mesh, &turn);
                     let colors = radiance(parts, still, &camera, &mut times);
                     self.seen(&camera).colors(&colors, [0.0; 3])
                 }
             };
-            let image = linear_picture(&self.lit.camera, &colors).display(exposure)?;
+            let image = self.lit.view.picture(&colors).display(exposure)?;
             let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }

@@ -14,7 +14,6 @@ use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene, 
 use crate::geom::exact::Sides;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, false_color};
-use crate::study::prt::linear_picture;
 use crate::study::{ProgressFn, StudyError};
 use crate::tracer::HostTracer;
 use crate::transfer::light::CubeLight;
@@ -123,7 +122,7 @@ pub(super) fn report(
 ) -> Result<(), StudyError> {
     let CausePictures { causes, pictures } = found_pictures;
     let (exact, drawn) = (found_pictures.exact(), found_pictures.drawn());
-    let width = rendering.camera.width();
+    let width = rendering.view.camera.width();
     let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
     let signed = |before: &[[f64; 3]], after: &[[f64; 3]]| -> Vec<f64> {
         after.iter().zip(before).map(|(a, b)| mean(a) - mean(b)).collect()
@@ -137,7 +136,7 @@ pub(super) fn report(
         differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));
     }
     found.heading("Against a picture by rays");
-    let by_rays = linear_picture(&rendering.camera, exact);
+    let by_rays = rendering.view.picture(exact);
     let image = by_rays.display(exposure)?;
     found.keep_layers("reference", by_rays);
     let caption = format!("transfer less rays: blue -{shown_scale}, white 0, red +{shown_scale}");

@@ -45,7 +45,7 @@ impl<'a> BiScaleDrawing<'a> {
             }
         }
         let lookups = rendering.textures.iter().map(|texture| TextureLookup::new(&texture.samples)).collect();
-        Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.camera), lookups })
+        Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.view.camera), lookups })
     }
 
     /// The light's texels, turned by a rotation.
@@ -76,7 +76,7 @@ impl<'a> BiScaleDrawing<'a> {
 
     /// Radiance of all vertices towards the camera.
     pub(super) fn radiance_of_vertices(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let shown = self.rendering.surface.at_vertices(&self.rendering.camera);
+        let shown = self.rendering.surface.at_vertices(&self.rendering.view.camera);
         self.shade_pixels(&shown.into_iter().map(Some).collect::<Vec<_>>(), local)
     }
 

@@ -14,7 +14,7 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table};
 use crate::sphere::turn_around_z;
 use crate::study::prt::render::carried;
-use crate::study::prt::{Turning, auto_exposure, light_picture, linear_picture, of_texels};
+use crate::study::prt::{Turning, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 
 /// What steps of a frame took, in seconds.
@@ -43,14 +43,7 @@ impl Study for BiScaleRendering {
         let local = drawing.local(&cube)?;
         let (drawn, shading) = timed(|| drawing.shade(&local.rows));
         let times = StepTimes { light, transfer: local.seconds, shading };
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
-        let mut found = Findings::new("Bi-scale transfer");
-        found.taken_from(self.camera.world_to_camera());
-        let picture = linear_picture(&self.camera, &drawn);
-        let caption = format!("{} under {}", self.model, self.light_name);
-        let light = light_picture("light", &self.light_name, of_texels(cube.texels()))?;
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
-        found.keep_layers("picture", picture);
+        let (mut found, exposure) = self.view.findings("Bi-scale transfer", &drawn, of_texels(cube.texels()))?;
         if let Some(values) = &self.values {
             let radiance = drawing.radiance_of_vertices(&local.rows);
             values.keep(self.surface.vertices.positions(), &radiance, &mut found);
@@ -62,7 +55,6 @@ impl Study for BiScaleRendering {
             causes::report(self, &pictures, exposure, &mut found)?;
         }
         self.frames(&drawing, (&local.rows, exposure), &mut found, progress)?;
-        found.field("exposure", json!(exposure));
         Ok(found)
     }
 
@@ -73,8 +65,8 @@ impl Study for BiScaleRendering {
 
 impl BiScaleRendering {
     fn conclude(&self, pixels: &[Option<SurfacePixel>], local: &LocalLight, found: &mut Findings) {
-        let (shown, all) = (pixels.iter().flatten().count(), pixels.len());
-        found.conclusion(format!("{shown} of {all} pixels show {} under {}.", self.model, self.light_name));
+        let shown = pixels.iter().flatten().count();
+        found.conclusion(self.view.sentence(shown));
         let below = pixels.iter().flatten().filter(|pixel| pixel.shaded.view.z <= 0.0).count();
         if below > 0 {
             found.conclusion(format!(
@@ -131,9 +123,9 @@ impl BiScaleRendering {
             let colors = match self.turning {
                 Turning::Light => drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows),
                 // View alone changed: L~ is that of before.
-                Turning::Camera => drawing.shade_from(&carried(&self.camera, &self.surface.mesh, &turn), still),
+                Turning::Camera => drawing.shade_from(&carried(&self.view.camera, &self.surface.mesh, &turn), still),
             };
-            let image = linear_picture(&self.camera, &colors).display(exposure)?;
+            let image = self.view.picture(&colors).display(exposure)?;
             let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
             frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
         }

@@ -3,30 +3,23 @@
 use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
-use crate::scene::Camera;
 use crate::study::StudyError;
-use crate::study::prt::{Turning, VertexValues};
+use crate::study::prt::{LitView, Turning, VertexValues};
 use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
 #[derive(Debug)]
 pub struct BiScaleRendering {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its mesh.
     pub surface: TexturedSurface,
     /// Its transfer.
     pub file: BiScaleFile,
     /// The textures that its triangles name.
     pub textures: Vec<SurfaceTexture>,
-    /// The light's name.
-    pub light_name: String,
     /// The light.
     pub light: DistantLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
     /// Pictures with the light or the camera carried all the way round z in so many steps.
     pub frames: u32,
     /// Which of them.

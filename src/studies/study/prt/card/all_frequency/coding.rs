@@ -40,7 +40,7 @@ pub(super) fn coarse_codes(
     let place = ProductPlace::Pixels(ProductOptions::default());
     let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, StudyError> {
         let transferred = in_double(coded, light)?;
-        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.camera.eye(), exposure)))
+        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.view.camera.eye(), exposure)))
     };
     let expected = pixels(coded)?;
     done(1);

@@ -43,7 +43,7 @@ impl BiScaleOnCard {
         exposure: f64,
     ) -> Result<Drawn, StudyError> {
         let mut card = BiScaleCard::new(self.card.profile.clone(), self.card.executor.clone(), self.mesh(), options)?;
-        let view = MeshView { camera: self.camera, exposure, format };
+        let view = MeshView { camera: self.view.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;
         let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         Ok(Drawn { pixels, counts: card.counts(), log })
@@ -56,7 +56,7 @@ impl BiScaleOnCard {
         (seen, exposure): (&[Option<SeenPixel>], f64),
         edges: BlockEdges,
     ) -> Vec<[f64; 3]> {
-        let (mesh, eye) = (self.mesh(), self.camera.eye());
+        let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
             let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, (eye, edges), &seen));
             color.map(|value| exposure * value)

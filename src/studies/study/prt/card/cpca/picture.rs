@@ -53,7 +53,7 @@ impl Way<'_> {
         exposure: f64,
     ) -> Result<Drawn, StudyError> {
         let mut card = PrtCard::new(self.profile.clone(), study.card.executor.clone(), transfer, &self.options)?;
-        let view = MeshView { camera: study.camera, exposure, format: self.format };
+        let view = MeshView { camera: study.view.camera, exposure, format: self.format };
         let (texels, log) = if self.timed {
             card.logged_view(&study.light, &view)?
         } else {
@@ -78,7 +78,7 @@ pub(super) fn on_host(
     basis: &ExitBasis,
     exit: &[Vec<[f64; 3]>],
 ) -> Vec<[f64; 3]> {
-    let eye = wide(study.camera.eye());
+    let eye = wide(study.view.camera.eye());
     let towards =
         |vertex: usize| study.vertices.frames()[vertex].to_local(eye - wide(study.vertices.positions()[vertex]));
     let view: Vec<DVec3> = (0..study.vertices.len()).map(towards).collect();

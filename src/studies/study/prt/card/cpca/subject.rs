@@ -2,9 +2,9 @@
 
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
-use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
 use crate::study::StudyError;
+use crate::study::prt::LitView;
 use crate::study::prt::card::CardSetting;
 use crate::study::prt::exit_radiance::no_transfer;
 use crate::transfer::Vertices;
@@ -15,8 +15,8 @@ use crate::transfer::file::PrtMeaning;
 /// A model with compressed transfer, a light and a camera, and the card that draws it.
 #[derive(Debug)]
 pub struct OnCard {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its vertices, the points of the clusters.
     pub vertices: Vertices,
     /// What the numbers of a vertex mean.
@@ -25,14 +25,8 @@ pub struct OnCard {
     pub clustering: Clustering,
     /// Their superclusters, if the file has some.
     pub superclusters: Option<Superclusters>,
-    /// The light's name.
-    pub light_name: String,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
-    pub exposure: Option<f64>,
     /// The card that draws.
     pub card: CardSetting,
     /// Variants.

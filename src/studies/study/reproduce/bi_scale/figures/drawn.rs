@@ -62,7 +62,7 @@ impl DrawnFigure {
 
     /// Returns the pictures with the same exposure; `name` is the prefix of their file names.
     pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
-        let model = &self.rendering.model;
+        let model = &self.rendering.view.model;
         let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
         let fine = self.fine.display(auto_exposure(exact)).map_err(|e| failed(HOST)(&e))?;
         let mut shown = vec![
@@ -85,7 +85,8 @@ impl DrawnFigure {
         caption: String,
     ) -> Result<NamedPicture, ReproduceError> {
         let exposure = auto_exposure(self.causes.exact());
-        let image = linear_picture(&self.rendering.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+        let image =
+            linear_picture(&self.rendering.view.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(format!("bi-scale-{name}"), image, caption))
     }
 }
