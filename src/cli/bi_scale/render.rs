@@ -83,8 +83,7 @@ impl StudyArgs for Args {
             surface,
             file,
             light: self.light.distant()?,
-            frames: self.frames.frames,
-            turning: self.frames.turning(),
+            frames: self.frames.turned(),
             reference: self.reference,
             values,
         })

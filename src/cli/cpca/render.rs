@@ -86,8 +86,7 @@ impl StudyArgs for Args {
         Ok(Rendering {
             view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
-            frames: self.frames.frames,
-            turning: self.frames.turning(),
+            frames: self.frames.turned(),
             values: self.values.of(&self.picture.model, &vertices),
             mesh: model.mesh,
             vertices,

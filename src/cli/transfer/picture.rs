@@ -9,7 +9,7 @@ use crate::cli::size::Size;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::{model_name, number};
 use crate::geom::Mesh;
-use crate::study::prt::{LitView, Turning, ValuesFormat, VertexValues};
+use crate::study::prt::{LitView, TurnedFrames, Turning, ValuesFormat, VertexValues};
 use crate::transfer::Vertices;
 
 /// A picture of a model.
@@ -75,7 +75,7 @@ impl ValuesArgs {
 pub(in crate::cli) struct FramesArgs {
     /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
-    pub(in crate::cli) frames: u32,
+    frames: u32,
 
     /// What --frames turns
     #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
@@ -83,9 +83,9 @@ pub(in crate::cli) struct FramesArgs {
 }
 
 impl FramesArgs {
-    /// What frames turn.
-    pub(in crate::cli) fn turning(&self) -> Turning {
-        self.turn
+    /// The pictures that are asked for.
+    pub(in crate::cli) fn turned(&self) -> TurnedFrames {
+        TurnedFrames { count: self.frames, turning: self.turn }
     }
 
     /// Memory of a picture and of these.

@@ -17,6 +17,7 @@ mod lit_view;
 mod precompute;
 mod render;
 mod stored_ways;
+mod turned_frames;
 mod vertex_values;
 
 use crate::all_frequency::code::CodeOptionsError;
@@ -54,9 +55,10 @@ pub(super) use light_picture::{light_picture, of_texels};
 pub use lit_view::LitView;
 pub(super) use lit_view::auto_exposure;
 pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
+pub use render::Rendering;
 pub(super) use render::cluster_color;
-pub use render::{Rendering, Turning};
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
+pub use turned_frames::{TurnedFrames, Turning};
 pub use vertex_values::{ValuesFormat, VertexValues};
 
 library_errors! {

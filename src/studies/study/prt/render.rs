@@ -1,12 +1,10 @@
 //! Pictures of a model under distant light, from its transfer.
 
-use glam::{DMat3, DVec3};
-
 use super::compression_error::CompressionError;
-use super::exit_radiance::Lit;
-use super::exit_radiance::no_transfer;
+use super::exit_radiance::{Lit, no_transfer};
 use super::interpolate::Seen;
 use super::lit_view::LitView;
+use super::turned_frames::{Turned, TurnedFrames};
 use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
@@ -15,7 +13,7 @@ use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, HarmonicRotation, turn_around_z};
+use crate::sphere::{HarmonicLight, HarmonicRotation};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::file::PrtFile;
 use crate::transfer::{Signal, Vertices};
@@ -35,28 +33,15 @@ pub struct Rendering {
     pub original: Option<Signal>,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Format and names of vertices, if their radiance is written.
     pub values: Option<VertexValues>,
 }
 
-/// What is carried round a model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
-pub enum Turning {
-    /// The light, around z.
-    #[default]
-    Light,
-    /// The camera, around the model.
-    Camera,
-}
-
 impl Study for Rendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = 2 + u64::from(self.frames);
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
         let seen = Seen::new(&self.mesh, &self.vertices, &self.view.camera);
         progress("radiance", 1, steps);
@@ -72,18 +57,8 @@ impl Study for Rendering {
             self.compare(&seen, original, &drawn, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), steps);
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let image = self.view.picture(&self.turned(&seen, turns)?).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
+        let turned = |turned| self.turned(&seen, turned);
+        self.frames.report((&self.view, &self.mesh, exposure), turned, &mut found, (2, progress))?;
         Ok(found)
     }
 
@@ -118,16 +93,14 @@ impl Rendering {
         Ok(lit.radiance(&exit, &self.vertices, wide(camera.eye())))
     }
 
-    /// The pixels with light or camera carried round z, 1 being all the way.
-    fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, StudyError> {
-        let turn = turn_around_z(turns);
-        match self.turning {
-            Turning::Light => {
+    /// The pixels with light or camera turned.
+    fn turned(&self, seen: &Seen, turned: Turned) -> Result<Vec<[f64; 3]>, StudyError> {
+        match turned {
+            Turned::Light(turn) => {
                 let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
                 self.colors(seen, (&light, &self.view.camera), None)
             }
-            Turning::Camera => {
-                let camera = carried(&self.view.camera, &self.mesh, &turn);
+            Turned::Camera(camera) => {
                 self.colors(&Seen::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
             }
         }
@@ -208,22 +181,6 @@ impl Rendering {
         let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());
         found.pictures(vec![NamedPicture::new("clusters", image, caption)]);
     }
-}
-
-impl Turning {
-    /// What stands above the frames.
-    pub(super) const fn heading(self) -> &'static str {
-        match self {
-            Self::Light => "The light turned around z",
-            Self::Camera => "The camera carried around the model",
-        }
-    }
-}
-
-/// A camera carried around the middle of a mesh.
-pub(super) fn carried(camera: &Camera, mesh: &Mesh, turn: &DMat3) -> Camera {
-    let middle = mesh.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
-    camera.carried(middle, turn)
 }
 
 /// The color that stands for a cluster.

@@ -14,9 +14,9 @@ use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::turn_around_z;
-use crate::study::prt::render::{carried, cluster_color};
-use crate::study::prt::{Seen, Turning, VertexValues, of_texels};
+use crate::study::prt::render::cluster_color;
+use crate::study::prt::turned_frames::Turned;
+use crate::study::prt::{Seen, TurnedFrames, VertexValues, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
@@ -31,10 +31,8 @@ pub struct AllFrequencyRendering {
     pub lit: LitModel,
     /// The ground below it.
     pub ground: Option<RenderedGround>,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Format and names of the model's vertices, if their radiance is written.
     pub values: Option<VertexValues>,
 }
@@ -54,7 +52,7 @@ pub struct RenderedGround {
 
 impl Study for AllFrequencyRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = 2 + u64::from(self.frames);
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
         let seen = self.seen(&self.lit.view.camera);
         progress("radiance", 1, steps);
@@ -248,33 +246,21 @@ impl AllFrequencyRendering {
         found: &mut Findings,
         progress: &mut ProgressFn<'_>,
     ) -> Result<(), StudyError> {
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let turn = turn_around_z(turns);
+        let colors = |turned| {
             let mut times = FrameTimes::default();
-            let colors = match self.turning {
-                Turning::Light => {
+            match turned {
+                Turned::Light(turn) => {
                     let light = self.light(&turn, &mut times)?.light;
                     let transferred = transferred(parts, &light, &mut times)?;
-                    seen.colors(&radiance(parts, &transferred, &self.lit.view.camera, &mut times), [0.0; 3])
+                    Ok(seen.colors(&radiance(parts, &transferred, &self.lit.view.camera, &mut times), [0.0; 3]))
                 }
                 // View alone changed: step 4 alone.
-                Turning::Camera => {
-                    let camera = carried(&self.lit.view.camera, &self.lit.mesh, &turn);
+                Turned::Camera(camera) => {
                     let colors = radiance(parts, still, &camera, &mut times);
-                    self.seen(&camera).colors(&colors, [0.0; 3])
+                    Ok(self.seen(&camera).colors(&colors, [0.0; 3]))
                 }
-            };
-            let image = self.lit.view.picture(&colors).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
-        Ok(())
+            }
+        };
+        self.frames.report((&self.lit.view, &self.lit.mesh, exposure), colors, found, (2, progress))
     }
 }

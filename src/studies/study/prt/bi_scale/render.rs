@@ -10,11 +10,9 @@ use super::drawing::BiScaleDrawing;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
-use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table};
-use crate::sphere::turn_around_z;
-use crate::study::prt::render::carried;
-use crate::study::prt::{Turning, of_texels};
+use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::study::prt::of_texels;
+use crate::study::prt::turned_frames::Turned;
 use crate::study::{ProgressFn, Study, StudyError};
 
 /// What steps of a frame took, in seconds.
@@ -34,7 +32,7 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 
 impl Study for BiScaleRendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
-        let steps = 2 + u64::from(self.frames);
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
         let drawing = BiScaleDrawing::new(self)?;
         progress("radiance", 1, steps);
@@ -54,7 +52,12 @@ impl Study for BiScaleRendering {
             let pictures = drawing.causes(&cube, &drawn, progress)?;
             causes::report(self, &pictures, exposure, &mut found)?;
         }
-        self.frames(&drawing, (&local.rows, exposure), &mut found, progress)?;
+        let turned = |turned| match turned {
+            Turned::Light(turn) => Ok(drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows)),
+            // View alone changed: L~ is that of before.
+            Turned::Camera(camera) => Ok(drawing.shade_from(&camera, &local.rows)),
+        };
+        self.frames.report((&self.view, &self.surface.mesh, exposure), turned, &mut found, (2, progress))?;
         Ok(found)
     }
 
@@ -105,34 +108,5 @@ impl BiScaleRendering {
         // 16 texels are read for each direction of light.
         found.field("texels_read", json!(16 * lights * shown_pixels));
         found.field("seconds", json!({ "light": times.light, "transfer": times.transfer, "shading": times.shading }));
-    }
-
-    /// Frames with light or camera carried round z.
-    fn frames(
-        &self,
-        drawing: &BiScaleDrawing<'_>,
-        (still, exposure): (&[[f64; 3]], f64),
-        found: &mut Findings,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<(), StudyError> {
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let turn = turn_around_z(turns);
-            let colors = match self.turning {
-                Turning::Light => drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows),
-                // View alone changed: L~ is that of before.
-                Turning::Camera => drawing.shade_from(&carried(&self.view.camera, &self.surface.mesh, &turn), still),
-            };
-            let image = self.view.picture(&colors).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
-        Ok(())
     }
 }

@@ -4,7 +4,7 @@ use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
 use crate::study::StudyError;
-use crate::study::prt::{LitView, Turning, VertexValues};
+use crate::study::prt::{LitView, TurnedFrames, VertexValues};
 use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
@@ -20,10 +20,8 @@ pub struct BiScaleRendering {
     pub textures: Vec<SurfaceTexture>,
     /// The light.
     pub light: DistantLight,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Whether to hold the picture against one by rays; all textures must have patches.
     pub reference: bool,
     /// Format and names of vertices, if their radiance is written, at the texture coordinates of their first triangles.
