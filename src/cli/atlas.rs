@@ -8,7 +8,7 @@ use super::scene_name::EyeArgs;
 use super::size::Size;
 use super::study::StudyArgs;
 use crate::atlas::{MAX_SIDE, require_side};
-use crate::study::atlas::{AtlasStudy, AtlasStudyError, MAX_PICTURE};
+use crate::study::atlas::{AtlasStudy, MAX_PICTURE, no_atlas};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -62,7 +62,7 @@ impl StudyArgs for Args {
     /// Texels, clusters, and pictures of both.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         // Before memory, which what cannot be has no need of.
-        require_side(self.side).map_err(AtlasStudyError::from)?;
+        require_side(self.side).map_err(no_atlas)?;
         /// A texel with its clusters of all levels, and what finds them.
         const PER_TEXEL: u64 = 170;
         /// A texel of each picture of the atlas, as a file and on the page.

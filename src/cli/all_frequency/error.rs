@@ -7,11 +7,13 @@ use serde_json::json;
 
 use super::file::FileOfModel;
 use crate::all_frequency::file::load_all_frequency;
+use crate::cli::study::written;
 use crate::cli::transfer::model::refused;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem, ProgressBar, view};
+use crate::cli::{Problem, ProgressBar, view};
 use crate::io::write_file;
+use crate::report::Findings;
 use crate::study::prt::coded_errors;
 
 const EXAMPLES: &str = "\
@@ -42,7 +44,7 @@ pub(super) struct Args {
     csv: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     for path in [&args.signal, &args.compressed] {
         view::require_file(path, 3, "name a smaller file")?;
     }
@@ -59,44 +61,37 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     }
     let bar = ProgressBar::new("", 1);
     let progress = &mut |what: &str, done, of| bar.show(what.to_owned(), done, of);
-    let found = coded_errors((&vertices, maps), file.hats, &file.reflectance, coded, progress).map_err(refused)?;
+    let errors = coded_errors((&vertices, maps), file.hats, &file.reflectance, coded, progress).map_err(refused)?;
     drop(bar);
-    let squared: f64 = found.squared_errors.iter().sum();
-    let squares: f64 = found.squares.iter().sum();
+    let squared: f64 = errors.squared_errors.iter().sum();
+    let squares: f64 = errors.squares.iter().sum();
     let largest =
-        (0..found.squared_errors.len()).max_by(|&a, &b| found.squared_errors[a].total_cmp(&found.squared_errors[b]));
+        (0..errors.squared_errors.len()).max_by(|&a, &b| errors.squared_errors[a].total_cmp(&errors.squared_errors[b]));
     let largest = largest.unwrap_or(0);
     let names = VertexNames::new(&args.model, &vertices);
     if let Some(path) = &args.csv {
         write_file(path, |file| {
             let mut file = std::io::BufWriter::new(file);
             writeln!(file, "vertex,squared_error,squares,{}", VertexNames::COLUMNS)?;
-            for (vertex, (error, squares)) in found.squared_errors.iter().zip(&found.squares).enumerate() {
+            for (vertex, (error, squares)) in errors.squared_errors.iter().zip(&errors.squares).enumerate() {
                 writeln!(file, "{vertex},{error:e},{squares:e},{}", names.fields(vertex))?;
             }
             file.flush()
         })
         .map_err(Problem::from)?;
     }
-    if out.json() {
-        return Ok(out.document(&json!({
-            "vertices": vertices.len(), "squared_error": squared, "squared_transfer": squares,
-            "relative_error": squared / squares,
-            "largest": { "vertex": largest, "squared_error": found.squared_errors[largest],
-                         "of_model": names.document(largest) },
-            "csv": args.csv,
-        }))?);
-    }
-    out.line(format_args!("vertices       {}", counted(vertices.len())))?;
-    out.sentence(format_args!(
-        "squared error  {}, {} of the transfer's squares",
-        measured(squared),
-        measured(squared / squares)
-    ))?;
-    let (squared, name) = (measured(found.squared_errors[largest]), names.phrase(largest));
-    out.sentence(format_args!("largest        {squared} at vertex {largest} ({name})"))?;
-    if let Some(path) = &args.csv {
-        out.line(format_args!("written        {}", path.display()))?;
-    }
-    Ok(())
+    let mut found = Findings::new("Error of coded transfer");
+    found.fields(json!({
+        "vertices": vertices.len(), "squared_error": squared, "squared_transfer": squares,
+        "relative_error": squared / squares,
+        "largest": { "vertex": largest, "squared_error": errors.squared_errors[largest],
+                     "of_model": names.document(largest) },
+    }));
+    found.introduce(format!("vertices       {}", counted(vertices.len())));
+    let [error, relative] = [squared, squared / squares].map(measured);
+    found.introduce(format!("squared error  {error}, {relative} of the transfer's squares"));
+    let (squared, name) = (measured(errors.squared_errors[largest]), names.phrase(largest));
+    found.introduce(format!("largest        {squared} at vertex {largest} ({name})"));
+    written(&mut found, [("csv", args.csv.as_deref())]);
+    Ok(found)
 }

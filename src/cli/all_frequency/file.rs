@@ -87,18 +87,15 @@ impl LitArgs {
         let FileOfModel { file, model, vertices, digest } = FileOfModel::load(&self.file, &self.picture.model)?;
         let original = self.original.as_deref().map(|path| original_of(&file, &digest, path)).transpose()?;
         Ok(LitModel {
-            model: self.picture.model_name(),
-            camera: self.picture.camera(&model.mesh)?,
+            view: self.picture.view(&model.mesh, self.light.name())?,
             colors: model.materials.iter().map(color).collect(),
             mesh: model.mesh,
             vertices,
             file,
             original,
-            light_name: self.light.name(),
             light: self.light.distant()?,
             decimation: Decimation::SolidAngle,
             keep: self.keep.map(|keep| keep as usize),
-            exposure: self.picture.exposure,
         })
     }
 }

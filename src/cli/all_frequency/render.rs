@@ -75,7 +75,6 @@ impl StudyArgs for Args {
         });
         let ground = ground.transpose()?;
         let values = self.values.of(&self.lit.picture.model, &lit.vertices);
-        let (frames, turning) = (self.frames.frames, self.frames.turning());
-        Ok(AllFrequencyRendering { lit, ground, frames, turning, values })
+        Ok(AllFrequencyRendering { lit, ground, frames: self.frames.turned(), values })
     }
 }

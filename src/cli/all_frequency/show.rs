@@ -9,12 +9,12 @@ use super::file::FileOfModel;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedSegment;
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency};
-use crate::cli::transfer::model::nearest;
+use crate::cli::study::written_arrays;
+use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
+use crate::cli::view;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem, number, view};
-use crate::report::{Cell, Table};
-use crate::transfer::visibility::VisibilityMaps;
+use crate::report::{Cell, Findings, Table};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,18 +33,8 @@ pub(super) struct Args {
     #[arg(value_name = "FILE.prt")]
     file: PathBuf,
 
-    /// A vertex, counted from 0
-    #[arg(long, value_name = "N", group = "which")]
-    vertex: Option<u32>,
-
-    /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
-          allow_hyphen_values = true)]
-    at: Option<[f32; 3]>,
-
-    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
-    #[arg(long, value_name = "MODEL", requires = "which")]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    vertex: VertexChoice,
 
     /// Write what the file holds to this folder as arrays of NumPy's: factors, each segment's representatives, weights
     /// and clusters, and what the vertex sees and its transfer
@@ -52,9 +42,9 @@ pub(super) struct Args {
     arrays: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     view::require_file(&args.file, 3, "name a smaller file")?;
-    let (file, of_model) = match &args.model {
+    let (file, of_model) = match args.vertex.model() {
         Some(model) => {
             let FileOfModel { file, vertices, .. } = FileOfModel::load(&args.file, model)?;
             (file, Some(vertices))
@@ -62,30 +52,19 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         None => (load_all_frequency(&args.file, None)?, None),
     };
     let (file, folder) = (&file, args.arrays.as_deref());
-    let nearest = || nearest(of_model.as_ref()?.positions(), args.at?);
-    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
-    let vertices = file.mesh.vertices as usize;
-    if let Some(vertex) = vertex.filter(|&vertex| vertex >= vertices) {
-        let what = format!("expected a vertex below {vertices} (counted from 0), found {vertex}");
-        return Err(Problem::usage(what, "`crossbar all-frequency show` says how many there are").into());
-    }
-    let names = args.model.as_ref().zip(of_model.as_ref());
-    let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
+    let vertex = args.vertex.chosen("all-frequency", file.mesh.vertices as usize, of_model.as_ref())?;
+    let names = args.vertex.names(of_model.as_ref());
     let written = folder.map(|folder| arrays::write(file, vertex, folder)).transpose()?;
-    if out.json() {
-        let mut document = header(file);
-        document["vertex"] = json!(vertex.map(|vertex| vertex_document(file, vertex, names.as_ref())));
-        document["arrays"] = json!(written);
-        return Ok(out.document(&document)?);
-    }
+    let mut found = Findings::new("All-frequency transfer");
+    found.fields(header(file));
+    let document = vertex.map(|vertex| vertex_document(file, vertex, names.as_ref()));
+    found.fields(json!({ "vertex": document, "arrays": written }));
     match vertex {
-        None => all(file, out)?,
-        Some(vertex) => one(file, vertex, names.as_ref(), out)?,
+        None => all(file, &mut found),
+        Some(vertex) => one(file, vertex, names.as_ref(), &mut found),
     }
-    if let (Some(written), Some(folder)) = (written, folder) {
-        out.line(format_args!("written   {} arrays in {}", written.len(), folder.display()))?;
-    }
-    Ok(())
+    written_arrays(&mut found, written.as_deref(), folder);
+    Ok(found)
 }
 
 fn header(file: &AllFrequencyFile) -> Value {
@@ -102,41 +81,35 @@ fn header(file: &AllFrequencyFile) -> Value {
     })
 }
 
-fn all(file: &AllFrequencyFile, out: &mut Out) -> miette::Result<()> {
+fn all(file: &AllFrequencyFile, found: &mut Findings) {
     let terms = file.reflectance.terms();
-    out.line("kind      all-frequency transfer")?;
-    out.sentence(format_args!("mesh      {}", file.mesh))?;
+    found.introduce("kind      all-frequency transfer".to_owned());
+    found.introduce(format!("mesh      {}", file.mesh));
     let reflectance = match &file.reflectance {
         Reflectance::Diffuse => "diffuse, one exact term".to_owned(),
         Reflectance::Factored(factors) => {
-            format!(
-                "{terms} terms on maps of {0} x {0} and {1} x {1} texels",
-                factors.view_map().side(),
-                factors.light_map().side()
-            )
+            let [view, light] = [factors.view_map().side(), factors.light_map().side()];
+            format!("{terms} terms on maps of {view} x {view} and {light} x {light} texels")
         }
     };
-    out.sentence(format_args!("factors   {reflectance}; hats of {}", file.hats))?;
+    found.introduce(format!("factors   {reflectance}; hats of {}", file.hats));
     if let Some(maps) = &file.visibility {
-        let VisibilityMaps { counts, .. } = maps;
-        let per_vertex = counts.visible as f64 / maps.len().max(1) as f64;
-        out.sentence(format_args!("sees      {per_vertex:.0} of 98,304 directions on average"))?;
+        let per_vertex = maps.counts.visible as f64 / maps.len().max(1) as f64;
+        found.introduce(format!("sees      {per_vertex:.0} of 98,304 directions on average"));
     }
     if let Some(coded) = &file.coded {
         let (nonzeros, all) = coded.nonzeros();
-        let bits = [coded.options.representative_bits, coded.options.weight_bits];
-        out.sentence(format_args!(
+        found.introduce(format!(
             "coded     {} clusters in {} segments; {} of {} numbers are not 0; {} bits, weights {}; {} bytes",
             counted(coded.clusters()),
             coded.segments.len(),
             counted(nonzeros),
             counted(all),
-            bits[0],
-            bits[1],
+            coded.options.representative_bits,
+            coded.options.weight_bits,
             counted(coded.size().total() as usize)
-        ))?;
+        ));
     }
-    Ok(())
 }
 
 /// A segment's code at a vertex.
@@ -180,17 +153,16 @@ fn vertex_document(file: &AllFrequencyFile, vertex: usize, names: Option<&Vertex
     json!({ "number": vertex, "of_model": of_model, "directions_visible": visible(file, vertex), "segments": coded })
 }
 
-fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, out: &mut Out) -> miette::Result<()> {
-    out.line(format_args!("vertex    {vertex}"))?;
+fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, found: &mut Findings) {
+    found.introduce(format!("vertex    {vertex}"));
     if let Some(names) = names {
-        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+        found.introduce(format!("is        {}", names.phrase(vertex)));
     }
     if let Some(visible) = visible(file, vertex) {
-        out.line(format_args!("sees      {} of 98,304 directions", counted(visible as usize)))?;
+        found.introduce(format!("sees      {} of 98,304 directions", counted(visible as usize)));
     }
-    let Some(parts) = coded_vertex(file, vertex) else { return Ok(()) };
-    out.line(format_args!("segments  {} of 24 hold transfer", parts.len()))?;
-    out.line("")?;
+    let Some(parts) = coded_vertex(file, vertex) else { return };
+    found.introduce(format!("segments  {} of 24 hold transfer", parts.len()));
     let mut table = Table::new("Code", &["segment", "cluster", "norm", "weights"]);
     for part in parts {
         let weights: Vec<String> = part.weights.iter().map(|weight| measured(*weight)).collect();
@@ -201,6 +173,5 @@ fn one(file: &AllFrequencyFile, vertex: usize, names: Option<&VertexNames<'_>>, 
             weights.join(" ").into(),
         ]);
     }
-    out.titled_table(&table)?;
-    Ok(())
+    found.table(table);
 }

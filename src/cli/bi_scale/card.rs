@@ -97,16 +97,13 @@ impl StudyArgs for Args {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
         Ok(BiScaleOnCard {
-            model: self.picture.model_name(),
-            camera: self.picture.camera(&model.mesh)?,
+            view: self.picture.view(&model.mesh, self.light.name())?,
             vertices,
             coordinates,
             biclusters,
             textures: textures.textures(&directions)?.into_iter().map(|texture| texture.samples).collect(),
             texture_of,
-            light_name: self.light.name(),
             light: self.light.distant()?,
-            exposure: self.picture.exposure,
             card: self.card.setting("gt200")?,
             light_format: self.light_format,
             options: DisplayOptions { edges: self.blocks, texture: self.texture_format, local: self.local_format },

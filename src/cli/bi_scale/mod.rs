@@ -56,10 +56,10 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
     let found = match &args.verb {
         Verb::Precompute(args) => precompute::run(args)?,
         Verb::Bicluster(args) => bicluster::run(args)?,
-        Verb::Multiply(args) => return multiply::run(args, out).map(|()| Verdict::Done),
+        Verb::Multiply(args) => multiply::run(args)?,
         Verb::Compare(args) => compare::run(args)?,
         Verb::Texture(args) => texture::run(args)?,
-        Verb::Show(args) => return show::run(args, out).map(|()| Verdict::Done),
+        Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
     };

@@ -7,12 +7,13 @@ use serde_json::json;
 use super::file::{load, turned, vertices_of};
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::cli::Problem;
+use crate::cli::study::written;
 use crate::cli::transfer::light::LightArgs;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem};
 use crate::io::write_file;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::study::prt::LocalLight;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::CubeLight;
@@ -51,7 +52,7 @@ pub(super) struct Args {
     model: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let cube = turned(&args.light, args.rotate, "multiply")?;
     let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
@@ -64,27 +65,18 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
         write_values(&product.rows, local, names.as_ref(), path)?;
     }
     let sums = [0, 1, 2].map(|channel| product.rows.iter().map(|row| row[channel]).sum::<f64>());
-    if out.json() {
-        return Ok(out.document(&json!({
-            "rows": product.rows.len(), "way": product.way, "flux": cube.flux(), "sum": sums,
-            "seconds": product.seconds, "values": args.values,
-        }))?);
-    }
     let mut table = Table::new("Light that arrives", &["figure", "red", "green", "blue"]);
     let mean = sums.map(|sum| Cell::measured(sum / product.rows.len().max(1) as f64));
     table.push(std::iter::once("mean of a row".into()).chain(mean).collect::<Vec<Cell>>());
-    out.sentence(format_args!(
-        "{} times {}, {} rows, in {:.3} s",
-        args.light.name(),
-        product.way,
-        counted(product.rows.len()),
-        product.seconds
-    ))?;
-    out.table(&table)?;
-    if let Some(path) = &args.values {
-        out.line(format_args!("written   {}", path.display()))?;
-    }
-    Ok(())
+    let mut found = Findings::new("Light that arrives");
+    found.fields(json!({
+        "rows": product.rows.len(), "way": product.way, "flux": cube.flux(), "sum": sums, "seconds": product.seconds,
+    }));
+    let (rows, seconds) = (counted(product.rows.len()), product.seconds);
+    found.introduce(format!("{} times {}, {rows} rows, in {seconds:.3} s", args.light.name(), product.way));
+    found.table(table);
+    written(&mut found, [("values", args.values.as_deref())]);
+    Ok(found)
 }
 
 /// L~, unless the matrix is none of transfer.

@@ -78,16 +78,12 @@ impl StudyArgs for Args {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
         Ok(BiScaleRendering {
-            model: self.picture.model_name(),
-            camera: self.picture.camera(&model.mesh)?,
+            view: self.picture.view(&model.mesh, self.light.name())?,
             textures: textures.textures(&light)?,
             surface,
             file,
-            light_name: self.light.name(),
             light: self.light.distant()?,
-            exposure: self.picture.exposure,
-            frames: self.frames.frames,
-            turning: self.frames.turning(),
+            frames: self.frames.turned(),
             reference: self.reference,
             values,
         })

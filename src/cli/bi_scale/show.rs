@@ -9,11 +9,10 @@ use super::file::{load, vertices_of};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::cli::transfer::model::nearest;
+use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
-use crate::cli::{Out, Problem, number};
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::transfer::grid::{LIGHT_SIDE, face_row_column};
 
 /// Values that a table has room for.
@@ -30,52 +29,36 @@ Examples:
 
 /// Show what a matrix or a .prt file of biclusters holds: values, sizes of biclusters, rows of a vertex
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or a row of a matrix of something else, counted from 0")))]
 pub(super) struct Args {
     /// A Matrix Market file (.mtx), or what `crossbar bi-scale precompute` or `bicluster` wrote
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
-    /// A vertex, or a row of a matrix of something else, counted from 0
-    #[arg(long, value_name = "N", group = "which")]
-    vertex: Option<u32>,
-
-    /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
-          allow_hyphen_values = true)]
-    at: Option<[f32; 3]>,
-
-    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
-    #[arg(long, value_name = "MODEL", requires = "which")]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    vertex: VertexChoice,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let file = load(&args.file)?;
     let rows = rows(&file);
     let local = file.meaning.map_or(1, |meaning| meaning.side.pow(2) as usize);
     let vertices = |model| vertices_of(model, &args.file, file.meaning.as_ref());
-    let of_model = args.model.as_deref().map(vertices).transpose()?;
-    let nearest = || nearest(of_model.as_ref()?.positions(), args.at?);
-    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
-    if let Some(vertex) = vertex.filter(|&vertex| vertex >= rows / local) {
-        let what = format!("expected a vertex below {} (counted from 0), found {vertex}", rows / local);
-        return Err(Problem::usage(what, "`crossbar bi-scale show` says how many there are").into());
+    let of_model = args.vertex.model().map(vertices).transpose()?;
+    let vertex = args.vertex.chosen("bi-scale", rows / local, of_model.as_ref())?;
+    let names = args.vertex.names(of_model.as_ref());
+    let mut found = Findings::new("Bi-scale transfer");
+    found.fields(document(&file, rows, local));
+    let mut of_vertex = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
+    if let (Some(vertex), Some(names)) = (vertex, &names) {
+        of_vertex["of_model"] = names.document(vertex);
     }
-    let names = args.model.as_ref().zip(of_model.as_ref());
-    let names = names.map(|(model, vertices)| VertexNames::new(model, vertices));
-    if out.json() {
-        let mut document = document(&file, rows, local);
-        document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
-        if let (Some(vertex), Some(names)) = (vertex, &names) {
-            document["vertex"]["of_model"] = names.document(vertex);
-        }
-        return Ok(out.document(&document)?);
-    }
+    found.field("vertex", of_vertex);
     match vertex {
-        Some(vertex) => one(&file, (vertex, local), names.as_ref(), out),
-        None => all(&file, rows, local, out),
+        Some(vertex) => one(&file, (vertex, local), names.as_ref(), &mut found),
+        None => all(&file, rows, local, &mut found),
     }
+    Ok(found)
 }
 
 fn rows(file: &BiScaleFile) -> usize {
@@ -121,20 +104,19 @@ fn sizes(biclusters: &Biclustering) -> Vec<[u64; 5]> {
     sizes.into_values().collect()
 }
 
-fn all(file: &BiScaleFile, rows: usize, local: usize, out: &mut Out) -> miette::Result<()> {
+fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     if let Some(meaning) = file.meaning {
-        out.line(format_args!(
+        found.introduce(format!(
             "transfer  bi-scale, {} vertices, {local} local directions each",
             counted(rows / local)
-        ))?;
-        out.line(format_args!("horizon   {}", meaning.horizon))?;
-        out.line(format_args!("mesh      {}", meaning.mesh))?;
+        ));
+        found.introduce(format!("horizon   {}", meaning.horizon));
+        found.introduce(format!("mesh      {}", meaning.mesh));
     } else {
-        out.line(format_args!("matrix    {} rows", counted(rows)))?;
+        found.introduce(format!("matrix    {} rows", counted(rows)));
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
-    out.line(format_args!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")))?;
-    out.line("")?;
+    found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
     let mut table = Table::new("Values", &["value", "count"]);
     let values = values(file);
     for &(value, count) in values.iter().take(VALUES) {
@@ -144,15 +126,13 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, out: &mut Out) -> miette::
         let count: u64 = values[VALUES..].iter().map(|(_, count)| count).sum();
         table.push([format!("{} more", counted(values.len() - VALUES)).into(), count.into()]);
     }
-    out.table(&table)?;
+    found.table(table);
     if let Some(biclusters) = &file.biclusters {
-        out.line("")?;
         let mut table =
             Table::new("Biclusters", &["rows up to", "biclusters", "their rows", "their columns", "operations"]);
         sizes(biclusters).into_iter().for_each(|size| table.push(size.map(Cell::from)));
-        out.table(&table)?;
+        found.table(table);
     }
-    Ok(())
 }
 
 fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
@@ -206,17 +186,11 @@ fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> 
     (0..local).map(of).collect()
 }
 
-fn one(
-    file: &BiScaleFile,
-    (vertex, local): (usize, usize),
-    names: Option<&VertexNames<'_>>,
-    out: &mut Out,
-) -> miette::Result<()> {
-    out.line(format_args!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }))?;
+fn one(file: &BiScaleFile, (vertex, local): (usize, usize), names: Option<&VertexNames<'_>>, found: &mut Findings) {
+    found.introduce(format!("{} {vertex}", if file.meaning.is_some() { "vertex   " } else { "row      " }));
     if let Some(names) = names {
-        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+        found.introduce(format!("is        {}", names.phrase(vertex)));
     }
-    out.line("")?;
     let mut table = Table::new(
         "Local directions",
         &["direction", "light texels", "sum of values", "first texel (face, row, column)", "biclusters"],
@@ -236,7 +210,7 @@ fn one(
             count(row.biclusters.as_ref().map(Vec::len)),
         ]);
     }
-    Ok(out.table(&table)?)
+    found.table(table);
 }
 
 fn vertex_document(file: &BiScaleFile, vertex: usize, local: usize) -> Value {

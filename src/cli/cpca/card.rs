@@ -106,11 +106,8 @@ impl StudyArgs for Args {
         let light_order = light_order(&file)?;
         let superclusters = file.superclusters.as_deref().and_then(Superclusters::of_numbers);
         Ok(OnCard {
-            model: self.picture.model_name(),
-            camera: self.picture.camera(&model.mesh)?,
+            view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
-            light_name: self.light.name(),
-            exposure: self.picture.exposure,
             options: self.options(&card.profile.limits.texture_formats),
             card,
             meaning: file.meaning,

@@ -6,8 +6,9 @@ use serde_json::{Value, json};
 
 use super::file::model_of;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem, given, number};
+use crate::cli::{Problem, given, number};
 use crate::cpca::coherence::{Superclusters, overdraw, reclassify};
+use crate::report::Findings;
 use crate::transfer::clustering::{Clustering, refit};
 use crate::transfer::file::MeshDigest;
 use crate::transfer::{Signal, Vertices};
@@ -105,24 +106,22 @@ impl CoherenceArgs {
 
 impl Coherence {
     /// Prints the changes. `energy` is the signal's sum of squares.
-    pub(super) fn report(&self, energy: f64, out: &mut Out) -> miette::Result<()> {
+    pub(super) fn report(&self, energy: f64, found: &mut Findings) {
         let [before, moved, grouped] = self.drawn.map(|drawn| drawn as f64 / self.triangles.max(1) as f64);
         if let Some((count, added)) = self.moved {
             let share = if energy > 0.0 { added / energy } else { 0.0 };
-            out.line(format_args!(
+            found.print(format!(
                 "moved     {} vertices, for {} of the signal's squares; triangles drawn {before:.3} times, then \
                  {moved:.3}",
                 counted(count),
                 measured(share)
-            ))?;
+            ));
         }
         if let Some(superclusters) = &self.superclusters {
             let count = count(superclusters);
-            out.line(format_args!(
-                "together  {count} superclusters; triangles drawn {moved:.3} times, then {grouped:.3}"
-            ))?;
+            found
+                .print(format!("together  {count} superclusters; triangles drawn {moved:.3} times, then {grouped:.3}"));
         }
-        Ok(())
     }
 
     /// The same for machines.

@@ -2,14 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::coherence::{Coherence, CoherenceArgs};
 use super::compress_report::{most_vectors, steps_document, table};
 use crate::cli::one_of::{name, variants};
+use crate::cli::study::written;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem, ProgressBar, given, memory, number, view};
+use crate::cli::{Problem, ProgressBar, given, memory, number, view};
 use crate::io::{ReadError, read_limited};
+use crate::report::Findings;
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::{
     Clustering, Compression, CpcaError, CpcaForm, CpcaMethod, CpcaOptions, CpcaStep, Grown, StartPoints, compress,
@@ -96,7 +98,7 @@ const HELP: &str = "name a smaller signal";
 /// Bytes of a point beside its numbers and weights.
 const POINT_BYTES: u64 = 64;
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     args.refuse_idle()?;
     // The bytes, and numbers of four bytes while their list grows: a number takes two bytes of a table at least.
     view::require_file(&args.signal, 8, HELP)?;
@@ -118,29 +120,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     let clustering = coherence.as_ref().map_or(clustering, |coherence| coherence.clustering.clone());
     let error = CompressionError::new(&signal, &clustering);
     let superclusters = coherence.as_ref().and_then(|coherence| coherence.superclusters.clone());
-    let clustering = Some(clustering);
-    let file = PrtFile { meaning, mesh, transfer: None, clustering, superclusters, provenance: Some(provenance) };
+    let file = PrtFile {
+        meaning,
+        mesh,
+        transfer: None,
+        clustering: Some(clustering.clone()),
+        superclusters,
+        provenance: Some(provenance),
+    };
     save_prt(&file, &args.out).map_err(Problem::from)?;
-    let Some(clustering) = &file.clustering else { return Ok(()) };
-    if out.json() {
-        return Ok(out.document(&document(args, (&signal, clustering), &steps, &error, coherence.as_ref()))?);
-    }
-    out.table(&table(&steps, error.energy))?;
-    out.line("")?;
-    let (numbers, stored) = (signal.values().len(), clustering.stored_numbers());
-    out.line(format_args!("signal    {} points of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
-    if args.max_error.is_some() {
-        let (clusters, vectors) = (clustering.subspaces().len(), most_vectors(clustering));
-        out.line(format_args!("needed    {} clusters of {} vectors", counted(clusters), counted(vectors)))?;
-    }
-    let share = 100.0 * stored as f64 / numbers as f64;
-    out.line(format_args!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)))?;
-    if let Some(coherence) = &coherence {
-        coherence.report(error.energy, out)?;
-    }
-    out.line(format_args!("error     {} of the signal's squares", measured(error.relative())))?;
-    out.line(format_args!("written   {}", args.out.display()))?;
-    Ok(())
+    Ok(findings(args, (&signal, &clustering), &steps, &error, coherence.as_ref()))
 }
 
 impl Args {
@@ -262,24 +251,40 @@ fn refused(error: &CpcaError) -> Problem {
     Problem::usage(error.to_string(), help)
 }
 
-fn document(
+fn findings(
     args: &Args,
     (signal, clustering): (&Signal, &Clustering),
     steps: &[CpcaStep],
     error: &CompressionError,
     coherence: Option<&Coherence>,
-) -> Value {
-    json!({
-        "out": args.out,
+) -> Findings {
+    let mut found = Findings::new("Clustered principal components");
+    let (numbers, stored) = (signal.values().len(), clustering.stored_numbers());
+    let (clusters, vectors) = (clustering.subspaces().len(), most_vectors(clustering));
+    found.fields(json!({
         "points": signal.points(),
         "numbers_per_point": signal.dimension(),
-        "clusters": clustering.subspaces().len(),
-        "most_vectors": most_vectors(clustering),
-        "stored_numbers": clustering.stored_numbers(),
+        "clusters": clusters,
+        "most_vectors": vectors,
+        "stored_numbers": stored,
         "squared_error": error.total,
         "squared_signal": error.energy,
         "relative_error": error.relative(),
         "coherence": coherence.map(Coherence::document),
         "steps": steps_document(steps),
-    })
+    }));
+    found.table(table(steps, error.energy));
+    let [points, of] = [signal.points(), signal.dimension()].map(counted);
+    found.print(format!("signal    {points} points of {of} numbers"));
+    if args.max_error.is_some() {
+        found.print(format!("needed    {} clusters of {} vectors", counted(clusters), counted(vectors)));
+    }
+    let share = 100.0 * stored as f64 / numbers as f64;
+    found.print(format!("stored    {} numbers in place of {}: {share:.1} %", counted(stored), counted(numbers)));
+    if let Some(coherence) = coherence {
+        coherence.report(error.energy, &mut found);
+    }
+    found.print(format!("error     {} of the signal's squares", measured(error.relative())));
+    written(&mut found, [("out", Some(args.out.as_path()))]);
+    found
 }

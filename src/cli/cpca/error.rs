@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::file::{clusters, model_of};
+use crate::cli::Problem;
+use crate::cli::study::written;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem};
 use crate::io::write_file;
+use crate::report::Findings;
 use crate::study::prt::CompressionError;
 use crate::transfer::clustering::Clustering;
 use crate::transfer::{Signal, load_signal_and_meaning};
@@ -44,7 +46,7 @@ pub(super) struct Args {
     csv: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let (file, clustering) = clusters(&args.compressed)?;
     let shapes = [(signal.points(), signal.dimension()), (clustering.points(), clustering.dimension())];
@@ -69,36 +71,29 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
     }
     let largest = error.largest();
     let cluster = clustering.of_point()[largest];
-    if out.json() {
-        return Ok(out.document(&json!({
-            "points": signal.points(),
-            "numbers_per_point": signal.dimension(),
-            "squared_error": error.total,
-            "squared_signal": error.energy,
-            "relative_error": error.relative(),
-            "root_mean_square": error.root_mean_square(),
-            "largest": { "point": largest, "cluster": cluster, "squared_error": error.squared[largest],
-                         "of_model": names.as_ref().map(|names| names.document(largest)) },
-            "histogram": error.histogram().json(),
-            "csv": args.csv,
-        }))?);
-    }
-    out.line(format_args!("points         {} of {} numbers", counted(signal.points()), counted(signal.dimension())))?;
-    out.line(format_args!(
-        "squared error  {}, {} of the signal's squares",
-        measured(error.total),
-        measured(error.relative())
-    ))?;
-    out.line(format_args!("root mean sq.  {} over all numbers", measured(error.root_mean_square())))?;
+    let mut found = Findings::new("Error of compression");
+    found.fields(json!({
+        "points": signal.points(),
+        "numbers_per_point": signal.dimension(),
+        "squared_error": error.total,
+        "squared_signal": error.energy,
+        "relative_error": error.relative(),
+        "root_mean_square": error.root_mean_square(),
+        "largest": { "point": largest, "cluster": cluster, "squared_error": error.squared[largest],
+                     "of_model": names.as_ref().map(|names| names.document(largest)) },
+        "histogram": error.histogram().json(),
+    }));
+    let [points, numbers] = [signal.points(), signal.dimension()].map(counted);
+    found.introduce(format!("points         {points} of {numbers} numbers"));
+    let [squared, relative] = [error.total, error.relative()].map(measured);
+    found.introduce(format!("squared error  {squared}, {relative} of the signal's squares"));
+    found.introduce(format!("root mean sq.  {} over all numbers", measured(error.root_mean_square())));
     let name = names.as_ref().map_or_else(String::new, |names| format!(" ({})", names.phrase(largest)));
     let squared = measured(error.squared[largest]);
-    out.sentence(format_args!("largest        {squared} at point {largest}{name}, of cluster {cluster}"))?;
-    out.line("")?;
-    out.titled_table(&error.histogram())?;
-    if let Some(path) = &args.csv {
-        out.line(format_args!("written        {}", path.display()))?;
-    }
-    Ok(())
+    found.introduce(format!("largest        {squared} at point {largest}{name}, of cluster {cluster}"));
+    found.table(error.histogram());
+    written(&mut found, [("csv", args.csv.as_deref())]);
+    Ok(found)
 }
 
 fn other_signal(path: &Path, expected: &str, found: &str) -> Problem {

@@ -52,9 +52,9 @@ enum Verb {
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
     let found = match &args.verb {
         Verb::Precompute(args) => precompute::run(args)?,
-        Verb::Compress(args) => return compress::run(args, out).map(|()| Verdict::Done),
-        Verb::Error(args) => return error::run(args, out).map(|()| Verdict::Done),
-        Verb::Show(args) => return show::run(args, out).map(|()| Verdict::Done),
+        Verb::Compress(args) => compress::run(args)?,
+        Verb::Error(args) => error::run(args)?,
+        Verb::Show(args) => show::run(args)?,
         Verb::Render(args) => return study::run(args, command_line, out),
         Verb::Card(args) => return study::run(args, command_line, out),
     };

@@ -84,13 +84,9 @@ impl StudyArgs for Args {
             }
         };
         Ok(Rendering {
-            model: self.picture.model_name(),
-            camera: self.picture.camera(&model.mesh)?,
+            view: self.picture.view(&model.mesh, self.light.name())?,
             light: self.light.of_order(light_order)?,
-            light_name: self.light.name(),
-            exposure: self.picture.exposure,
-            frames: self.frames.frames,
-            turning: self.frames.turning(),
+            frames: self.frames.turned(),
             values: self.values.of(&self.picture.model, &vertices),
             mesh: model.mesh,
             vertices,

@@ -8,11 +8,12 @@ use serde_json::{Value, json};
 use super::arrays;
 use super::coherence::count;
 use super::file::model_of;
-use crate::cli::transfer::model::nearest;
+use crate::cli::study::written_arrays;
+use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
+use crate::cli::view;
 use crate::cli::words::{counted, measured};
-use crate::cli::{Out, Problem, number, view};
-use crate::report::{Cell, Table};
+use crate::report::{Cell, Findings, Table};
 use crate::transfer::clustering::Clustering;
 use crate::transfer::file::{PrtFile, PrtMeaning, load_prt};
 
@@ -32,24 +33,14 @@ const EIGENVALUES: usize = 4;
 
 /// Show what a .prt file holds: header, clusters with spectra, transfer and weights of a vertex
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES, allow_negative_numbers = true)]
+#[command(after_help = EXAMPLES, allow_negative_numbers = true, mut_arg("vertex", |a| a.help("A vertex, or another point, counted from 0")))]
 pub(super) struct Args {
     /// The file
     #[arg(value_name = "FILE.prt")]
     file: PathBuf,
 
-    /// A vertex, or another point, counted from 0
-    #[arg(long, value_name = "N", group = "which")]
-    vertex: Option<u32>,
-
-    /// The vertex nearest to this place of the model
-    #[arg(long, value_name = "X,Y,Z", value_parser = number::point, requires = "model", group = "which",
-          allow_hyphen_values = true)]
-    at: Option<[f32; 3]>,
-
-    /// The model that the file was made from: it says where the vertex is, and its number in the model's file
-    #[arg(long, value_name = "MODEL", requires = "which")]
-    model: Option<PathBuf>,
+    #[command(flatten)]
+    vertex: VertexChoice,
 
     /// Write what the file holds to this folder as arrays of NumPy's: transfer.npy with a row per point, and of
     /// clusters means.npy, vectors.npy (each with its cluster's number in front), weights.npy and clusters.npy
@@ -57,86 +48,78 @@ pub(super) struct Args {
     arrays: Option<PathBuf>,
 }
 
-pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<()> {
+pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     view::require_file(&args.file, 3, "name a smaller file")?;
     let file = load_prt(&args.file, None)?;
-    let of_model = args.model.as_ref().map(|model| model_of(&args.file, file.mesh, model)).transpose()?;
+    let of_model = args.vertex.model().map(|model| model_of(&args.file, file.mesh, model)).transpose()?;
     let vertices = of_model.as_ref().map(|(_, vertices, _)| vertices);
-    let nearest = || nearest(vertices?.positions(), args.at?);
-    let vertex = args.vertex.map(|vertex| vertex as usize).or_else(nearest);
-    if let Some(vertex) = vertex.filter(|&vertex| vertex >= file.points()) {
-        let what = format!("expected a vertex below {} (counted from 0), found {vertex}", file.points());
-        return Err(Problem::usage(what, "`crossbar cpca show` says how many there are").into());
-    }
-    let names = args.model.as_ref().zip(vertices).map(|(model, vertices)| VertexNames::new(model, vertices));
+    let vertex = args.vertex.chosen("cpca", file.points(), vertices)?;
+    let names = args.vertex.names(vertices);
     let written = args.arrays.as_deref().map(|folder| arrays::write(&file, folder)).transpose()?;
-    if out.json() {
-        let mut document = header_document(&file);
-        document["arrays"] = json!(written);
-        document["clusters"] = json!(file.clustering.as_ref().map(clusters_document));
-        document["superclusters"] = json!(file.superclusters);
-        document["made"] = json!(file.provenance.as_deref().map(made_document));
-        document["vertex"] = json!(vertex.map(|vertex| vertex_document(&file, vertex, names.as_ref())));
-        return Ok(out.document(&document)?);
-    }
+    let mut found = Findings::new("Low-frequency transfer");
+    found.fields(header_document(&file));
+    found.fields(json!({
+        "arrays": written,
+        "clusters": file.clustering.as_ref().map(clusters_document),
+        "superclusters": file.superclusters,
+        "made": file.provenance.as_deref().map(made_document),
+        "vertex": vertex.map(|vertex| vertex_document(&file, vertex, names.as_ref())),
+    }));
     match vertex {
-        Some(vertex) => one(&file, vertex, names.as_ref(), out)?,
-        None => all(&file, out)?,
+        Some(vertex) => one(&file, vertex, names.as_ref(), &mut found),
+        None => all(&file, &mut found),
     }
-    if let (Some(written), Some(folder)) = (written, &args.arrays) {
-        out.line(format_args!("written   {} arrays in {}", written.len(), folder.display()))?;
-    }
-    Ok(())
+    written_arrays(&mut found, written.as_deref(), args.arrays.as_deref());
+    Ok(found)
 }
 
-fn all(file: &PrtFile, out: &mut Out) -> miette::Result<()> {
+fn all(file: &PrtFile, found: &mut Findings) {
     match &file.meaning {
-        PrtMeaning::Numbers { dimension } => out.line(format_args!("numbers   {dimension} per point"))?,
+        PrtMeaning::Numbers { dimension } => found.introduce(format!("numbers   {dimension} per point")),
         PrtMeaning::Transfer { channels, exit_functions, light_order, includes_albedo } => {
             let rows = exit_functions.len();
             let what = if exit_functions[..] == [0] { "diffuse" } else { "glossy" };
             let columns = light_order * light_order;
-            out.line(format_args!("transfer  {what}, {rows} x {columns}"))?;
+            found.introduce(format!("transfer  {what}, {rows} x {columns}"));
             let functions: Vec<String> = exit_functions.iter().map(u16::to_string).collect();
-            out.sentence(format_args!("rows      functions {} of exit radiance", functions.join(", ")))?;
-            out.line(format_args!("columns   light of order {light_order}"))?;
-            out.line(format_args!("channels  {channels}"))?;
-            out.line(format_args!("albedo    {}", if *includes_albedo { "included" } else { "to be multiplied" }))?;
+            found.introduce(format!("rows      functions {} of exit radiance", functions.join(", ")));
+            found.introduce(format!("columns   light of order {light_order}"));
+            found.introduce(format!("channels  {channels}"));
+            found.introduce(format!("albedo    {}", if *includes_albedo { "included" } else { "to be multiplied" }));
         }
     }
-    out.line(format_args!("points    {}", counted(file.points())))?;
+    found.introduce(format!("points    {}", counted(file.points())));
     if let Some(mesh) = file.mesh {
-        out.line(format_args!("mesh      {mesh}"))?;
+        found.introduce(format!("mesh      {mesh}"));
     }
     let parts = [file.transfer.is_some().then_some("transfer"), file.clustering.is_some().then_some("clusters")];
-    out.line(format_args!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")))?;
-    let Some(clustering) = &file.clustering else { return Ok(()) };
+    found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
+    let Some(clustering) = &file.clustering else { return };
     if let Some(line) = &file.provenance {
-        out.sentence(format_args!("made      {line}"))?;
+        found.introduce(format!("made      {line}"));
     }
     if let Some(superclusters) = &file.superclusters {
-        out.line(format_args!("together  {} superclusters", counted(count(superclusters))))?;
+        found.introduce(format!("together  {} superclusters", counted(count(superclusters))));
     }
-    let numbers = clustering.points() * clustering.dimension();
-    out.line(format_args!(
-        "stored    {} numbers in place of {}",
-        counted(clustering.stored_numbers()),
-        counted(numbers)
-    ))?;
-    out.line("")?;
+    let [stored, numbers] = [clustering.stored_numbers(), clustering.points() * clustering.dimension()].map(counted);
+    found.introduce(format!("stored    {stored} numbers in place of {numbers}"));
+    found.table(spectra(clustering, file.superclusters.as_deref()));
+}
+
+/// Clusters with their sizes and largest eigenvalues.
+fn spectra(clustering: &Clustering, superclusters: Option<&[u32]>) -> Table {
     let mut headings = vec!["cluster".to_owned(), "points".to_owned(), "vectors".to_owned()];
-    headings.extend(file.superclusters.as_ref().map(|_| "supercluster".to_owned()));
+    headings.extend(superclusters.map(|_| "supercluster".to_owned()));
     headings.extend((1..=EIGENVALUES).map(|number| format!("eigenvalue {number}")));
     let mut table = Table::new("Clusters", &headings);
     for ((cluster, subspace), points) in clustering.subspaces().iter().enumerate().zip(sizes(clustering)) {
         let eigenvalue = |at: usize| subspace.eigenvalues.get(at).map_or(Cell::Empty, |&value| Cell::measured(value));
         let mut row: Vec<Cell> = vec![cluster.into(), points.into(), subspace.len().into()];
-        row.extend(file.superclusters.as_ref().map(|of| (of[cluster] as usize).into()));
+        row.extend(superclusters.map(|of| (of[cluster] as usize).into()));
         row.extend((0..EIGENVALUES).map(eigenvalue));
         table.push(row);
     }
-    out.table(&table)?;
-    Ok(())
+    table
 }
 
 /// Points of each cluster.
@@ -146,28 +129,25 @@ fn sizes(clustering: &Clustering) -> Vec<usize> {
     sizes
 }
 
-fn one(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>, out: &mut Out) -> miette::Result<()> {
-    out.line(format_args!("point     {vertex}"))?;
+fn one(file: &PrtFile, vertex: usize, names: Option<&VertexNames<'_>>, found: &mut Findings) {
+    found.introduce(format!("point     {vertex}"));
     if let Some(names) = names {
-        out.line(format_args!("is        {}", names.phrase(vertex)))?;
+        found.introduce(format!("is        {}", names.phrase(vertex)));
     }
     let approximation = file.clustering.as_ref().map(|clustering| approximation(clustering, vertex));
     if let Some(clustering) = &file.clustering {
         let weights: Vec<String> = clustering.weights(vertex).iter().map(|weight| measured(*weight)).collect();
-        out.line(format_args!("cluster   {}", clustering.of_point()[vertex]))?;
-        out.sentence(format_args!(
-            "weights   {}",
-            if weights.is_empty() { "none".to_owned() } else { weights.join(", ") }
-        ))?;
+        found.introduce(format!("cluster   {}", clustering.of_point()[vertex]));
+        let weights = if weights.is_empty() { "none".to_owned() } else { weights.join(", ") };
+        found.introduce(format!("weights   {weights}"));
     }
     let original: Option<Vec<f64>> =
         file.transfer.as_ref().map(|signal| signal.point(vertex).iter().map(|&value| f64::from(value)).collect());
     for (title, values) in [("Transfer", original), ("Approximation", approximation)] {
-        let Some(values) = values else { continue };
-        out.line("")?;
-        out.titled_table(&matrix(title, &file.meaning, &values))?;
+        if let Some(values) = values {
+            found.table(matrix(title, &file.meaning, &values));
+        }
     }
-    Ok(())
 }
 
 fn approximation(clustering: &Clustering, vertex: usize) -> Vec<f64> {

@@ -12,7 +12,7 @@ use super::study::StudyArgs;
 use crate::atlas::require_side;
 use crate::radiosity::Patches;
 use crate::radiosity::solve::Options;
-use crate::study::radiosity::{Parameters, RadiosityError};
+use crate::study::radiosity::{Parameters, no_atlas};
 
 pub(super) use args::Args;
 
@@ -31,7 +31,7 @@ impl StudyArgs for Args {
     /// By the number of patches that is asked for; faces and parts of sides may make more.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         // Before memory, which what cannot be has no need of.
-        self.atlas.map_or(Ok(()), require_side).map_err(RadiosityError::from)?;
+        self.atlas.map_or(Ok(()), require_side).map_err(no_atlas)?;
         self.need(self.per_side.map_or(self.patches as usize, |_| 0)).map(Some)
     }
 

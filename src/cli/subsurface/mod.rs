@@ -12,7 +12,7 @@ use super::model_name;
 use super::study::StudyArgs;
 use crate::atlas::require_side;
 use crate::report::digits::{Quantity, shown};
-use crate::study::subsurface::{Parameters, SubsurfaceError};
+use crate::study::subsurface::{Parameters, no_atlas};
 use crate::subsurface::kernels::{DirectLight, ViewKernel};
 
 pub(super) use args::Args;
@@ -40,7 +40,7 @@ impl StudyArgs for Args {
     /// What the atlas, its links, the card's textures and the pictures of every way take.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         // Before memory, which what cannot be has no need of.
-        require_side(self.atlas).map_err(SubsurfaceError::from)?;
+        require_side(self.atlas).map_err(no_atlas)?;
         const PER_TEXEL: u64 = 1000;
         const PER_LINK: u64 = 80;
         const PER_PIXEL_AND_PICTURE: u64 = 100;

@@ -6,4 +6,5 @@ pub(super) mod model;
 pub(super) mod on_card;
 pub(super) mod picture;
 pub(super) mod values;
+pub(super) mod vertex_choice;
 pub(super) mod vertex_names;

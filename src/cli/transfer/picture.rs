@@ -9,8 +9,7 @@ use crate::cli::size::Size;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::{model_name, number};
 use crate::geom::Mesh;
-use crate::scene::Camera;
-use crate::study::prt::{Turning, ValuesFormat, VertexValues};
+use crate::study::prt::{LitView, TurnedFrames, Turning, ValuesFormat, VertexValues};
 use crate::transfer::Vertices;
 
 /// A picture of a model.
@@ -30,23 +29,19 @@ pub(in crate::cli) struct PictureArgs {
     /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
-    pub(in crate::cli) exposure: Option<f64>,
+    exposure: Option<f64>,
 }
 
 impl PictureArgs {
-    /// The model as it was named.
-    pub(in crate::cli) fn model_name(&self) -> String {
-        self.model.display().to_string()
-    }
-
     /// The model's file, unless the program builds it.
     pub(in crate::cli) fn inputs(&self) -> Vec<&Path> {
         model_name::named_file(&self.model)
     }
 
-    /// The camera.
-    pub(in crate::cli) fn camera(&self, mesh: &Mesh) -> miette::Result<Camera> {
-        self.eye.framing(mesh, self.size)
+    /// The view of the model under a light of this name.
+    pub(in crate::cli) fn view(&self, mesh: &Mesh, light: String) -> miette::Result<LitView> {
+        let camera = self.eye.framing(mesh, self.size)?;
+        Ok(LitView { model: self.model.display().to_string(), light, camera, exposure: self.exposure })
     }
 
     /// Memory of pictures on an emulated card.
@@ -80,7 +75,7 @@ impl ValuesArgs {
 pub(in crate::cli) struct FramesArgs {
     /// Pictures with the light turned around z, or the camera carried around the model, in so many steps
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
-    pub(in crate::cli) frames: u32,
+    frames: u32,
 
     /// What --frames turns
     #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
@@ -88,9 +83,9 @@ pub(in crate::cli) struct FramesArgs {
 }
 
 impl FramesArgs {
-    /// What frames turn.
-    pub(in crate::cli) fn turning(&self) -> Turning {
-        self.turn
+    /// The pictures that are asked for.
+    pub(in crate::cli) fn turned(&self) -> TurnedFrames {
+        TurnedFrames { count: self.frames, turning: self.turn }
     }
 
     /// Memory of a picture and of these.

@@ -4,6 +4,7 @@
 
 pub mod atlas;
 pub mod configuration;
+mod error;
 pub mod framing;
 pub mod leaky_teapot;
 pub mod picture_difference;
@@ -16,19 +17,18 @@ pub mod timeline_trace;
 
 use crate::report::{Findings, Provenance};
 
+pub use error::StudyError;
+
 /// Called with the current step's name, the number of units done, and their total.
 pub type ProgressFn<'a> = dyn FnMut(&str, u64, u64) + 'a;
 
 /// A question with its parameters.
 pub trait Study {
-    /// Error of the study.
-    type Error: miette::Diagnostic + Send + Sync + 'static;
-
     /// Runs the study.
     ///
     /// # Errors
-    /// [`Study::Error`].
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, Self::Error>;
+    /// If the input does not suit the study, or a library refuses it.
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError>;
 
     /// Adds the devices, switches and seed that are used.
     fn provenance(&self, provenance: Provenance) -> Provenance;

@@ -1,42 +1,28 @@
 //! Export of a timeline as a trace for a viewer.
 
-use miette::Diagnostic;
 use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::timing::replay::{Options, ReplayError, replay};
 use refsim::timing::timeline::{Segment, SpanKind, Timeline, Unit};
 use refsim::timing::{Level, Model, TimingError};
 use serde_json::{Map, Value, json};
-use thiserror::Error;
 
 use crate::report::ReportError;
 use crate::report::trace::{Arrow, Slice, Trace};
+use crate::study::StudyError;
+use crate::study::error::library_errors;
 
-/// Error of building a timeline from a log.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum TimelineError {
-    /// The timing model failed.
-    #[error(transparent)]
-    #[diagnostic(code(timeline::timing))]
-    Timing(#[from] TimingError),
-    /// The replay failed.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Replay(#[from] ReplayError),
-    /// The file cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
+library_errors! {
+    ReplayError;
 }
 
 /// Encodes the timeline of a log by the pipeline model as a trace; `None` for devices without timing. `what` names the
 /// log.
-pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u8>>, TimelineError> {
+pub fn file(profile: &Profile, log: &[Event], what: &str) -> Result<Option<Vec<u8>>, StudyError> {
     let model = match Model::new(Level::Pipeline, profile) {
         Ok(model) => model,
         Err(TimingError::Missing { .. }) => return Ok(None),
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(StudyError::coded("timeline::timing", error)),
     };
     let replayed = replay(log, &model, &Options::of(Level::Pipeline))?;
     let mut bytes = Vec::new();

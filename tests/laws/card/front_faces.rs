@@ -21,7 +21,7 @@ use crossbar::report::Provenance;
 use crossbar::scene::Camera;
 use crossbar::sphere::HarmonicLight;
 use crossbar::study::Study;
-use crossbar::study::prt::{CardSetting, OnCard};
+use crossbar::study::prt::{CardSetting, LitView, OnCard};
 use crossbar::transfer::brdf::ExitBasis;
 use crossbar::transfer::clustering::{Clustering, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
 use crossbar::transfer::file::PrtMeaning;
@@ -305,15 +305,17 @@ fn a_study_blames_no_back_face() {
     let basis = ExitBasis::Radiance;
     let meaning = PrtMeaning::Transfer { channels: 1, exit_functions: vec![0], light_order: 3, includes_albedo: true };
     let study = OnCard {
-        model: scene.name.to_owned(),
+        view: LitView {
+            model: scene.name.to_owned(),
+            light: "red and blue".to_owned(),
+            camera: scene.camera,
+            exposure: None,
+        },
         clustering: scene.clusters(&basis),
         superclusters: None,
         vertices: scene.vertices,
         meaning,
-        light_name: "red and blue".to_owned(),
         light: HarmonicLight::red_and_blue(3),
-        camera: scene.camera,
-        exposure: None,
         card: CardSetting {
             profile: ideal(),
             switches: Vec::new(),

@@ -2,8 +2,13 @@
 
 use crate::atlas::AtlasError;
 use crate::geom::Mesh;
-use crate::report::ReportError;
 use crate::scene::Camera;
+use crate::study::StudyError;
+
+/// Error of a mesh without an atlas.
+pub fn no_atlas(error: AtlasError) -> StudyError {
+    StudyError::coded("crossbar::atlas", error)
+}
 
 /// Parameters: an atlas to build and measure.
 #[derive(Debug, Clone)]
@@ -16,18 +21,4 @@ pub struct AtlasStudy {
     pub side: u32,
     /// Camera of the pictures of the mesh; `None` for no pictures and no files.
     pub camera: Option<Camera>,
-}
-
-/// Error of the study.
-#[non_exhaustive]
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum AtlasStudyError {
-    /// The mesh has no atlas of this size.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::atlas))]
-    Atlas(#[from] AtlasError),
-    /// A file cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
 }

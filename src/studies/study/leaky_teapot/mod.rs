@@ -22,24 +22,16 @@ use crate::geom::exact::{NearestHit, Sides, Tracer};
 use crate::geom::{Mesh, Ray};
 use crate::picture::{RgbImage, rgb8};
 use crate::ray_engine::{Crossbar, EngineError};
-use crate::report::{Findings, Provenance, ReportError};
+use crate::report::{Findings, Provenance};
+use crate::study::StudyError;
+use crate::study::error::library_errors;
 
 pub use format_limits::FormatLimits;
 pub use outcome::{Parameters, Tally, TeapotOutcome, TeapotRow};
 pub use pixel_verdict::PixelVerdict;
 
-/// Error of the study.
-#[non_exhaustive]
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum LeakyTeapotError {
-    /// A configuration has no intersection program, or the card refuses the work.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Engine(#[from] EngineError),
-    /// A file cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
+library_errors! {
+    EngineError;
 }
 
 /// Rays with their exact hits.
@@ -138,9 +130,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Tea
 }
 
 impl Study for Parameters {
-    type Error = LeakyTeapotError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, LeakyTeapotError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(self, run(self, progress)?)?)
     }
 

@@ -5,8 +5,12 @@ use crate::picture::metrics::{
     signed_differences, ssim,
 };
 use crate::picture::{Picture, PictureError};
-use crate::report::ReportError;
-use crate::study::ProgressFn;
+use crate::study::error::library_errors;
+use crate::study::{ProgressFn, StudyError};
+
+library_errors! {
+    MismatchError;
+}
 
 /// Picture with its name in the findings.
 #[derive(Clone, Debug)]
@@ -49,33 +53,6 @@ pub struct PictureDifference {
     pub maps: bool,
 }
 
-/// Error of comparing pictures.
-#[non_exhaustive]
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-pub enum DifferenceError {
-    /// The pictures have no samples in common.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Mismatch(#[from] MismatchError),
-    /// A perceptual bound is set for pictures without color.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Color(#[from] PictureError),
-    /// A bound on SSIM is set for pictures smaller than its window.
-    #[error("expected pictures of at least 11x11 pixels for SSIM, found {width}x{height}")]
-    #[diagnostic(code(crossbar::picture::window))]
-    Window {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-    },
-    /// The findings cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
-}
-
 /// Result of a comparison.
 #[derive(Debug)]
 pub(super) struct DifferenceOutcome {
@@ -95,7 +72,7 @@ pub(super) struct PerceptualDifference {
 
 impl PictureDifference {
     /// Compares the pictures.
-    pub(super) fn compare(&self, progress: &mut ProgressFn<'_>) -> Result<DifferenceOutcome, DifferenceError> {
+    pub(super) fn compare(&self, progress: &mut ProgressFn<'_>) -> Result<DifferenceOutcome, StudyError> {
         let [first, second] = [&self.pictures[0].picture, &self.pictures[1].picture];
         progress("samples", 0, 3);
         let found = channels(first, second, &self.channels)?;
@@ -107,7 +84,9 @@ impl PictureDifference {
             other => other?,
         };
         if self.bounds.ssim.is_some() && perceptual.as_ref().is_some_and(|perceptual| perceptual.ssim.is_none()) {
-            return Err(DifferenceError::Window { width: first.width(), height: first.height() });
+            let found = format!("{}x{}", first.width(), first.height());
+            let what = format!("expected pictures of at least 11x11 pixels for SSIM, found {found}");
+            return Err(StudyError::new("crossbar::picture::window", what));
         }
         Ok(DifferenceOutcome { channels: found, signed, perceptual })
     }

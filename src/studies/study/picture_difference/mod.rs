@@ -4,14 +4,12 @@ mod compare;
 mod report;
 
 use crate::report::{Findings, Provenance};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 
-pub use compare::{DifferenceBounds, DifferenceError, PictureDifference, PictureInput};
+pub use compare::{DifferenceBounds, PictureDifference, PictureInput};
 
 impl Study for PictureDifference {
-    type Error = DifferenceError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, DifferenceError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let outcome = self.compare(progress)?;
         report::findings(self, outcome)
     }

@@ -2,17 +2,18 @@
 
 use serde_json::json;
 
-use super::compare::{DifferenceBounds, DifferenceError, DifferenceOutcome, PerceptualDifference, PictureDifference};
+use super::compare::{DifferenceBounds, DifferenceOutcome, PerceptualDifference, PictureDifference};
 use crate::picture::metrics::ChannelDifference;
 use crate::picture::{ChannelUnit, Picture, Samples};
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, ReportError, Table, Verdict, false_color};
+use crate::study::StudyError;
 
 const FLIP: &str = "FLIP is the difference that an observer notices who flips between the two pictures: 0 none, 1 the \
     largest. SSIM compares the structure of the luma in windows of 11 x 11 pixels: 1 where the pictures are equal.";
 
-pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, DifferenceError> {
+pub(super) fn findings(study: &PictureDifference, outcome: DifferenceOutcome) -> Result<Findings, StudyError> {
     let [first, second] = &study.pictures;
     let mut found = Findings::new("Two pictures");
     let held = study.holds(&outcome);
@@ -89,7 +90,7 @@ fn add_metrics(found: &mut Findings, study: &PictureDifference, perceptual: &Per
 }
 
 /// Adds false-color maps, and all differences as numbers.
-fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), DifferenceError> {
+fn maps(found: &mut Findings, study: &PictureDifference, outcome: &DifferenceOutcome) -> Result<(), StudyError> {
     let [first, second] = &study.pictures;
     let (width, height) = (first.picture.width(), first.picture.height());
     let mut pictures = Vec::new();

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::geom::vector::wide;
 use crate::sphere::{HarmonicLight, MAX_ORDER, harmonics};
+use crate::study::StudyError;
 use crate::transfer::clustering::Clustering;
 use crate::transfer::file::PrtMeaning;
 use crate::transfer::{Signal, Vertices};
@@ -89,4 +90,10 @@ impl<'a> Lit<'a> {
         };
         (0..vertices.len()).into_par_iter().map(towards).collect()
     }
+}
+
+/// Error of a signal that is no transfer.
+pub(super) fn no_transfer() -> StudyError {
+    let help = "compress a file that `crossbar cpca precompute` wrote";
+    StudyError::new("crossbar::prt::meaning", "expected transfer, found numbers without a meaning").with_help(help)
 }

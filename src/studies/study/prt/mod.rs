@@ -13,34 +13,69 @@ mod factor;
 mod fine_view;
 mod interpolate;
 mod light_picture;
+mod lit_view;
 mod precompute;
 mod render;
 mod stored_ways;
+mod turned_frames;
 mod vertex_values;
+
+use crate::all_frequency::code::CodeOptionsError;
+use crate::all_frequency::factor::FactorizationError;
+use crate::all_frequency::on_card::FactoredCardError;
+use crate::all_frequency::shade::LightSizeError;
+use crate::bi_scale::on_card::BiScaleCardError;
+use crate::card::MeshError;
+use crate::card::frame_time::FrameTimeError;
+use crate::cpca::on_card::PrtCardError;
+use crate::sphere::{HemisphereError, RotationError};
+use crate::study::error::library_errors;
+use crate::transfer::file::PrtFileError;
+use crate::transfer::light::CubeLightError;
+use crate::transfer::{SignalError, TransferError};
 
 pub(super) use all_frequency::exact::transferred as raw_radiance;
 pub use all_frequency::{
-    AllFrequencyError, AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, KeptSegments,
-    KeptSegmentsError, LitModel, RenderedGround, SegmentTally, SegmentedCompression, SegmentedError, SightOfModel,
-    coded_errors,
+    AllFrequencyRendering, CodedErrors, CompressionTally, FoundSight, KeptSegments, LitModel, RenderedGround,
+    SegmentTally, SegmentedCompression, SightOfModel, coded_errors,
 };
 pub(super) use bi_scale::{BiScaleDrawing, CausePictures};
-pub use bi_scale::{
-    BiScaleError, BiScaleRendering, LocalLight, SurfaceError, SurfaceTexture, TexturedSurface, creased,
-};
+pub use bi_scale::{BiScaleRendering, LocalLight, SurfaceTexture, TexturedSurface, creased};
 pub use card::{
-    AllFrequencyOnCard, BiScaleOnCard, CardPictureError, CardSetting, OnCard, PictureVariant, PixelErrors,
-    factored_precision, variants_table,
+    AllFrequencyOnCard, BiScaleOnCard, CardSetting, OnCard, PictureVariant, PixelErrors, factored_precision,
+    variants_table,
 };
 pub use compression_error::CompressionError;
 pub(super) use exit_radiance::Lit;
-pub use factor::{BrdfFactors, BrdfFactorsError, FactorSubject};
+pub use factor::{BrdfFactors, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use fine_view::{FineView, filtered};
 pub(super) use interpolate::{Seen, linear_picture};
 pub(super) use light_picture::{light_picture, of_texels};
-pub use precompute::{ExitRadiance, Precomputation, PrecomputeError, Precomputed, Scatterer};
-pub use render::{RenderError, Rendering, Turning};
-pub(super) use render::{auto_exposure, cluster_color};
+pub use lit_view::LitView;
+pub(super) use lit_view::auto_exposure;
+pub use precompute::{ExitRadiance, Precomputation, Precomputed, Scatterer};
+pub use render::Rendering;
+pub(super) use render::cluster_color;
 pub use stored_ways::{LightChannels, StoredComparison, StoredWay, stored_ways_table};
+pub use turned_frames::{TurnedFrames, Turning};
 pub use vertex_values::{ValuesFormat, VertexValues};
+
+library_errors! {
+    BiScaleCardError => "crossbar::prt::card";
+    CodeOptionsError => "crossbar::prt::code";
+    CubeLightError => "crossbar::prt::light";
+    FactoredCardError => "crossbar::prt::card",
+        "`--way colors` runs on every card; `crossbar all-frequency render` draws on the host what no card takes";
+    FactorizationError;
+    FrameTimeError => "crossbar::prt::time";
+    HemisphereError => "crossbar::prt::functions";
+    LightSizeError => "crossbar::prt::segments";
+    MeshError => "crossbar::prt::card";
+    PrtCardError => "crossbar::prt::card",
+        "`crossbar cpca render` draws on the host what no card takes; `crossbar devices` lists cards";
+    PrtFileError;
+    RotationError => "crossbar::prt::turn";
+    SignalError => "crossbar::prt::signal";
+    TransferError => "crossbar::prt::precompute";
+}

@@ -1,13 +1,10 @@
 //! From a model to the transfer of its vertices.
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use crate::cpca::transfer::{Bounces, Incident, Response, ScatteringOptions, TracedRays, Transfer, TransferCounts};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::sphere::{DirectionRule, MAX_ORDER};
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, fresnel_transmittance};
 use crate::tracer::HostTracer;
 use crate::transfer::brdf::{BRDF_DEGREE, Brdf, ExitBasis};
@@ -77,31 +74,12 @@ pub struct Precomputed {
     pub bounces: Vec<Vec<f64>>,
 }
 
-/// Why there is no transfer.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum PrecomputeError {
-    /// The model or its materials.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::precompute))]
-    Transfer(#[from] TransferError),
-    /// A material that is not diffuse, for diffuse transfer.
-    #[error("expected diffuse materials for diffuse transfer, found {found:?} as material {material} (counted from 0)")]
-    #[diagnostic(code(crossbar::prt::glossy), help("ask for glossy transfer, or give a diffuse reflectance for all"))]
-    Glossy { material: usize, found: Brdf },
-    /// Figures too large.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::signal))]
-    Signal(#[from] SignalError),
-}
-
 impl Precomputation<'_> {
     /// Traces the rays and computes the matrices.
     ///
     /// # Errors
-    /// [`PrecomputeError`].
-    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, PrecomputeError> {
+    /// If the mesh or a material does not suit the transfer, or its numbers exceed f32.
+    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<Precomputed, StudyError> {
         self.check()?;
         let steps = 1 + self.channels.len() as u64;
         progress("rays", 0, steps);
@@ -135,10 +113,17 @@ impl Precomputation<'_> {
         })
     }
 
-    fn check(&self) -> Result<(), PrecomputeError> {
+    fn check(&self) -> Result<(), StudyError> {
         let glossy = |(material, brdf): (usize, &Brdf)| match brdf {
             Brdf::Lambert { .. } => None,
-            &found => Some(PrecomputeError::Glossy { material, found }),
+            found => {
+                let what = format!(
+                    "expected diffuse materials for diffuse transfer, found {found:?} as material {material} (counted \
+                     from 0)"
+                );
+                let help = "ask for glossy transfer, or give a diffuse reflectance for all";
+                Some(StudyError::new("crossbar::prt::glossy", what).with_help(help))
+            }
         };
         let mut all = self.channels.iter().flat_map(|(_, brdfs)| brdfs.iter().enumerate());
         match self.exit {

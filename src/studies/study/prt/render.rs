@@ -1,35 +1,28 @@
 //! Pictures of a model under distant light, from its transfer.
 
-use glam::{DMat3, DVec3};
-use miette::Diagnostic;
-use serde_json::json;
-use thiserror::Error;
-
 use super::compression_error::CompressionError;
-use super::exit_radiance::Lit;
-use super::interpolate::{Seen, linear_picture};
-use super::light_picture::light_picture;
+use super::exit_radiance::{Lit, no_transfer};
+use super::interpolate::Seen;
+use super::lit_view::LitView;
+use super::turned_frames::{Turned, TurnedFrames};
 use super::vertex_values::VertexValues;
 use crate::geom::Mesh;
 use crate::geom::random::CounterRng;
 use crate::geom::vector::wide;
-use crate::picture::{PictureError, rgb8};
+use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::{HarmonicLight, HarmonicRotation, RotationError, turn_around_z};
-use crate::study::{ProgressFn, Study};
+use crate::sphere::{HarmonicLight, HarmonicRotation};
+use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::file::PrtFile;
 use crate::transfer::{Signal, Vertices};
-
-/// Linear light seen as halfway between black and white.
-const MIDDLE_GREY: f64 = 0.18;
 
 /// A model with its transfer, a light and a camera.
 #[derive(Debug)]
 pub struct Rendering {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its mesh.
     pub mesh: Mesh,
     /// Its vertices, the points of the file.
@@ -38,69 +31,24 @@ pub struct Rendering {
     pub file: PrtFile,
     /// The uncompressed transfer to compare with, if there is one.
     pub original: Option<Signal>,
-    /// The light's name.
-    pub light_name: String,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
-    pub exposure: Option<f64>,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Format and names of vertices, if their radiance is written.
     pub values: Option<VertexValues>,
 }
 
-/// What is carried round a model.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
-#[strum(serialize_all = "lowercase")]
-pub enum Turning {
-    /// The light, around z.
-    #[default]
-    Light,
-    /// The camera, around the model.
-    Camera,
-}
-
-/// Why there are no pictures.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum RenderError {
-    /// A signal that is no transfer.
-    #[error("expected transfer, found numbers without a meaning")]
-    #[diagnostic(code(crossbar::prt::meaning), help("compress a file that `crossbar cpca precompute` wrote"))]
-    NoTransfer,
-    /// The light cannot be turned.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::turn))]
-    Rotation(#[from] RotationError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
-}
-
 impl Study for Rendering {
-    type Error = RenderError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, RenderError> {
-        let steps = 2 + u64::from(self.frames);
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
-        let seen = Seen::new(&self.mesh, &self.vertices, &self.camera);
+        let seen = Seen::new(&self.mesh, &self.vertices, &self.view.camera);
         progress("radiance", 1, steps);
-        let of_vertex = self.radiance((&self.light, &self.camera), None)?;
+        let of_vertex = self.radiance((&self.light, &self.view.camera), None)?;
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
-        let mut found = Findings::new("Precomputed radiance transfer");
-        found.taken_from(self.camera.world_to_camera());
-        let picture = linear_picture(&self.camera, &drawn);
-        let caption = format!("{} under {}", self.model, self.light_name);
-        let light = light_picture("light", &self.light_name, |direction| self.light.radiance(direction))?;
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
-        found.keep_layers("picture", picture);
+        let radiance = |direction| self.light.radiance(direction);
+        let (mut found, exposure) = self.view.findings("Precomputed radiance transfer", &drawn, radiance)?;
         if let Some(values) = &self.values {
             values.keep(self.vertices.positions(), &of_vertex, &mut found);
         }
@@ -109,19 +57,8 @@ impl Study for Rendering {
             self.compare(&seen, original, &drawn, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), steps);
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let image = linear_picture(&self.camera, &self.turned(&seen, turns)?).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
-        found.field("exposure", json!(exposure));
+        let turned = |turned| self.turned(&seen, turned);
+        self.frames.report((&self.view, &self.mesh, exposure), turned, &mut found, (2, progress))?;
         Ok(found)
     }
 
@@ -137,7 +74,7 @@ impl Rendering {
         seen: &Seen,
         from: (&HarmonicLight, &Camera),
         original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, RenderError> {
+    ) -> Result<Vec<[f64; 3]>, StudyError> {
         Ok(seen.colors(&self.radiance(from, original)?, [0.0; 3]))
     }
 
@@ -146,34 +83,31 @@ impl Rendering {
         &self,
         (light, camera): (&HarmonicLight, &Camera),
         original: Option<&Signal>,
-    ) -> Result<Vec<[f64; 3]>, RenderError> {
-        let lit = Lit::new(&self.file.meaning, light).ok_or(RenderError::NoTransfer)?;
+    ) -> Result<Vec<[f64; 3]>, StudyError> {
+        let lit = Lit::new(&self.file.meaning, light).ok_or_else(no_transfer)?;
         let exit = match (original, &self.file.clustering, &self.file.transfer) {
             (Some(signal), ..) | (None, None, Some(signal)) => lit.of_signal(signal),
             (None, Some(clustering), _) => lit.of_clusters(clustering),
-            (None, None, None) => return Err(RenderError::NoTransfer),
+            (None, None, None) => return Err(no_transfer()),
         };
         Ok(lit.radiance(&exit, &self.vertices, wide(camera.eye())))
     }
 
-    /// The pixels with light or camera carried round z, 1 being all the way.
-    fn turned(&self, seen: &Seen, turns: f64) -> Result<Vec<[f64; 3]>, RenderError> {
-        let turn = turn_around_z(turns);
-        match self.turning {
-            Turning::Light => {
+    /// The pixels with light or camera turned.
+    fn turned(&self, seen: &Seen, turned: Turned) -> Result<Vec<[f64; 3]>, StudyError> {
+        match turned {
+            Turned::Light(turn) => {
                 let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
-                self.colors(seen, (&light, &self.camera), None)
+                self.colors(seen, (&light, &self.view.camera), None)
             }
-            Turning::Camera => {
-                let camera = carried(&self.camera, &self.mesh, &turn);
+            Turned::Camera(camera) => {
                 self.colors(&Seen::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
             }
         }
     }
 
     fn conclude(&self, seen: &Seen, found: &mut Findings) {
-        let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
-        found.conclusion(format!("{} of {pixels} pixels show {} under {}.", seen.count(), self.model, self.light_name));
+        found.conclusion(self.view.sentence(seen.count()));
         let least = self.light.extremes().map(|channel| channel.least);
         if least.iter().any(|&radiance| radiance < 0.0) {
             let [red, green, blue] = least.map(|radiance| shown(radiance, Quantity::Measured));
@@ -192,8 +126,8 @@ impl Rendering {
         drawn: &[[f64; 3]],
         exposure: f64,
         found: &mut Findings,
-    ) -> Result<(), RenderError> {
-        let whole = self.colors(seen, (&self.light, &self.camera), Some(original))?;
+    ) -> Result<(), StudyError> {
+        let whole = self.colors(seen, (&self.light, &self.view.camera), Some(original))?;
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&whole).map(|(a, b)| mean(a) - mean(b)).collect();
         let largest = difference.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
@@ -205,12 +139,9 @@ impl Rendering {
             Cell::measured(100.0 * ratio),
         ]);
         table.push(["largest difference (radiance)".into(), Cell::measured(largest)]);
-        let mut pictures = vec![NamedPicture::new(
-            "original",
-            linear_picture(&self.camera, &whole).display(exposure)?,
-            "without compression",
-        )];
-        let width = self.camera.width();
+        let mut pictures =
+            vec![NamedPicture::new("original", self.view.picture(&whole).display(exposure)?, "without compression")];
+        let width = self.view.camera.width();
         if largest > 0.0 {
             let caption =
                 format!("compressed less original: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
@@ -245,39 +176,15 @@ impl Rendering {
             let Some(vertex) = vertex else { return [0; 3] };
             cluster_color(clustering.of_point()[vertex as usize])
         };
-        let image = rgb8(self.camera.width(), self.camera.height(), seen.nearest().map(color));
+        let image = rgb8(self.view.camera.width(), self.view.camera.height(), seen.nearest().map(color));
         found.heading("Clusters");
         let caption = format!("{} clusters, each in a color of its own", clustering.subspaces().len());
         found.pictures(vec![NamedPicture::new("clusters", image, caption)]);
     }
 }
 
-impl Turning {
-    /// What stands above the frames.
-    pub(super) const fn heading(self) -> &'static str {
-        match self {
-            Self::Light => "The light turned around z",
-            Self::Camera => "The camera carried around the model",
-        }
-    }
-}
-
-/// A camera carried around the middle of a mesh.
-pub(super) fn carried(camera: &Camera, mesh: &Mesh, turn: &DMat3) -> Camera {
-    let middle = mesh.bounds().map_or(DVec3::ZERO, |[low, high]| 0.5 * (wide(low) + wide(high)));
-    camera.carried(middle, turn)
-}
-
 /// The color that stands for a cluster.
 pub(in crate::study) fn cluster_color(cluster: u32) -> [u8; 3] {
     let random = CounterRng::new(0);
     [0, 1, 2].map(|channel| 64 + (random.bits(u64::from(cluster), 0, channel) >> 56) as u8 / 4 * 3)
-}
-
-/// Pixels that show something at 18 % grey on average.
-pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
-    let lit: Vec<f64> =
-        colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();
-    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
-    if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 }
 }

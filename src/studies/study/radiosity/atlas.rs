@@ -1,6 +1,5 @@
 //! Solution in a meshed atlas: its texture, and the room rendered through it.
 
-use super::RadiosityError;
 use crate::geom::vector::wide;
 use crate::geom::{Hit, Ray, Sides};
 use crate::picture::{Picture, RgbImage};
@@ -8,6 +7,7 @@ use crate::radiosity::Patches;
 use crate::radiosity::display::{AtlasPower, RadiosityAtlas};
 use crate::report::{Cell, Table};
 use crate::scene::Camera;
+use crate::study::StudyError;
 use crate::tracer::HostTracer;
 
 /// Solution in an atlas.
@@ -34,7 +34,7 @@ pub(super) fn show(
     (label, radiosity): (&str, &[[f64; 3]]),
     camera: &Camera,
     exposure: f64,
-) -> Result<AtlasPictures, RadiosityError> {
+) -> Result<AtlasPictures, StudyError> {
     let texels = atlas.texels(patches, radiosity);
     let exposed = |value: [f64; 3]| value.map(|value| (exposure / std::f64::consts::PI * value) as f32);
     let picture = |width, height, pixels: &[[f32; 3]]| Picture::rgb(width, height, pixels).display(1.0);

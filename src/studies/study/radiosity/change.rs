@@ -1,9 +1,10 @@
 //! Dynamic relighting: a new emission or reflectance with the same form factors (section 1: "while the geometry is
 //! fixed, the emittance is not").
 
-use super::RadiosityError;
+use crate::names::did_you_mean;
 use crate::radiosity::{Patches, System};
 use crate::scene::{Color, Scene};
+use crate::study::StudyError;
 
 /// Change of a material.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +33,7 @@ pub(super) fn apply(
     scene: &Scene,
     patches: &Patches,
     system: &System,
-) -> Result<Option<System>, RadiosityError> {
+) -> Result<Option<System>, StudyError> {
     if changes.is_empty() {
         return Ok(None);
     }
@@ -45,8 +46,10 @@ pub(super) fn apply(
             Change::Reflectance { material, reflectance: rho } => (material, &mut reflectance, rho.map(f64::from)),
         };
         let Some(material) = scene.materials().iter().position(|m| m.name == *name) else {
-            let known = scene.materials().iter().map(|m| m.name.clone()).collect();
-            return Err(RadiosityError::NoMaterial { name: name.clone(), known });
+            let known: Vec<&str> = scene.materials().iter().map(|m| m.name.as_str()).collect();
+            let help = format!("{}its materials are {}", did_you_mean(name, known.iter().copied()), known.join(", "));
+            let what = format!("the scene has no material `{name}`");
+            return Err(StudyError::new("radiosity::material", what).with_help(help));
         };
         let painted = patches.list().iter().zip(values.iter_mut()).filter(|(p, _)| p.material as usize == material);
         painted.for_each(|(_, old)| *old = value);

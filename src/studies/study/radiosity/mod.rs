@@ -8,7 +8,6 @@ mod atlas;
 mod change;
 mod conclusion;
 mod difference;
-mod error;
 mod method;
 mod outcome;
 mod parameters;
@@ -20,17 +19,20 @@ mod sweep;
 mod tables;
 mod time;
 
+use crate::atlas::AtlasError;
 use crate::radiosity::display::RadiosityAtlas;
 use crate::radiosity::form_factor::VisibilityParameters;
-use crate::radiosity::on_card::Fit;
-use crate::radiosity::{Patches, System};
+use crate::radiosity::on_card::{CardError, Fit};
+use crate::radiosity::rate::RateError;
+use crate::radiosity::solve::SolveError;
+use crate::radiosity::{DrawError, FormFactorError, PatchError, Patches, System, SystemError};
 use crate::report::{Findings, Provenance};
-use crate::study::{ProgressFn, Study};
+use crate::study::error::library_errors;
+use crate::study::{ProgressFn, Study, StudyError};
 
 pub use atlas::AtlasPictures;
 pub use change::{Change, Relit};
 pub use difference::SolutionError;
-pub use error::RadiosityError;
 pub use method::{CardMethod, SolveMethod, StopReason};
 pub use outcome::{MethodRow, RadiosityOutcome};
 pub use parameters::{FactorRequirements, Factors, Parameters};
@@ -40,10 +42,23 @@ pub use time::{CardFacts, IterationTime};
 
 use pictures::PictureRenderer;
 
-impl Study for Parameters {
-    type Error = RadiosityError;
+library_errors! {
+    CardError => "radiosity::card";
+    DrawError => "radiosity::display";
+    FormFactorError => "radiosity::form_factors";
+    PatchError => "radiosity::patches";
+    RateError => "radiosity::rate";
+    SolveError => "radiosity::solve";
+    SystemError => "radiosity::system";
+}
 
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, RadiosityError> {
+/// Error of a scene without an atlas.
+pub fn no_atlas(error: AtlasError) -> StudyError {
+    StudyError::coded("radiosity::atlas", error).with_help("ask for a larger `--atlas`, or for fewer patches")
+}
+
+impl Study for Parameters {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         report::findings(self, run(self, progress)?)
     }
 
@@ -58,17 +73,20 @@ impl Study for Parameters {
 }
 
 /// Solves by every method, draws the pictures, and runs the sweep.
-pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, RadiosityError> {
+pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<RadiosityOutcome, StudyError> {
     // Before the patches and their form factors, which take long.
     if parameters.scene.emitters().is_empty() {
-        return Err(RadiosityError::Dark);
+        let what = "expected a scene with a material that shines, found none";
+        return Err(
+            StudyError::new("radiosity::dark", what).with_help("give a material an emission: `Ke` in an MTL file")
+        );
     }
     let patches = Patches::new(&parameters.scene, parameters.subdivision)?;
     let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(how.packing) } else { None };
     for packing in parameters.methods.iter().filter_map(on_card) {
         Fit::of(&parameters.profile, packing)?.require(&parameters.profile, packing, patches.list().len())?;
     }
-    let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose()?;
+    let atlas = parameters.atlas.map(|side| RadiosityAtlas::new(&patches, side)).transpose().map_err(no_atlas)?;
     let room = room::find(&patches, parameters, progress)?;
     let system = System::new(room.factors, patches.reflectances(), patches.emittances())?;
     let changed = change::apply(&parameters.changes, &parameters.scene, &patches, &system)?;
@@ -123,7 +141,7 @@ fn row(
     reference: Option<&[[f64; 3]]>,
     studio: &mut PictureRenderer<'_>,
     parameters: &Parameters,
-) -> Result<MethodRow, RadiosityError> {
+) -> Result<MethodRow, StudyError> {
     let (pictures, card) = studio.show(&mut one, system)?;
     let last = one.history.last().copied().unwrap_or(f64::NAN);
     Ok(MethodRow {

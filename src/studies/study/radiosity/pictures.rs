@@ -6,11 +6,12 @@ use refsim::texture::TexelFormat;
 
 use super::solve::Solved;
 use super::time::CardFacts;
-use super::{Parameters, RadiosityError, SolveMethod, time};
+use super::{Parameters, SolveMethod, time};
 use crate::picture::metrics::relative_luminance_differences;
 use crate::picture::{Picture, RgbImage};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::{Patches, System};
+use crate::study::StudyError;
 
 /// Linear value perceived as halfway between black and white.
 const MIDDLE_GREY: f64 = 0.18;
@@ -68,24 +69,25 @@ pub(super) struct PictureRenderer<'a> {
 }
 
 impl<'a> PictureRenderer<'a> {
-    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, RadiosityError> {
-        let mut machine = parameters.executor.clone().machine(parameters.profile.clone())?;
+    pub(super) fn new(patches: &'a Patches, parameters: &'a Parameters, exposure: f64) -> Result<Self, StudyError> {
+        let machine = parameters.executor.clone().machine(parameters.profile.clone());
+        let mut machine = machine.map_err(|error| StudyError::coded("radiosity::machine", error))?;
         let display = Display::new(&mut machine, patches, &parameters.camera, OPTIONS)?;
         Ok(Self { patches, parameters, exposure, machine, display, reference: None })
     }
 
     /// Sets the solution that later solutions on a card are compared with.
-    pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), RadiosityError> {
+    pub(super) fn compare_with(&mut self, reference: &[[f64; 3]]) -> Result<(), StudyError> {
         self.reference = Some(self.flat(reference)?);
         Ok(())
     }
 
-    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Picture, RadiosityError> {
+    fn flat(&mut self, radiosity: &[[f64; 3]]) -> Result<Picture, StudyError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         Ok(self.display.flat(&mut self.machine, texture, self.exposure)?)
     }
 
-    fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, RadiosityError> {
+    fn smooth(&mut self, radiosity: &[[f64; 3]]) -> Result<RgbImage, StudyError> {
         let texture = self.display.upload(&mut self.machine, radiosity)?;
         let picture = self.display.smooth(&mut self.machine, texture, self.exposure)?;
         Ok(picture.display(1.0)?)
@@ -96,7 +98,7 @@ impl<'a> PictureRenderer<'a> {
         &mut self,
         solved: &mut Solved,
         system: &System,
-    ) -> Result<(Pictures, Option<CardFacts>), RadiosityError> {
+    ) -> Result<(Pictures, Option<CardFacts>), StudyError> {
         let relit = solved.relit.as_ref().map(|relit| self.smooth(&relit.radiosity)).transpose()?;
         let Some(card) = &mut solved.card else {
             let (flat, smooth) = (self.flat(&solved.radiosity)?.display(1.0)?, self.smooth(&solved.radiosity)?);
@@ -121,7 +123,7 @@ impl<'a> PictureRenderer<'a> {
     }
 
     /// Draws the room after the recorded iterations.
-    pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, RadiosityError> {
+    pub(super) fn frames(&mut self, solved: &[Solved]) -> Result<Vec<IterationPicture>, StudyError> {
         let Some(first) = solved.iter().find(|s| s.card.is_some()) else { return Ok(Vec::new()) };
         let frame = |(iteration, radiosity): &(u32, Vec<[f64; 3]>)| {
             Ok(IterationPicture { iteration: *iteration, flat: self.flat(radiosity)?.display(1.0)? })

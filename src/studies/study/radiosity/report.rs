@@ -4,17 +4,15 @@ use std::collections::BTreeMap;
 
 use super::conclusion::{conclude, least_accurate};
 use super::tables::{Tables, tables};
-use super::{
-    AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityError, RadiosityOutcome, SolveMethod, SweepRow,
-};
+use super::{AtlasPictures, IterationPicture, MethodRow, Parameters, RadiosityOutcome, SolveMethod, SweepRow};
 use crate::geom::vector::narrow;
 use crate::radiosity::display::SmoothVertex;
 use crate::report::digits::{Quantity, shown};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table, false_color};
-use crate::study::timeline_trace;
+use crate::study::{StudyError, timeline_trace};
 
-pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, RadiosityError> {
+pub(super) fn findings(parameters: &Parameters, outcome: RadiosityOutcome) -> Result<Findings, StudyError> {
     let mut found = Findings::new("Matrix radiosity");
     found.keep_table(FoundTable::from(patches(&outcome)).csv("patches"));
     found.keep_table(FoundTable::from(vertices(&outcome)).csv("vertices"));
@@ -265,7 +263,7 @@ fn logarithmic(
 }
 
 /// Encodes the log of the first method on a card as a trace; `None` for devices without timing.
-fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Option<Vec<u8>>, RadiosityError> {
+fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Option<Vec<u8>>, StudyError> {
     let Some((row, facts)) = outcome.rows.iter().find_map(|row| Some((row, row.card.as_ref()?))) else {
         return Ok(None);
     };

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Factors, Parameters, ProgressFn, RadiosityError};
+use super::{Factors, Parameters, ProgressFn};
 use crate::geom::exact::Sides;
 use crate::radiosity::form_factor::{Hemicube, RowSums};
 use crate::radiosity::{FormFactors, Patches};
+use crate::study::StudyError;
 use crate::tracer::HostTracer;
 
 /// Form factors, with their errors before anything was enforced.
@@ -19,7 +20,7 @@ pub(super) fn find(
     patches: &Patches,
     parameters: &Parameters,
     progress: &mut ProgressFn<'_>,
-) -> Result<Room, RadiosityError> {
+) -> Result<Room, StudyError> {
     let wishes = &parameters.factors;
     let mut done = |done: usize, of: usize| progress("form factors", done as u64, of as u64);
     let mut factors = match wishes.from {

@@ -1,12 +1,12 @@
 //! Solution by one method: a solver of the host, or equation 4 on the card.
 
-use super::RadiosityError;
 use super::change::Relit;
 use super::method::{CardMethod, SolveMethod, StopReason};
 use super::parameters::Parameters;
 use crate::radiosity::System;
 use crate::radiosity::on_card::{CardOptions, CardSolution, CardSolver, to_f64};
 use crate::radiosity::solve::{Options, Solver, mean_square};
+use crate::study::StudyError;
 
 /// Solution of a method, with its card.
 pub(super) struct Solved {
@@ -37,22 +37,17 @@ pub(super) fn solve(
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
-) -> Result<Solved, RadiosityError> {
+) -> Result<Solved, StudyError> {
     match method {
         SolveMethod::Host(solver) => on_host(solver, system, changed, &parameters.options),
         SolveMethod::Card(how) => on_card(how, system, changed, parameters),
     }
 }
 
-fn on_host(
-    solver: Solver,
-    system: &System,
-    changed: Option<&System>,
-    options: &Options,
-) -> Result<Solved, RadiosityError> {
+fn on_host(solver: Solver, system: &System, changed: Option<&System>, options: &Options) -> Result<Solved, StudyError> {
     let found = system.solve(solver, options, None)?;
     let radiosity = found.radiosity();
-    let relit = changed.map(|changed| -> Result<Relit, RadiosityError> {
+    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
         let again = changed.solve(solver, options, Some(&radiosity))?;
         let anew = changed.solve(solver, options, None)?;
         let count = |s: &crate::radiosity::RgbSolution| {
@@ -86,7 +81,7 @@ fn on_card(
     system: &System,
     changed: Option<&System>,
     parameters: &Parameters,
-) -> Result<Solved, RadiosityError> {
+) -> Result<Solved, StudyError> {
     let executor = parameters.executor.clone();
     let mut card = CardSolver::new(parameters.profile.clone(), executor, system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
@@ -98,7 +93,7 @@ fn on_card(
         }
     })?;
     let radiosity = to_f64(&found.radiosity);
-    let relit = changed.map(|changed| -> Result<Relit, RadiosityError> {
+    let relit = changed.map(|changed| -> Result<Relit, StudyError> {
         let mut run = |start: &[[f32; 3]]| {
             card.load(start)?;
             card.set_system(changed)?;

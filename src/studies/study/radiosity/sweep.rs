@@ -3,11 +3,12 @@
 
 use refsim::device::Profile;
 
-use super::{CardMethod, Parameters, ProgressFn, RadiosityError, SolutionError, SolveMethod, StopReason, room};
+use super::{CardMethod, Parameters, ProgressFn, SolutionError, SolveMethod, StopReason, room};
 use crate::radiosity::bias::{Accumulator, predicted};
 use crate::radiosity::on_card::{CardOptions, CardSolver, Fit, Storage};
 use crate::radiosity::solve::{Options, Solver};
 use crate::radiosity::{Patches, Subdivision, System};
+use crate::study::StudyError;
 use crate::study::configuration::Configuration;
 
 /// Result for one number of patches, one method on the card, and one setting of its switches.
@@ -40,7 +41,7 @@ impl SweepRow {
 }
 
 /// Runs the sweep: rows by patches, method and settings.
-pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, RadiosityError> {
+pub(super) fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Vec<SweepRow>, StudyError> {
     let on_card = |method: &SolveMethod| if let SolveMethod::Card(how) = method { Some(*how) } else { None };
     let methods: Vec<CardMethod> = parameters.methods.iter().filter_map(on_card).collect();
     let settings = Configuration::of(&parameters.profile).under_each_switch()?;
@@ -78,7 +79,7 @@ fn solved(
     system: &System,
     reference: &[[f64; 3]],
     parameters: &Parameters,
-) -> Result<(Vec<[f32; 3]>, SweepRow), RadiosityError> {
+) -> Result<(Vec<[f32; 3]>, SweepRow), StudyError> {
     let profile = &setting.profile;
     let mut card = CardSolver::new(profile.clone(), parameters.executor.clone(), system, how.packing, how.storage)?;
     let Options { tolerance, most_iterations } = parameters.options;
@@ -104,7 +105,7 @@ fn bias(
     profile: &Profile,
     system: &System,
     reference: &[[f64; 3]],
-) -> Result<Option<f64>, RadiosityError> {
+) -> Result<Option<f64>, StudyError> {
     let rules = &profile.rules;
     let format = if how.storage == Storage::Fp16 { rules.partial.unwrap_or(rules.format) } else { rules.format };
     let block = Fit::of(profile, how.packing)?.block;

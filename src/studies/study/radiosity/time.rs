@@ -3,12 +3,13 @@
 use refsim::event::Event;
 use refsim::timing::{Bottleneck, TimingError};
 
+use super::Parameters;
 use super::method::CardMethod;
-use super::{Parameters, RadiosityError};
 use crate::radiosity::display::{Display, DisplayOptions};
 use crate::radiosity::on_card::{CardSolver, PassProgram};
 use crate::radiosity::rate::{RateError, Timing, timed_iteration};
 use crate::radiosity::{Patches, System, model};
+use crate::study::StudyError;
 
 /// Number of iterations in the log.
 pub(super) const LOGGED: u32 = 4;
@@ -52,7 +53,7 @@ pub(super) fn facts(
     system: &System,
     patches: &Patches,
     parameters: &Parameters,
-) -> Result<CardFacts, RadiosityError> {
+) -> Result<CardFacts, StudyError> {
     let systems = card.radiosity_textures().len();
     let options = DisplayOptions::default();
     let display = match systems {
@@ -87,7 +88,7 @@ fn time(
     systems: usize,
     patches: usize,
     parameters: &Parameters,
-) -> Result<Option<IterationTime>, RadiosityError> {
+) -> Result<Option<IterationTime>, StudyError> {
     let timing = Timing { patches, packing: how.packing, storage: how.storage, cache: false };
     let timed = match timed_iteration(&parameters.profile, &timing) {
         Ok(timed) => timed,

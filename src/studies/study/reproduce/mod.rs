@@ -13,7 +13,6 @@ mod equation_11;
 mod error;
 mod figure_7;
 mod model_size;
-mod once;
 mod overview;
 mod paper;
 
@@ -36,8 +35,7 @@ use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
 pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
-pub use error::ReproduceError;
-use error::figure;
+use error::{ReproduceError, figure};
 pub use model_size::ModelSize;
 pub use paper::{Paper, papers, printed};
 use paper::{row as paper_row, value as printed_value};
@@ -75,8 +73,6 @@ pub struct Parameters {
 }
 
 impl Study for Parameters {
-    type Error = ReproduceError;
-
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, ReproduceError> {
         Ok(report::findings(&reproduce(&self.entries, self.models, progress)?))
     }
@@ -280,10 +276,10 @@ pub fn names() -> Vec<&'static str> {
 /// Returns the entries with these names, in the order of [`ENTRIES`]; all entries for no names.
 ///
 /// # Errors
-/// [`ReproduceError::Unknown`].
+/// If no entry has a name.
 pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, ReproduceError> {
     if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
-        return Err(ReproduceError::Unknown { found: found.clone(), known: names().join(", ") });
+        return Err(error::unknown(found, &names()));
     }
     let chosen = |entry: &&ReproduceEntry| wanted.is_empty() || wanted.iter().any(|name| name == entry.id);
     Ok(ENTRIES.iter().filter(chosen).copied().collect())

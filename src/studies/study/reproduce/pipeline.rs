@@ -13,7 +13,7 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
-use super::ReproduceError;
+use super::error::{ReproduceError, no_time, run_error};
 use crate::report::{Cell, Table};
 
 /// Side of the screen and of its textures, in pixels. The paper does not state it; the rate hardly depends on it.
@@ -39,12 +39,12 @@ impl TimedDraw {
 
 /// Returns a function that converts a failure to an entry's error.
 pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> ReproduceError + '_ {
-    move |reason| ReproduceError::Run { device: device.to_owned(), reason: reason.to_string() }
+    move |reason| run_error(device, &reason.to_string())
 }
 
 /// Pipeline model of a card.
 pub(super) fn model(device: &str) -> Result<Model, ReproduceError> {
-    Ok(Model::new(Level::Pipeline, &Profile::named(device)?)?)
+    Ok(Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)?)
 }
 
 /// Times the most expensive draw of a log.

@@ -1,43 +1,112 @@
-//! Intermediate results shared by several entries, computed on first use.
+//! Results that several entries share, computed on first use.
 
+use std::any::Any;
 use std::cell::OnceCell;
 
-use super::bi_scale::BiScaleShared;
-use super::cpca::CpcaShared;
-use super::once::get_or_try;
-use super::subsurface::{CARD, GatherCost, all_costs};
-use super::tables::{SpeedUps, TeapotRoom, work_out};
 use super::{ModelSize, ReproduceError};
 
-/// Renderings and runs of the engine that entries share.
+/// Result that entries share: of each type one per key, made where the type is.
+pub(super) trait SharedResult: Sized + 'static {
+    /// Which of the type's results.
+    type Key: PartialEq + 'static;
+
+    /// Computes the result, from others if it needs them.
+    fn compute(key: &Self::Key, shared: &Shared) -> Result<Self, ReproduceError>;
+}
+
+/// The size of models that was asked for, and the results so far.
 #[derive(Default)]
 pub(super) struct Shared {
     pub(super) models: ModelSize,
-    pub(super) cpca: CpcaShared,
-    pub(super) bi_scale: BiScaleShared,
-    teapot: OnceCell<TeapotRoom>,
-    speed_ups: OnceCell<SpeedUps>,
-    gather: OnceCell<Vec<GatherCost>>,
+    results: Link,
+}
+
+/// List of results: it only grows, so that results can be borrowed while others are added.
+type Link = OnceCell<Box<Node>>;
+
+struct Node {
+    /// A [`SharedResult`] with its key.
+    result: Box<dyn Any>,
+    next: Link,
 }
 
 impl Shared {
-    /// Creates empty cells.
     pub(super) fn new(models: ModelSize) -> Self {
-        Self { models, ..Self::default() }
+        Self { models, results: Link::new() }
     }
 
-    /// Teapot room of Tables 1 to 5.
-    pub(super) fn teapot(&self) -> Result<&TeapotRoom, ReproduceError> {
-        get_or_try(&self.teapot, TeapotRoom::new)
+    /// Returns a result; computes it on first use, and again if that failed.
+    pub(super) fn get<T: SharedResult>(&self, key: T::Key) -> Result<&T, ReproduceError> {
+        if let Some(found) = self.nodes().find_map(|node| node.get::<T>(&key)) {
+            return Ok(found);
+        }
+        let found = T::compute(&key, self)?;
+        // Behind those that this one needed.
+        let end = self.nodes().last().map_or(&self.results, |node| &node.next);
+        let node = end.get_or_init(|| Box::new(Node { result: Box::new((key, found)), next: Link::new() }));
+        Ok(&node.result.downcast_ref::<(T::Key, T)>().expect("the type that was boxed").1)
     }
 
-    /// Rows of Tables 3 to 5 with their explanations.
-    pub(super) fn speed_ups(&self) -> Result<&SpeedUps, ReproduceError> {
-        get_or_try(&self.speed_ups, || work_out(self.teapot()?))
+    fn nodes(&self) -> impl Iterator<Item = &Node> {
+        std::iter::successors(self.results.get(), |node| node.next.get()).map(|node| &**node)
+    }
+}
+
+impl Node {
+    fn get<T: SharedResult>(&self, key: &T::Key) -> Option<&T> {
+        let (known, result) = self.result.downcast_ref::<(T::Key, T)>()?;
+        (known == key).then_some(result)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+    use crate::study::reproduce::error::run_error;
+
+    thread_local!(static COMPUTED: Cell<usize> = const { Cell::new(0) });
+
+    /// Sum of the numbers below a key, from the sum below the one before.
+    struct Sum(u32);
+
+    impl SharedResult for Sum {
+        type Key = u32;
+
+        fn compute(key: &u32, shared: &Shared) -> Result<Self, ReproduceError> {
+            COMPUTED.set(COMPUTED.get() + 1);
+            match key {
+                0 => Ok(Self(0)),
+                13 => Err(run_error("none", "unlucky")),
+                key => Ok(Self(shared.get::<Self>(key - 1)?.0 + key - 1)),
+            }
+        }
     }
 
-    /// Cost of pass 2 of system 3 on the card of its Table 1, in each of its variants.
-    pub(super) fn gather(&self) -> Result<&[GatherCost], ReproduceError> {
-        Ok(get_or_try(&self.gather, || all_costs(CARD))?)
+    /// Another type with the same key.
+    struct Double(u32);
+
+    impl SharedResult for Double {
+        type Key = u32;
+
+        fn compute(key: &u32, _: &Shared) -> Result<Self, ReproduceError> {
+            Ok(Self(2 * key))
+        }
+    }
+
+    #[test]
+    fn results_are_computed_once_per_type_and_key_and_failures_are_not_kept() {
+        let shared = Shared::new(ModelSize::Reduced);
+        let five: &Sum = shared.get(5).expect("a sum");
+        assert_eq!(shared.get::<Double>(5).expect("a double").0, 10);
+        assert_eq!(shared.get::<Sum>(3).expect("a sum").0, 3);
+        assert_eq!([five.0, shared.get::<Sum>(5).expect("a sum").0], [10; 2]);
+        assert_eq!(COMPUTED.get(), 6, "5 and all below it");
+        for tries in 7..9 {
+            assert!(shared.get::<Sum>(13).is_err());
+            assert_eq!(COMPUTED.get(), tries);
+        }
+        assert!(shared.get::<Sum>(14).is_err(), "what needs a failure fails");
     }
 }

@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
-use super::{Parameters, SubsurfaceError};
+use super::Parameters;
 use crate::atlas::Atlas;
 use crate::geom::Sides;
+use crate::study::StudyError;
 use crate::subsurface::{DistantSource, distant_irradiance};
 use crate::tracer::HostTracer;
 use crate::transfer::grid::{LIGHT_MAP, LIGHT_SIDE};
@@ -18,9 +19,10 @@ pub(super) fn irradiance(
     atlas: &Atlas,
     parameters: &Parameters,
     light: &CubeLight,
-) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+) -> Result<Vec<[f64; 3]>, StudyError> {
     let mut caster = HostTracer::new(&parameters.mesh, Sides::Both);
-    Ok(distant_irradiance(atlas, &sources(light), parameters.material.eta, &mut caster)?)
+    let found = distant_irradiance(atlas, &sources(light), parameters.material.eta, &mut caster);
+    found.map_err(|error| StudyError::coded("subsurface::shadows", error))
 }
 
 /// The light as parallel beams, one per [`GROUP`] x [`GROUP`] texels that are not dark: the sum of radiance times solid

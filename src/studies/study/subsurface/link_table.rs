@@ -1,8 +1,9 @@
 //! Links as a table: where a texel gathers from, and how much.
 
-use super::{GatherWay, Parameters, SubsurfaceError};
+use super::{GatherWay, Parameters};
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
+use crate::study::StudyError;
 use crate::subsurface::factor::ClusterId;
 use crate::subsurface::links::Links;
 
@@ -25,7 +26,7 @@ pub struct LinkRow {
 }
 
 /// Checks the number of rows of all ways before links are computed.
-pub(super) fn require_rows(parameters: &Parameters) -> Result<(), SubsurfaceError> {
+pub(super) fn require_rows(parameters: &Parameters) -> Result<(), StudyError> {
     let texels = match parameters.probes.len() {
         0 => u64::from(parameters.side).pow(2),
         probes => probes as u64,
@@ -35,7 +36,9 @@ pub(super) fn require_rows(parameters: &Parameters) -> Result<(), SubsurfaceErro
     let per_texel: u64 = first.map(|(_, way)| way.choice.per_texel(parameters.side)).sum();
     let rows = texels.saturating_mul(per_texel);
     if parameters.link_table && rows > MAX_ROWS {
-        return Err(SubsurfaceError::LinkRows { rows, limit: MAX_ROWS });
+        let what = format!("expected at most {MAX_ROWS} links to list, found {rows}");
+        let help = "name texels by `--probe`, or ask for fewer `--links` or a smaller `--atlas`";
+        return Err(StudyError::new("subsurface::link_rows", what).with_help(help));
     }
     Ok(())
 }

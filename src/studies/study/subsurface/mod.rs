@@ -20,14 +20,14 @@ mod way;
 
 use crate::atlas::Atlas;
 use crate::report::{Findings, Provenance};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::Links;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 
 pub use angles::{AngleBin, BinError};
-pub use error::SubsurfaceError;
+pub use error::no_atlas;
 pub use link_table::LinkRow;
 pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;
@@ -38,9 +38,7 @@ pub use walk::WalkedChannel;
 pub use way::WayRow;
 
 impl Study for Parameters {
-    type Error = SubsurfaceError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, SubsurfaceError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         report::findings(self, &run(self, progress)?)
     }
 
@@ -54,14 +52,14 @@ impl Study for Parameters {
 /// Builds the atlas, lights it, gathers over all pairs and by every way.
 ///
 /// # Errors
-/// [`SubsurfaceError`].
-pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, SubsurfaceError> {
+/// If the model, its medium or its light does not suit the study, or the card refuses the work.
+pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<SubsurfaceOutcome, StudyError> {
     link_table::require_rows(parameters)?;
     let eta = parameters.material.eta;
     let [red, green, blue] = parameters.material.channels;
     let dipoles = [Dipole::new(red, eta)?, Dipole::new(green, eta)?, Dipole::new(blue, eta)?];
     progress("atlas", 0, 1);
-    let atlas = Atlas::new(&parameters.mesh, parameters.side)?;
+    let atlas = Atlas::new(&parameters.mesh, parameters.side).map_err(no_atlas)?;
     let surface = SurfaceMoments::new(&atlas, parameters.mm_per_unit)?;
     let lengths = ModelLengths::of(&atlas, &surface, parameters, &dipoles);
     let probe_texels = model::probe_texels(&atlas, parameters, lengths.diagonal)?;
@@ -72,12 +70,16 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
             environment::irradiance(&atlas, parameters, light)?
         }
         Lighting::ByFace(values) if values.len() != parameters.mesh.len() => {
-            return Err(SubsurfaceError::Faces { faces: parameters.mesh.len(), found: values.len() });
+            let [expected, found] = [parameters.mesh.len(), values.len()];
+            let what = format!("expected an irradiance for each of {expected} faces, found {found}");
+            let help = "a line `r,g,b` per face of the model, in its order";
+            return Err(StudyError::new("subsurface::irradiance", what).with_help(help));
         }
         Lighting::ByFace(values) => model::by_texel(&atlas, values),
     };
     if irradiance.iter().flatten().all(|&e| e == 0.0) {
-        return Err(SubsurfaceError::Dark);
+        let help = "add a `--light`, or move one to where the model's front faces see it";
+        return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
     let truth = if parameters.reference {
         Some(truth::truth(&atlas, parameters, &dipoles, &irradiance, progress)?)

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Parameters, SubsurfaceError};
+use super::Parameters;
 use crate::atlas::Atlas;
+use crate::study::StudyError;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::links::Fitness;
 use crate::subsurface::{Dipole, median_thickness};
@@ -66,17 +67,18 @@ pub(super) fn by_texel(atlas: &Atlas, faces: &[[f64; 3]]) -> Vec<[f64; 3]> {
 }
 
 /// The texel whose mean point is nearest to each probe.
-pub(super) fn probe_texels(
-    atlas: &Atlas,
-    parameters: &Parameters,
-    diagonal: f64,
-) -> Result<Vec<usize>, SubsurfaceError> {
+pub(super) fn probe_texels(atlas: &Atlas, parameters: &Parameters, diagonal: f64) -> Result<Vec<usize>, StudyError> {
     let nearest = |&[x, y, z]: &[f64; 3]| {
         let probe = DVec3::new(x, y, z);
         let distance = |texel: usize| atlas.texels()[texel].point.distance_squared(probe);
         let nearest = (0..atlas.texels().len()).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
         let near = |&texel: &usize| distance(texel).sqrt() * parameters.mm_per_unit <= diagonal;
-        nearest.filter(near).ok_or(SubsurfaceError::Probe { x, y, z })
+        let far = || {
+            let what = format!("the probe {x},{y},{z} is farther from the model than its size");
+            let help = "a probe is a point of the surface, in the model's units";
+            StudyError::new("subsurface::probe", what).with_help(help)
+        };
+        nearest.filter(near).ok_or_else(far)
     };
     parameters.probes.iter().map(nearest).collect()
 }

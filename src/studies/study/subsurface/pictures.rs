@@ -1,16 +1,17 @@
 //! Pictures: the model, and the maps of the passes (Figures 5 to 7).
 
-use super::{Parameters, SubsurfaceError, SubsurfaceOutcome, WayRow};
+use super::{Parameters, SubsurfaceOutcome, WayRow};
 use crate::picture::display::encode;
 use crate::picture::{Picture, RgbImage, rgb8};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{NamedPicture, false_color};
+use crate::study::StudyError;
 
 /// Linear light seen as halfway between black and white.
 const MIDDLE_GREY: f64 = 0.18;
 
 /// Auto-exposure: the model at 18 % grey on average; pixels that show nothing do not count.
-pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, SubsurfaceError> {
+pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<f64, StudyError> {
     if let Some(exposure) = parameters.exposure {
         return Ok(exposure);
     }
@@ -23,7 +24,7 @@ pub(super) fn exposure(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> 
 }
 
 /// Figure 7: the first way with and without scattered light, and what is scattered alone.
-pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let (whole, scattered) = (row.picture.linear()?, row.scattered.linear()?);
     let direct: Vec<[f32; 3]> = whole.iter().zip(&scattered).map(|(w, s)| [0, 1, 2].map(|c| w[c] - s[c])).collect();
     let together = row.picture.display(exposure)?;
@@ -41,7 +42,7 @@ pub(super) fn lead(row: &WayRow, exposure: f64) -> Result<Vec<NamedPicture>, Sub
 }
 
 /// The scattered light of each way.
-pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let picture = |row: &WayRow| {
         let image = row.scattered.display(exposure)?;
         Ok(NamedPicture::new(format!("{}-scattered", row.label), image, format!("{}: scattered light", row.label)))
@@ -50,7 +51,7 @@ pub(super) fn ways(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, 
 }
 
 /// Frames of turned lights.
-pub(super) fn frames(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, SubsurfaceError> {
+pub(super) fn frames(rows: &[WayRow], exposure: f64) -> Result<Vec<NamedPicture>, StudyError> {
     let frames = rows.first().map_or(&[][..], |row| &row.frames);
     let picture = |(at, frame): (usize, &Picture)| {
         let turn = 360.0 * at as f64 / frames.len() as f64;

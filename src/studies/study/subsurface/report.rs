@@ -1,12 +1,12 @@
 //! The study's page, tables, charts, pictures and trace.
 
 use super::conclusion::conclude;
-use super::{Parameters, SubsurfaceError, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
+use super::{Parameters, SubsurfaceOutcome, WayRow, link_table, pictures, tables, vertices};
 use crate::report::words::counted;
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, Scale, Series, Table};
-use crate::study::timeline_trace;
+use crate::study::{StudyError, timeline_trace};
 
-pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, SubsurfaceError> {
+pub(super) fn findings(parameters: &Parameters, outcome: &SubsurfaceOutcome) -> Result<Findings, StudyError> {
     let mut found = Findings::new("Subsurface scattering");
     let has_rows = |table: &Table| !table.rows().is_empty();
     found.keep_table(FoundTable::from(tables::faces(parameters, outcome)).csv("faces").field("faces"));

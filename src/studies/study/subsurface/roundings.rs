@@ -1,9 +1,9 @@
 //! Effect of the card's open rounding rules: each value of each rounding switch, over the same links.
 
+use super::GatherWay;
 use super::truth::GatherError;
 use super::way::{Scene, gathered, lit_card};
-use super::{GatherWay, SubsurfaceError};
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::links::{Links, MeanWeighting};
 use crate::subsurface::on_card::LinkTextures;
 
@@ -31,7 +31,7 @@ pub(super) fn roundings(
     way: GatherWay,
     (links, usual): (&Links, &[[f64; 3]]),
     progress: &mut ProgressFn<'_>,
-) -> Result<Vec<RoundingRow>, SubsurfaceError> {
+) -> Result<Vec<RoundingRow>, StudyError> {
     let (parameters, label) = (scene.parameters, way.label(scene.parameters.side));
     let switches = parameters.profile.switches().iter().filter(|switch| SWITCHES.contains(&switch.name.as_str()));
     let others = switches.flat_map(|switch| {

@@ -1,8 +1,8 @@
 //! Reference for all ways of gathering: equation 9 over all pairs of texels.
 
-use super::{Parameters, SubsurfaceError};
+use super::Parameters;
 use crate::atlas::Atlas;
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::{Dipole, Reference};
 
 /// Names of the channels.
@@ -51,7 +51,7 @@ pub(super) fn truth(
     dipoles: &[Dipole; 3],
     irradiance: &[[f64; 3]],
     progress: &mut ProgressFn<'_>,
-) -> Result<Truth, SubsurfaceError> {
+) -> Result<Truth, StudyError> {
     let mut found = Truth { texels: vec![[0.0; 3]; irradiance.len()], probes: vec![[0.0; 3]; parameters.probes.len()] };
     for channel in 0..3 {
         let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();

@@ -1,9 +1,9 @@
 //! The dipole's own error: photons followed through the model, beside what ways gather.
 
-use super::{Parameters, SubsurfaceError, model};
+use super::{Parameters, model};
 use crate::atlas::Atlas;
 use crate::geom::Sides;
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::walk::{self, PhotonWalk, WalkEstimate, WalkTally};
 use crate::subsurface::{Dipole, Material};
 use crate::tracer::HostTracer;
@@ -33,7 +33,7 @@ pub(super) fn walk(
     (dipoles, irradiance): (&[Dipole; 3], &[[f64; 3]]),
     photons: u64,
     progress: &mut ProgressFn<'_>,
-) -> Result<[Option<WalkedChannel>; 3], SubsurfaceError> {
+) -> Result<[Option<WalkedChannel>; 3], StudyError> {
     let scale = parameters.mm_per_unit * parameters.mm_per_unit;
     let entered = model::by_face(atlas, irradiance);
     let flux = |channel: usize| -> Vec<f64> {

@@ -6,11 +6,12 @@ use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
+use super::error::no_time;
 use super::truth::{GatherError, Truth};
-use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, SubsurfaceError, angles};
+use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
 use crate::picture::Picture;
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::Dipole;
 use crate::subsurface::factor::SurfaceMoments;
 use crate::subsurface::kernels::{DirectLight, ViewKernel};
@@ -75,11 +76,7 @@ pub struct WayRow {
 }
 
 /// The links of a way.
-pub(super) fn links(
-    scene: &Scene<'_>,
-    way: GatherWay,
-    progress: &mut ProgressFn<'_>,
-) -> Result<Links, SubsurfaceError> {
+pub(super) fn links(scene: &Scene<'_>, way: GatherWay, progress: &mut ProgressFn<'_>) -> Result<Links, StudyError> {
     progress(&format!("links: {}", way.label(scene.parameters.side)), 0, 2);
     let dipoles = if way.rgb { &scene.dipoles[..] } else { &scene.dipoles[SCALAR_CHANNEL..=SCALAR_CHANNEL] };
     Ok(Links::new(scene.surface, dipoles, way.choice, scene.parameters.tolerance, &|_, _| {})?)
@@ -91,10 +88,10 @@ pub(super) fn run(
     way: GatherWay,
     (links, first): (&Links, bool),
     progress: &mut ProgressFn<'_>,
-) -> Result<WayRow, SubsurfaceError> {
+) -> Result<WayRow, StudyError> {
     let parameters = scene.parameters;
     let label = way.label(parameters.side);
-    let host = |weighting| -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+    let host = |weighting| -> Result<Vec<[f64; 3]>, StudyError> {
         Ok(links.gather(&IrradianceMeans::new(scene.surface, scene.irradiance, weighting)?))
     };
     let (summed, plain) = (host(MeanWeighting::Area)?, host(MeanWeighting::Count)?);
@@ -110,7 +107,7 @@ pub(super) fn run(
     let times = match pass_times(&parameters.profile, &events) {
         Ok(times) => Some(times),
         Err(TimingError::Missing { .. }) => None,
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(no_time(error)),
     };
     let scattered = card.view(&view(parameters, DirectLight::None))?;
     let irradiance = if first { entered(scene, &card, card.options().map.scale())? } else { Vec::new() };
@@ -155,7 +152,7 @@ pub(super) fn lit_card(
     profile: Profile,
     textures: &LinkTextures,
     record: bool,
-) -> Result<SubsurfaceCard, SubsurfaceError> {
+) -> Result<SubsurfaceCard, StudyError> {
     let parameters = scene.parameters;
     let options = SubsurfaceCardOptions {
         light: parameters.stage,
@@ -177,7 +174,7 @@ pub(super) fn lit_card(
 }
 
 /// B of every texel.
-pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+pub(super) fn gathered(card: &SubsurfaceCard) -> Result<Vec<[f64; 3]>, StudyError> {
     Ok(card.read_scattered()?.texels.iter().map(|&[r, g, b, _]| [r, g, b].map(f64::from)).collect())
 }
 
@@ -208,7 +205,7 @@ fn view(parameters: &Parameters, direct: DirectLight) -> View {
 }
 
 /// E of every texel as the map has it; 0 where a texel has no area.
-fn entered(scene: &Scene<'_>, card: &SubsurfaceCard, scale: f64) -> Result<Vec<[f64; 3]>, SubsurfaceError> {
+fn entered(scene: &Scene<'_>, card: &SubsurfaceCard, scale: f64) -> Result<Vec<[f64; 3]>, StudyError> {
     let map = card.read_map()?;
     let mean = scene.atlas.mean_texel_area();
     let texel = |(&[r, g, b, _], texel): (&[f32; 4], &crate::atlas::Texel)| {
@@ -223,7 +220,7 @@ fn frames(
     scene: &Scene<'_>,
     card: &mut SubsurfaceCard,
     progress: &mut ProgressFn<'_>,
-) -> Result<Vec<Picture>, SubsurfaceError> {
+) -> Result<Vec<Picture>, StudyError> {
     let parameters = scene.parameters;
     let (count, Lighting::Lights(lights)) = (parameters.frames, &parameters.lighting) else { return Ok(Vec::new()) };
     let middle = parameters

@@ -2,21 +2,18 @@
 
 use std::time::Instant;
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::{CodeOptions, CodeOptionsError, CodedSegment, CodedTransfer};
+use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 use crate::transfer::clustering::CpcaError;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::hats::{HatWidth, Hats};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{TransferError, Vertices};
 
-use super::kept::{KeptSegments, KeptSegmentsError};
+use super::kept::KeptSegments;
 use super::tally::{CompressionTally, SegmentTally};
 
 /// What is compressed, and how.
@@ -38,33 +35,6 @@ pub struct SegmentedCompression<'a> {
     pub kept: Option<KeptSegments>,
 }
 
-/// Why transfer cannot be compressed.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum SegmentedError {
-    /// There is no transfer.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::precompute))]
-    Transfer(#[from] TransferError),
-    /// The options do not fit, or principal components cannot be found.
-    #[error("segment {segment}: {reason}")]
-    #[diagnostic(code(crossbar::prt::cpca), help("see `crossbar all-frequency compress --help`"))]
-    Cpca {
-        /// The segment, counted from 0.
-        segment: usize,
-        /// Why.
-        reason: CpcaError,
-    },
-    /// Bits that there are not.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::code))]
-    Code(#[from] CodeOptionsError),
-    /// Finished segments cannot be kept or taken.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Kept(#[from] KeptSegmentsError),
-}
-
 impl SegmentedCompression<'_> {
     /// Bytes of raw transfer in single precision, all 24 segments at all vertices.
     pub fn raw_bytes(&self) -> u64 {
@@ -75,8 +45,8 @@ impl SegmentedCompression<'_> {
     /// Compresses and codes all segments.
     ///
     /// # Errors
-    /// [`SegmentedError`].
-    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), SegmentedError> {
+    /// If transfer cannot be computed, compressed or coded, or finished segments cannot be kept or taken.
+    pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
         let hats = Hats::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let mut tally = CompressionTally::default();
@@ -108,7 +78,7 @@ impl SegmentedCompression<'_> {
         &self,
         segment: usize,
         transfer: impl Fn() -> Result<Option<TransferSegment>, TransferError>,
-    ) -> Result<Option<(CodedSegment, SegmentTally)>, SegmentedError> {
+    ) -> Result<Option<(CodedSegment, SegmentTally)>, StudyError> {
         let start = Instant::now();
         let Some(found) = transfer()? else {
             self.kept.as_ref().map_or(Ok(()), |kept| kept.keep_empty(segment))?;
@@ -121,11 +91,11 @@ impl SegmentedCompression<'_> {
         Ok(Some((coded, tally)))
     }
 
-    fn segment(&self, found: TransferSegment, seconds: f64) -> Result<(CodedSegment, SegmentTally), SegmentedError> {
+    fn segment(&self, found: TransferSegment, seconds: f64) -> Result<(CodedSegment, SegmentTally), StudyError> {
         let TransferSegment { segment, vertices, signal } = found;
         let start = Instant::now();
         let compressed = CompressedSegment::new(segment, vertices, &signal, &self.options, |_| ())
-            .map_err(|reason| SegmentedError::Cpca { segment, reason })?;
+            .map_err(|reason| of_segment(segment, &reason))?;
         let compressing = start.elapsed().as_secs_f64();
         let start = Instant::now();
         let coded = CodedSegment::code(&compressed, self.code)?;
@@ -141,4 +111,10 @@ impl SegmentedCompression<'_> {
         };
         Ok((coded, tally))
     }
+}
+
+/// Error of options that do not fit, or of principal components that cannot be found.
+fn of_segment(segment: usize, reason: &CpcaError) -> StudyError {
+    let help = "see `crossbar all-frequency compress --help`";
+    StudyError::new("crossbar::prt::cpca", format!("segment {segment}: {reason}")).with_help(help)
 }

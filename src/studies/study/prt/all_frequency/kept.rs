@@ -7,17 +7,19 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use miette::Diagnostic;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use super::tally::SegmentTally;
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency, save_all_frequency};
 use crate::io::{WriteError, write_file};
-use crate::transfer::file::{MeshDigest, PrtFileError};
+use crate::study::StudyError;
+use crate::transfer::file::MeshDigest;
 use crate::transfer::hats::HatWidth;
+
+/// Code of the errors.
+const CODE: &str = "crossbar::prt::kept";
 
 /// A folder of finished segments.
 #[derive(Debug)]
@@ -43,64 +45,19 @@ struct SegmentRecord {
     seconds: [f64; 3],
 }
 
-/// Why finished segments cannot be kept or taken.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum KeptSegmentsError {
-    /// The folder cannot be made, or a file in it not read.
-    #[error("cannot use {}", path.display())]
-    #[diagnostic(code(crossbar::prt::kept), help("name another folder for finished segments"))]
-    Unusable {
-        /// The folder or file.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The segments are of other transfer, or were made by other options.
-    #[error("{}: expected segments with {setting} {expected}, found {found}", path.display())]
-    #[diagnostic(code(crossbar::prt::kept), help("compress with the options of the first run, or name another folder"))]
-    OtherWork {
-        /// The file that says so.
-        path: PathBuf,
-        /// What differs.
-        setting: String,
-        /// What is asked for.
-        expected: String,
-        /// What the folder has.
-        found: String,
-    },
-    /// A file in the folder is not what was written there.
-    #[error("{}: expected {expected}, found something else", path.display())]
-    #[diagnostic(code(crossbar::prt::kept), help("delete the file, and its segment is computed again"))]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What belongs there.
-        expected: &'static str,
-    },
-    /// The same, of the code.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    File(#[from] PrtFileError),
-    /// The folder cannot be written to.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::kept), help("free some space, or name another folder"))]
-    Write(#[from] WriteError),
-}
-
 impl KeptSegments {
     /// Makes the folder, or takes one with segments of the same mesh and `settings`: names and
     /// what they are set to.
     ///
     /// # Errors
-    /// [`KeptSegmentsError`].
+    /// If the folder cannot be used, or has segments of other work or a damaged one.
     pub fn open(
         folder: &Path,
         mesh: MeshDigest,
         settings: impl IntoIterator<Item = (&'static str, String)>,
-    ) -> Result<Self, KeptSegmentsError> {
+    ) -> Result<Self, StudyError> {
         let work: Work = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        fs::create_dir_all(folder).map_err(|source| KeptSegmentsError::Unusable { path: folder.to_owned(), source })?;
+        fs::create_dir_all(folder).map_err(|source| unusable(folder, source))?;
         let kept = Self { folder: folder.to_owned(), mesh, work };
         let path = folder.join("work.json");
         let Some(found) = read_json::<Work>(&path, "the settings of a compression")? else {
@@ -113,7 +70,9 @@ impl KeptSegments {
             Some(name) => {
                 let of = |work: &Work| work.get(name).cloned().unwrap_or_else(|| "not set".to_owned());
                 let (expected, found) = (of(&kept.work), of(&found));
-                Err(KeptSegmentsError::OtherWork { path, setting: name.clone(), expected, found })
+                let what = format!("{}: expected segments with {name} {expected}, found {found}", path.display());
+                let help = "compress with the options of the first run, or name another folder";
+                Err(StudyError::new(CODE, what).with_help(help))
             }
         }
     }
@@ -121,11 +80,8 @@ impl KeptSegments {
     /// A finished segment: its code, unless its transfer is 0 everywhere.
     ///
     /// # Errors
-    /// [`KeptSegmentsError`].
-    pub(super) fn load(
-        &self,
-        segment: usize,
-    ) -> Result<Option<Option<(CodedSegment, SegmentTally)>>, KeptSegmentsError> {
+    /// If the folder cannot be used, or has segments of other work or a damaged one.
+    pub(super) fn load(&self, segment: usize) -> Result<Option<Option<(CodedSegment, SegmentTally)>>, StudyError> {
         let path = self.path(segment, "json");
         let Some(FinishedSegment(record)) = read_json(&path, "what became of a segment")? else { return Ok(None) };
         let Some(record) = record else { return Ok(Some(None)) };
@@ -134,14 +90,9 @@ impl KeptSegments {
         let mut segments = found.coded.map_or_else(Vec::new, |coded| coded.segments);
         let code = segments.pop().filter(|code| code.segment == segment && segments.is_empty());
         let Some(code) = code else {
-            return Err(KeptSegmentsError::Damaged { path: code_path, expected: "the code of one segment" });
+            return Err(damaged(&code_path, "the code of one segment"));
         };
-        let number = |text: &str| {
-            text.parse::<f64>().map_err(|_| KeptSegmentsError::Damaged {
-                path: path.clone(),
-                expected: "numbers for the sums of squares",
-            })
-        };
+        let number = |text: &str| text.parse::<f64>().map_err(|_| damaged(&path, "numbers for the sums of squares"));
         let tally = SegmentTally {
             segment,
             vertices: code.vertices.len(),
@@ -157,24 +108,24 @@ impl KeptSegments {
     /// Keeps a segment whose transfer is 0 everywhere.
     ///
     /// # Errors
-    /// [`KeptSegmentsError::Write`].
-    pub(super) fn keep_empty(&self, segment: usize) -> Result<(), KeptSegmentsError> {
+    /// If the folder cannot be written to.
+    pub(super) fn keep_empty(&self, segment: usize) -> Result<(), StudyError> {
         write_json(&self.path(segment, "json"), &FinishedSegment(None))
     }
 
     /// Keeps a segment; `coded` has it alone.
     ///
     /// # Errors
-    /// [`KeptSegmentsError::Write`].
+    /// If the folder cannot be written to.
     pub(super) fn keep(
         &self,
         tally: &SegmentTally,
         (hats, reflectance): (HatWidth, &Reflectance),
         coded: CodedTransfer,
-    ) -> Result<(), KeptSegmentsError> {
+    ) -> Result<(), StudyError> {
         let (mesh, reflectance) = (self.mesh, reflectance.clone());
         let file = AllFrequencyFile { mesh, hats, reflectance, visibility: None, coded: Some(coded) };
-        save_all_frequency(&file, &self.path(tally.segment, "prt"))?;
+        save_all_frequency(&file, &self.path(tally.segment, "prt")).map_err(unwritable)?;
         let record = SegmentRecord {
             squares: tally.squares.to_string(),
             squared_error: tally.squared_error.to_string(),
@@ -190,16 +141,32 @@ impl KeptSegments {
 }
 
 /// What a file holds, if there is one.
-fn read_json<T: for<'a> Deserialize<'a>>(path: &Path, expected: &'static str) -> Result<Option<T>, KeptSegmentsError> {
+fn read_json<T: for<'a> Deserialize<'a>>(path: &Path, expected: &'static str) -> Result<Option<T>, StudyError> {
     let bytes = match fs::read(path) {
         Ok(bytes) => bytes,
         Err(source) if source.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(source) => return Err(KeptSegmentsError::Unusable { path: path.to_owned(), source }),
+        Err(source) => return Err(unusable(path, source)),
     };
-    let damaged = || KeptSegmentsError::Damaged { path: path.to_owned(), expected };
-    serde_json::from_slice(&bytes).map(Some).map_err(|_| damaged())
+    serde_json::from_slice(&bytes).map(Some).map_err(|_| damaged(path, expected))
 }
 
-fn write_json(path: &Path, value: &impl Serialize) -> Result<(), KeptSegmentsError> {
-    Ok(write_file(path, |out| serde_json::to_writer_pretty(out, value).map_err(io::Error::from))?)
+fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StudyError> {
+    write_file(path, |out| serde_json::to_writer_pretty(out, value).map_err(io::Error::from)).map_err(unwritable)
+}
+
+/// Error of a folder that cannot be created, or of a file in it that cannot be read.
+fn unusable(path: &Path, source: io::Error) -> StudyError {
+    let error = StudyError::new(CODE, format!("cannot use {}", path.display())).with_source(source);
+    error.with_help("name another folder for finished segments")
+}
+
+/// Error of a file that is not what was written there.
+fn damaged(path: &Path, expected: &str) -> StudyError {
+    let what = format!("{}: expected {expected}, found something else", path.display());
+    StudyError::new(CODE, what).with_help("delete the file, and its segment is computed again")
+}
+
+/// Error of a folder that cannot be written to.
+fn unwritable(error: WriteError) -> StudyError {
+    StudyError::coded(CODE, error).with_help("free some space, or name another folder")
 }

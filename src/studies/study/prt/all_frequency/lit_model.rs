@@ -2,15 +2,15 @@
 
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;
-use crate::scene::Camera;
+use crate::study::prt::LitView;
 use crate::transfer::Vertices;
 use crate::transfer::light::{Decimation, DistantLight};
 
 /// A model with its transfer, a light and a camera.
 #[derive(Debug)]
 pub struct LitModel {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its mesh.
     pub mesh: Mesh,
     /// Its vertices.
@@ -21,16 +21,10 @@ pub struct LitModel {
     pub file: AllFrequencyFile,
     /// A file with visibility, to say what compression costs.
     pub original: Option<AllFrequencyFile>,
-    /// The light's name.
-    pub light_name: String,
     /// The light.
     pub light: DistantLight,
     /// How it is decimated.
     pub decimation: Decimation,
     /// Light coefficients that are kept, of largest area times magnitude; `None` for all.
     pub keep: Option<usize>,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
 }

@@ -12,10 +12,10 @@ mod precompute;
 mod render;
 mod tally;
 
-pub use compress::{SegmentedCompression, SegmentedError};
+pub use compress::SegmentedCompression;
 pub use errors::{CodedErrors, coded_errors};
-pub use kept::{KeptSegments, KeptSegmentsError};
+pub use kept::KeptSegments;
 pub use lit_model::LitModel;
 pub use precompute::{FoundSight, SightOfModel};
-pub use render::{AllFrequencyError, AllFrequencyRendering, RenderedGround};
+pub use render::{AllFrequencyRendering, RenderedGround};
 pub use tally::{CompressionTally, SegmentTally};

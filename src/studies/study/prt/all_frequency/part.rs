@@ -4,11 +4,10 @@ use std::time::Instant;
 
 use super::exact;
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::shade::{
-    LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance,
-};
+use crate::all_frequency::shade::{Multiplies, Representatives, Shader, TransferredRadiance, exit_radiance};
 use crate::geom::vector::wide;
 use crate::scene::Camera;
+use crate::study::StudyError;
 use crate::transfer::light::HaarLight;
 use crate::transfer::{TransferError, Vertices};
 
@@ -53,7 +52,7 @@ impl<'a> Part<'a> {
     }
 
     /// Steps 2 and 3, or the raw matrices where nothing is coded.
-    pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, PartError> {
+    pub(super) fn transferred(&self, light: &HaarLight, times: &mut FrameTimes) -> Result<Transferred, StudyError> {
         let Some(shader) = &self.shader else { return Ok(self.exact(self.file, light)?) };
         let light = light.singles();
         let start = Instant::now();
@@ -94,13 +93,4 @@ impl<'a> Part<'a> {
         let Multiplies { per_cluster, per_vertex } = steps.unwrap_or_default();
         [per_cluster, per_vertex, 3 * (self.file.reflectance.terms() * self.vertices.len()) as u64]
     }
-}
-
-/// Why a part has no radiance.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum PartError {
-    #[error(transparent)]
-    Transfer(#[from] TransferError),
-    #[error(transparent)]
-    Size(#[from] LightSizeError),
 }

@@ -3,26 +3,23 @@
 use std::time::Instant;
 
 use glam::DMat3;
-use miette::Diagnostic;
 use serde_json::json;
-use thiserror::Error;
 
 use super::exact;
 use super::lit_model::LitModel;
-use super::part::{FrameTimes, Part, PartError, Transferred};
+use super::part::{FrameTimes, Part, Transferred};
 use crate::all_frequency::file::AllFrequencyFile;
-use crate::all_frequency::shade::LightSizeError;
 use crate::geom::Mesh;
-use crate::picture::{PictureError, rgb8};
+use crate::picture::rgb8;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::scene::Camera;
-use crate::sphere::turn_around_z;
-use crate::study::prt::render::{carried, cluster_color};
-use crate::study::prt::{Seen, Turning, VertexValues, auto_exposure, light_picture, linear_picture, of_texels};
-use crate::study::{ProgressFn, Study};
-use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
-use crate::transfer::{TransferError, Vertices};
+use crate::study::prt::render::cluster_color;
+use crate::study::prt::turned_frames::Turned;
+use crate::study::prt::{Seen, TurnedFrames, VertexValues, of_texels};
+use crate::study::{ProgressFn, Study, StudyError};
+use crate::transfer::Vertices;
+use crate::transfer::light::{HaarLight, LightTruncation};
 
 /// Segments whose clusters are drawn, as in Figure 4.
 const CLUSTER_PICTURES: usize = 3;
@@ -34,10 +31,8 @@ pub struct AllFrequencyRendering {
     pub lit: LitModel,
     /// The ground below it.
     pub ground: Option<RenderedGround>,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Format and names of the model's vertices, if their radiance is written.
     pub values: Option<VertexValues>,
 }
@@ -55,59 +50,20 @@ pub struct RenderedGround {
     pub file: AllFrequencyFile,
 }
 
-/// Why there are no pictures.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum AllFrequencyError {
-    /// A light that is none.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::light))]
-    Light(#[from] CubeLightError),
-    /// Transfer cannot be computed.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::precompute))]
-    Transfer(#[from] TransferError),
-    /// Coded transfer of more segments than light has.
-    #[error(transparent)]
-    #[diagnostic(code(crossbar::prt::segments))]
-    Size(#[from] LightSizeError),
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
-}
-
-impl From<PartError> for AllFrequencyError {
-    fn from(error: PartError) -> Self {
-        match error {
-            PartError::Transfer(error) => Self::Transfer(error),
-            PartError::Size(error) => Self::Size(error),
-        }
-    }
-}
-
 impl Study for AllFrequencyRendering {
-    type Error = AllFrequencyError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, AllFrequencyError> {
-        let steps = 2 + u64::from(self.frames);
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
-        let seen = self.seen(&self.lit.camera);
+        let seen = self.seen(&self.lit.view.camera);
         progress("radiance", 1, steps);
         let parts = self.parts();
         let mut times = FrameTimes::default();
         let cut = self.light(&DMat3::IDENTITY, &mut times)?;
         let transferred = transferred(&parts, &cut.light, &mut times)?;
-        let of_vertex = radiance(&parts, &transferred, &self.lit.camera, &mut times);
+        let of_vertex = radiance(&parts, &transferred, &self.lit.view.camera, &mut times);
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
-        let exposure = self.lit.exposure.unwrap_or_else(|| auto_exposure(&drawn));
-        let mut found = Findings::new("All-frequency transfer");
-        found.taken_from(self.lit.camera.world_to_camera());
-        let picture = linear_picture(&self.lit.camera, &drawn);
-        let caption = format!("{} under {}", self.lit.model, self.lit.light_name);
-        let light = light_picture("light", &self.lit.light_name, of_texels(&cut.light.radiances()))?;
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
-        found.keep_layers("picture", picture);
+        let radiances = cut.light.radiances();
+        let (mut found, exposure) = self.lit.view.findings("All-frequency transfer", &drawn, of_texels(&radiances))?;
         if let Some(values) = &self.values {
             values.keep(self.lit.vertices.positions(), &of_vertex, &mut found);
         }
@@ -117,13 +73,12 @@ impl Study for AllFrequencyRendering {
         }
         if let Some(original) = &self.lit.original {
             let whole = parts[0].exact(original, &cut.light)?;
-            let mut exact = parts[0].radiance(&whole, &self.lit.camera, &mut FrameTimes::default());
+            let mut exact = parts[0].radiance(&whole, &self.lit.view.camera, &mut FrameTimes::default());
             exact.extend_from_slice(&of_vertex[exact.len()..]);
             self.compare(&seen, (&of_vertex, &drawn), &exact, exposure, &mut found)?;
         }
         self.clusters(&seen, &mut found);
         self.frames(&seen, &parts, (&transferred, exposure), &mut found, progress)?;
-        found.field("exposure", json!(exposure));
         Ok(found)
     }
 
@@ -133,11 +88,7 @@ impl Study for AllFrequencyRendering {
 }
 
 /// Steps 2 and 3 of all parts.
-fn transferred(
-    parts: &[Part<'_>],
-    light: &HaarLight,
-    times: &mut FrameTimes,
-) -> Result<Vec<Transferred>, AllFrequencyError> {
+fn transferred(parts: &[Part<'_>], light: &HaarLight, times: &mut FrameTimes) -> Result<Vec<Transferred>, StudyError> {
     parts.iter().map(|part| Ok(part.transferred(light, times)?)).collect()
 }
 
@@ -190,7 +141,7 @@ impl AllFrequencyRendering {
     }
 
     /// Step 1: the light's coefficients.
-    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, AllFrequencyError> {
+    fn light(&self, rotation: &DMat3, times: &mut FrameTimes) -> Result<LightTruncation, StudyError> {
         let start = Instant::now();
         let cut = exact::coefficients((&self.lit.light, self.lit.decimation), rotation, self.lit.keep)?;
         times.light = start.elapsed().as_secs_f64();
@@ -198,9 +149,7 @@ impl AllFrequencyRendering {
     }
 
     fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
-        let pixels = u64::from(self.lit.camera.width()) * u64::from(self.lit.camera.height());
-        let (model, light) = (&self.lit.model, &self.lit.light_name);
-        found.conclusion(format!("{} of {pixels} pixels show {model} under {light}.", seen.count()));
+        found.conclusion(self.lit.view.sentence(seen.count()));
         let share = shown(100.0 * cut.kept_energy, Quantity::Measured);
         found.conclusion(format!(
             "{} of the {} light coefficients that are not 0 are kept, with {share} % of their energy.",
@@ -230,7 +179,7 @@ impl AllFrequencyRendering {
         exact: &[[f64; 3]],
         exposure: f64,
         found: &mut Findings,
-    ) -> Result<(), AllFrequencyError> {
+    ) -> Result<(), StudyError> {
         let picture = seen.colors(exact, [0.0; 3]);
         let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
         let difference: Vec<f64> = drawn.iter().zip(&picture).map(|(a, b)| mean(a) - mean(b)).collect();
@@ -246,12 +195,12 @@ impl AllFrequencyRendering {
         let vertices = share(of_vertex, exact);
         table.push(["the same of vertices (%)".into(), Cell::measured(vertices)]);
         table.push(["largest difference of a pixel (radiance)".into(), Cell::measured(largest)]);
-        let shown_whole = linear_picture(&self.lit.camera, &picture).display(exposure)?;
+        let shown_whole = self.lit.view.picture(&picture).display(exposure)?;
         let mut pictures = vec![NamedPicture::new("original", shown_whole, "without compression")];
         if largest > 0.0 {
             let caption =
                 format!("coded less uncompressed: blue -{0}, white 0, red +{0}", shown(largest, Quantity::Measured));
-            let image = false_color::signed(self.lit.camera.width(), &difference, largest);
+            let image = false_color::signed(self.lit.view.camera.width(), &difference, largest);
             pictures.push(NamedPicture::new("difference", image, caption));
         }
         found.heading("Against uncompressed transfer");
@@ -275,7 +224,7 @@ impl AllFrequencyRendering {
                 let cluster = vertex.and_then(|vertex| of_vertex.get(vertex as usize).copied().flatten());
                 cluster.map_or([0; 3], |cluster| cluster_color(u32::from(cluster)))
             };
-            let image = rgb8(self.lit.camera.width(), self.lit.camera.height(), seen.nearest().map(color));
+            let image = rgb8(self.lit.view.camera.width(), self.lit.view.camera.height(), seen.nearest().map(color));
             let name = format!("clusters-{}", part.segment);
             let caption =
                 format!("segment {}; clusters: {}; black sees none of its light", part.segment, part.counts.len());
@@ -296,34 +245,22 @@ impl AllFrequencyRendering {
         (still, exposure): (&[Transferred], f64),
         found: &mut Findings,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<(), AllFrequencyError> {
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let turn = turn_around_z(turns);
+    ) -> Result<(), StudyError> {
+        let colors = |turned| {
             let mut times = FrameTimes::default();
-            let colors = match self.turning {
-                Turning::Light => {
+            match turned {
+                Turned::Light(turn) => {
                     let light = self.light(&turn, &mut times)?.light;
                     let transferred = transferred(parts, &light, &mut times)?;
-                    seen.colors(&radiance(parts, &transferred, &self.lit.camera, &mut times), [0.0; 3])
+                    Ok(seen.colors(&radiance(parts, &transferred, &self.lit.view.camera, &mut times), [0.0; 3]))
                 }
                 // View alone changed: step 4 alone.
-                Turning::Camera => {
-                    let camera = carried(&self.lit.camera, &self.lit.mesh, &turn);
+                Turned::Camera(camera) => {
                     let colors = radiance(parts, still, &camera, &mut times);
-                    self.seen(&camera).colors(&colors, [0.0; 3])
+                    Ok(self.seen(&camera).colors(&colors, [0.0; 3]))
                 }
-            };
-            let image = linear_picture(&self.lit.camera, &colors).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
-        Ok(())
+            }
+        };
+        self.frames.report((&self.lit.view, &self.lit.mesh, exposure), colors, found, (2, progress))
     }
 }

@@ -5,17 +5,16 @@ use glam::DMat3;
 use rayon::prelude::*;
 
 use super::cause_pictures::CausePictures;
-use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::BiScaleRendering;
+use super::subject::no_mesh_transfer;
 use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::{TracedLight, TracedPoint, TracedRung, TracedScene, reference};
 use crate::geom::exact::Sides;
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Findings, FoundTable, NamedPicture, false_color};
-use crate::study::ProgressFn;
-use crate::study::prt::linear_picture;
+use crate::study::{ProgressFn, StudyError};
 use crate::tracer::HostTracer;
 use crate::transfer::light::CubeLight;
 use crate::transfer::ray_length;
@@ -36,11 +35,11 @@ pub(super) struct Causes<'a> {
 }
 
 impl<'a> Causes<'a> {
-    pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, BiScaleError> {
+    pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
         let bits = match (&rendering.file.matrix, &rendering.file.biclusters) {
             (Some(matrix), _) => matrix.fraction_bits(),
             (None, Some(biclusters)) => biclusters.fraction_bits(),
-            (None, None) => return Err(BiScaleError::NoTransfer),
+            (None, None) => return Err(no_mesh_transfer()),
         };
         let sampling = VisibilitySampling { log2_samples: (bits / 2).min(2), horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
@@ -120,10 +119,10 @@ pub(super) fn report(
     found_pictures: &CausePictures,
     exposure: f64,
     found: &mut Findings,
-) -> Result<(), BiScaleError> {
+) -> Result<(), StudyError> {
     let CausePictures { causes, pictures } = found_pictures;
     let (exact, drawn) = (found_pictures.exact(), found_pictures.drawn());
-    let width = rendering.camera.width();
+    let width = rendering.view.camera.width();
     let mean = |color: &[f64; 3]| color.iter().sum::<f64>() / 3.0;
     let signed = |before: &[[f64; 3]], after: &[[f64; 3]]| -> Vec<f64> {
         after.iter().zip(before).map(|(a, b)| mean(a) - mean(b)).collect()
@@ -137,7 +136,7 @@ pub(super) fn report(
         differences.push(NamedPicture::new(format!("cause-{}", name.0), image, caption));
     }
     found.heading("Against a picture by rays");
-    let by_rays = linear_picture(&rendering.camera, exact);
+    let by_rays = rendering.view.picture(exact);
     let image = by_rays.display(exposure)?;
     found.keep_layers("reference", by_rays);
     let caption = format!("transfer less rays: blue -{shown_scale}, white 0, red +{shown_scale}");

@@ -5,15 +5,14 @@ use rayon::prelude::*;
 
 use super::cause_pictures::CausePictures;
 use super::causes::Causes;
-use super::error::BiScaleError;
 use super::light::LocalLight;
-use super::subject::{BiScaleRendering, SurfaceTexture};
+use super::subject::{BiScaleRendering, SurfaceTexture, no_mesh_transfer};
 use super::surface::SurfacePixel;
 use crate::bi_scale::file::BiScaleMeaning;
 use crate::bi_scale::shade::TextureLookup;
 use crate::scene::Camera;
-use crate::study::ProgressFn;
-use crate::transfer::light::{CubeLight, Decimation};
+use crate::study::{ProgressFn, StudyError};
+use crate::transfer::light::{CubeLight, CubeLightError, Decimation};
 
 /// A rendering whose pixels are known.
 pub(in crate::study) struct BiScaleDrawing<'a> {
@@ -27,37 +26,42 @@ impl<'a> BiScaleDrawing<'a> {
     /// Casts the rays of the camera.
     ///
     /// # Errors
-    /// [`BiScaleError::NoTransfer`], [`BiScaleError::Directions`], [`BiScaleError::NoPatch`].
-    pub(in crate::study) fn new(rendering: &'a BiScaleRendering) -> Result<Self, BiScaleError> {
-        let meaning = rendering.file.meaning.ok_or(BiScaleError::NoTransfer)?;
+    ///If the file is not transfer of a mesh, or a texture has other directions or no patch for rays.
+    pub(in crate::study) fn new(rendering: &'a BiScaleRendering) -> Result<Self, StudyError> {
+        let meaning = rendering.file.meaning.ok_or_else(no_mesh_transfer)?;
         let expected = (meaning.side as usize).pow(2);
         for SurfaceTexture { name, samples, patch } in &rendering.textures {
             let found = samples.light().directions().len();
             if found != expected {
-                return Err(BiScaleError::Directions { name: name.clone(), expected, found });
+                let what =
+                    format!("{name}: expected {expected} directions of light, as the transfer has, found {found}");
+                let help = "make the texture, or the transfer, with the other's `--directions`";
+                return Err(StudyError::new("crossbar::prt::directions", what).with_help(help));
             }
             if rendering.reference && patch.is_none() {
-                return Err(BiScaleError::NoPatch { name: name.clone() });
+                let what = format!("{name}: expected a patch of heights to cast rays at, found samples alone");
+                let help = "name a patch, such as `mail`, in place of a file";
+                return Err(StudyError::new("crossbar::prt::no_patch", what).with_help(help));
             }
         }
         let lookups = rendering.textures.iter().map(|texture| TextureLookup::new(&texture.samples)).collect();
-        Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.camera), lookups })
+        Ok(Self { rendering, meaning, pixels: rendering.surface.pixels(&rendering.view.camera), lookups })
     }
 
     /// The light's texels, turned by a rotation.
     ///
     /// # Errors
-    /// [`BiScaleError::Light`].
-    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, BiScaleError> {
-        Ok(self.rendering.light.cube(rotation, Decimation::SolidAngle)?)
+    /// [`CubeLightError`].
+    pub(in crate::study) fn cube(&self, rotation: &DMat3) -> Result<CubeLight, CubeLightError> {
+        self.rendering.light.cube(rotation, Decimation::SolidAngle)
     }
 
     /// L~ of the light's texels.
     ///
     /// # Errors
-    /// [`BiScaleError::NoTransfer`].
-    pub(in crate::study) fn local(&self, cube: &CubeLight) -> Result<LocalLight, BiScaleError> {
-        LocalLight::new(&self.rendering.file, cube).ok_or(BiScaleError::NoTransfer)
+    /// If the file is not transfer of a mesh.
+    pub(in crate::study) fn local(&self, cube: &CubeLight) -> Result<LocalLight, StudyError> {
+        LocalLight::new(&self.rendering.file, cube).ok_or_else(no_mesh_transfer)
     }
 
     /// Equation 3 at all pixels with L~; black where there is nothing.
@@ -72,7 +76,7 @@ impl<'a> BiScaleDrawing<'a> {
 
     /// Radiance of all vertices towards the camera.
     pub(super) fn radiance_of_vertices(&self, local: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let shown = self.rendering.surface.at_vertices(&self.rendering.camera);
+        let shown = self.rendering.surface.at_vertices(&self.rendering.view.camera);
         self.shade_pixels(&shown.into_iter().map(Some).collect::<Vec<_>>(), local)
     }
 
@@ -87,13 +91,13 @@ impl<'a> BiScaleDrawing<'a> {
     /// The pictures between one by rays and `drawn`, that of transfer.
     ///
     /// # Errors
-    /// [`BiScaleError::Light`], [`BiScaleError::NoTransfer`].
+    /// If the light is invalid, or the file is not transfer of a mesh.
     pub(in crate::study) fn causes(
         &self,
         cube: &CubeLight,
         drawn: &[[f64; 3]],
         progress: &mut ProgressFn<'_>,
-    ) -> Result<CausePictures, BiScaleError> {
+    ) -> Result<CausePictures, StudyError> {
         Ok(Causes::new(self.rendering, &self.meaning)?.pictures(&self.pixels, (cube, drawn), progress))
     }
 }

@@ -4,7 +4,6 @@
 mod cause_pictures;
 mod causes;
 mod drawing;
-mod error;
 mod light;
 mod render;
 mod subject;
@@ -12,7 +11,6 @@ mod surface;
 
 pub(in crate::study) use cause_pictures::CausePictures;
 pub(in crate::study) use drawing::BiScaleDrawing;
-pub use error::BiScaleError;
 pub use light::LocalLight;
 pub use subject::{BiScaleRendering, SurfaceTexture};
-pub use surface::{SurfaceError, TexturedSurface, creased};
+pub use surface::{TexturedSurface, creased};

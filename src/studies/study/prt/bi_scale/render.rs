@@ -7,16 +7,13 @@ use serde_json::json;
 
 use super::causes;
 use super::drawing::BiScaleDrawing;
-use super::error::BiScaleError;
 use super::light::LocalLight;
 use super::subject::{BiScaleRendering, SurfaceTexture};
 use super::surface::SurfacePixel;
-use crate::report::digits::{Quantity, shown};
-use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table};
-use crate::sphere::turn_around_z;
-use crate::study::prt::render::carried;
-use crate::study::prt::{Turning, auto_exposure, light_picture, linear_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::report::{Cell, Findings, FoundTable, Provenance, Table};
+use crate::study::prt::of_texels;
+use crate::study::prt::turned_frames::Turned;
+use crate::study::{ProgressFn, Study, StudyError};
 
 /// What steps of a frame took, in seconds.
 #[derive(Clone, Copy, Debug)]
@@ -34,10 +31,8 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 }
 
 impl Study for BiScaleRendering {
-    type Error = BiScaleError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BiScaleError> {
-        let steps = 2 + u64::from(self.frames);
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
+        let steps = self.frames.steps(2);
         progress("rays", 0, steps);
         let drawing = BiScaleDrawing::new(self)?;
         progress("radiance", 1, steps);
@@ -46,14 +41,7 @@ impl Study for BiScaleRendering {
         let local = drawing.local(&cube)?;
         let (drawn, shading) = timed(|| drawing.shade(&local.rows));
         let times = StepTimes { light, transfer: local.seconds, shading };
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&drawn));
-        let mut found = Findings::new("Bi-scale transfer");
-        found.taken_from(self.camera.world_to_camera());
-        let picture = linear_picture(&self.camera, &drawn);
-        let caption = format!("{} under {}", self.model, self.light_name);
-        let light = light_picture("light", &self.light_name, of_texels(cube.texels()))?;
-        found.pictures(vec![NamedPicture::new("picture", picture.display(exposure)?, caption), light]);
-        found.keep_layers("picture", picture);
+        let (mut found, exposure) = self.view.findings("Bi-scale transfer", &drawn, of_texels(cube.texels()))?;
         if let Some(values) = &self.values {
             let radiance = drawing.radiance_of_vertices(&local.rows);
             values.keep(self.surface.vertices.positions(), &radiance, &mut found);
@@ -64,8 +52,12 @@ impl Study for BiScaleRendering {
             let pictures = drawing.causes(&cube, &drawn, progress)?;
             causes::report(self, &pictures, exposure, &mut found)?;
         }
-        self.frames(&drawing, (&local.rows, exposure), &mut found, progress)?;
-        found.field("exposure", json!(exposure));
+        let turned = |turned| match turned {
+            Turned::Light(turn) => Ok(drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows)),
+            // View alone changed: L~ is that of before.
+            Turned::Camera(camera) => Ok(drawing.shade_from(&camera, &local.rows)),
+        };
+        self.frames.report((&self.view, &self.surface.mesh, exposure), turned, &mut found, (2, progress))?;
         Ok(found)
     }
 
@@ -76,8 +68,8 @@ impl Study for BiScaleRendering {
 
 impl BiScaleRendering {
     fn conclude(&self, pixels: &[Option<SurfacePixel>], local: &LocalLight, found: &mut Findings) {
-        let (shown, all) = (pixels.iter().flatten().count(), pixels.len());
-        found.conclusion(format!("{shown} of {all} pixels show {} under {}.", self.model, self.light_name));
+        let shown = pixels.iter().flatten().count();
+        found.conclusion(self.view.sentence(shown));
         let below = pixels.iter().flatten().filter(|pixel| pixel.shaded.view.z <= 0.0).count();
         if below > 0 {
             found.conclusion(format!(
@@ -116,34 +108,5 @@ impl BiScaleRendering {
         // 16 texels are read for each direction of light.
         found.field("texels_read", json!(16 * lights * shown_pixels));
         found.field("seconds", json!({ "light": times.light, "transfer": times.transfer, "shading": times.shading }));
-    }
-
-    /// Frames with light or camera carried round z.
-    fn frames(
-        &self,
-        drawing: &BiScaleDrawing<'_>,
-        (still, exposure): (&[[f64; 3]], f64),
-        found: &mut Findings,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<(), BiScaleError> {
-        let mut frames = Vec::new();
-        for frame in 0..self.frames {
-            progress("frames", 2 + u64::from(frame), 2 + u64::from(self.frames));
-            let turns = f64::from(frame) / f64::from(self.frames);
-            let turn = turn_around_z(turns);
-            let colors = match self.turning {
-                Turning::Light => drawing.shade(&drawing.local(&drawing.cube(&turn)?)?.rows),
-                // View alone changed: L~ is that of before.
-                Turning::Camera => drawing.shade_from(&carried(&self.camera, &self.surface.mesh, &turn), still),
-            };
-            let image = linear_picture(&self.camera, &colors).display(exposure)?;
-            let caption = format!("turned by {} degrees", shown(360.0 * turns, Quantity::Measured));
-            frames.push(NamedPicture::new(format!("frame-{frame}"), image, caption));
-        }
-        if !frames.is_empty() {
-            found.heading(self.turning.heading());
-            found.pictures(frames);
-        }
-        Ok(())
     }
 }

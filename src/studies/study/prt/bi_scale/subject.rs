@@ -3,33 +3,25 @@
 use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::texture::{BidirectionalTexture, MesoPatch};
-use crate::scene::Camera;
-use crate::study::prt::{Turning, VertexValues};
+use crate::study::StudyError;
+use crate::study::prt::{LitView, TurnedFrames, VertexValues};
 use crate::transfer::light::DistantLight;
 
 /// A model with its transfer, its textures, a light and a camera.
 #[derive(Debug)]
 pub struct BiScaleRendering {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its mesh.
     pub surface: TexturedSurface,
     /// Its transfer.
     pub file: BiScaleFile,
     /// The textures that its triangles name.
     pub textures: Vec<SurfaceTexture>,
-    /// The light's name.
-    pub light_name: String,
     /// The light.
     pub light: DistantLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
-    /// Pictures with the light or the camera carried all the way round z in so many steps.
-    pub frames: u32,
-    /// Which of them.
-    pub turning: Turning,
+    /// Pictures with the light or the camera carried round the model.
+    pub frames: TurnedFrames,
     /// Whether to hold the picture against one by rays; all textures must have patches.
     pub reference: bool,
     /// Format and names of vertices, if their radiance is written, at the texture coordinates of their first triangles.
@@ -45,4 +37,11 @@ pub struct SurfaceTexture {
     pub samples: BidirectionalTexture,
     /// The patch that it was made of, if it is known.
     pub patch: Option<MesoPatch>,
+}
+
+/// Error of a file that is a matrix of something else than a mesh.
+pub(super) fn no_mesh_transfer() -> StudyError {
+    let help = "name what `crossbar bi-scale precompute` wrote, or its biclusters";
+    let what = "expected transfer of a mesh, found a matrix of something else";
+    StudyError::new("crossbar::prt::meaning", what).with_help(help)
 }

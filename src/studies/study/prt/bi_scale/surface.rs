@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use thiserror::Error;
 
 use crate::bi_scale::shade::{ShadedPixel, pixel_frame};
 use crate::elementary::on_circle;
@@ -10,6 +9,7 @@ use crate::geom::exact::Sides;
 use crate::geom::vector::{unit, wide};
 use crate::geom::{Hit, Mesh, Ray};
 use crate::scene::Camera;
+use crate::study::StudyError;
 use crate::study::prt::interpolate::weights;
 use crate::tracer::HostTracer;
 use crate::transfer::{LocalFrame, Vertices};
@@ -25,19 +25,6 @@ pub struct TexturedSurface {
     texture_of: Vec<u32>,
     /// How often a patch repeats along an edge of the texture coordinates' square.
     repeat: f64,
-}
-
-/// Why there is no such surface.
-#[non_exhaustive]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum SurfaceError {
-    /// Nothing says where a point's patch is.
-    #[error("the model has no texture coordinates, which say where on it a patch lies")]
-    NoTextureCoordinates,
-    /// Not a texture per triangle.
-    #[error("expected a texture for each of {triangles} triangles, found {found}")]
-    Textures { triangles: usize, found: usize },
 }
 
 /// A mesh with normals of its triangles, smooth over edges up to an angle in degrees (section VII).
@@ -59,13 +46,16 @@ impl TexturedSurface {
     /// grow by 1.
     ///
     /// # Errors
-    /// [`SurfaceError`].
-    pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, SurfaceError> {
+    /// If the mesh has no texture coordinates, or there is not a texture per triangle.
+    pub fn new(mesh: Mesh, vertices: Vertices, texture_of: Vec<u32>, repeat: f64) -> Result<Self, StudyError> {
         if mesh.texcoords().is_none() {
-            return Err(SurfaceError::NoTextureCoordinates);
+            let what = "the model has no texture coordinates, which say where on it a patch lies";
+            return Err(StudyError::new("crossbar::prt::surface", what));
         }
         if texture_of.len() != mesh.len() {
-            return Err(SurfaceError::Textures { triangles: mesh.len(), found: texture_of.len() });
+            let [triangles, found] = [mesh.len(), texture_of.len()];
+            let what = format!("expected a texture for each of {triangles} triangles, found {found}");
+            return Err(StudyError::new("crossbar::prt::surface", what));
         }
         Ok(Self { mesh, vertices, texture_of, repeat })
     }

@@ -9,9 +9,9 @@ use serde_json::json;
 use super::difference::ComparedPicture;
 use crate::picture::PictureError;
 use crate::report::{Findings, FoundTable, Provenance, Table};
-use crate::scene::Camera;
-use crate::study::prt::render::auto_exposure;
-use crate::study::timeline_trace::{self, TimelineError};
+use crate::study::StudyError;
+use crate::study::prt::LitView;
+use crate::study::timeline_trace;
 
 /// The card that draws.
 #[derive(Debug)]
@@ -44,11 +44,7 @@ impl CardSetting {
 /// A study of a card's picture while it is written: its subject, and the findings so far.
 pub(super) struct PictureStudy<'a> {
     pub(super) card: &'a CardSetting,
-    pub(super) camera: &'a Camera,
-    /// Names of the model and the light.
-    pub(super) names: [&'a str; 2],
-    /// Factor of radiance; `None` for auto-exposure.
-    pub(super) exposure: Option<f64>,
+    pub(super) view: &'a LitView,
     /// What card and host compute from.
     pub(super) from: &'static str,
 }
@@ -56,7 +52,7 @@ pub(super) struct PictureStudy<'a> {
 impl PictureStudy<'_> {
     /// Exposes linear radiance of pixels; returns the exposure too.
     pub(super) fn exposed(&self, linear: Vec<[f64; 3]>) -> (f64, Vec<[f64; 3]>) {
-        let exposure = self.exposure.unwrap_or_else(|| auto_exposure(&linear));
+        let exposure = self.view.exposure_of(&linear);
         (exposure, linear.into_iter().map(|color| color.map(|value| exposure * value)).collect())
     }
 
@@ -69,10 +65,10 @@ impl PictureStudy<'_> {
     ) -> Result<Findings, PictureError> {
         let card = &self.card.profile.title;
         let mut found = Findings::new(title);
-        found.taken_from(self.camera.world_to_camera());
+        found.taken_from(self.view.camera.world_to_camera());
         found.conclusion(compared.sentence(card, self.from));
-        let [model, light] = self.names;
-        compared.report(self.camera, (format!("{model} under {light} on the {card}"), self.from), &mut found)?;
+        let caption = format!("{} on the {card}", self.view.caption());
+        compared.report(&self.view.camera, (caption, self.from), &mut found)?;
         found.field("exposure", json!(exposure));
         Ok(found)
     }
@@ -83,7 +79,7 @@ impl PictureStudy<'_> {
         (times, explained): (Table, &'static str),
         (log, frame): (&[Event], &str),
         found: &mut Findings,
-    ) -> Result<(), TimelineError> {
+    ) -> Result<(), StudyError> {
         found.heading("Modelled time");
         found.explained_table(FoundTable::from(times).field("time"), explained);
         if let Some(bytes) = timeline_trace::file(&self.card.profile, log, frame)? {

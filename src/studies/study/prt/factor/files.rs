@@ -4,18 +4,14 @@ use std::fmt::Write as _;
 
 use glam::DVec3;
 
-use super::subject::BrdfFactorsError;
 use crate::all_frequency::factor::{Factorization, ProductFactors};
 use crate::io::{NumberTable, write_npy};
 use crate::report::{Findings, ReportError};
 use crate::sphere::ParabolicMap;
+use crate::study::StudyError;
 
 /// Tables with a row per texel, as text with its direction, and as arrays of f32 without.
-pub(super) fn keep(
-    found: &mut Findings,
-    all: &Factorization,
-    factors: &ProductFactors,
-) -> Result<(), BrdfFactorsError> {
+pub(super) fn keep(found: &mut Findings, all: &Factorization, factors: &ProductFactors) -> Result<(), StudyError> {
     let mut values = "singular_value\n".to_owned();
     for value in all.singular_values() {
         // Writing to a string cannot fail.

@@ -8,5 +8,5 @@ mod subject;
 mod sweep;
 mod terms;
 
-pub use subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
+pub use subject::{BrdfFactors, FactorSubject};
 pub(in crate::study) use sweep::{SweptRoughness, roughness_table};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde_json::json;
 
-use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
+use super::subject::{BrdfFactors, FactorSubject};
 use super::{files, harmonics, sphere, sweep, terms};
 use crate::all_frequency::factor::{
     DiscSamples, Factorization, HarmonicFit, HarmonicSides, ProductErrors, ProductFactors, ProductTable,
@@ -12,15 +12,13 @@ use crate::report::digits::{Quantity, shown};
 use crate::report::words::percent;
 use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table, false_color};
 use crate::sphere::{DirectionRule, function_count};
-use crate::study::{ProgressFn, Study};
+use crate::study::{ProgressFn, Study, StudyError};
 
 /// Degree of the rule that directional albedos are integrated with.
 const ALBEDO_DEGREE: usize = 95;
 
 impl Study for BrdfFactors {
-    type Error = BrdfFactorsError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, BrdfFactorsError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let table = self.subject.table(&self.sampling, &mut |done, of| progress("views", done, of))?;
         progress("singular values", 0, 1);
         let all = self.factorization(&table)?;
@@ -118,19 +116,14 @@ impl BrdfFactors {
     }
 
     /// A sphere by f, by the table and by the terms.
-    fn pictures(
-        &self,
-        found: &mut Findings,
-        table: &ProductTable,
-        factors: &ProductFactors,
-    ) -> Result<(), BrdfFactorsError> {
+    fn pictures(&self, found: &mut Findings, table: &ProductTable, factors: &ProductFactors) -> Result<(), StudyError> {
         let limit = self.sampling.clamp.limit();
         let of_formula =
             self.subject.with_product(|product| sphere::radiance(&|view, light| product.value(view, light).min(limit)));
         let of_table = sphere::radiance(&|view, light| table.interpolated(view, light));
         let of_terms = sphere::radiance(&|view, light| factors.product(view, light));
         let exposure = sphere::exposure(&of_table);
-        let named = |name: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, BrdfFactorsError> {
+        let named = |name: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, StudyError> {
             Ok(NamedPicture::new(name, sphere::picture(radiance).display(exposure)?, caption))
         };
         let mut pictures = Vec::new();

@@ -48,7 +48,7 @@ pub(super) fn picture(radiance: &[f64]) -> Picture {
 /// What brings a picture to 18 % grey on average where it is lit.
 pub(super) fn exposure(radiance: &[f64]) -> f64 {
     let colors: Vec<[f64; 3]> = radiance.iter().map(|&value| [value; 3]).collect();
-    crate::study::prt::render::auto_exposure(&colors)
+    crate::study::prt::auto_exposure(&colors)
 }
 
 #[cfg(test)]

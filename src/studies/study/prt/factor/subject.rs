@@ -1,13 +1,8 @@
 //! What is factored, and why it cannot be.
 
-use miette::Diagnostic;
-use thiserror::Error;
-
 use crate::all_frequency::factor::{
     FactorSampling, Factorization, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,
 };
-use crate::picture::PictureError;
-use crate::report::ReportError;
 use crate::transfer::brdf::Brdf;
 
 /// A reflectance to be factored.
@@ -36,34 +31,6 @@ pub struct BrdfFactors {
     pub terms: Option<usize>,
     /// Roughnesses of the same lobe to be factored besides, as in Figure 3.
     pub roughnesses: Vec<f64>,
-}
-
-/// Why there is no answer.
-#[non_exhaustive]
-#[derive(Debug, Error, Diagnostic)]
-pub enum BrdfFactorsError {
-    /// There are no factors.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Factors(#[from] FactorizationError),
-    /// Roughness is swept of something that has none.
-    #[error("expected a model of microfacets whose roughness can be swept, found {found}")]
-    #[diagnostic(
-        code(crossbar::factor::sweep),
-        help("roughness is swept for Cook and Torrance's and for Schlick's model")
-    )]
-    NoRoughness {
-        /// What was to be swept.
-        found: String,
-    },
-    /// A picture that cannot be shown.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Picture(#[from] PictureError),
-    /// A file that cannot be encoded.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Report(#[from] ReportError),
 }
 
 /// The paper's m for glossy surfaces.

@@ -1,14 +1,14 @@
 //! Figure 3: the same lobe with other roughnesses.
 
 use super::sphere;
-use super::subject::{BrdfFactors, BrdfFactorsError, FactorSubject};
+use super::subject::{BrdfFactors, FactorSubject};
 use crate::all_frequency::factor::{
     DiscSamples, FacetDistribution, FactorizationError, Lobe, ProductErrors, ProductFunction as _,
 };
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::digits::{Quantity, shown};
 use crate::report::{Cell, Chart, Findings, FoundTable, NamedChart, NamedPicture, Scale, Series, Table};
-use crate::study::ProgressFn;
+use crate::study::{ProgressFn, StudyError};
 
 /// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
 const PIXELS_PER_DEGREE: f64 = 67.0;
@@ -42,15 +42,14 @@ fn with_roughness(lobe: &Lobe, roughness: f64) -> Result<Lobe, FactorizationErro
 
 impl BrdfFactors {
     /// The lobe of [`FactorSubject::Lobe`] with each roughness.
-    pub(in crate::study) fn sweep(
-        &self,
-        progress: &mut ProgressFn<'_>,
-    ) -> Result<Vec<SweptRoughness>, BrdfFactorsError> {
+    pub(in crate::study) fn sweep(&self, progress: &mut ProgressFn<'_>) -> Result<Vec<SweptRoughness>, StudyError> {
         if self.roughnesses.is_empty() {
             return Ok(Vec::new());
         }
         let FactorSubject::Lobe(lobe) = &self.subject else {
-            return Err(BrdfFactorsError::NoRoughness { found: self.name.clone() });
+            let what = format!("expected a model of microfacets whose roughness can be swept, found {}", self.name);
+            let help = "roughness is swept for Cook and Torrance's and for Schlick's model";
+            return Err(StudyError::new("crossbar::factor::sweep", what).with_help(help));
         };
         let all = self.roughnesses.len() as u64;
         let one = |(done, &roughness): (u64, &f64)| {
@@ -60,7 +59,7 @@ impl BrdfFactors {
         (0..).zip(&self.roughnesses).map(one).collect()
     }
 
-    fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, BrdfFactorsError> {
+    fn swept(&self, lobe: &Lobe, roughness: f64) -> Result<SweptRoughness, StudyError> {
         let table = self.sampling.table(lobe, &mut |_, _| ())?;
         let found = self.factorization(&table)?;
         let factors = found.factors(found.terms());
@@ -73,7 +72,7 @@ impl BrdfFactors {
         let screens = [&original, &drawn].map(|radiance| ScreenPicture::new(&sphere::picture(radiance), exposure));
         let [one, other] = screens;
         let seen = flip(&one?, &other?, PIXELS_PER_DEGREE);
-        let named = |kind: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, BrdfFactorsError> {
+        let named = |kind: &str, radiance: &[f64], caption: String| -> Result<NamedPicture, StudyError> {
             let name = format!("roughness-{}-{kind}", shown(roughness, Quantity::Exact));
             Ok(NamedPicture::new(name, sphere::picture(radiance).display(exposure)?, caption))
         };

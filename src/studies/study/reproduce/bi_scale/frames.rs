@@ -1,6 +1,7 @@
 //! Frame rates of both tables: with only the view changing, and with changing light too.
 
 use super::display::{CARD, DisplayRun, display};
+use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
     Contradiction, EntryFindings, Method, PaperRow, Prose, ReproduceError, Shared, Standing, number, paper_row,
@@ -70,7 +71,7 @@ fn constant(printed: &[PrintedFrames]) -> f64 {
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let printed = PrintedFrames::all()?;
     let constant = constant(&printed);
-    let bunny = shared.bi_scale.bunny()?;
+    let bunny = shared.get::<ModelVisibility>(BUNNY)?;
     let run = display((&bunny.mesh, &bunny.vertices), SCENES[0].side, PICTURE)?;
     let light = printed.iter().enumerate().map(|(at, frames)| light_row(frames, at < IN_TABLE_1, constant));
     let mut rows: Vec<PaperRow> = light.collect::<Result<_, _>>()?;
@@ -119,7 +120,7 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, R
 fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], ReproduceError> {
     let from = Standing::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);
-    let biclusters = &shared.bi_scale.biclusters()?.biclusters;
+    let biclusters = &shared.get::<ClusteredModel>(BUNNY)?.biclusters;
     let gathered = biclusters.row_entries() as f64;
     let share = 100.0 * gathered / (gathered + 2.0 * biclusters.column_entries() as f64);
     Ok([paper_row("bi-scale/comparable", (CARD, Method::Pipeline), comparable)?, solved("gathering", share)?])

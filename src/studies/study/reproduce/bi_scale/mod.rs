@@ -16,11 +16,9 @@ pub(super) use figure_6::findings as figure_6;
 pub(super) use figure_8::findings as figure_8;
 pub(super) use figures::findings as figures;
 pub(super) use frames::findings as frames;
-pub(super) use models::BiScaleShared;
 pub(super) use table_1::findings as table_1;
 pub(super) use table_2::findings as table_2;
 
-use super::once::get_or_try;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{

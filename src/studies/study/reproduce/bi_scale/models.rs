@@ -1,18 +1,20 @@
 //! Stand-ins for the paper's models: visibility at their vertices, transfer to local directions, biclusters.
 
-use std::cell::OnceCell;
-
-use super::{HOST, ReproduceError, failed, get_or_try};
+use super::scenes::SCENES;
+use super::{HOST, ReproduceError, Shared, failed};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::transfer_matrix;
 use crate::geom::{Mesh, Sides};
 use crate::scene::built::transfer_models::TransferModel;
+use crate::study::reproduce::shared::SharedResult;
 use crate::tracer::HostTracer;
 use crate::transfer::visibility::{Horizon, VisibilityMaps, VisibilitySampling};
 use crate::transfer::{Tangents, Vertices};
 
+/// Bunny of both tables.
+pub(super) const BUNNY: TransferModel = TransferModel::BiScaleBunny;
 /// Base-2 logarithm of the visibility samples along an edge of a light texel.
 pub(super) const LOG2_SAMPLES: u32 = 1;
 
@@ -31,22 +33,21 @@ pub(super) struct ClusteredModel {
     pub(super) biclusters: Biclustering,
 }
 
-/// Intermediate results that entries share, for the small bunny.
-#[derive(Debug, Default)]
-pub(in crate::study::reproduce) struct BiScaleShared {
-    seen: OnceCell<ModelVisibility>,
-    biclusters: OnceCell<ClusteredModel>,
+/// Visibility by the triangles of a model alone.
+impl SharedResult for ModelVisibility {
+    type Key = TransferModel;
+
+    fn compute(model: &TransferModel, _: &Shared) -> Result<Self, ReproduceError> {
+        Self::new(&model.mesh(1), Horizon::Geometry)
+    }
 }
 
-impl BiScaleShared {
-    /// Bunny of both tables, with visibility by its triangles alone.
-    pub(super) fn bunny(&self) -> Result<&ModelVisibility, ReproduceError> {
-        get_or_try(&self.seen, || ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(1), Horizon::Geometry))
-    }
+/// Biclusters of the same with the directions of both tables.
+impl SharedResult for ClusteredModel {
+    type Key = TransferModel;
 
-    /// Its biclusters with the directions of both tables.
-    pub(super) fn biclusters(&self) -> Result<&ClusteredModel, ReproduceError> {
-        get_or_try(&self.biclusters, || self.bunny()?.clustered(super::scenes::SCENES[0].side))
+    fn compute(&model: &TransferModel, shared: &Shared) -> Result<Self, ReproduceError> {
+        shared.get::<ModelVisibility>(model)?.clustered(SCENES[0].side)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Table II on stand-ins: biclusters of models with the printed vertex counts.
 
-use super::models::{ClusteredModel, LOG2_SAMPLES, ModelVisibility};
+use super::models::{BUNNY, ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{BUNNIES, PrintedScene};
 use super::{EntryFindings, ModelSize, PaperRow, Prose, ReproduceError, Shared, number, solved};
 use crate::report::{Cell, Table};
@@ -12,8 +12,7 @@ const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed b
     Which share of operations is left depends on how smooth a model is, which is why it is judged and not explained. With printed sizes of models \
     the two larger ones are computed too.";
 const QUESTION: &str = "the models; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
-const MODELS: [TransferModel; 3] =
-    [TransferModel::BiScaleBunny, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
+const MODELS: [TransferModel; 3] = [BUNNY, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let mut table = Table::of(
@@ -26,7 +25,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for (at, (scene, model)) in BUNNIES.into_iter().zip(MODELS).take(computed).enumerate() {
         let larger;
         let found = if at == 0 {
-            let found = shared.bi_scale.biclusters()?;
+            let found = shared.get::<ClusteredModel>(BUNNY)?;
             let above = ModelVisibility::new(&model.mesh(1), Horizon::Normal)?.matrix(scene.side)?;
             fewer = 100.0 * (1.0 - above.nonzeros() as f64 / found.nonzeros as f64);
             found
@@ -41,7 +40,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let values = [number(side, 0), number(side, 0), number(samples, 0), number(samples, 0), number(fewer, 1)];
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, values)],
-        rows: rows(shared.bi_scale.biclusters()?)?,
+        rows: rows(shared.get::<ClusteredModel>(BUNNY)?)?,
         questions: vec![QUESTION],
         tables: vec![table],
         ..EntryFindings::default()

@@ -1,10 +1,10 @@
 //! Figure 5 and the table of section 7: overdraw before and after the two optimisations of section 5.
 
-use super::drawn::{BUDGET, COLUMN_IDS, COLUMNS};
+use super::drawn::{BUDGET, COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::rates;
-use super::signals::{BIRD, BUDDHA};
+use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::ModelView;
 use super::{EntryFindings, Prose, REGISTERS, ReproduceError, Shared, number, printed, solved};
 use crate::report::{Cell, Table};
@@ -29,8 +29,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (mut rows, mut originals, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
     let light = HarmonicLight::red_and_blue(5);
     for (at, name, id) in MODELS {
-        let computed = shared.cpca.signal(at, shared.models)?;
-        let found = shared.cpca.drawn(at, shared.models)?;
+        let computed = shared.get::<ComputedSignal>(at)?;
+        let found = shared.get::<DrawnClusters>(at)?;
         let mut cells = Vec::new();
         for (how, ours) in COLUMN_IDS.into_iter().zip(found.overdraw) {
             cells.extend([printed(&format!("cpca/overdraw-{id}-{how}"))?.cell(), Cell::decimals(ours, 3)]);
@@ -52,7 +52,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     rows.push(solved("overdraw-bumpy-over-smooth", originals[0] / originals[1])?);
     let size = super::signals::SIGNALS[BIRD].size;
     let figures = [100.0 * BUDGET, REGISTERS as f64, size.clusters_per_batch(REGISTERS) as f64];
-    let (timed, frames) = rates(&MODELS, &shared.cpca)?;
+    let (timed, frames) = rates(&MODELS, shared)?;
     rows.extend(timed);
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures.map(|figure| number(figure, 0))), Prose::new(TIMES, [CARD.to_owned()])],

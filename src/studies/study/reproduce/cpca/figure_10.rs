@@ -6,6 +6,7 @@ use super::drawn::DrawnClusters;
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
+use super::shared::iterative;
 use super::signals::BIRD;
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryFindings, Prose, ReproduceError, Shared, number, printed, solved};
@@ -27,7 +28,7 @@ const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's
 const QUESTION: &str = "the model, its BRDF and the scale of the squared error.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let (computed, both) = shared.cpca.iterative(BIRD, shared.models)?;
+    let (computed, both) = iterative(shared, BIRD)?;
     let still = CpcaMethod::Static;
     let components = computed.compressed_to(1, ENCODINGS[0].2, still)?;
     let quantised = computed.compressed(ENCODINGS[1].1, 0, still)?;
@@ -38,7 +39,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     for ((rate, clustering), (_, clusters, vectors, _)) in rates.iter_mut().zip(clusterings).zip(ENCODINGS) {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         let drawn = DrawnClusters::new(computed, clustering)?;
-        *rate = modelled_from_clusters(&card, &shared.cpca, (computed.paper.model, size), &drawn)?.per_second();
+        *rate = modelled_from_clusters(&card, shared, (computed.paper.model, size), &drawn)?.per_second();
     }
     let mut table = encodings(&clusterings, errors, rates)?;
     let [of_pca, of_vq, of_both] = errors;

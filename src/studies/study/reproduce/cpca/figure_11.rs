@@ -6,6 +6,7 @@ use super::drawn::DrawnClusters;
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
+use super::shared::iterative;
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryFindings, Prose, ReproduceError, Shared, number, printed, solved};
@@ -30,14 +31,14 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let light = HarmonicLight::red_and_blue(5);
     let card = Profile::named(CARD)?;
     for (at, name, id, eight_vectors) in MODELS {
-        let (computed, eight) = shared.cpca.iterative(at, shared.models)?;
+        let (computed, eight) = iterative(shared, at)?;
         let energy = computed.energy();
         let view = ModelView::new(computed, &light, EYE)?;
         let mut errors = Vec::new();
         for vectors in VECTORS {
             let (error, picture, drawn) = with(computed, &view, (vectors, eight), name)?;
             let sizes = (computed.paper.model, TransferSize { vectors, ..computed.paper.size });
-            let rate = modelled_from_clusters(&card, &shared.cpca, sizes, &drawn)?.per_second();
+            let rate = modelled_from_clusters(&card, shared, sizes, &drawn)?.per_second();
             let frames = if vectors == computed.paper.size.vectors {
                 eight_vectors.to_owned()
             } else {
@@ -69,7 +70,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(solved(&format!("bumpy-over-smooth-{vectors}"), all[0][at] / all[1][at])?);
     }
     rows.extend(timed);
-    let bird = shared.cpca.signal(BIRD, shared.models)?;
+    let bird = shared.get::<ComputedSignal>(BIRD)?;
     let printed = bird.paper.size.clusters;
     let figures = [printed, bird.clusters(printed)].map(|count| number(count as f64, 0));
     Ok(EntryFindings {

@@ -1,6 +1,6 @@
 //! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
 
-use super::signals::DIFFUSE_BIRD;
+use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::{EntryChart, EntryFindings, Prose, ReproduceError, Shared, number, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
@@ -20,7 +20,7 @@ const CAPTION: &str = "Squared error of all points by numbers stored.";
 type Curve = Vec<(f64, f64)>;
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let computed = shared.cpca.signal(DIFFUSE_BIRD, shared.models)?;
+    let computed = shared.get::<ComputedSignal>(DIFFUSE_BIRD)?;
     let points = computed.signal.points();
     let counts: Vec<usize> = std::iter::successors(Some(1), |&count| Some(2 * count))
         .take_while(|count| count * LEAST_POINTS <= points)

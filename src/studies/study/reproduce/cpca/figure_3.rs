@@ -27,7 +27,7 @@ const QUESTION: &str =
     "the paper's model: iteration and redistribution gain more where clusters differ more, and on more clusters.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let computed = shared.cpca.signal(DIFFUSE_BIRD, shared.models)?;
+    let computed = shared.get::<ComputedSignal>(DIFFUSE_BIRD)?;
     let clusters = computed.clusters(CLUSTERS);
     let still = computed.static_errors(clusters, VECTORS + MORE)?;
     let iterative = computed.iterative_errors(clusters, VECTORS + MORE)?;

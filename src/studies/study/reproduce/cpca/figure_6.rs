@@ -1,7 +1,7 @@
 //! Figure 6: diffuse transfer of order 10 on a ground below a blocker.
 
 use super::figure_3::over_readings;
-use super::signals::POLYGONS;
+use super::signals::{ComputedSignal, POLYGONS};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
 use crate::report::{Cell, Table};
@@ -20,7 +20,7 @@ const HOW: &str = "A ground and a blocker of {} vertices together, light of orde
     both are compressed, each by its share for a model of our size, and the row has all of them. Pictures are under a small disk, exposed alike.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let computed = shared.cpca.signal(POLYGONS, shared.models)?;
+    let computed = shared.get::<ComputedSignal>(POLYGONS)?;
     let light = disk()?;
     let view = ModelView::new(computed, &light, EYE)?;
     let mut table =

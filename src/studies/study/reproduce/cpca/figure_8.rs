@@ -2,9 +2,11 @@
 
 use refsim::device::Profile;
 
+use super::drawn::DrawnClusters;
 use super::figure_3::EYE;
 use super::mesh_cost::CARD;
 use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
+use super::shared::iterative;
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
 use super::{
@@ -47,8 +49,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     );
     let (mut rows, mut gains, mut pictures, mut shown_light) = (Vec::new(), Vec::new(), Vec::new(), None);
     for (at, name, id, rate) in MODELS {
-        let (computed, clustering) = shared.cpca.iterative(at, shared.models)?;
-        let drawn = shared.cpca.drawn(at, shared.models)?;
+        let (computed, clustering) = iterative(shared, at)?;
+        let drawn = shared.get::<DrawnClusters>(at)?;
         let view = ModelView::new(computed, &light, EYE)?;
         shown_light = Some(view.light("cpca-figure-8", RED_AND_BLUE)?);
         let plain = view.colors(None)?;
@@ -57,7 +59,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             view.difference(Some(clustering), &plain, |cosine| cosine < RIM)?,
         ];
         let (model, size) = (computed.paper.model, computed.paper.size);
-        let on = |card: &Profile| modelled_from_clusters(card, &shared.cpca, (model, size), drawn);
+        let on = |card: &Profile| modelled_from_clusters(card, shared, (model, size), drawn);
         let time = on(&Profile::named(CARD)?)?;
         let cells = [
             Cell::percent(100.0 * errors[0]),

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::figure_3::EYE;
+use super::shared::iterative;
 use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
@@ -23,7 +24,7 @@ const HOW: &str = "The bumpy model of {} vertices: isotropic gloss over a scatte
 const QUESTION: &str = "the model, its scale and its medium, and both environments.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let (computed, clustering) = shared.cpca.iterative(TRANSLUCENT_BUDDHA, shared.models)?;
+    let (computed, clustering) = iterative(shared, TRANSLUCENT_BUDDHA)?;
     let gloss = ComputedSignal::new(&GLOSS_OF_FIGURE_9, shared.models)?;
     let mut table = Table::of("The sum and its parts", "light share_below_the_surface_% error_of_picture_%");
     let mut pictures = Vec::new();

@@ -7,7 +7,7 @@ use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
 use super::{
-    Contradiction, CpcaShared, HOST, Method, PaperRow, REGISTERS, ReproduceError, Standing, failed, paper_row, printed,
+    Contradiction, HOST, Method, PaperRow, REGISTERS, ReproduceError, Shared, Standing, failed, paper_row, printed,
     printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
@@ -45,12 +45,12 @@ pub(super) fn modelled(
 /// Time of a frame with both optimisations, with the overdraw of our own clusters.
 pub(super) fn modelled_from_clusters(
     card: &Profile,
-    shared: &CpcaShared,
+    shared: &Shared,
     (model, size): (TransferModel, TransferSize),
     drawn: &DrawnClusters,
 ) -> Result<FrameTime, ReproduceError> {
     let groups = size.clusters.div_ceil(size.clusters_per_batch(REGISTERS).max(1));
-    modelled(card, shared.mesh_cost(model)?, size, (drawn.overdraw[BOTH], groups))
+    modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
 /// Frames per second without compression, where the host multiplies every matrix by the light.
@@ -82,7 +82,7 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, ReproduceEr
 /// of its figures.
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],
-    shared: &CpcaShared,
+    shared: &Shared,
 ) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     let mut table = Table::of(
         "Frames per second, modelled from the printed overdraw",
@@ -91,7 +91,7 @@ pub(super) fn rates(
     let (mut rows, card) = (Vec::new(), Profile::named(CARD)?);
     for &(at, name, id) in models {
         let paper = &SIGNALS[at];
-        let mesh = shared.mesh_cost(paper.model)?;
+        let mesh = *shared.get::<MeshCost>(paper.model)?;
         for (column, how) in COLUMNS.into_iter().enumerate() {
             let fit = if column < 2 { 1 } else { paper.size.clusters_per_batch(REGISTERS) };
             let groups = paper.size.clusters.div_ceil(fit);

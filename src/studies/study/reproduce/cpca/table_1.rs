@@ -2,8 +2,10 @@
 
 use refsim::device::Profile;
 
+use super::drawn::DrawnClusters;
 use super::mesh_cost::CARD;
 use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal};
+use super::shared::iterative;
 use super::signals::SIGNALS;
 use super::{EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, printed, solved};
 use crate::report::{Cell, Table};
@@ -47,7 +49,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (mut rows, mut counts) = (Vec::new(), Vec::new());
     for (at, id) in IDS.into_iter().enumerate() {
         let [of_static, of_iterative] = errors(id)?;
-        let (computed, iterative) = shared.cpca.iterative(at, shared.models)?;
+        let (computed, iterative) = iterative(shared, at)?;
         let size = SIGNALS[at].size;
         let still = computed.compressed(size.clusters, size.vectors, CpcaMethod::Static)?;
         let [still, iterative] = [&still, iterative].map(|clustering| computed.error(clustering));
@@ -90,8 +92,8 @@ fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
     );
     let (mut rows, card) = (Vec::new(), Profile::named(CARD)?);
     for (at, id) in IDS.into_iter().enumerate() {
-        let (paper, drawn) = (&SIGNALS[at], shared.cpca.drawn(at, shared.models)?);
-        let time = modelled_from_clusters(&card, &shared.cpca, (paper.model, paper.size), drawn)?;
+        let (paper, drawn) = (&SIGNALS[at], shared.get::<DrawnClusters>(at)?);
+        let time = modelled_from_clusters(&card, shared, (paper.model, paper.size), drawn)?;
         let id = format!("rate-{id}");
         let row = rate_row(&id, time.per_second(), OWN_INPUTS)?;
         table.push([

@@ -8,7 +8,7 @@ mod statement;
 
 use std::sync::LazyLock;
 
-use super::error::ReproduceError;
+use super::error::{ReproduceError, papers_error};
 use super::row::{Method, PaperFigure, PaperRow, Standing};
 
 /// Names and contents of the files.
@@ -44,18 +44,18 @@ static PAPERS: LazyLock<Result<Vec<Paper>, String>> = LazyLock::new(|| {
 /// Returns all papers.
 ///
 /// # Errors
-/// [`ReproduceError::Papers`] if a file is malformed, or states other bounds than it did.
+/// If a file is malformed, or states other bounds than it did.
 pub fn papers() -> Result<&'static [Paper], ReproduceError> {
-    PAPERS.as_deref().map_err(|reason| ReproduceError::Papers { reason: reason.clone() })
+    PAPERS.as_deref().map_err(|reason| papers_error(reason))
 }
 
 /// Returns the figure with a name, as in `ray-engine/host-alone`.
 ///
 /// # Errors
-/// [`ReproduceError::Papers`] if there is none.
+/// If there is none.
 pub fn printed(id: &str) -> Result<&'static PaperFigure, ReproduceError> {
     let found = papers()?.iter().flat_map(|paper| &paper.figures).find(|figure| figure.id == id);
-    found.ok_or_else(|| ReproduceError::Papers { reason: format!("no figure is named `{id}`") })
+    found.ok_or_else(|| papers_error(&format!("no figure is named `{id}`")))
 }
 
 /// Returns the value of the figure with a name.
@@ -69,9 +69,9 @@ pub(super) fn value(id: &str) -> Result<f64, ReproduceError> {
 /// Returns the row that judges the figure with a name by a value of ours, with the bound of the data.
 ///
 /// # Errors
-/// [`ReproduceError::Papers`] if there is no such figure, or if the data has a reason not to judge it.
+/// If there is no such figure, or if the data has a reason not to judge it.
 pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Standing)) -> Result<PaperRow, ReproduceError> {
-    let unjudged = || ReproduceError::Papers { reason: format!("the figure `{id}` is listed as not judged") };
+    let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }
 

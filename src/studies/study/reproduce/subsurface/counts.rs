@@ -19,7 +19,7 @@ const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} 
     another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let costs = shared.gather()?;
+    let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
@@ -39,7 +39,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 
 /// Row on the number of nodes of the clustering: 2 T - 1.
 fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
-    let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
+    let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;
     let ours = (atlas.tree().nodes().len() as f64, Standing::Counted);

@@ -5,7 +5,7 @@ use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use super::gather::{LINKS, Variant};
-use super::{ReproduceError, failed};
+use super::{ReproduceError, failed, no_time};
 use crate::atlas::Atlas;
 use crate::card::{MeshView, Texels};
 use crate::geom::Mesh;
@@ -73,7 +73,8 @@ pub(super) fn cost(
         if at == 0 {
             machine.view_texels(&shown).map_err(|e| failed(card)(&e))?;
         }
-        let [light, levels, _, view] = pass_times(&profile, &machine.take_log())?.map(|pass| pass.time.seconds());
+        let [light, levels, _, view] =
+            pass_times(&profile, &machine.take_log()).map_err(no_time)?.map(|pass| pass.time.seconds());
         found.maps.push(MapCost { light, levels });
         found.view += view;
     }

@@ -9,8 +9,8 @@ use super::frame_cost::{FrameCost, MapCost, WINDOW, cost};
 use super::gather::{GatherCost, VARIANTS, Variant, all_costs, left_open};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, number,
-    paper_row,
+    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, failed,
+    number, paper_row,
 };
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
@@ -47,7 +47,7 @@ fn locked(seconds: f64) -> f64 {
 }
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let costs = shared.gather()?;
+    let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let printed = PrintedFrame::all()?;
     let (mut rows, mut frames) = (Vec::new(), Vec::new());
     for (model, _, stand_in) in MODELS {
@@ -97,7 +97,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 fn mesh(stand_in: &'static str) -> Result<Mesh, ReproduceError> {
-    let missing = || ReproduceError::Run { device: CARD.to_owned(), reason: format!("no stand-in `{stand_in}`") };
+    let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     meshes::build(stand_in).ok_or_else(missing)
 }
 

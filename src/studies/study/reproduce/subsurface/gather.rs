@@ -8,10 +8,11 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
-use super::{ReproduceError, failed};
+use super::{ReproduceError, Shared, failed, no_time};
 use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
+use crate::study::reproduce::shared::SharedResult;
 use crate::subsurface::on_card::{
     CardModel, FloatTexels, Light, LightStage, LinkTextures, MapFormat, PassEvent, PassKind, SubsurfaceCard,
     SubsurfaceCardOptions, pass_times,
@@ -80,8 +81,17 @@ impl GatherCost {
     }
 }
 
+/// Costs of all variants on the card of this name.
+impl SharedResult for Vec<GatherCost> {
+    type Key = &'static str;
+
+    fn compute(&card: &&'static str, _: &Shared) -> Result<Self, ReproduceError> {
+        all_costs(card)
+    }
+}
+
 /// Cost of all variants on a card, in the order of [`VARIANTS`].
-pub(in crate::study::reproduce) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, ReproduceError> {
+pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, ReproduceError> {
     VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
 }
 
@@ -94,7 +104,7 @@ fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceErr
         machine.record(true);
         machine.light(&[Light::Sky { radiance: [1.0; 3] }]).map_err(|e| failed(card)(&e))?;
         let log = machine.take_log();
-        *seconds = pass_times(&profile, &log)?[GATHER].time.seconds();
+        *seconds = pass_times(&profile, &log).map_err(no_time)?[GATHER].time.seconds();
         found.lookups = lookups(&log);
         let programs = machine.gather_programs();
         found.programs = programs.len();

@@ -8,10 +8,11 @@ mod table_1;
 
 pub(super) use counts::findings as counts;
 pub(super) use frames::findings as frames;
+use gather::CARD;
 use gather::LINKS;
-pub(super) use gather::{CARD, GatherCost, all_costs};
 pub(super) use table_1::findings as table_1;
 
+use super::error::no_time;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{

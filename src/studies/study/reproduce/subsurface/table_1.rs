@@ -67,7 +67,7 @@ const OPEN: &str = "Neither the format of the radiosity map nor which links were
     which automatic mipmaps (section 4.2.2) need on this card; the table has every variant, for every card of the time. They spread by a factor of {}.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let costs = shared.gather()?;
+    let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let ms = |cost: &GatherCost| 1e3 * cost.seconds(SIDES[1]);
     let printed = PrintedFrame::all()?;
     let mut rows: Vec<PaperRow> = Vec::new();

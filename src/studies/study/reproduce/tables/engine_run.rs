@@ -8,7 +8,7 @@ use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
 
-use super::super::ReproduceError;
+use super::super::error::{ReproduceError, no_time};
 use super::super::pipeline::failed;
 use super::workload::{OCTREE, TIMES, Workload};
 use crate::geom::exact::Sides;
@@ -87,7 +87,7 @@ impl Costs for GeForce4 {
 /// Rays per second of a run.
 pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Result<f64, ReproduceError> {
     let free = commands == Commands::Free;
-    let card = GeForce4 { rates: Model::new(Level::Rates, &Profile::named(TIMES)?)?, free };
+    let card = GeForce4 { rates: Model::new(Level::Rates, &Profile::named(TIMES)?).map_err(no_time)?, free };
     let queue = match commands {
         Commands::Free => QueueFigures::default().without_overhead(),
         Commands::Cost(figures) => figures,

@@ -21,10 +21,8 @@ mod table_5;
 mod teapot;
 mod workload;
 
-pub(super) use speed_ups::{SpeedUps, work_out};
 use stated::{QUESTION, RATE, commands, how, speed_up};
 pub(super) use table_1::findings as table_1;
 pub(super) use table_3::findings as table_3;
 pub(super) use table_4::findings as table_4;
 pub(super) use table_5::findings as table_5;
-pub(super) use teapot::TeapotRoom;

@@ -3,6 +3,7 @@
 
 use std::rc::Rc;
 
+use super::super::shared::{Shared, SharedResult};
 use super::super::{Method, PaperRow, ReproduceError, Standing, Sweep, paper_row};
 use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
@@ -93,8 +94,17 @@ fn lines() -> Vec<(&'static str, &'static str, &'static str, Variant)> {
     ]
 }
 
+/// Rows of Tables 3 to 5 on the teapot room.
+impl SharedResult for SpeedUps {
+    type Key = ();
+
+    fn compute((): &(), shared: &Shared) -> Result<Self, ReproduceError> {
+        work_out(shared.get::<TeapotRoom>(())?)
+    }
+}
+
 /// Computes runs, times and sweeps.
-pub(crate) fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
+fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
     let stated = lines();
     let variants: Vec<Variant> = stated.iter().map(|(.., variant)| variant.clone()).collect();
     let runs = room.runs(&variants)?;

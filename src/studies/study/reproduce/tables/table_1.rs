@@ -10,7 +10,7 @@ use super::super::{
 };
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
-use super::teapot::Variant;
+use super::teapot::{TeapotRoom, Variant};
 use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
 use super::{QUESTION, RATE, commands};
 use crate::report::{Cell, Chart, NamedPicture, Series, Table};
@@ -91,7 +91,7 @@ struct SceneRun {
 }
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let room = shared.teapot()?;
+    let room = shared.get::<TeapotRoom>(())?;
     let first = room.runs(&[Variant { rays: SCENES[0].rays, ..Variant::PLUS_CARD }])?;
     let others = SCENES.par_iter().filter_map(|scene| Some((scene, scene.job?)));
     let others = others.map(|(scene, job)| {

@@ -5,6 +5,7 @@ use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
 use super::super::{EntryChart, EntryFindings, ReproduceError};
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
+use super::teapot::TeapotRoom;
 use super::{QUESTION, host_work, how, sensitivity};
 use crate::report::{Chart, Series};
 
@@ -16,8 +17,8 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
     a knife-edge of our mesh. Rows take {}, which was chosen before any of them was worked out, for host and engine alike.";
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let room = shared.teapot()?;
-    let found = shared.speed_ups()?;
+    let room = shared.get::<TeapotRoom>(())?;
+    let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],

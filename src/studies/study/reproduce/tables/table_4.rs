@@ -4,6 +4,7 @@ use super::super::shared::Shared;
 use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
 use super::shares::{self, Share};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
+use super::teapot::TeapotRoom;
 use super::{QUESTION, how};
 use crate::report::{Chart, Series};
 
@@ -16,8 +17,8 @@ const ORDER: &str = "Printed, the widest range brings the fewest rays to the car
     for the printed {}, {} and {} %.";
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let room = shared.teapot()?;
-    let found = shared.speed_ups()?;
+    let room = shared.get::<TeapotRoom>(())?;
+    let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
     let shares: Vec<Share<'_>> = SHARES.into_iter().zip(lines.iter().map(|line| &line.run.counts)).collect();
     let (share_rows, readings) = shares::rows(&shares, PLACE)?;

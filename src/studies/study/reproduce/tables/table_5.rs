@@ -3,6 +3,7 @@
 use super::super::shared::Shared;
 use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
+use super::teapot::TeapotRoom;
 use super::{QUESTION, how};
 use crate::report::{Chart, Series};
 
@@ -12,8 +13,8 @@ const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, a
     What a pass costs is mostly commands, whose costs are guesses; the sweep multiplies all of them by one factor, for the rows of all three tables.";
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
-    let room = shared.teapot()?;
-    let found = shared.speed_ups()?;
+    let room = shared.get::<TeapotRoom>(())?;
+    let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), size(&lines)],

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
 use super::super::ReproduceError;
+use super::super::shared::{Shared, SharedResult};
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
 use crate::ray_engine::engine::{EngineParameters, Readback};
@@ -49,8 +50,16 @@ pub(crate) struct TeapotRoom {
     runs: RefCell<Vec<(Variant, Rc<Run>)>>,
 }
 
+impl SharedResult for TeapotRoom {
+    type Key = ();
+
+    fn compute((): &(), _: &Shared) -> Result<Self, ReproduceError> {
+        Self::new()
+    }
+}
+
 impl TeapotRoom {
-    pub(crate) fn new() -> Result<Self, ReproduceError> {
+    fn new() -> Result<Self, ReproduceError> {
         let work = CLASSICAL_TEAPOT.workload()?;
         let host = work.alone.calibrate(HostWeights::default())?;
         let side = CLASSICAL_TEAPOT.side;

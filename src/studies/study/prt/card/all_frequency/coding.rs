@@ -5,7 +5,8 @@ use super::subject::{AllFrequencyOnCard, in_double};
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::on_card::{ProductOptions, ProductPlace};
 use crate::card::SeenPixel;
-use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors};
+use crate::study::StudyError;
+use crate::study::prt::card::{PictureVariant, PixelErrors};
 use crate::transfer::light::HaarLight;
 
 /// Bits that are tried, as far as the file has more.
@@ -35,11 +36,11 @@ pub(super) fn coarse_codes(
     (coded, light): (&CodedTransfer, &HaarLight),
     (seen, exposure): (&[Option<SeenPixel>], f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Vec<PictureVariant>, CardPictureError> {
+) -> Result<Vec<PictureVariant>, StudyError> {
     let place = ProductPlace::Pixels(ProductOptions::default());
-    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, CardPictureError> {
+    let pixels = |coded: &CodedTransfer| -> Result<Vec<[f64; 3]>, StudyError> {
         let transferred = in_double(coded, light)?;
-        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.camera.eye(), exposure)))
+        Ok(exact_pixels(&study.mesh_of(&transferred), seen, &place, (study.lit.view.camera.eye(), exposure)))
     };
     let expected = pixels(coded)?;
     done(1);

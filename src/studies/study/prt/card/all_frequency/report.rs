@@ -16,9 +16,9 @@ use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, PictureVariant, PixelErrors, frame};
-use crate::study::prt::{light_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::study::prt::card::{PictureVariant, PixelErrors, frame};
+use crate::study::prt::of_texels;
+use crate::study::{ProgressFn, Study, StudyError};
 
 const SWEEP: &str = "Each row is one change of a picture that hardly rounds, in 255ths of white. \
     Representatives and weights are coded again from the file's bits, with sums in double precision, and compared with the file's \
@@ -27,23 +27,15 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card besid
     fast as the frames of the paper's Table 1 say. A frame follows a frame, so that host and card work side by side.";
 
 impl Study for AllFrequencyOnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         progress("host", 0, 2);
         let (steps, lit, card) = (self.steps()?, &self.lit, &self.card);
         let mesh = self.mesh_of(&steps.transferred);
-        let seen = seen_pixels(&card.profile, lit.vertices.geometry(), &lit.camera)?;
-        let study = PictureStudy {
-            card,
-            camera: &lit.camera,
-            names: [&lit.model, &lit.light_name],
-            exposure: lit.exposure,
-            from: "the same numbers",
-        };
-        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, (lit.camera.eye(), 1.0)));
+        let seen = seen_pixels(&card.profile, lit.vertices.geometry(), &lit.view.camera)?;
+        let study = PictureStudy { card, view: &lit.view, from: "the same numbers" };
+        let (exposure, host) = study.exposed(exact_pixels(&mesh, &seen, &self.place, (lit.view.camera.eye(), 1.0)));
         progress("card", 1, 2);
-        let view = MeshView { camera: lit.camera, exposure, format: card.format };
+        let view = MeshView { camera: lit.view.camera, exposure, format: card.format };
         let on_card = (card.profile.clone(), card.executor.clone());
         let mut drawing = draw(mesh, on_card, self.place, &view, steps.multiplies)?;
         if let Some(sums) = &steps.sums {
@@ -56,7 +48,7 @@ impl Study for AllFrequencyOnCard {
         let mut found = study.findings("All-frequency transfer on a card", &compared, exposure)?;
         conclude(&drawing, &mut found);
         let radiances = steps.cut.light.radiances();
-        found.pictures(vec![light_picture("light", &lit.light_name, of_texels(&radiances))?]);
+        found.pictures(vec![lit.view.light_picture(of_texels(&radiances))?]);
         report_blame(&self.blame(&steps, (&seen, exposure), (&mesh, compared.errors))?, &mut found);
         report_sizes(self.sizes(&steps, &drawing), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawing.log, host_of_table_1())? {
@@ -98,8 +90,8 @@ impl AllFrequencyOnCard {
         steps: &HostSteps,
         (seen, exposure): (&[Option<SeenPixel>], f64),
         (mesh, of_card): (&TransferredMesh<'_>, PixelErrors),
-    ) -> Result<Vec<Blame>, CardPictureError> {
-        let view = (self.lit.camera.eye(), exposure);
+    ) -> Result<Vec<Blame>, StudyError> {
+        let view = (self.lit.view.camera.eye(), exposure);
         let products = ProductPlace::Pixels(ProductOptions::default());
         let mut found = vec![Blame { step: "the card: arithmetic, storage, target", errors: of_card }];
         let mut push =
@@ -188,11 +180,11 @@ impl AllFrequencyOnCard {
         (seen, exposure): (&[Option<SeenPixel>], f64),
         mesh: &TransferredMesh<'_>,
         progress: &mut ProgressFn<'_>,
-    ) -> Result<Vec<PictureVariant>, CardPictureError> {
+    ) -> Result<Vec<PictureVariant>, StudyError> {
         let drawn = ways_of_precision(mesh);
         let all = drawn + self.lit.file.coded.as_ref().map_or(0, ways_to_code);
         let mut done = |done| progress("sweep", done, all);
-        let mut variants = factored_precision(*mesh, &self.card.executor, (self.lit.camera, exposure), &mut done)?;
+        let mut variants = factored_precision(*mesh, &self.card.executor, (self.lit.view.camera, exposure), &mut done)?;
         if let Some(coded) = &self.lit.file.coded {
             let mut done = |done| progress("sweep", drawn + done, all);
             variants.extend(coarse_codes(self, (coded, &steps.cut.light), (seen, exposure), &mut done)?);

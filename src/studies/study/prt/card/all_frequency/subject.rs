@@ -6,9 +6,10 @@ use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::all_frequency::on_card::{ProductPlace, SumCard, SumLog, TransferredMesh};
 use crate::all_frequency::shade::{LightSizeError, Multiplies, Representatives, Shader, TransferredRadiance, plain};
+use crate::study::StudyError;
 use crate::study::prt::LitModel;
 use crate::study::prt::all_frequency::exact;
-use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::study::prt::card::CardSetting;
 use crate::transfer::light::{CubeLightError, HaarLight, LightTruncation};
 
 /// A lit model with all-frequency transfer, and the card that draws it.
@@ -51,10 +52,15 @@ impl AllFrequencyOnCard {
     }
 
     /// What the host computes before a card draws.
-    pub(super) fn steps(&self) -> Result<HostSteps, CardPictureError> {
+    pub(super) fn steps(&self) -> Result<HostSteps, StudyError> {
         let cut = self.cut(self.lit.keep)?;
         if self.sums_on_card {
-            let coded = self.lit.file.coded.as_ref().ok_or(CardPictureError::NotCoded)?;
+            let not_coded = || {
+                let what = "expected coded transfer, whose representatives a card sums, found visibility alone";
+                let help = "`crossbar all-frequency compress` codes it";
+                StudyError::new("crossbar::prt::card", what).with_help(help)
+            };
+            let coded = self.lit.file.coded.as_ref().ok_or_else(not_coded)?;
             let mut card = SumCard::new(self.card.profile.clone(), self.card.executor.clone(), coded)?;
             let (transferred, log) = card.transferred(&cut.light.singles())?;
             let sums = Some(CardSums { log, texture_bytes: card.texture_bytes() });
@@ -72,11 +78,7 @@ impl AllFrequencyOnCard {
     }
 
     /// Transferred radiance by raw matrices in f64, one rounding to f32 each.
-    pub(super) fn raw(
-        &self,
-        file: &AllFrequencyFile,
-        light: &HaarLight,
-    ) -> Result<TransferredRadiance, CardPictureError> {
+    pub(super) fn raw(&self, file: &AllFrequencyFile, light: &HaarLight) -> Result<TransferredRadiance, StudyError> {
         let rows = file.reflectance.terms();
         let values = match &file.visibility {
             Some(maps) => exact::transferred((&self.lit.vertices, maps), file.hats, &file.reflectance, light)?,

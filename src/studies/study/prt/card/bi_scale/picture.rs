@@ -9,7 +9,7 @@ use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::reference::pixel;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, GatherCard, GatherCounts, LightFormat};
 use crate::card::{MeshView, SeenPixel};
-use crate::study::prt::card::CardPictureError;
+use crate::study::StudyError;
 
 /// L~ by the card, and what it asked of it.
 pub(super) struct CardLight {
@@ -27,7 +27,7 @@ pub(super) struct Drawn {
 
 impl BiScaleOnCard {
     /// Algorithm 2 on the card.
-    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, CardPictureError> {
+    pub(super) fn local(&self, light: &[[f64; 3]], format: LightFormat) -> Result<CardLight, StudyError> {
         let singles: Vec<[f32; 3]> = light.iter().map(|texel| texel.map(|value| value as f32)).collect();
         let mut card =
             GatherCard::new(self.card.profile.clone(), self.card.executor.clone(), &self.biclusters, format)?;
@@ -41,9 +41,9 @@ impl BiScaleOnCard {
         local: &[[f32; 3]],
         (options, format): (DisplayOptions, TexelFormat),
         exposure: f64,
-    ) -> Result<Drawn, CardPictureError> {
+    ) -> Result<Drawn, StudyError> {
         let mut card = BiScaleCard::new(self.card.profile.clone(), self.card.executor.clone(), self.mesh(), options)?;
-        let view = MeshView { camera: self.camera, exposure, format };
+        let view = MeshView { camera: self.view.camera, exposure, format };
         let (texels, log) = card.logged_view(local, &view)?;
         let pixels = texels.texels.iter().map(|&[red, green, blue, _]| [red, green, blue].map(f64::from)).collect();
         Ok(Drawn { pixels, counts: card.counts(), log })
@@ -56,7 +56,7 @@ impl BiScaleOnCard {
         (seen, exposure): (&[Option<SeenPixel>], f64),
         edges: BlockEdges,
     ) -> Vec<[f64; 3]> {
-        let (mesh, eye) = (self.mesh(), self.camera.eye());
+        let (mesh, eye) = (self.mesh(), self.view.camera.eye());
         let of = |seen: &Option<SeenPixel>| {
             let color = seen.map_or([0.0; 3], |seen| pixel(&mesh, local, (eye, edges), &seen));
             color.map(|value| exposure * value)

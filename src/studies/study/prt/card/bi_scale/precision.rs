@@ -7,8 +7,9 @@ use super::subject::BiScaleOnCard;
 use crate::bi_scale::kernels::BlockEdges;
 use crate::bi_scale::on_card::{DisplayOptions, LightFormat, LocalFormat};
 use crate::card::SeenPixel;
+use crate::study::StudyError;
+use crate::study::prt::card::PictureVariant;
 use crate::study::prt::card::difference::{PixelErrors, held};
-use crate::study::prt::card::{CardPictureError, PictureVariant};
 
 const FLOATS: TexelFormat = TexelFormat::Rgba32f;
 const TEXELS: [TexelFormat; 3] = [TexelFormat::Rgba8, TexelFormat::Rgba16f, TexelFormat::Rgba32f];
@@ -60,7 +61,7 @@ pub(super) fn variants(
     (light, exact): (&[[f64; 3]], &[[f64; 3]]),
     (seen, exposure): (&[Option<SeenPixel>], f64),
     done: &mut dyn FnMut(u64),
-) -> Result<Vec<PictureVariant>, CardPictureError> {
+) -> Result<Vec<PictureVariant>, StudyError> {
     let expected = study.exact(exact, (seen, exposure), BlockEdges::Wrapped);
     let mut variants = Vec::new();
     let mut local = study.local(light, FINE.light)?.local;

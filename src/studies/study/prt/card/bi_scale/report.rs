@@ -14,9 +14,9 @@ use crate::study::prt::card::blame::{Blame, report_blame};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, PixelErrors, frame};
-use crate::study::prt::{light_picture, of_texels};
-use crate::study::{ProgressFn, Study};
+use crate::study::prt::card::{PixelErrors, frame};
+use crate::study::prt::of_texels;
+use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::light::Decimation;
 
 const SWEEP: &str = "Each row is one number format of fewer bits and the rest in single precision, in 255ths of white, against equation 3 in \
@@ -28,23 +28,15 @@ const TIME: &str = "Modelled, not measured: the pipeline model of the card, to w
 type Times = Option<(FrameTime, FrameTime)>;
 
 impl Study for BiScaleOnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         progress("transfer", 0, 3);
         self.check()?;
         let (light, card) = (self.light_texels()?, &self.card);
         let exact = self.exact_local(&light);
         let local = self.local(&light, self.light_format)?;
         progress("host", 1, 3);
-        let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.camera)?;
-        let study = PictureStudy {
-            card,
-            camera: &self.camera,
-            names: [&self.model, &self.light_name],
-            exposure: self.exposure,
-            from: "the same local light",
-        };
+        let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.view.camera)?;
+        let study = PictureStudy { card, view: &self.view, from: "the same local light" };
         let edges = self.options.edges;
         let (exposure, host) = study.exposed(self.exact(&doubles(&local.local), (&seen, 1.0), edges));
         progress("card", 2, 3);
@@ -52,7 +44,7 @@ impl Study for BiScaleOnCard {
         let compared = ComparedPicture::new(&seen, &drawn.pixels, (&host, card.is_clamped()));
         let mut found = study.findings("Bi-scale transfer on a card", &compared, exposure)?;
         let cube = self.light.cube(&DMat3::IDENTITY, Decimation::SolidAngle)?;
-        found.pictures(vec![light_picture("light", &self.light_name, of_texels(cube.texels()))?]);
+        found.pictures(vec![self.view.light_picture(of_texels(cube.texels()))?]);
         let whole = self.exact(&exact, (&seen, exposure), edges);
         let blames = [
             Blame { step: "the card: storage, filters, arithmetic, target", errors: compared.errors },

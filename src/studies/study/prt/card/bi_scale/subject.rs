@@ -7,8 +7,9 @@ use crate::bi_scale::on_card::{DisplayOptions, LightFormat, TexturedMesh};
 use crate::bi_scale::product::reference;
 use crate::bi_scale::texture::BidirectionalTexture;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
-use crate::scene::Camera;
-use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::study::StudyError;
+use crate::study::prt::LitView;
+use crate::study::prt::card::CardSetting;
 use crate::transfer::Vertices;
 use crate::transfer::grid::LIGHT_TEXELS;
 use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
@@ -16,8 +17,8 @@ use crate::transfer::light::{CubeLightError, Decimation, DistantLight};
 /// A model with biclusters of its transfer, bidirectional textures, a light and a camera, and the card.
 #[derive(Debug)]
 pub struct BiScaleOnCard {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its vertices.
     pub vertices: Vertices,
     /// Texture coordinates of each corner, triangle by triangle: 1 is one patch.
@@ -28,14 +29,8 @@ pub struct BiScaleOnCard {
     pub textures: Vec<BidirectionalTexture>,
     /// The number of each triangle's texture.
     pub texture_of: Vec<u32>,
-    /// The light's name.
-    pub light_name: String,
     /// The light.
     pub light: DistantLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure.
-    pub exposure: Option<f64>,
     /// The card that draws.
     pub card: CardSetting,
     /// What the card holds light in.
@@ -56,7 +51,7 @@ impl BiScaleOnCard {
     }
 
     /// Refuses biclusters of other vertices, directions or light.
-    pub(super) fn check(&self) -> Result<(), CardPictureError> {
+    pub(super) fn check(&self) -> Result<(), StudyError> {
         let [rows, columns] = self.biclusters.matrix_size();
         let expected = self.vertices.len() * self.directions();
         for (what, expected, found) in [
@@ -64,7 +59,9 @@ impl BiScaleOnCard {
             ("light texels", LIGHT_TEXELS, columns),
         ] {
             if expected != found {
-                return Err(CardPictureError::Size { what, expected, found });
+                let what = format!("expected transfer of {expected} {what}, found {found}");
+                let help = "precompute transfer with as many `--directions` as the texture has for light";
+                return Err(StudyError::new("crossbar::prt::bi_scale", what).with_help(help));
             }
         }
         Ok(())

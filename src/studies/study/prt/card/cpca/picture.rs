@@ -10,7 +10,7 @@ use crate::card::{MeshView, SeenPixel};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::geom::vector::wide;
-use crate::study::prt::card::CardPictureError;
+use crate::study::StudyError;
 use crate::study::prt::interpolate::Seen;
 use crate::transfer::brdf::ExitBasis;
 
@@ -51,9 +51,9 @@ impl Way<'_> {
         study: &OnCard,
         transfer: CompressedTransfer<'_>,
         exposure: f64,
-    ) -> Result<Drawn, CardPictureError> {
+    ) -> Result<Drawn, StudyError> {
         let mut card = PrtCard::new(self.profile.clone(), study.card.executor.clone(), transfer, &self.options)?;
-        let view = MeshView { camera: study.camera, exposure, format: self.format };
+        let view = MeshView { camera: study.view.camera, exposure, format: self.format };
         let (texels, log) = if self.timed {
             card.logged_view(&study.light, &view)?
         } else {
@@ -78,7 +78,7 @@ pub(super) fn on_host(
     basis: &ExitBasis,
     exit: &[Vec<[f64; 3]>],
 ) -> Vec<[f64; 3]> {
-    let eye = wide(study.camera.eye());
+    let eye = wide(study.view.camera.eye());
     let towards =
         |vertex: usize| study.vertices.frames()[vertex].to_local(eye - wide(study.vertices.positions()[vertex]));
     let view: Vec<DVec3> = (0..study.vertices.len()).map(towards).collect();

@@ -8,8 +8,9 @@ use super::picture::Way;
 use super::subject::OnCard;
 use crate::card::SeenPixel;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
+use crate::study::StudyError;
+use crate::study::prt::card::PictureVariant;
 use crate::study::prt::card::difference::{PixelErrors, held};
-use crate::study::prt::card::{CardPictureError, PictureVariant};
 
 /// Maps as fine as the reference picture has them.
 const FINE: usize = 512;
@@ -82,8 +83,8 @@ pub(super) fn variants(
     (transfer, exposure): (CompressedTransfer<'_>, f64),
     seen: &[Option<SeenPixel>],
     progress: &mut dyn FnMut(u64),
-) -> Result<Vec<PictureVariant>, CardPictureError> {
-    let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, CardPictureError> {
+) -> Result<Vec<PictureVariant>, StudyError> {
+    let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, StudyError> {
         let profile = Profile::named(choice.device)?;
         let way = Way { profile: &profile, format: choice.format, options: choice.options, timed: false };
         Ok(held(&way.draw(study, transfer, exposure)?.colors, true))

@@ -7,30 +7,22 @@ use crate::card::seen_pixels;
 use crate::cpca::on_card::time::host_of_section_7;
 use crate::report::{Findings, Provenance};
 use crate::study::prt::card::difference::ComparedPicture;
+use crate::study::prt::card::frame;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
 use crate::study::prt::card::sweep::report_sweep;
-use crate::study::prt::card::{CardPictureError, frame};
 use crate::study::prt::exit_radiance::Lit;
-use crate::study::prt::light_picture;
-use crate::study::{ProgressFn, Study};
+use crate::study::prt::exit_radiance::no_transfer;
+use crate::study::{ProgressFn, Study, StudyError};
 
 impl Study for OnCard {
-    type Error = CardPictureError;
-
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, CardPictureError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let (basis, card) = (self.basis()?, &self.card);
         let transfer = self.transfer(&basis)?;
         let steps = 2 + if card.sweep { precision::pictures(&transfer) } else { 0 };
         progress("host", 0, steps);
-        let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.camera)?;
-        let lit = Lit::new(&self.meaning, &self.light).ok_or(CardPictureError::NoTransfer)?;
-        let study = PictureStudy {
-            card,
-            camera: &self.camera,
-            names: [&self.model, &self.light_name],
-            exposure: self.exposure,
-            from: "the same clusters",
-        };
+        let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.view.camera)?;
+        let lit = Lit::new(&self.meaning, &self.light).ok_or_else(no_transfer)?;
+        let study = PictureStudy { card, view: &self.view, from: "the same clusters" };
         let (exposure, host) = study.exposed(on_host(self, &seen, &basis, &lit.of_clusters(&self.clustering)));
         progress("card", 1, steps);
         let way = Way { profile: &card.profile, format: card.format, options: self.options, timed: true };
@@ -38,7 +30,7 @@ impl Study for OnCard {
         let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
         let radiance = |direction| self.light.radiance(direction);
-        found.pictures(vec![light_picture("light", &self.light_name, radiance)?]);
+        found.pictures(vec![self.view.light_picture(radiance)?]);
         report_sizes(tables::sizes(&drawn.size, &drawn.draws), &mut found);
         if let Some(time) = frame::modelled(&card.profile, &drawn.log, host_of_section_7())? {
             found.conclusion(tables::time_sentence(&time, &card.profile.title));

@@ -2,9 +2,11 @@
 
 use crate::cpca::coherence::Superclusters;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions};
-use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
-use crate::study::prt::card::{CardPictureError, CardSetting};
+use crate::study::StudyError;
+use crate::study::prt::LitView;
+use crate::study::prt::card::CardSetting;
+use crate::study::prt::exit_radiance::no_transfer;
 use crate::transfer::Vertices;
 use crate::transfer::brdf::ExitBasis;
 use crate::transfer::clustering::Clustering;
@@ -13,8 +15,8 @@ use crate::transfer::file::PrtMeaning;
 /// A model with compressed transfer, a light and a camera, and the card that draws it.
 #[derive(Debug)]
 pub struct OnCard {
-    /// The model's name.
-    pub model: String,
+    /// Names, camera and exposure.
+    pub view: LitView,
     /// Its vertices, the points of the clusters.
     pub vertices: Vertices,
     /// What the numbers of a vertex mean.
@@ -23,14 +25,8 @@ pub struct OnCard {
     pub clustering: Clustering,
     /// Their superclusters, if the file has some.
     pub superclusters: Option<Superclusters>,
-    /// The light's name.
-    pub light_name: String,
     /// The light, of the order of the transfer.
     pub light: HarmonicLight,
-    /// The camera.
-    pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
-    pub exposure: Option<f64>,
     /// The card that draws.
     pub card: CardSetting,
     /// Variants.
@@ -38,15 +34,15 @@ pub struct OnCard {
 }
 
 impl OnCard {
-    pub(super) fn basis(&self) -> Result<ExitBasis, CardPictureError> {
+    pub(super) fn basis(&self) -> Result<ExitBasis, StudyError> {
         let PrtMeaning::Transfer { exit_functions, .. } = &self.meaning else {
-            return Err(CardPictureError::NoTransfer);
+            return Err(no_transfer());
         };
         Ok(ExitBasis::of_functions(exit_functions)?)
     }
 
-    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, CardPictureError> {
-        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(CardPictureError::NoTransfer) };
+    pub(super) fn transfer<'a>(&'a self, basis: &'a ExitBasis) -> Result<CompressedTransfer<'a>, StudyError> {
+        let PrtMeaning::Transfer { channels, .. } = &self.meaning else { return Err(no_transfer()) };
         let vectors = self.clustering.subspaces().iter().map(|subspace| subspace.len()).max().unwrap_or(0);
         let Self { vertices, clustering, superclusters, .. } = self;
         let (channels, superclusters) = (*channels as usize, superclusters.as_ref());

@@ -10,9 +10,7 @@ use crate::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::picture::Picture;
 use crate::report::NamedPicture;
-use crate::study::prt::{
-    BiScaleDrawing, BiScaleError, BiScaleRendering, CausePictures, auto_exposure, filtered, linear_picture,
-};
+use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures, auto_exposure, filtered, linear_picture};
 
 /// Order of the harmonics of low-frequency bi-scale transfer.
 pub(super) const ORDER: usize = 5;
@@ -36,13 +34,13 @@ impl DrawnFigure {
         size: FigureSize,
         has_smooth: bool,
     ) -> Result<Self, ReproduceError> {
-        let fail = |error: BiScaleError| failed(HOST)(&error);
+        let fail = failed(HOST);
         let rendering = model.rendering(side, size)?;
-        let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
-        let cube = drawing.cube(&DMat3::IDENTITY).map_err(fail)?;
-        let local = drawing.local(&cube).map_err(fail)?;
+        let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
+        let cube = drawing.cube(&DMat3::IDENTITY).map_err(|e| fail(&e))?;
+        let local = drawing.local(&cube).map_err(|e| fail(&e))?;
         let drawn = drawing.shade(&local.rows);
-        let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(fail)?;
+        let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(|e| fail(&e))?;
         let smooth = match &rendering.file.matrix {
             Some(matrix) if has_smooth => {
                 let channels = light_vectors(&cube);
@@ -64,7 +62,7 @@ impl DrawnFigure {
 
     /// Returns the pictures with the same exposure; `name` is the prefix of their file names.
     pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
-        let model = &self.rendering.model;
+        let model = &self.rendering.view.model;
         let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
         let fine = self.fine.display(auto_exposure(exact)).map_err(|e| failed(HOST)(&e))?;
         let mut shown = vec![
@@ -87,7 +85,8 @@ impl DrawnFigure {
         caption: String,
     ) -> Result<NamedPicture, ReproduceError> {
         let exposure = auto_exposure(self.causes.exact());
-        let image = linear_picture(&self.rendering.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+        let image =
+            linear_picture(&self.rendering.view.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(format!("bi-scale-{name}"), image, caption))
     }
 }
@@ -98,11 +97,11 @@ pub(super) fn by_transfer(
     side: usize,
     size: FigureSize,
 ) -> Result<Vec<[f64; 3]>, ReproduceError> {
-    let fail = |error: BiScaleError| failed(HOST)(&error);
+    let fail = failed(HOST);
     let rendering = model.rendering(side, size)?;
-    let drawing = BiScaleDrawing::new(&rendering).map_err(fail)?;
-    let cube = drawing.cube(&DMat3::IDENTITY).map_err(fail)?;
-    Ok(drawing.shade(&drawing.local(&cube).map_err(fail)?.rows))
+    let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
+    let cube = drawing.cube(&DMat3::IDENTITY).map_err(|e| fail(&e))?;
+    Ok(drawing.shade(&drawing.local(&cube).map_err(|e| fail(&e))?.rows))
 }
 
 /// Computes L~ by low-frequency bi-scale transfer: harmonics on both sides.

@@ -12,7 +12,7 @@ use crate::geom::vector::wide;
 use crate::scene::Camera;
 use crate::scene::built::flat_models::MaterialMesh;
 use crate::study::framing::framed;
-use crate::study::prt::{BiScaleRendering, SurfaceTexture, TexturedSurface, Turning};
+use crate::study::prt::{BiScaleRendering, LitView, SurfaceTexture, TexturedSurface, TurnedFrames};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::transfer::file::MeshDigest;
 use crate::transfer::light::DistantLight;
@@ -76,16 +76,17 @@ impl TexturedModel {
         let camera = self.camera(size.picture)?;
         let surface = TexturedSurface::new(mesh.clone(), seen.vertices, material_of.clone(), size.repeat);
         Ok(BiScaleRendering {
-            model: self.name.to_owned(),
+            view: LitView {
+                model: self.name.to_owned(),
+                light: "a clear sky with a sun".to_owned(),
+                camera,
+                exposure: None,
+            },
             surface: surface.map_err(|e| fail(&e))?,
             file,
             textures: self.textures(side, size)?,
-            light_name: "a clear sky with a sun".to_owned(),
             light: DistantLight::Sky(HARD_SUN),
-            camera,
-            exposure: None,
-            frames: 0,
-            turning: Turning::Light,
+            frames: TurnedFrames::default(),
             reference: true,
             values: None,
         })

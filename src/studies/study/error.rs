@@ -1,0 +1,192 @@
+//! The one error of all studies.
+
+use std::error::Error;
+use std::fmt;
+
+use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+use refsim::device::DeviceError;
+
+use crate::picture::PictureError;
+use crate::report::ReportError;
+
+/// Error of a study: a sentence of its own or a library's error, with a code for programs and what to do.
+///
+/// A library's error that is a diagnostic is shown as it is. Others have a code that says which step of the study
+/// failed. [`Self::downcast_ref`] returns the library's error.
+pub struct StudyError(Box<ErrorParts>);
+
+#[derive(Debug, Default)]
+struct ErrorParts {
+    code: Option<&'static str>,
+    sentence: Option<String>,
+    help: Option<String>,
+    cause: Option<Cause>,
+}
+
+/// Error of a library.
+#[derive(Debug)]
+enum Cause {
+    Error(Box<dyn Error + Send + Sync>),
+    Diagnostic(Box<dyn Diagnostic + Send + Sync>),
+}
+
+impl Cause {
+    fn error(&self) -> &(dyn Error + 'static) {
+        match self {
+            Self::Error(error) => &**error,
+            Self::Diagnostic(error) => &**error,
+        }
+    }
+}
+
+impl StudyError {
+    /// An error that a study found itself: where it looked, what it expected and what it found.
+    pub fn new(code: &'static str, sentence: impl Into<String>) -> Self {
+        Self(Box::new(ErrorParts { code: Some(code), sentence: Some(sentence.into()), ..ErrorParts::default() }))
+    }
+
+    /// A library's error with its own sentence, under a code of the study.
+    pub fn coded(code: &'static str, error: impl Error + Send + Sync + 'static) -> Self {
+        let cause = Some(Cause::Error(Box::new(error)));
+        Self(Box::new(ErrorParts { code: Some(code), cause, ..ErrorParts::default() }))
+    }
+
+    /// A library's error, shown as it is.
+    pub fn diagnostic(error: impl Diagnostic + Send + Sync + 'static) -> Self {
+        Self(Box::new(ErrorParts { cause: Some(Cause::Diagnostic(Box::new(error))), ..ErrorParts::default() }))
+    }
+
+    /// Adds what to do.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.0.help = Some(help.into());
+        self
+    }
+
+    /// Adds the error that caused this one.
+    #[must_use]
+    pub fn with_source(mut self, source: impl Error + Send + Sync + 'static) -> Self {
+        self.0.cause = Some(Cause::Error(Box::new(source)));
+        self
+    }
+
+    /// The library's error, if it has this type.
+    pub fn downcast_ref<E: Error + 'static>(&self) -> Option<&E> {
+        self.0.cause.as_ref()?.error().downcast_ref()
+    }
+
+    fn shown(&self) -> Option<&(dyn Diagnostic + Send + Sync)> {
+        match &self.0.cause {
+            Some(Cause::Diagnostic(error)) => Some(&**error),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Debug for StudyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}
+
+impl fmt::Display for StudyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.0.sentence, &self.0.cause) {
+            (Some(sentence), _) => f.write_str(sentence),
+            (None, Some(cause)) => fmt::Display::fmt(cause.error(), f),
+            (None, None) => Ok(()),
+        }
+    }
+}
+
+impl Error for StudyError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        let cause = self.0.cause.as_ref()?.error();
+        // Without a sentence the cause is what is displayed, so that the chain starts behind it.
+        if self.0.sentence.is_some() { Some(cause) } else { cause.source() }
+    }
+}
+
+impl Diagnostic for StudyError {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.code.map(|code| Box::new(code) as _).or_else(|| self.shown()?.code())
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.help.as_ref().map(|help| Box::new(help) as _).or_else(|| self.shown()?.help())
+    }
+
+    fn severity(&self) -> Option<Severity> {
+        self.shown()?.severity()
+    }
+
+    fn url<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.shown()?.url()
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.shown()?.source_code()
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.shown()?.labels()
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        self.shown()?.related()
+    }
+
+    fn diagnostic_source(&self) -> Option<&dyn Diagnostic> {
+        self.shown()?.diagnostic_source()
+    }
+}
+
+/// Converts errors of libraries: diagnostics are shown as they are, others under a code, with help if there is some.
+macro_rules! library_errors {
+    ($($error:ty $(=> $code:literal $(, $help:literal)?)?;)*) => {
+        $(impl From<$error> for $crate::study::StudyError {
+            fn from(error: $error) -> Self {
+                $crate::study::error::library_errors!(@ error $($code $($help)?)?)
+            }
+        })*
+    };
+    (@ $error:ident) => { Self::diagnostic($error) };
+    (@ $error:ident $code:literal) => { Self::coded($code, $error) };
+    (@ $error:ident $code:literal $help:literal) => { Self::coded($code, $error).with_help($help) };
+}
+pub(in crate::study) use library_errors;
+
+library_errors! {
+    DeviceError;
+    PictureError;
+    ReportError;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// How a library's error was forwarded by the derives: `#[error(transparent)]` with a code, or transparent
+    /// altogether; a sentence of the study's own has its cause in the chain.
+    #[test]
+    fn errors_are_forwarded_as_by_the_derives() {
+        let text = |shown: Option<Box<dyn fmt::Display + '_>>| shown.map(|shown| shown.to_string());
+        let unknown = || refsim::device::Profile::named("nv99").expect_err("there is none");
+        let as_it_is = StudyError::from(unknown());
+        assert_eq!(as_it_is.to_string(), unknown().to_string());
+        assert_eq!(text(as_it_is.code()), text(unknown().code()));
+        assert_eq!(text(as_it_is.help()), text(unknown().help()));
+        assert!(as_it_is.downcast_ref::<DeviceError>().is_some());
+
+        let coded = StudyError::coded("room::step", unknown());
+        assert_eq!(coded.to_string(), unknown().to_string());
+        assert_eq!([text(coded.code()), text(coded.help())], [Some("room::step".to_owned()), None]);
+        assert!(coded.source().is_none(), "the error displayed is not in its own chain");
+        assert!(coded.downcast_ref::<PictureError>().is_none());
+
+        let own = StudyError::new("room::file", "cannot use x").with_help("name y").with_source(unknown());
+        assert_eq!(own.to_string(), "cannot use x");
+        assert_eq!([text(own.code()), text(own.help())], ["room::file", "name y"].map(|s| Some(s.to_owned())));
+        assert_eq!(own.source().map(ToString::to_string), Some(unknown().to_string()));
+    }
+}

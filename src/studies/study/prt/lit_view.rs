@@ -1,0 +1,82 @@
+//! The view of a lit model that pictures of all systems on transfer share.
+
+use glam::DVec3;
+use serde_json::json;
+
+use super::interpolate::linear_picture;
+use super::light_picture::light_picture;
+use crate::picture::{Picture, PictureError};
+use crate::report::{Findings, NamedPicture};
+use crate::scene::Camera;
+
+/// Mean of what is not black under auto-exposure.
+const MIDDLE_GREY: f64 = 0.18;
+
+/// A model under a light, seen by a camera.
+#[derive(Debug)]
+pub struct LitView {
+    /// The model's name.
+    pub model: String,
+    /// The light's name.
+    pub light: String,
+    /// The camera.
+    pub camera: Camera,
+    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
+    pub exposure: Option<f64>,
+}
+
+impl LitView {
+    /// The exposure of linear radiance of pixels.
+    pub(super) fn exposure_of(&self, linear: &[[f64; 3]]) -> f64 {
+        self.exposure.unwrap_or_else(|| auto_exposure(linear))
+    }
+
+    pub(super) fn caption(&self) -> String {
+        format!("{} under {}", self.model, self.light)
+    }
+
+    /// The pixels of the camera as a picture.
+    pub(super) fn picture(&self, colors: &[[f64; 3]]) -> Picture {
+        linear_picture(&self.camera, colors)
+    }
+
+    /// Picture of the light, from its radiance by direction.
+    pub(super) fn light_picture(
+        &self,
+        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+    ) -> Result<NamedPicture, PictureError> {
+        light_picture("light", &self.light, radiance)
+    }
+
+    /// Findings that begin with a drawn picture and that of its light; returns the exposure too.
+    pub(super) fn findings(
+        &self,
+        title: &str,
+        drawn: &[[f64; 3]],
+        radiance: impl Fn(DVec3) -> [f64; 3] + Sync,
+    ) -> Result<(Findings, f64), PictureError> {
+        let exposure = self.exposure_of(drawn);
+        let mut found = Findings::new(title);
+        found.taken_from(self.camera.world_to_camera());
+        let picture = self.picture(drawn);
+        let shown = NamedPicture::new("picture", picture.display(exposure)?, self.caption());
+        found.pictures(vec![shown, self.light_picture(radiance)?]);
+        found.keep_layers("picture", picture);
+        found.field("exposure", json!(exposure));
+        Ok((found, exposure))
+    }
+
+    /// Sentence on the number of pixels that show the model.
+    pub(super) fn sentence(&self, shown: usize) -> String {
+        let pixels = u64::from(self.camera.width()) * u64::from(self.camera.height());
+        format!("{shown} of {pixels} pixels show {}.", self.caption())
+    }
+}
+
+/// Pixels that show something at 18 % grey on average.
+pub(in crate::study) fn auto_exposure(colors: &[[f64; 3]]) -> f64 {
+    let lit: Vec<f64> =
+        colors.iter().map(|color| color.iter().sum::<f64>() / 3.0).filter(|&value| value > 0.0).collect();
+    let mean = lit.iter().sum::<f64>() / lit.len().max(1) as f64;
+    if mean > 0.0 { MIDDLE_GREY / mean } else { 1.0 }
+}
