@@ -5,6 +5,7 @@ use super::subject::OnCard;
 use super::{precision, tables};
 use crate::card::seen_pixels;
 use crate::cpca::on_card::time::host_of_section_7;
+use crate::geom::vector::wide;
 use crate::report::{Findings, Provenance};
 use crate::study::prt::card::difference::ComparedPicture;
 use crate::study::prt::card::setting::{PictureStudy, report_sizes};
@@ -24,6 +25,7 @@ impl Study for OnCard {
         progress("host", 0, steps);
         let seen = seen_pixels(&card.profile, self.vertices.geometry(), &self.camera)?;
         let lit = Lit::new(&self.meaning, &self.light).ok_or(CardPictureError::NoTransfer)?;
+        let exit = lit.of_clusters(&self.clustering);
         let study = PictureStudy {
             card,
             camera: &self.camera,
@@ -31,12 +33,14 @@ impl Study for OnCard {
             exposure: self.exposure,
             from: "the same clusters",
         };
-        let (exposure, host) = study.exposed(on_host(self, &seen, &basis, &lit.of_clusters(&self.clustering)));
+        let (exposure, host) = study.exposed(on_host(self, &seen, &basis, &exit));
         progress("card", 1, steps);
         let way = Way { profile: &card.profile, format: card.format, options: self.options, timed: true };
         let drawn = way.draw(self, transfer, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;
+        let of_vertices = || lit.radiance(&exit, &self.vertices, wide(self.camera.eye()));
+        study.keep_values(&self.vertices, of_vertices, &mut found);
         let radiance = |direction| self.light.radiance(direction);
         found.pictures(vec![light_picture("light", &self.light_name, radiance)?]);
         report_sizes(tables::sizes(&drawn.size, &drawn.draws), &mut found);
