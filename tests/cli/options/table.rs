@@ -353,7 +353,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale show court.prt --at 0,0,0 --model docs/examples/court.obj",
             "bi-scale show court.prt --at 0,0,0 --model odd.obj",
         ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --matrix=other.mtx@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
