@@ -80,6 +80,85 @@ fn shown_vertices_have_the_models_numbers() {
     table.iter().for_each(|row| is_named(&row[5..]));
 }
 
+/// Errors of ways to store transfer are told by the model's own vertices.
+#[test]
+fn ways_to_store_transfer_are_off_at_vertices() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |name: &str| place(folder.path(), name);
+    let (model, file, csv) = (of("square.obj"), of("file.prt"), of("errors.csv"));
+    fs::write(&model, SQUARE).expect("written");
+    document(&["bi-scale", "precompute", &model, "--directions", "2", "--out", &file]);
+    let small = ["--clusters", "2", "--vectors", "1", "--sample", "8", "--rounds", "1", "--csv", &csv];
+    let compare = |more: &[&str]| document(&[&["bi-scale", "compare", &file][..], &small, more].concat());
+    let found = compare(&["--model", &model]);
+    let text = fs::read_to_string(&csv).expect("a table");
+    let (headings, lines) = text.split_once('\n').expect("headings");
+    assert_eq!(headings, "way,vertex,squared_error,squares,model_vertex,x,y,z");
+    let ways = found["ways"].as_array().expect("a list");
+    assert_eq!(lines.lines().count(), 4 * ways.len());
+    let rows: Vec<(String, Vec<String>)> = lines
+        .lines()
+        .map(|line| {
+            let (way, fields) = line[1..].split_once("\",").expect("a name");
+            (way.to_owned(), fields.split(',').map(str::to_owned).collect())
+        })
+        .collect();
+    rows.iter().for_each(|(_, fields)| is_named(&fields[3..]));
+    for (way, rows) in ways.iter().zip(rows.chunks_exact(4)) {
+        assert!(rows.iter().all(|(name, _)| way["way"] == name.as_str()), "{way}");
+        let error = |fields: &[String]| fields[1].parse::<f64>().expect("a number");
+        let most = rows.iter().map(|(_, fields)| error(fields)).fold(0.0, f64::max);
+        let at = usize::try_from(way["most"]["vertex"].as_u64().expect("a number")).expect("small");
+        let of_model = &way["most"]["of_model"]["model_vertex"];
+        assert_eq!((error(&rows[at].1), of_model.to_string()), (most, rows[at].1[3].clone()), "{way}");
+        assert_relative_eq!(way["most"]["squared_error"].as_f64().expect("a number"), most);
+        // The sum over vertices is what the whole is off by: 16 rows in 3 channels.
+        let sum: f64 = rows.iter().map(|(_, fields)| error(fields)).sum();
+        let rms = way["rms"].as_f64().expect("a number");
+        assert_relative_eq!(sum, 48.0 * rms * rms, max_relative = 1e-9, epsilon = 1e-300);
+    }
+    compare(&[]);
+    let text = fs::read_to_string(&csv).expect("a table");
+    assert!(text.starts_with("way,vertex,squared_error,squares\n"), "{text}");
+}
+
+/// A card's study writes the radiance that `render` writes, from the numbers that the card draws.
+#[test]
+fn cards_write_radiance_of_vertices_too() {
+    let folder = tempfile::tempdir().expect("a folder for the test");
+    let of = |name: &str| place(folder.path(), name);
+    let (model, file, small, page) = (of("square.obj"), of("file.prt"), of("small.prt"), of("page"));
+    fs::write(&model, SQUARE).expect("written");
+    let plain = of("plain.npy");
+    document(&["bi-scale", "texture", "plain", "--size", "2", "--directions", "2", "--views", "2", "--out", &plain]);
+    let model_of = ["--model", model.as_str()];
+    for (command, made, compress, drawn) in [
+        ("cpca", &["--order", "3"][..], &["compress", &file, "--clusters", "1", "--vectors", "1"][..], &[][..]),
+        ("all-frequency", &[], &["compress", &file, "--vectors", "1", "--model", &model], &[]),
+        ("bi-scale", &["--directions", "2", "--tangents", "texture"], &["bicluster", &file], &["--texture", &plain]),
+    ] {
+        document(&[&[command, "precompute", &model, "--out", &file][..], made].concat());
+        document(&[&[command][..], compress, &["--out", &small]].concat());
+        let values = |verb: &str| {
+            let fixed = [command, verb, &small, "--light", "constant:2,1,0.5", "--eye", "0.5,0.4,3"];
+            let out = ["--up", "0,1,0", "--size", "12x12", "--out", &page, "--values", "csv"];
+            document(&[&fixed[..], &model_of, &out, drawn].concat());
+            rows(&format!("{page}/vertices.csv"), "vertex,model_vertex,x,y,z,red,green,blue")
+        };
+        let [on_host, on_card] = ["render", "card"].map(values);
+        assert_eq!((on_host.len(), on_card.len()), (4, 4), "{command}");
+        for (host, card) in on_host.iter().zip(&on_card) {
+            is_named(&card[1..5]);
+            assert_eq!(host[..5], card[..5]);
+            for (host, card) in host[5..].iter().zip(&card[5..]) {
+                let [host, card] = [host, card].map(|field| field.parse::<f64>().expect("a number"));
+                assert!(host > 0.01, "{command}: {host}");
+                assert_relative_eq!(host, card, max_relative = 1e-4);
+            }
+        }
+    }
+}
+
 /// The array of a page.
 fn array(page: &str) -> NumberTable<f64> {
     let path = Path::new(page).join("vertices.npy");

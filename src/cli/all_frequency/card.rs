@@ -24,7 +24,8 @@ Examples:
   crossbar all-frequency card docs/examples/step_all_small.prt --model docs/examples/step.obj --original docs/examples/step_all.prt --sweep --size 64x48
       bits of representatives, weights and maps, arithmetic; what of it shows, and what compression costs
 
-Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv, with --values the radiance of \
+vertices as the host computes it from the numbers that the card draws. \
 docs/papers/all_frequency.md explains all of it.";
 
 /// The part of the work that the card does.
@@ -127,8 +128,10 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<AllFrequencyOnCard> {
-        let card = self.card.setting("r350")?;
+        let mut card = self.card.setting("r350")?;
         let place = self.place(&card.profile)?;
-        Ok(AllFrequencyOnCard { lit: self.lit.load()?, place, sums_on_card: self.way == WayArg::Sums, card })
+        let lit = self.lit.load()?;
+        card.values = self.card.values.of(&self.lit.picture.model, &lit.vertices);
+        Ok(AllFrequencyOnCard { lit, place, sums_on_card: self.way == WayArg::Sums, card })
     }
 }

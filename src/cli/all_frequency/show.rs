@@ -23,7 +23,9 @@ Examples:
   crossbar all-frequency show docs/examples/step_all_small.prt --vertex 12 --arrays arrays
       and of one vertex: its cluster and weights in each segment; all of it as arrays of NumPy's
   crossbar all-frequency show docs/examples/step_all.prt --at 0.5,0,0 --model docs/examples/step.obj --json
-      the vertex nearest to a place of its model, for machines";
+      the vertex nearest to a place of its model, for machines
+
+`crossbar all-frequency render --values csv` writes the radiance of all vertices under a light.";
 
 /// Show what a .prt file holds: visibility, coded segments, the code of a vertex
 #[derive(Debug, clap::Args)]

@@ -7,7 +7,7 @@ use std::time::Instant;
 use serde_json::{Value, json};
 
 use super::file::load;
-use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, Biclustering, bicluster};
+use crate::bi_scale::bicluster::{BiclusterError, BiclusterOptions, BiclusterResidual, Biclustering, bicluster};
 use crate::bi_scale::file::{BiScaleFile, save_bi_scale};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::cli::study::written;
@@ -27,12 +27,15 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --no-deletion --dump biclusters.csv --json
       every bicluster as a line; figures for machines
   crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
-      with loss: what is off by a quarter stays so";
+      with loss: what is off by a quarter stays so
+
+The sum of the biclusters equals the matrix bit for bit, whatever its numbers are. Products in single precision, on the
+host and on cards, and in double precision round the values that they do not hold; it is said how many there are.";
 
 /// Values that a table has room for.
 const VALUES: usize = 17;
 
-/// Make biclusters of a sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
+/// Make biclusters of any sparse matrix, without loss: fewer operations for its product with a vector, fewer bytes
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
@@ -74,7 +77,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let start = Instant::now();
     let (seed, biclusters) = args.best(&matrix).map_err(|error| refused(&args.file, &error))?;
     let seconds = start.elapsed().as_secs_f64();
-    let residual = Residual::new(&matrix, &biclusters).map_err(|error| refused(&args.file, &error))?;
+    let residual = biclusters.residual(&matrix);
     let summary = Summary { matrix: &matrix, biclusters: &biclusters, seed, residual, seconds };
     if let Some(path) = &args.dump {
         dump(&biclusters, path)?;
@@ -94,7 +97,7 @@ impl Args {
         let total = matrix.nonzeros() as u64;
         let bar = ProgressBar::new("non-zeros", total);
         let of_seed = |seed: u64| {
-            let options = BiclusterOptions { seed, deletion: !self.no_deletion, drop: self.drop(matrix) };
+            let options = BiclusterOptions { seed, deletion: !self.no_deletion, drop: self.drop };
             let mut number = 0_u64;
             let mut found = |left: u64| {
                 number += 1;
@@ -113,52 +116,14 @@ impl Args {
         }
         Ok(best)
     }
-
-    /// The largest residual that is left out, in units of the matrix.
-    fn drop(&self, matrix: &SparseMatrix) -> u32 {
-        (self.drop / matrix.unit()).min(f64::from(u32::MAX)) as u32
-    }
 }
 
 fn refused(path: &Path, error: &dyn std::error::Error) -> Problem {
-    Problem::usage(format!("{}: {error}", path.display()), "give the matrix in fewer bits")
+    Problem::usage(format!("{}: {error}", path.display()), "name a smaller matrix")
 }
 
-/// What the sum of biclusters leaves of a matrix.
-#[derive(Clone, Copy, Debug, Default)]
-struct Residual {
-    /// Places where they differ.
-    count: usize,
-    /// By how much at most.
-    largest: f64,
-    /// The sum of squared differences.
-    squares: f64,
-}
-
-impl Residual {
-    fn new(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Self, BiclusterError> {
-        let mut residual = Self::default();
-        biclusters.sum_by_rows(&mut |row, entries| {
-            if matrix.row(row) != entries {
-                let mut differences: BTreeMap<u32, i64> = BTreeMap::new();
-                for (sign, entries) in [(1, matrix.row(row)), (-1, entries)] {
-                    for entry in entries {
-                        *differences.entry(entry.index).or_insert(0) += sign * i64::from(entry.value);
-                    }
-                }
-                differences.into_values().filter(|&units| units != 0).for_each(|units| {
-                    let difference = matrix.unit() * units.unsigned_abs() as f64;
-                    residual.count += 1;
-                    residual.largest = residual.largest.max(difference);
-                    residual.squares += difference * difference;
-                });
-            }
-        })?;
-        Ok(residual)
-    }
-}
-
-/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces.
+/// A line per bicluster: its cost, then its rows, columns and values, each separated by spaces. Values are exact: sums
+/// where no f64 holds them.
 fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
     let join = |numbers: &mut dyn Iterator<Item = String>| numbers.collect::<Vec<String>>().join(" ");
     write_file(path, |out| {
@@ -168,8 +133,7 @@ fn dump(biclusters: &Biclustering, path: &Path) -> Result<(), Problem> {
             let cost = rows.len() + 2 * columns.len() - 1;
             let rows = join(&mut rows.iter().map(u32::to_string));
             let places = join(&mut columns.iter().map(|entry| entry.index.to_string()));
-            let value = |value: i32| (biclusters.unit() * f64::from(value)).to_string();
-            let values = join(&mut columns.iter().map(|entry| value(entry.value)));
+            let values = join(&mut columns.iter().map(|entry| biclusters.values().exact(entry.value).to_string()));
             writeln!(out, "{number},{cost},{rows},{places},{values}")?;
         }
         Ok(())
@@ -182,7 +146,7 @@ struct Summary<'a> {
     biclusters: &'a Biclustering,
     /// The seed that they are of.
     seed: u64,
-    residual: Residual,
+    residual: BiclusterResidual,
     seconds: f64,
 }
 
@@ -216,10 +180,25 @@ impl Summary<'_> {
         counts
     }
 
+    /// Columns of biclusters whose value products in single precision round; those beyond its range; those whose value
+    /// products in double precision round.
+    fn rounded(&self) -> [usize; 3] {
+        let mut rounded = [0; 3];
+        for entry in (0..self.biclusters.len()).flat_map(|number| self.biclusters.columns_of(number)) {
+            let value = self.biclusters.value(entry.value);
+            let is_double = self.biclusters.values().is_double(entry.value);
+            let single = value as f32;
+            rounded[0] += usize::from(single.is_finite() && !(is_double && f64::from(single) == value));
+            rounded[1] += usize::from(!single.is_finite());
+            rounded[2] += usize::from(!is_double);
+        }
+        rounded
+    }
+
     fn findings(&self) -> Findings {
-        let value = |value: i32| self.matrix.unit() * f64::from(value);
-        let values: Vec<Value> =
-            self.values().into_iter().map(|(key, count)| json!({ "value": value(key), "count": count })).collect();
+        let value = |(key, count)| json!({ "value": self.matrix.value(key), "count": count });
+        let values: Vec<Value> = self.values().into_iter().map(value).collect();
+        let [singles, beyond_singles, doubles] = self.rounded();
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
         found.table(self.table());
@@ -229,6 +208,8 @@ impl Summary<'_> {
             "values": values, "flops_before": self.flops_before(), "flops_after": self.biclusters.cost(),
             "biclusters": self.biclusters.len(), "row_entries": self.biclusters.row_entries(),
             "column_entries": self.biclusters.column_entries(), "bytes": bytes, "residual": self.residual.count,
+            "unit_bits": self.matrix.values().fraction_bits(), "distinct_values": self.matrix.values().table_len(),
+            "rounded_in_singles": singles, "beyond_singles": beyond_singles, "rounded_in_doubles": doubles,
             "largest_residual": self.residual.largest, "squared_residual": self.residual.squares,
             "seed": self.seed, "seconds": self.seconds,
         }));
@@ -241,6 +222,7 @@ impl Summary<'_> {
         table.push(["rows".into(), self.matrix.rows().into()]);
         table.push(["columns".into(), self.matrix.columns().into()]);
         table.push(["values other than 0".into(), self.matrix.nonzeros().into()]);
+        table.push(["values are".into(), self.matrix.values().to_string().into()]);
         table.push(["biclusters".into(), self.biclusters.len().into()]);
         table.push(["their rows".into(), self.biclusters.row_entries().into()]);
         table.push(["their columns".into(), self.biclusters.column_entries().into()]);
@@ -251,6 +233,14 @@ impl Summary<'_> {
         }
         for (_, what, bytes) in self.bytes() {
             table.push([format!("bytes, {what}").into(), bytes.into()]);
+        }
+        let rounded = [
+            "columns whose value single precision rounds",
+            "columns whose value is beyond single precision",
+            "columns whose value double precision rounds",
+        ];
+        for (what, count) in rounded.into_iter().zip(self.rounded()).filter(|(_, count)| *count > 0) {
+            table.push([what.into(), count.into()]);
         }
         table.push(["places where the sum differs".into(), self.residual.count.into()]);
         if self.residual.count > 0 {
@@ -265,7 +255,7 @@ impl Summary<'_> {
         let mut table = Table::new("Values", &["value", "count"]);
         let values = self.values();
         for (&value, &count) in values.iter().take(VALUES) {
-            table.push([Cell::measured(self.matrix.unit() * f64::from(value)), count.into()]);
+            table.push([Cell::measured(self.matrix.value(value)), count.into()]);
         }
         if let Some(more) = values.len().checked_sub(VALUES).filter(|&more| more > 0) {
             let count: usize = values.values().skip(VALUES).sum();

@@ -24,7 +24,8 @@ Examples:
   crossbar bi-scale card docs/examples/court_biclusters.prt --model docs/examples/court.obj --texture tiles --texture-size 8 --texture-views 4 --sweep --size 64x48
       light, local light, textures and targets made coarse one after the other: what shows
 
-Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv. \
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, blame.csv, with --sweep precision.csv, with --values the radiance of \
+vertices as the host computes it from the numbers that the card draws. \
 docs/papers/bi_scale.md explains all of it.";
 
 /// Draw a model under distant light on an emulated card, from biclusters and bidirectional textures
@@ -96,6 +97,8 @@ impl StudyArgs for Args {
         let coordinates = corner_coordinates(&model.mesh, [repeat; 2]).map_err(|error| {
             Problem::usage(format!("{}: {error}", name.display()), "name a model with texture coordinates (`vt`)")
         })?;
+        let mut card = self.card.setting("gt200")?;
+        card.values = self.card.values.of(name, &vertices);
         Ok(BiScaleOnCard {
             view: self.picture.view(&model.mesh, self.light.name())?,
             vertices,
@@ -104,7 +107,7 @@ impl StudyArgs for Args {
             textures: textures.textures(&directions)?.into_iter().map(|texture| texture.samples).collect(),
             texture_of,
             light: self.light.distant()?,
-            card: self.card.setting("gt200")?,
+            card,
             light_format: self.light_format,
             options: DisplayOptions { edges: self.blocks, texture: self.texture_format, local: self.local_format },
         })

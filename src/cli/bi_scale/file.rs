@@ -65,12 +65,8 @@ pub(super) fn load(path: &Path) -> miette::Result<BiScaleFile> {
     }
     let coordinates = load_matrix_market(path)?;
     require_size(path, [coordinates.rows, coordinates.columns])?;
-    let matrix = SparseMatrix::from_coordinates(&coordinates).map_err(|reason| {
-        Problem::usage(
-            format!("{}: {reason}", path.display()),
-            "give values that are whole numbers of some power of two, such as quarters",
-        )
-    })?;
+    let matrix = SparseMatrix::from_coordinates(&coordinates)
+        .map_err(|reason| Problem::usage(format!("{}: {reason}", path.display()), "name another matrix"))?;
     Ok(BiScaleFile { meaning: None, matrix: Some(matrix), biclusters: None })
 }
 
@@ -91,10 +87,10 @@ pub(super) fn turned(light: &LightArgs, degrees: f64, verb: &str) -> miette::Res
 /// Writes a matrix as text.
 pub(super) fn write_matrix(matrix: &SparseMatrix, comment: &str, path: &Path) -> Result<(), Problem> {
     let size = [matrix.rows(), matrix.columns(), matrix.nonzeros()];
-    let value = |value: i32| matrix.unit() * f64::from(value);
     write_file(path, |out| {
-        let entries = (0..matrix.rows())
-            .flat_map(|row| matrix.row(row).iter().map(move |entry| (row, entry.index as usize, value(entry.value))));
+        let entries = (0..matrix.rows()).flat_map(|row| {
+            matrix.row(row).iter().map(move |entry| (row, entry.index as usize, matrix.value(entry.value)))
+        });
         write_matrix_market(size, comment, entries, out)
     })
     .map_err(Problem::from)

@@ -12,6 +12,7 @@ mod show;
 mod texture;
 mod texture_args;
 mod textures;
+mod vertex_errors;
 
 use super::{Out, Verdict, study};
 

@@ -25,7 +25,8 @@ Examples:
   crossbar bi-scale multiply docs/examples/step_biclusters.prt --light red-and-blue --rotate 90 --json
       another light, turned; figures for machines
 
-Of a matrix the product is taken row by row, in double precision.";
+Of a matrix the product is taken row by row, in double precision; of biclusters in single precision, which rounds values \
+that it does not hold.";
 
 /// Multiply light with transfer: the light that reaches each local direction of each vertex
 #[derive(Debug, clap::Args)]
@@ -87,7 +88,12 @@ fn multiply(path: &Path, file: &BiScaleFile, light: &CubeLight) -> Result<LocalL
         let what = format!("{}: expected a matrix of {LIGHT_TEXELS} columns, found {found}", path.display());
         return Err(Problem::usage(what, "name transfer that `crossbar bi-scale precompute` wrote"));
     }
-    LocalLight::new(file, light).ok_or_else(|| Problem::usage("no matrix", "name another file"))
+    let product = LocalLight::new(file, light).ok_or_else(|| Problem::usage("no matrix", "name another file"))?;
+    if !product.rows.as_flattened().iter().all(|value| value.is_finite()) {
+        let what = format!("{}: values or sums beyond the range of the product's precision", path.display());
+        return Err(Problem::usage(what, "scale the matrix"));
+    }
+    Ok(product)
 }
 
 /// A line per row; with the vertex and its local direction where these are known, and the vertex's name in the model.

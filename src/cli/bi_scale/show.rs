@@ -1,14 +1,17 @@
 //! `crossbar bi-scale show`: what is in a matrix or its biclusters.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::file::{load, vertices_of};
+use super::file::{load, vertices_of, write_matrix};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::matrix::SparseMatrix;
+use crate::bi_scale::values::EntryValues;
+use crate::cli::Problem;
+use crate::cli::study::written;
 use crate::cli::transfer::vertex_choice::VertexChoice;
 use crate::cli::transfer::vertex_names::VertexNames;
 use crate::cli::words::counted;
@@ -25,7 +28,12 @@ Examples:
   crossbar bi-scale show docs/examples/step_biclusters.prt --vertex 12
       one vertex: the biclusters of its rows
   crossbar bi-scale show docs/examples/quarters.mtx --json
-      any sparse matrix, for machines";
+      any sparse matrix, for machines
+  crossbar bi-scale show docs/examples/step_biclusters.prt --matrix step.mtx
+      the matrix that the biclusters sum to
+
+`crossbar bi-scale multiply --values` writes the light that reaches all local directions, `render --values csv` the radiance of
+all vertices with their textures.";
 
 /// Show what a matrix or a .prt file of biclusters holds: values, sizes of biclusters, rows of a vertex
 #[derive(Debug, clap::Args)]
@@ -37,6 +45,10 @@ pub(super) struct Args {
 
     #[command(flatten)]
     vertex: VertexChoice,
+
+    /// Write the matrix, or the sum of the biclusters, which is the same, to this Matrix Market file
+    #[arg(long, value_name = "X.mtx")]
+    matrix: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> miette::Result<Findings> {
@@ -47,6 +59,9 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let of_model = args.vertex.model().map(vertices).transpose()?;
     let vertex = args.vertex.chosen("bi-scale", rows / local, of_model.as_ref())?;
     let names = args.vertex.names(of_model.as_ref());
+    if let Some(path) = &args.matrix {
+        write_text(&file, &args.file, path)?;
+    }
     let mut found = Findings::new("Bi-scale transfer");
     found.fields(document(&file, rows, local));
     let mut of_vertex = json!(vertex.map(|vertex| vertex_document(&file, vertex, local)));
@@ -58,7 +73,22 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         Some(vertex) => one(&file, (vertex, local), names.as_ref(), &mut found),
         None => all(&file, rows, local, &mut found),
     }
+    written(&mut found, [("matrix", args.matrix.as_deref())]);
     Ok(found)
+}
+
+/// Writes the matrix of a file as text.
+fn write_text(file: &BiScaleFile, name: &Path, path: &Path) -> Result<(), Problem> {
+    let comment = format!("of {}, by crossbar bi-scale show", name.display());
+    match (&file.matrix, &file.biclusters) {
+        (Some(matrix), _) => write_matrix(matrix, &comment, path),
+        (None, Some(biclusters)) => {
+            let sum = biclusters.sum();
+            let sum = sum.map_err(|e| Problem::usage(format!("{}: {e}", name.display()), "name another file"))?;
+            write_matrix(&sum, &comment, path)
+        }
+        (None, None) => Err(Problem::usage("no matrix", "name another file")),
+    }
 }
 
 fn rows(file: &BiScaleFile) -> usize {
@@ -66,15 +96,20 @@ fn rows(file: &BiScaleFile) -> usize {
     file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
 }
 
+/// The numbers of the matrix, else of its biclusters.
+fn values_of(file: &BiScaleFile) -> Option<&EntryValues> {
+    let of_biclusters = || file.biclusters.as_ref().map(Biclustering::values);
+    file.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
+}
+
 /// How often each value stands in a matrix, or in the columns of biclusters times their rows.
 fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
-    let unit = match (&file.matrix, &file.biclusters) {
+    match (&file.matrix, &file.biclusters) {
         (Some(matrix), _) => {
             for entry in (0..matrix.rows()).flat_map(|row| matrix.row(row)) {
                 *counts.entry(entry.value).or_insert(0) += 1;
             }
-            matrix.unit()
         }
         (None, Some(biclusters)) => {
             for number in 0..biclusters.len() {
@@ -82,11 +117,11 @@ fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
                     *counts.entry(entry.value).or_insert(0) += biclusters.rows_of(number).len() as u64;
                 }
             }
-            biclusters.unit()
         }
-        (None, None) => 1.0,
-    };
-    counts.into_iter().map(|(value, count)| (unit * f64::from(value), count)).collect()
+        (None, None) => {}
+    }
+    let Some(values) = values_of(file) else { return Vec::new() };
+    counts.into_iter().map(|(value, count)| (values.value(value), count)).collect()
 }
 
 /// Biclusters by how many rows they have: up to 1, 3, 7, 15 and so on; with how many rows and columns they have
@@ -117,6 +152,9 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
     found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
+    if let Some(values) = values_of(file) {
+        found.introduce(format!("values    {values}"));
+    }
     let mut table = Table::new("Values", &["value", "count"]);
     let values = values(file);
     for &(value, count) in values.iter().take(VALUES) {
@@ -153,8 +191,10 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
             .collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    json!({ "rows": rows, "mesh": mesh, "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros),
-            "values": values, "biclusters": biclusters })
+    let stored = values_of(file);
+    json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
+            "distinct_values": stored.and_then(EntryValues::table_len),
+            "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })
 }
 
 /// Per row of a vertex: its entries, and the biclusters that it belongs to.
@@ -178,8 +218,8 @@ fn rows_of(file: &BiScaleFile, vertex: usize, local: usize) -> Vec<RowOfVertex> 
     });
     let of = |direction: usize| {
         let entries = file.matrix.as_ref().map(|matrix| {
-            let value = |value: i32| matrix.unit() * f64::from(value);
-            matrix.row(vertex * local + direction).iter().map(|entry| (entry.index, value(entry.value))).collect()
+            let entries = matrix.row(vertex * local + direction).iter();
+            entries.map(|entry| (entry.index, matrix.value(entry.value))).collect()
         });
         RowOfVertex { direction, entries, biclusters: belongs.as_ref().map(|belongs| belongs[direction].clone()) }
     };

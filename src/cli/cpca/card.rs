@@ -25,7 +25,8 @@ Examples:
   crossbar cpca card docs/examples/step_small.prt --model docs/examples/step.obj --sweep --size 64x48
       weights, maps, arithmetic and targets made coarse one after the other: what shows
 
-Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv. docs/papers/cpca.md explains \
+Written to --out: index.html (self-contained), pictures, card.exr, timeline.json, with --sweep precision.csv, with --values the radiance of \
+vertices as the host computes it from the numbers that the card draws. docs/papers/cpca.md explains \
 all of it.";
 
 /// Draw a model under distant light on an emulated card, from clusters
@@ -100,8 +101,9 @@ impl StudyArgs for Args {
     }
 
     fn study(&self) -> miette::Result<OnCard> {
-        let card = self.card.setting("r300")?;
+        let mut card = self.card.setting("r300")?;
         let FileOfModel { mut file, model, vertices, .. } = FileOfModel::load(&self.file, &self.picture.model)?;
+        card.values = self.card.values.of(&self.picture.model, &vertices);
         let clustering = clusters_of(&mut file, &self.file)?;
         let light_order = light_order(&file)?;
         let superclusters = file.superclusters.as_deref().and_then(Superclusters::of_numbers);

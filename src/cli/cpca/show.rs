@@ -26,7 +26,9 @@ Examples:
   crossbar cpca show docs/examples/step.prt --at 0.5,0,0 --model docs/examples/step.obj --json
       the vertex nearest to a place of its model, for machines
   crossbar cpca show docs/examples/step_small.prt --arrays arrays
-      transfer, means, vectors, weights and clusters as arrays of NumPy's";
+      transfer, means, vectors, weights and clusters as arrays of NumPy's
+
+`crossbar cpca render --values csv` writes the radiance of all vertices under a light.";
 
 /// Eigenvalues that a table has room for.
 const EIGENVALUES: usize = 4;

@@ -5,6 +5,7 @@ use refsim::texture::TexelFormat;
 
 use crate::cli::card::CardArgs;
 use crate::cli::one_of::{OneOf, one_of};
+use crate::cli::transfer::picture::ValuesArgs;
 use crate::study::prt::CardSetting;
 
 /// The card, its target, and what of it is varied.
@@ -19,15 +20,18 @@ pub(in crate::cli) struct OnCardArgs {
     pub(in crate::cli) sweep: bool,
 
     #[command(flatten)]
+    pub(in crate::cli) values: ValuesArgs,
+
+    #[command(flatten)]
     pub(in crate::cli) card: CardArgs,
 }
 
 impl OnCardArgs {
-    /// The card that draws; `device` is drawn on where none is named.
+    /// The card that draws, without [`Self::values`]; `device` is drawn on where none is named.
     pub(in crate::cli) fn setting(&self, device: &str) -> miette::Result<CardSetting> {
-        let Self { target_format: format, sweep, card } = self;
+        let Self { target_format: format, sweep, card, .. } = self;
         let (profile, executor) = (card.profile(device)?, card.executor()?);
-        Ok(CardSetting { profile, switches: card.switches(), executor, format: *format, sweep: *sweep })
+        Ok(CardSetting { profile, switches: card.switches(), executor, format: *format, sweep: *sweep, values: None })
     }
 }
 

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::cli::model_file::vertex_numbers;
 use crate::io::VertexNumbers;
+use crate::report::Cell;
 use crate::transfer::Vertices;
 
 /// Names of the vertices of transfer. Rows of tables end in [`Self::COLUMNS`].
@@ -39,6 +40,12 @@ impl<'a> VertexNames<'a> {
         let number = self.number(vertex).map_or_else(String::new, |number| number.to_string());
         let [x, y, z] = self.positions[vertex];
         format!("{number},{x},{y},{z}")
+    }
+
+    /// [`Self::fields`] as cells.
+    pub(in crate::cli) fn cells(&self, vertex: usize) -> [Cell; 4] {
+        let [x, y, z] = self.positions[vertex].map(Cell::from);
+        [self.number(vertex).map_or(Cell::Empty, Cell::from), x, y, z]
     }
 
     /// The name of a vertex in a sentence: `vertex 7 of the model, at 0.5,0,1`.

@@ -134,6 +134,7 @@ pub fn parse_matrix_market(bytes: &[u8], name: &Path) -> Result<CoordinateMatrix
 }
 
 /// The text of a matrix of entries `(row, column, value)`, counted from 0, row by row.
+/// Values have the shortest digits that read back to the same numbers.
 ///
 /// # Errors
 /// Those of `out`.
@@ -147,7 +148,12 @@ pub fn write_matrix_market(
     comment.lines().try_for_each(|line| writeln!(out, "% {line}"))?;
     writeln!(out, "{rows} {columns} {count}")?;
     for (row, column, value) in entries {
-        writeln!(out, "{} {} {value}", row + 1, column + 1)?;
+        // All digits of a number far from 1 would be hundreds of zeros.
+        if value == 0.0 || (1e-5..1e16).contains(&value.abs()) {
+            writeln!(out, "{} {} {value}", row + 1, column + 1)?;
+        } else {
+            writeln!(out, "{} {} {value:e}", row + 1, column + 1)?;
+        }
     }
     Ok(())
 }
@@ -254,12 +260,12 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
-        let entries = vec![(0, 2, 0.25), (1, 0, -1.0), (1, 1, 7.5)];
+        let entries = vec![(0, 2, 0.25), (1, 0, -1.0), (1, 1, 5e-324)];
         let mut text = Vec::new();
         let places = entries.iter().map(|&(row, column, value)| (row as usize, column as usize, value));
         write_matrix_market([2, 3, 3], "a comment\nof two lines", places, &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("% of two lines\n2 3 3\n1 3 0.25\n"));
+        assert!(text.contains("% of two lines\n2 3 3\n1 3 0.25\n") && text.ends_with("2 2 5e-324\n"));
         assert_eq!(parse(&text), Ok(CoordinateMatrix { rows: 2, columns: 3, entries }));
     }
 

@@ -59,8 +59,7 @@ pub fn load_all_frequency(path: &Path, mesh: Option<&MeshDigest>) -> Result<AllF
 /// [`PrtFileError`].
 pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
-    reader.version()?;
-    reader.conventions(PrtKind::AllFrequency)?;
+    reader.begin(PrtKind::AllFrequency)?;
     let mut fields = [0; FIELDS];
     for field in &mut fields {
         *field = reader.integer("header")?;

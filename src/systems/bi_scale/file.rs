@@ -1,4 +1,5 @@
-//! The `.prt` file of bi-scale transfer, which is kind 3 of the same version. docs/prt-format.md specifies it.
+//! The `.prt` file of bi-scale transfer, which is kind 3. docs/prt-format.md specifies it. A file without tables of
+//! values has version 1, like the other kinds; one with tables, [`file_table`](super::file_table), version 2.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -7,7 +8,9 @@ use glam::DVec3;
 
 use crate::bi_scale::bicluster::{Bicluster, Biclustering};
 use crate::bi_scale::directions::LocalDirections;
+use crate::bi_scale::file_table::{table_bytes, table_of};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crate::bi_scale::values::EntryValues;
 use crate::io::{WriteError, write_file};
 use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
@@ -17,6 +20,10 @@ use crate::transfer::visibility::Horizon;
 
 const MATRIX: &[u8; 4] = b"MATR";
 const BICLUSTERS: &[u8; 4] = b"BICL";
+/// The version of files with tables of values.
+const TABLE_VERSION: u32 = PrtKind::BiScale.latest_version();
+/// The field of fraction bits where the values of the matrix have no unit.
+const NO_UNIT: u32 = u32::MAX;
 /// Number of 32-bit fields between the conventions and the axis of tangents.
 const FIELDS: usize = 11;
 
@@ -56,13 +63,13 @@ pub fn load_bi_scale(path: &Path) -> Result<BiScaleFile, PrtFileError> {
 /// [`PrtFileError`].
 pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileError> {
     let mut reader = Reader { bytes, at: 0, name };
-    reader.version()?;
-    reader.conventions(PrtKind::BiScale)?;
+    let version = reader.begin(PrtKind::BiScale)?;
     let mut fields = [0; FIELDS];
     for field in &mut fields {
         *field = reader.integer("header")?;
     }
     let [side, horizon, rows, columns, fraction_bits, sections, digest @ .., tangents] = fields;
+    let fraction_bits = Some(fraction_bits).filter(|&bits| version == VERSION || bits != NO_UNIT);
     let axis = reader.doubles(3, "axis of tangents")?;
     reader.checksum(0, "the header")?;
     let is_transfer = u32::from(side > 0);
@@ -71,7 +78,7 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileE
         ("horizon", horizon, is_transfer..=2 * is_transfer),
         ("rows", rows, 1..=u32::MAX),
         ("columns", columns, 1..=u32::MAX),
-        ("bits behind the point", fraction_bits, 0..=SparseMatrix::MOST_FRACTION_BITS),
+        ("bits behind the point", fraction_bits.unwrap_or(0), 0..=EntryValues::MOST_FRACTION_BITS),
         ("number of sections", sections, 1..=2),
         ("tangents", tangents, is_transfer..=3 * is_transfer),
         ("mesh's digest", digest.iter().copied().max().unwrap_or(0), 0..=is_transfer * u32::MAX),
@@ -106,6 +113,10 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileE
     reader.end()?;
     match file.fault() {
         Some((field, expected, found)) => Err(reader.field(field, expected, found)),
+        None if file.version() != version => {
+            let expected = if version == VERSION { "1 for values in units" } else { "a table of values for version 2" };
+            Err(reader.field("values", expected, "others"))
+        }
         None => Ok(file),
     }
 }
@@ -114,7 +125,7 @@ pub fn parse_bi_scale(bytes: &[u8], name: &Path) -> Result<BiScaleFile, PrtFileE
 struct Shape {
     rows: usize,
     columns: usize,
-    fraction_bits: u32,
+    fraction_bits: Option<u32>,
 }
 
 impl BiScaleFile {
@@ -122,19 +133,27 @@ impl BiScaleFile {
         let of_matrix = self.matrix.as_ref().map(|matrix| Shape {
             rows: matrix.rows(),
             columns: matrix.columns(),
-            fraction_bits: matrix.fraction_bits(),
+            fraction_bits: matrix.values().fraction_bits(),
         });
         let of_biclusters = self.biclusters.as_ref().map(|biclusters| {
             let [rows, columns] = biclusters.matrix_size();
-            Shape { rows, columns, fraction_bits: biclusters.fraction_bits() }
+            Shape { rows, columns, fraction_bits: biclusters.values().fraction_bits() }
         });
         [of_matrix, of_biclusters].into_iter().flatten()
+    }
+
+    /// The version that its values need.
+    fn version(&self) -> u32 {
+        let of_matrix = self.matrix.as_ref().map(SparseMatrix::values);
+        let mut all = of_matrix.into_iter().chain(self.biclusters.as_ref().map(Biclustering::values));
+        if all.any(|values| values.table_len().is_some()) { TABLE_VERSION } else { VERSION }
     }
 
     /// The first contradiction between the parts: the field, the expected and the found value.
     fn fault(&self) -> Option<(&'static str, String, String)> {
         let mut shapes = self.shapes();
-        let say = |shape: Shape| format!("{} x {} in 2^-{}", shape.rows, shape.columns, shape.fraction_bits);
+        let unit = |shape: Shape| shape.fraction_bits.map_or("no unit".to_owned(), |bits| format!("2^-{bits}"));
+        let say = |shape: Shape| format!("{} x {} in {}", shape.rows, shape.columns, unit(shape));
         let Some(shape) = shapes.next() else {
             return Some(("contents", "a matrix or biclusters".to_owned(), "neither".to_owned()));
         };
@@ -154,12 +173,27 @@ impl BiScaleFile {
 }
 
 impl Reader<'_> {
-    /// Entries of `counts.len()` lines with `counts[i]` entries each: first all indices along the lines, then all
-    /// values.
-    fn entries(&mut self, counts: &[u32]) -> Result<Vec<MatrixEntry>, PrtFileError> {
+    /// Entries of `counts.len()` lines with `counts[i]` entries each: the table of values if there is one, then all
+    /// indices along the lines, then all values.
+    fn entries(
+        &mut self,
+        counts: &[u32],
+        fraction_bits: Option<u32>,
+    ) -> Result<(EntryValues, Vec<MatrixEntry>), PrtFileError> {
         let what = "entries";
         let count = counts.iter().fold(0_usize, |sum, &count| sum.saturating_add(count as usize));
-        let [index_bytes, value_bytes, zero @ ..] = self.array::<4>(what)?;
+        let [index_bytes, value_bytes, has_table, zero] = self.array::<4>(what)?;
+        let values_of_entries = match (has_table, fraction_bits) {
+            (0, Some(bits)) => EntryValues::units(bits),
+            (1, _) => table_of(self, fraction_bits)?,
+            _ => {
+                return Err(self.field(
+                    "table of values",
+                    "0 or 1, and 1 for values without a unit",
+                    has_table.to_string(),
+                ));
+            }
+        };
         let short = |bytes: &[u8; 2]| u32::from(u16::from_le_bytes(*bytes));
         let indices: Vec<u32> = match index_bytes {
             2 => self.numbers(count, what)?.iter().map(short).collect(),
@@ -176,19 +210,29 @@ impl Reader<'_> {
             indices.into_iter().zip(values).map(|(index, value)| MatrixEntry { index, value }).collect();
         // The shortest widths are required, so that equal contents have equal bytes.
         let least = widths(entries.iter());
-        if [index_bytes, value_bytes, zero[0], zero[1]] != [least[0], least[1], 0, 0] {
+        if [index_bytes, value_bytes, zero] != [least[0], least[1], 0] {
             let found = format!("{index_bytes} and {value_bytes}");
             return Err(self.field("bytes of columns and values", format!("{} and {}", least[0], least[1]), found));
         }
-        Ok(entries)
+        let mut named: Vec<i32> = entries.iter().map(|entry| entry.value).collect();
+        named.sort_unstable();
+        named.dedup();
+        if let Some(expected) = values_of_entries.table_len().filter(|&length| length != named.len()) {
+            let found = named.len().to_string();
+            return Err(self.field("values of entries", format!("all {expected} of the table"), found));
+        }
+        Ok((values_of_entries, entries))
     }
 
     fn matrix(&mut self, shape: Shape) -> Result<SparseMatrix, PrtFileError> {
         let counts = self.integers(shape.rows, "entries of rows")?;
-        let entries = self.entries(&counts)?;
+        let (values, entries) = self.entries(&counts, shape.fraction_bits)?;
+        if values.table_len().is_some() && shape.fraction_bits.is_some() {
+            return Err(self.field("matrix", "values in its unit", "a table of values"));
+        }
         let mut rest = &entries[..];
-        let mut matrix = SparseMatrix::new(shape.columns, shape.fraction_bits)
-            .map_err(|e| self.field("matrix", "one", e.to_string()))?;
+        let mut matrix =
+            SparseMatrix::of_values(shape.columns, values).map_err(|e| self.field("matrix", "one", e.to_string()))?;
         for count in counts {
             let (row, after) = rest.split_at(count as usize);
             rest = after;
@@ -203,15 +247,15 @@ impl Reader<'_> {
         let column_counts = self.integers(count, "columns of biclusters")?;
         let sum = row_counts.iter().fold(0_usize, |sum, &count| sum.saturating_add(count as usize));
         let rows = self.integers(sum, "rows")?;
-        let columns = self.entries(&column_counts)?;
+        let (values, columns) = self.entries(&column_counts, shape.fraction_bits)?;
         let (mut rows, mut columns) = (&rows[..], &columns[..]);
-        let mut biclusters = Biclustering::empty(shape.rows, shape.columns, shape.fraction_bits);
+        let mut biclusters = Biclustering::empty(shape.rows, shape.columns, values);
         for (r, l) in row_counts.into_iter().zip(column_counts) {
             let (own_rows, other_rows) = rows.split_at(r as usize);
             let (own_columns, other_columns) = columns.split_at(l as usize);
             (rows, columns) = (other_rows, other_columns);
             let bicluster = Bicluster { rows: own_rows.to_vec(), columns: own_columns.to_vec() };
-            if !bicluster.fits(shape.rows, shape.columns) {
+            if !bicluster.fits([shape.rows, shape.columns], biclusters.values()) {
                 let expected = "rows and columns of the matrix in increasing order, values other than 0";
                 return Err(self.field("bicluster", expected, format!("others in bicluster {}", biclusters.len())));
             }
@@ -264,13 +308,13 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
     };
     let mut header = MAGIC.to_vec();
     let first = [
-        VERSION,
+        file.version(),
         PrtKind::BiScale as u32,
         side,
         horizon,
         shape.rows as u32,
         shape.columns as u32,
-        shape.fraction_bits,
+        shape.fraction_bits.unwrap_or(NO_UNIT),
         sections,
     ];
     header.extend(first.into_iter().chain(digest).chain([tangents]).flat_map(u32::to_le_bytes));
@@ -279,46 +323,62 @@ pub fn write_bi_scale(file: &BiScaleFile, out: &mut dyn Write) -> io::Result<()>
     out.write_all(&header)?;
     if let Some(matrix) = &file.matrix {
         let rows = || (0..matrix.rows()).map(|row| matrix.row(row));
-        let bytes = widths(rows().flatten());
-        let mut section =
-            Section::begin(out, MATRIX, 4 * matrix.rows() as u64 + entry_bytes(bytes, matrix.nonzeros()))?;
+        let layout = EntryLayout::new(rows().flatten(), matrix.values());
+        let mut section = Section::begin(out, MATRIX, 4 * matrix.rows() as u64 + layout.bytes(matrix.nonzeros()))?;
         section.write_all(rows().map(|row| (row.len() as u32).to_le_bytes()))?;
-        write_entries(&|| rows().flatten(), bytes, &mut section)?;
+        layout.write(&|| rows().flatten(), &mut section)?;
         section.end()?;
     }
     if let Some(found) = &file.biclusters {
         let columns = || (0..found.len()).flat_map(|number| found.columns_of(number));
         let rows = || (0..found.len()).map(|number| found.rows_of(number));
-        let bytes = widths(columns());
+        let layout = EntryLayout::new(columns(), found.values());
         let length = 4 + 8 * found.len() as u64 + 4 * found.row_entries() as u64;
-        let mut section = Section::begin(out, BICLUSTERS, length + entry_bytes(bytes, found.column_entries()))?;
+        let mut section = Section::begin(out, BICLUSTERS, length + layout.bytes(found.column_entries()))?;
         section.write(&(found.len() as u32).to_le_bytes())?;
         section.write_all(rows().map(|rows| (rows.len() as u32).to_le_bytes()))?;
         section.write_all((0..found.len()).map(|number| (found.columns_of(number).len() as u32).to_le_bytes()))?;
         section.write_all(rows().flatten().map(|row| row.to_le_bytes()))?;
-        write_entries(&columns, bytes, &mut section)?;
+        layout.write(&columns, &mut section)?;
         section.end()?;
     }
     Ok(())
 }
 
-fn entry_bytes([index, value]: [u8; 2], count: usize) -> u64 {
-    4 + (u64::from(index) + u64::from(value)) * count as u64
+/// Bytes of indices and of values, and the table of values.
+struct EntryLayout {
+    index_bytes: u8,
+    value_bytes: u8,
+    table: Option<Vec<u8>>,
 }
 
-fn write_entries<'a, I: Iterator<Item = &'a MatrixEntry>>(
-    entries: &dyn Fn() -> I,
-    [index_bytes, value_bytes]: [u8; 2],
-    section: &mut Section<'_>,
-) -> io::Result<()> {
-    section.write(&[index_bytes, value_bytes, 0, 0])?;
-    match index_bytes {
-        2 => section.write_all(entries().map(|entry| (entry.index as u16).to_le_bytes()))?,
-        _ => section.write_all(entries().map(|entry| entry.index.to_le_bytes()))?,
+impl EntryLayout {
+    fn new<'a>(entries: impl Iterator<Item = &'a MatrixEntry>, values: &EntryValues) -> Self {
+        let [index_bytes, value_bytes] = widths(entries);
+        Self { index_bytes, value_bytes, table: table_bytes(values) }
     }
-    match value_bytes {
-        1 => section.write_all(entries().map(|entry| (entry.value as i8).to_le_bytes())),
-        2 => section.write_all(entries().map(|entry| (entry.value as i16).to_le_bytes())),
-        _ => section.write_all(entries().map(|entry| entry.value.to_le_bytes())),
+
+    /// Bytes of so many entries with all before them.
+    fn bytes(&self, count: usize) -> u64 {
+        let table = self.table.as_ref().map_or(0, Vec::len) as u64;
+        4 + table + (u64::from(self.index_bytes) + u64::from(self.value_bytes)) * count as u64
+    }
+
+    fn write<'a, I: Iterator<Item = &'a MatrixEntry>>(
+        &self,
+        entries: &dyn Fn() -> I,
+        section: &mut Section<'_>,
+    ) -> io::Result<()> {
+        section.write(&[self.index_bytes, self.value_bytes, u8::from(self.table.is_some()), 0])?;
+        section.write(self.table.as_deref().unwrap_or_default())?;
+        match self.index_bytes {
+            2 => section.write_all(entries().map(|entry| (entry.index as u16).to_le_bytes()))?,
+            _ => section.write_all(entries().map(|entry| entry.index.to_le_bytes()))?,
+        }
+        match self.value_bytes {
+            1 => section.write_all(entries().map(|entry| (entry.value as i8).to_le_bytes())),
+            2 => section.write_all(entries().map(|entry| (entry.value as i16).to_le_bytes())),
+            _ => section.write_all(entries().map(|entry| entry.value.to_le_bytes())),
+        }
     }
 }

@@ -1,28 +1,31 @@
-//! The transfer matrix T: sparse, with integer values in units of a power of two.
+//! Sparse matrices: the transfer matrix T, or any matrix of finite numbers.
 //!
-//! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A). As integers they are subtracted
-//! without rounding, so that "lossless" means equal.
+//! Averaging 2^m x 2^m visibility samples gives multiples of 2^-2m (section IV-A), which entries hold as integers;
+//! other numbers are in a table ([`EntryValues`]). Either way values are subtracted without rounding, so that
+//! "lossless" means equal.
 
 use thiserror::Error;
 
+use super::values::EntryValues;
 use crate::io::CoordinateMatrix;
 
 const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
 
-/// An entry of a row or column: its index along the line, and its value in units of the matrix.
+/// An entry of a row or column: its index along the line, and an integer for its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MatrixEntry {
     /// The column of an entry of a row; the row of an entry of a column.
     pub index: u32,
-    /// The value in units of [`SparseMatrix::unit`].
+    /// The value, as [`EntryValues`] of the matrix or of the biclusters has it: equal integers are equal numbers, 0 is
+    /// 0, and signs and order are those of the numbers.
     pub value: i32,
 }
 
 /// A sparse matrix, row by row. Columns increase along a row; no value is 0.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SparseMatrix {
     columns: usize,
-    fraction_bits: u32,
+    values: EntryValues,
     begins: Vec<usize>,
     entries: Vec<MatrixEntry>,
 }
@@ -44,72 +47,72 @@ pub enum SparseMatrixError {
     /// A value of 0.
     #[error("expected values other than 0, found 0 in row {row}, column {column}")]
     Zero { row: usize, column: u32 },
-    /// A value that is no multiple of 2^-[`SparseMatrix::MOST_FRACTION_BITS`].
-    #[error(
-        "expected multiples of 2^-{} in row {row}, column {column} (counted from 0), found {value}: residuals are \
-         exact for these alone",
-        SparseMatrix::MOST_FRACTION_BITS
-    )]
-    Fraction { row: u32, column: u32, value: f64 },
-    /// A value that does not fit 32 bits in the units of the matrix.
-    #[error(
-        "expected values that 32 bits hold in units of 2^-{bits}, the finest among them; found {value} in row {row}, \
-         column {column} (counted from 0)"
-    )]
-    Range { row: u32, column: u32, value: f64, bits: u32 },
+    /// An entry that is not in the table of values.
+    #[error("expected a value of the table of {most} values in row {row}, column {column}, found entry {value}")]
+    Table { row: usize, column: u32, value: i32, most: usize },
+    /// A value that is infinite or not a number.
+    #[error("expected finite values, found {value} in row {row}, column {column}")]
+    Finite { row: u32, column: u32, value: f64 },
+    /// More distinct values than 31 bits can name.
+    #[error("expected at most {} distinct values, found {found}", i32::MAX)]
+    Values { found: usize },
 }
 
 impl SparseMatrix {
-    /// The largest number of fraction bits: more than the difference of two f32 numbers in [0, 1] needs.
-    pub const MOST_FRACTION_BITS: u32 = 30;
-
-    /// A matrix without rows yet, with `columns` columns and units of 2^-`fraction_bits`.
+    /// A matrix without rows yet, with `columns` columns and values in units of 2^-`fraction_bits`.
     ///
     /// # Errors
     /// [`SparseMatrixError::Size`] for 0 columns, or more than 32 bits can count.
     ///
     /// # Panics
-    /// If `fraction_bits` exceeds [`Self::MOST_FRACTION_BITS`].
+    /// If `fraction_bits` exceeds [`EntryValues::MOST_FRACTION_BITS`].
     pub fn new(columns: usize, fraction_bits: u32) -> Result<Self, SparseMatrixError> {
-        assert!(fraction_bits <= Self::MOST_FRACTION_BITS, "a unit of 2^-30 or more, not 2^-{fraction_bits}");
+        Self::of_values(columns, EntryValues::units(fraction_bits))
+    }
+
+    /// The same for any values.
+    pub(super) fn of_values(columns: usize, values: EntryValues) -> Result<Self, SparseMatrixError> {
         if columns == 0 || u32::try_from(columns).is_err() {
             return Err(SparseMatrixError::Size { rows: 0, columns });
         }
-        Ok(Self { columns, fraction_bits, begins: vec![0], entries: Vec::new() })
+        Ok(Self { columns, values, begins: vec![0], entries: Vec::new() })
     }
 
-    /// A matrix of real numbers, in the largest power-of-two unit of which all are multiples. Zeros are left out.
+    /// A matrix of real numbers: in the largest power-of-two unit of which all are multiples, if this has at most
+    /// [`EntryValues::MOST_FRACTION_BITS`] and 32 bits hold the multiples; else with a table. Zeros of either sign are
+    /// left out.
     ///
     /// # Errors
-    /// [`SparseMatrixError`] if there is no such unit, or its multiples do not fit 32 bits.
+    /// [`SparseMatrixError`].
     pub fn from_coordinates(matrix: &CoordinateMatrix) -> Result<Self, SparseMatrixError> {
-        let finest = f64::from(1_u32 << Self::MOST_FRACTION_BITS);
-        let mut fraction_bits = 0;
-        for &(row, column, value) in &matrix.entries {
-            // Exact: the factor is a power of two, and integers are far from both ends of the exponent range.
-            let scaled = value * finest;
-            if scaled.fract() != 0.0 {
-                return Err(SparseMatrixError::Fraction { row, column, value });
-            }
-            // Numbers beyond 64 bits are refused below, in any unit.
-            let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
-            fraction_bits = fraction_bits.max(Self::MOST_FRACTION_BITS.saturating_sub(zeros));
+        if let Some(&(row, column, value)) = matrix.entries.iter().find(|(.., value)| !value.is_finite()) {
+            return Err(SparseMatrixError::Finite { row, column, value });
         }
-        let mut sparse = Self::new(matrix.columns, fraction_bits)?;
+        let values = || matrix.entries.iter().map(|&(.., value)| value).filter(|&value| value != 0.0);
+        let in_units = unit_of(values());
+        let values = match in_units {
+            Some(fraction_bits) => EntryValues::units(fraction_bits),
+            None => {
+                let mut distinct: Vec<f64> = values().collect();
+                distinct.sort_unstable_by(f64::total_cmp);
+                distinct.dedup();
+                if i32::try_from(distinct.len()).is_err() {
+                    return Err(SparseMatrixError::Values { found: distinct.len() });
+                }
+                EntryValues::of_doubles(distinct)
+            }
+        };
+        let mut sparse = Self::of_values(matrix.columns, values)?;
         let mut rows = matrix.entries.chunk_by(|a, b| a.0 == b.0).peekable();
         let mut row = Vec::new();
         for number in 0..matrix.rows {
+            let entries = rows.next_if(|entries| entries[0].0 as usize == number).unwrap_or_default();
+            let entry = |&(_, index, value): &(u32, u32, f64)| {
+                let value = if value == 0.0 { None } else { sparse.values.entry(value) };
+                Some(MatrixEntry { index, value: value? })
+            };
             row.clear();
-            for &(_, index, value) in rows.next_if(|entries| entries[0].0 as usize == number).unwrap_or_default() {
-                let units = value * f64::from(1_u32 << fraction_bits);
-                if units.abs() > f64::from(i32::MAX) {
-                    let row = number as u32;
-                    return Err(SparseMatrixError::Range { row, column: index, value, bits: fraction_bits });
-                }
-                if units != 0.0 {
-                    row.push(MatrixEntry { index, value: units as i32 });
-                }
-            }
+            row.extend(entries.iter().filter_map(entry));
             sparse.push_row(&row)?;
         }
         Ok(sparse)
@@ -134,6 +137,10 @@ impl SparseMatrix {
                     return Err(SparseMatrixError::Order { row: number, column, before });
                 }
                 _ if value == 0 => return Err(SparseMatrixError::Zero { row: number, column }),
+                _ if !self.values.has(value) => {
+                    let most = self.values.table_len().unwrap_or(0);
+                    return Err(SparseMatrixError::Table { row: number, column, value, most });
+                }
                 _ => before = Some(column),
             }
         }
@@ -152,14 +159,18 @@ impl SparseMatrix {
         self.columns
     }
 
-    /// Number of fraction bits of the values.
-    pub fn fraction_bits(&self) -> u32 {
-        self.fraction_bits
+    /// The numbers that entries stand for.
+    pub fn values(&self) -> &EntryValues {
+        &self.values
     }
 
-    /// The unit of the integer values: 2^-`fraction_bits`.
-    pub fn unit(&self) -> f64 {
-        1.0 / f64::from(1_u32 << self.fraction_bits)
+    /// The number that an entry holds, exactly.
+    ///
+    /// # Panics
+    /// If the matrix can have no such entry.
+    #[inline]
+    pub fn value(&self, entry: i32) -> f64 {
+        self.values.value(entry)
     }
 
     /// Number of entries: nnz(T).
@@ -179,6 +190,24 @@ impl SparseMatrix {
     pub(super) fn to_rows(&self) -> (Vec<MatrixEntry>, Vec<usize>) {
         (self.entries.clone(), self.begins.clone())
     }
+}
+
+/// The least number of fraction bits of a unit of which all values are multiples that 32 bits hold, if there is one.
+fn unit_of(values: impl Iterator<Item = f64> + Clone) -> Option<u32> {
+    let finest = f64::from(1_u32 << EntryValues::MOST_FRACTION_BITS);
+    let mut fraction_bits = 0;
+    for value in values.clone() {
+        // Exact: the factor is a power of two. What it takes to infinity is out of range in any unit.
+        let scaled = value * finest;
+        if scaled.fract() != 0.0 {
+            return None;
+        }
+        // Numbers beyond 64 bits are refused below, in any unit.
+        let zeros = if scaled.abs() < TWO_TO_63 { (scaled as i64).trailing_zeros() } else { 64 };
+        fraction_bits = fraction_bits.max(EntryValues::MOST_FRACTION_BITS.saturating_sub(zeros));
+    }
+    let unit = f64::from(1_u32 << fraction_bits);
+    values.map(|value| value * unit).all(|units| units.abs() <= f64::from(i32::MAX)).then_some(fraction_bits)
 }
 
 #[cfg(test)]
@@ -201,21 +230,37 @@ mod tests {
             assert_eq!(matrix, before);
         }
         assert_eq!(SparseMatrix::new(0, 2), Err(SparseMatrixError::Size { rows: 0, columns: 0 }));
-        assert_eq!((matrix.unit(), matrix.nonzeros()), (0.25, 2));
+        assert_eq!((matrix.value(1), matrix.nonzeros()), (0.25, 2));
+    }
+
+    fn of(entries: &[(u32, u32, f64)]) -> Result<SparseMatrix, SparseMatrixError> {
+        SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 3, columns: 4, entries: entries.to_vec() })
     }
 
     #[test]
     fn real_numbers_get_the_largest_units() {
-        let of = |entries: &[(u32, u32, f64)]| {
-            SparseMatrix::from_coordinates(&CoordinateMatrix { rows: 3, columns: 4, entries: entries.to_vec() })
-        };
         let matrix = of(&[(0, 1, 0.5), (2, 0, -3.0), (2, 1, 0.0), (2, 3, 0.25)]).unwrap();
-        assert_eq!((matrix.fraction_bits(), matrix.nonzeros(), matrix.rows()), (2, 3, 3));
+        assert_eq!((matrix.values().fraction_bits(), matrix.nonzeros(), matrix.rows()), (Some(2), 3, 3));
         assert_eq!(matrix.row(2), [MatrixEntry { index: 0, value: -12 }, MatrixEntry { index: 3, value: 1 }]);
-        assert_eq!(of(&[(0, 1, 6e8)]).unwrap().fraction_bits(), 0);
-        assert_eq!(of(&[(1, 1, 0.1)]), Err(SparseMatrixError::Fraction { row: 1, column: 1, value: 0.1 }));
-        let range = |value, bits| Err(SparseMatrixError::Range { row: 0, column: 0, value, bits });
-        assert_eq!(of(&[(0, 0, 6e8), (0, 1, 0.25)]), range(6e8, 2));
-        assert_eq!(of(&[(0, 0, 1e200)]), range(1e200, 0));
+        assert_eq!(of(&[(0, 1, 6e8)]).unwrap().values().fraction_bits(), Some(0));
+        assert_eq!(of(&[]).unwrap().values().fraction_bits(), Some(0));
+    }
+
+    #[test]
+    fn numbers_without_a_unit_get_a_table() {
+        for numbers in [[0.1, 0.25], [6e8, 0.25], [1e200, 1.0], [f64::from_bits(1), -1e300], [f64::MAX, -0.1]] {
+            let [a, b] = numbers;
+            let matrix = of(&[(0, 1, a), (0, 2, -0.0), (2, 0, b), (2, 1, a)]).unwrap();
+            let values = matrix.values();
+            assert_eq!((values.fraction_bits(), values.table_len(), matrix.nonzeros()), (None, Some(2), 3));
+            let of_row = |row: usize| matrix.row(row).iter().map(|entry| matrix.value(entry.value)).collect::<Vec<_>>();
+            assert_eq!((of_row(0), of_row(1), of_row(2)), (vec![a], vec![], vec![b, a]));
+            let mut more = matrix.clone();
+            let foreign = MatrixEntry { index: 3, value: 3 };
+            let error = SparseMatrixError::Table { row: 3, column: 3, value: 3, most: 2 };
+            assert_eq!((more.push_row(&[foreign]), &more), (Err(error), &matrix));
+        }
+        let infinite = SparseMatrixError::Finite { row: 1, column: 1, value: f64::INFINITY };
+        assert_eq!(of(&[(0, 0, 0.1), (1, 1, f64::INFINITY)]), Err(infinite));
     }
 }

@@ -1,7 +1,8 @@
 //! System 6: all-frequency bi-scale radiance transfer by biclustering.
 //!
 //! - [`directions`]: the local directions to which light is transferred (section VI-A);
-//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a [`matrix`] of integers;
+//! - [`transfer`]: the macro-scale transfer T of a mesh's vertices (section IV-A), a sparse [`matrix`];
+//! - [`values`]: the numbers that its integers stand for, and those of its biclusters, [`exact`];
 //! - [`mod@file`]: transfer and biclusters in `.prt` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
@@ -12,7 +13,9 @@
 
 pub mod bicluster;
 pub mod directions;
+pub mod exact;
 pub mod file;
+mod file_table;
 pub mod kernels;
 pub mod matrix;
 pub mod on_card;
@@ -21,3 +24,4 @@ pub mod rivals;
 pub mod shade;
 pub mod texture;
 pub mod transfer;
+pub mod values;

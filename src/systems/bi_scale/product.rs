@@ -4,6 +4,9 @@
 //! - [`reference()`]: Algorithm 2 in f64;
 //! - [`Gather`]: Algorithm 2 in f32, from lists in the order in which they are read: the sums of the reference's shape.
 //!
+//! Values of biclusters are taken in the format of the product. Residuals that it does not hold are rounded, so that
+//! large ones may leave an error where they cancel, though the biclusters are exact.
+//!
 //! Sums are taken in this order, one addition after the other, beginning with 0: of a bicluster over its columns,
 //! increasing; of a row over its biclusters, in the order in which they were found.
 
@@ -16,9 +19,8 @@ use super::matrix::SparseMatrix;
 /// If the light has not as many numbers as the matrix has columns.
 pub fn by_rows(matrix: &SparseMatrix, light: &[f64]) -> Vec<f64> {
     assert_eq!(light.len(), matrix.columns(), "as many numbers as columns");
-    let unit = matrix.unit();
     let row = |row| {
-        let terms = matrix.row(row).iter().map(|entry| unit * f64::from(entry.value) * light[entry.index as usize]);
+        let terms = matrix.row(row).iter().map(|entry| matrix.value(entry.value) * light[entry.index as usize]);
         terms.fold(0.0, |sum, term| sum + term)
     };
     (0..matrix.rows()).map(row).collect()
@@ -35,7 +37,7 @@ pub fn reference(biclusters: &Biclustering, light: &[f64]) -> Vec<f64> {
     let mut buffer = vec![0.0; biclusters.len()];
     for (bicluster, sum) in buffer.iter_mut().enumerate() {
         for entry in biclusters.columns_of(bicluster) {
-            *sum += biclusters.unit() * f64::from(entry.value) * light[entry.index as usize];
+            *sum += biclusters.value(entry.value) * light[entry.index as usize];
         }
     }
     // Lines 4 to 11, from the other side: rows take the biclusters in the same order.
@@ -70,10 +72,10 @@ pub struct Gather {
 }
 
 impl Gather {
-    /// The lists of some biclusters.
+    /// The lists of some biclusters. Values beyond the range of f32 are infinite, and so are products with them, or not
+    /// numbers.
     pub fn new(biclusters: &Biclustering) -> Self {
         let [rows, columns] = biclusters.matrix_size();
-        let unit = biclusters.unit();
         // Sums with equal numbers of terms are adjacent, so that loops have equal lengths.
         let mut stored: Vec<usize> = (0..biclusters.len()).collect();
         stored.sort_by_key(|&bicluster| biclusters.columns_of(bicluster).len());
@@ -82,7 +84,7 @@ impl Gather {
         let mut column_begins = vec![0];
         let mut columns_of = Vec::with_capacity(biclusters.column_entries());
         for bicluster in stored {
-            let value = |value: i32| (unit * f64::from(value)) as f32;
+            let value = |value: i32| biclusters.value(value) as f32;
             columns_of.extend(biclusters.columns_of(bicluster).iter().map(|entry| (entry.index, value(entry.value))));
             column_begins.push(columns_of.len() as u32);
         }

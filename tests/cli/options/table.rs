@@ -28,7 +28,7 @@ macro_rules! picture {
 macro_rules! card {
     ($device:literal) => {
         concat!(
-            " --target-format=rgba16 --sweep --device=",
+            " --target-format=rgba16 --sweep --values=npy --device=",
             $device,
             " --switch=target-rounding=truncate same:--executor=scalar --adapter=x"
         )
@@ -336,7 +336,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: "--model=white-box --light=red-and-blue@0,1 --rotate=20@0,1 --clusters=3@0,1 --vectors=1@0,1 \
                   --linear@0,1 --sample=40@0,1 --rounds=2@0,1 --seed=2@0,1 --coefficients=5@0,1 --priority=magnitude@0,1 \
-                  --storage=single@0,1 --order=2@0,1 --model-up=y --strict@2",
+                  --storage=single@0,1 --order=2@0,1 --csv=other.csv@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[
@@ -353,7 +353,7 @@ pub(super) const TABLE: &[Tried] = &[
             "bi-scale show court.prt --at 0,0,0 --model docs/examples/court.obj",
             "bi-scale show court.prt --at 0,0,0 --model odd.obj",
         ],
-        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --model-up=y --strict@2",
+        options: "--vertex=3 --at=1,1,1@0,1 --model=white-box --matrix=other.mtx@0,1 --model-up=y --strict@2",
     },
     Tried {
         bases: &[

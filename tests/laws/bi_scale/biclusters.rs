@@ -1,28 +1,11 @@
 //! Biclusters: the fast search against a literal Algorithm 1, and properties for any matrix.
 
-use crossbar::bi_scale::bicluster::{BiclusterError, BiclusterOptions, bicluster, reference};
+use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster, reference};
 use crossbar::bi_scale::matrix::MatrixEntry;
 use crossbar::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
 use proptest::prelude::*;
 
-use super::{matrix, quietly};
-
-/// Rows of multiples of a quarter that tend to form blocks: each takes one of a few patterns and changes some values.
-fn blocks() -> impl Strategy<Value = Vec<Vec<i32>>> {
-    let value = || prop_oneof![5 => Just(0), 3 => Just(4), 1 => 1..4_i32];
-    (1..15_usize, 1..12_usize).prop_flat_map(move |(rows, columns)| {
-        let patterns = prop::collection::vec(prop::collection::vec(value(), columns), 1..4);
-        let changes = prop::collection::vec(prop_oneof![6 => Just(None), 1 => value().prop_map(Some)], rows * columns);
-        let choice = prop::collection::vec(any::<prop::sample::Index>(), rows);
-        (patterns, changes, choice).prop_map(move |(patterns, changes, choice)| {
-            let row = |row: usize| {
-                let pattern = &patterns[choice[row].index(patterns.len())];
-                (0..columns).map(|at| changes[row * columns + at].unwrap_or(pattern[at])).collect()
-            };
-            (0..rows).map(row).collect()
-        })
-    })
-}
+use super::{bits, blocks, finite, matrix, numbers_of, quietly, real_blocks, real_matrix};
 
 /// Values of any size and sign, few zeros.
 fn anything() -> impl Strategy<Value = Vec<Vec<i32>>> {
@@ -42,8 +25,9 @@ proptest! {
         deletion: bool,
         drop in prop_oneof![2 => Just(0), 1 => 1..4_u32],
     ) {
-        let (matrix, options) = (matrix(&rows, 2), BiclusterOptions { seed, deletion, drop });
-        let expected = reference::bicluster(&matrix, options).expect("small values");
+        let options = BiclusterOptions { seed, deletion, drop: 0.25 * f64::from(drop) };
+        let matrix = matrix(&rows, 2);
+        let expected = reference::bicluster(&matrix, options);
         let found = quietly(&matrix, options);
         for index in 0..expected.len().min(found.len()) {
             prop_assert_eq!(expected.get(index), found.get(index), "bicluster {}", index);
@@ -55,7 +39,7 @@ proptest! {
     fn biclusters_sum_to_the_matrix(rows in prop_oneof![blocks(), anything()], seed: u64, deletion: bool) {
         let matrix = matrix(&rows, 2);
         let mut left = vec![matrix.nonzeros() as u64];
-        let found = bicluster(&matrix, BiclusterOptions { seed, deletion, drop: 0 }, &mut |now| left.push(now)).unwrap();
+        let found = bicluster(&matrix, BiclusterOptions { seed, deletion, drop: 0.0 }, &mut |now| left.push(now)).unwrap();
         prop_assert_eq!(found.sum(), Ok(matrix.clone()));
         // Each bicluster removes at least half its cost in non-zeros, so the total cost is at most twice the non-zeros.
         for (index, step) in left.windows(2).enumerate() {
@@ -69,7 +53,8 @@ proptest! {
     #[test]
     fn what_is_lost_is_bounded(rows in prop_oneof![3 => blocks(), 1 => anything()], seed: u64, drop in 0..5_u32) {
         let matrix = matrix(&rows, 2);
-        let found = quietly(&matrix, BiclusterOptions { seed, drop, ..BiclusterOptions::default() });
+        let options = BiclusterOptions { seed, drop: 0.25 * f64::from(drop), ..BiclusterOptions::default() };
+        let found = quietly(&matrix, options);
         let sum = found.sum().expect("small values");
         for row in 0..matrix.rows() {
             let mut differences = vec![0_i64; matrix.columns()];
@@ -107,7 +92,7 @@ proptest! {
             let columns = found.columns_of(index);
             let sum: f64 = columns
                 .iter()
-                .map(|entry| found.unit() * f64::from(entry.value.abs()) * f64::from(light[entry.index as usize]))
+                .map(|entry| found.value(entry.value).abs() * f64::from(light[entry.index as usize]))
                 .sum();
             for &row in found.rows_of(index) {
                 magnitude[row as usize] += sum;
@@ -149,16 +134,93 @@ fn a_matrix_of_nothing_has_no_biclusters() {
     assert_eq!(found.sum(), Ok(matrix));
 }
 
-/// A residual of 2^31 units does not fit into i32.
+/// A residual of 2^31 units does not fit into 32 bits: the search goes on with a table, and the matrix comes back in
+/// its own unit.
 #[test]
-fn residuals_out_of_range_are_refused() {
+fn residuals_leave_32_bits() {
     let mut rows = vec![vec![i32::MIN, 1, 1, 1, 1, 1]; 7];
     rows[0][0] = 0;
-    let matrix = matrix(&rows, 0);
-    let expected = reference::bicluster(&matrix, BiclusterOptions::default());
-    assert!(
-        matches!(expected, Err(BiclusterError::Residual { column: 0, row: 0, value: 0x8000_0000 })),
-        "{expected:?}"
-    );
-    assert_eq!(bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()), expected);
+    let matrix = matrix(&rows, 2);
+    let found = quietly(&matrix, BiclusterOptions::default());
+    assert_eq!((found.values().fraction_bits(), found.values().table_len()), (Some(2), Some(3)));
+    assert_eq!(reference::bicluster(&matrix, BiclusterOptions::default()), found);
+    assert_eq!(found.sum(), Ok(matrix));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_numbers_are_decided_as_by_algorithm_1(
+        rows in real_blocks(),
+        seed: u64,
+        deletion: bool,
+        drop in prop_oneof![2 => Just(0.0), 1 => finite().prop_map(f64::abs)],
+    ) {
+        let (matrix, options) = (real_matrix(&rows), BiclusterOptions { seed, deletion, drop });
+        prop_assert_eq!(reference::bicluster(&matrix, options), quietly(&matrix, options));
+    }
+
+    /// Subnormal numbers, 1e-300 beside 1e300, numbers of 53 bits: what is read comes back, bit for bit.
+    #[test]
+    fn any_numbers_come_back(rows in real_blocks(), seed: u64, deletion: bool) {
+        let matrix = real_matrix(&rows);
+        prop_assert_eq!(bits(&numbers_of(&matrix)), bits(&rows));
+        let found = quietly(&matrix, BiclusterOptions { seed, deletion, drop: 0.0 });
+        let sum = found.sum().expect("sums of a matrix");
+        prop_assert_eq!(&sum, &matrix);
+        prop_assert_eq!(bits(&numbers_of(&sum)), bits(&rows));
+        prop_assert!(found.cost() <= 2 * matrix.nonzeros() as u64);
+    }
+
+    /// Rows that are multiples of one row by a few factors are as many biclusters; a row alone is taken apart, which
+    /// costs as much.
+    #[test]
+    fn matrices_of_rank_1_are_few_biclusters(
+        row in prop::collection::vec(0.5..1.0_f64, 6..12),
+        powers in prop::collection::vec(-500..500_i32, 12),
+        factors in prop::sample::subsequence(vec![0.1, -1.3, 1e-150, 3.0, 7e150], 1..5),
+        choice in prop::collection::vec(any::<prop::sample::Index>(), 10..30),
+        seed: u64,
+    ) {
+        let column = |(at, value): (usize, &f64)| value * 2.0_f64.powi(powers[at]);
+        let row: Vec<f64> = row.iter().enumerate().map(column).collect();
+        let of_row: Vec<usize> = choice.iter().map(|choice| choice.index(factors.len())).collect();
+        let rows: Vec<Vec<f64>> =
+            of_row.iter().map(|&factor| row.iter().map(|value| factors[factor] * value).collect()).collect();
+        let found = quietly(&real_matrix(&rows), BiclusterOptions { seed, ..BiclusterOptions::default() });
+        let rows_of = |factor: usize| of_row.iter().filter(|&&other| other == factor).count();
+        let biclusters = (0..factors.len()).map(|factor| match rows_of(factor) {
+            0 => 0,
+            1 => row.len(),
+            _ => 1,
+        });
+        prop_assert_eq!(found.len(), biclusters.sum::<usize>());
+        prop_assert_eq!(bits(&numbers_of(&found.sum().expect("a matrix"))), bits(&rows));
+    }
+
+    /// Numbers in a table are searched as the same numbers in units are: 2^-40 of a quarter has no unit.
+    #[test]
+    fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64, deletion: bool) {
+        let options = BiclusterOptions { seed, deletion, drop: 0.0 };
+        let small = |value: &i32| f64::from(*value) * 2.0_f64.powi(-42);
+        let tabled: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(small).collect()).collect();
+        let (in_units, in_table) = (quietly(&matrix(&rows, 2), options), quietly(&real_matrix(&tabled), options));
+        prop_assert_eq!(in_units.len(), in_table.len());
+        for number in 0..in_units.len() {
+            prop_assert_eq!(in_units.rows_of(number), in_table.rows_of(number));
+            let columns = in_units.columns_of(number).iter().map(|at| (at.index, in_units.value(at.value)));
+            let tabled = in_table.columns_of(number).iter().map(|at| (at.index, in_table.value(at.value)));
+            prop_assert!(columns.eq(tabled.map(|(index, value)| (index, value * 2.0_f64.powi(40)))));
+        }
+    }
+
+    #[test]
+    fn what_is_lost_of_any_numbers_is_bounded(rows in real_blocks(), seed: u64, drop in 0.0..1.0_f64) {
+        let matrix = real_matrix(&rows);
+        let found = quietly(&matrix, BiclusterOptions { seed, drop, ..BiclusterOptions::default() });
+        let residual = found.residual(&matrix);
+        prop_assert!(residual.largest <= drop, "{:?}", residual);
+        prop_assert_eq!(residual.count == 0, found.sum() == Ok(matrix));
+    }
 }

@@ -13,7 +13,7 @@ use crossbar::transfer::file::{MeshDigest, parse_prt};
 use crossbar::transfer::visibility::Horizon;
 use proptest::prelude::*;
 
-use super::{matrix, quietly, sight};
+use super::{matrix, quietly, real_blocks, real_matrix, sight};
 
 fn bytes(file: &BiScaleFile) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -38,6 +38,23 @@ fn all_widths() -> [BiScaleFile; 3] {
     [rows(-3), rows(300), rows(-70_000)]
 }
 
+/// Any matrix of real numbers with its biclusters.
+fn small_of_numbers(values: &[Vec<f64>]) -> BiScaleFile {
+    let matrix = real_matrix(values);
+    let biclusters = Some(quietly(&matrix, BiclusterOptions::default()));
+    BiScaleFile { meaning: None, matrix: Some(matrix), biclusters }
+}
+
+/// Numbers of a table: some that f64 holds, residuals that it does not hold, residuals beyond 32 bits alone.
+fn tables() -> [BiScaleFile; 3] {
+    let row = |large: f64| vec![0.1, -3.0, large, f64::from_bits(1), 0.7];
+    let mut residuals = vec![row(1e300); 4];
+    residuals[1][2] = 1e-300;
+    let mut beyond = vec![vec![i32::MIN, 1, 1, 1]; 4];
+    beyond[0][0] = 0;
+    [small_of_numbers(&[row(2.0), row(2.0), vec![0.0; 5]]), small_of_numbers(&residuals), small(&beyond)]
+}
+
 /// The transfer of hills.
 fn transfer() -> BiScaleFile {
     let (vertices, maps) = sight(1, Horizon::Geometry);
@@ -52,7 +69,10 @@ fn what_is_written_is_read() {
     let whole = transfer();
     let matrix = BiScaleFile { biclusters: None, ..whole.clone() };
     let biclusters = BiScaleFile { matrix: None, ..whole.clone() };
-    for file in all_widths().into_iter().chain([whole, matrix, biclusters]) {
+    let [table, residuals, beyond] = tables();
+    let bits = |file: &BiScaleFile| file.biclusters.as_ref().map(|found| found.values().fraction_bits());
+    assert_eq!([&table, &residuals, &beyond].map(bits), [Some(None), Some(None), Some(Some(2))]);
+    for file in all_widths().into_iter().chain([whole, matrix, biclusters, table, residuals, beyond]) {
         let bytes = bytes(&file);
         assert_eq!(parsed(&bytes), Ok(file.clone()));
         let folder = tempfile::tempdir().expect("a folder");
@@ -64,9 +84,30 @@ fn what_is_written_is_read() {
     }
 }
 
+/// Files without tables have the version that they always had; what is no table's version is refused.
+#[test]
+fn versions_tell_tables() {
+    let version = |bytes: &[u8]| bytes[8];
+    assert_eq!(all_widths().map(|file| version(&bytes(&file))), [1; 3]);
+    assert_eq!(tables().map(|file| version(&bytes(&file))), [2; 3]);
+    let example = std::fs::read("docs/examples/court_biclusters.prt").expect("an example");
+    assert_eq!(bytes(&parsed(&example).expect("a file")), example);
+    for (file, other) in [(&all_widths()[0], 2), (&tables()[2], 1)] {
+        let mut changed = bytes(file);
+        changed[8] = other;
+        mend(&mut changed);
+        assert!(parsed(&changed).expect_err("another version").contains("values: expected"));
+    }
+    let mut newer = bytes(&all_widths()[0]);
+    newer[8] = 3;
+    mend(&mut newer);
+    let said = "b.prt: expected a .prt file of version 1 to 2, found version 3";
+    assert_eq!(parsed(&newer).expect_err("a newer version"), said);
+}
+
 #[test]
 fn every_flipped_bit_and_every_cut_is_seen() {
-    for file in all_widths() {
+    for file in all_widths().into_iter().chain(tables()) {
         let whole = bytes(&file);
         for length in 0..whole.len() {
             assert!(parsed(&whole[..length]).is_err(), "{length} of {} bytes", whole.len());
@@ -97,30 +138,43 @@ fn parts_that_do_not_go_together_are_refused() {
     }
 }
 
+/// Makes checksums right: that of the header, which it ends with, and of each section.
+fn mend(damaged: &mut [u8]) {
+    let mut begin = 0;
+    let mut end = 8 + 4 * 13 + 24;
+    while end + 4 <= damaged.len() {
+        let crc = crc32fast::hash(&damaged[begin..end]);
+        damaged[end..end + 4].copy_from_slice(&crc.to_le_bytes());
+        begin = end + 4;
+        let Some(length) = damaged.get(begin + 4..begin + 12) else { break };
+        let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
+        end = (begin + 12).saturating_add(usize::try_from(length).unwrap_or(usize::MAX));
+        if end.checked_add(4).is_none_or(|end| end > damaged.len()) {
+            break;
+        }
+    }
+}
+
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
     /// With the checksums made right again, what is read is read, and the rest refused; nothing panics.
     #[test]
-    fn damaged_contents_never_panic(at in 100_usize..400, byte: u8) {
-        let mut damaged = bytes(&all_widths()[0]);
+    fn damaged_contents_never_panic(which in 0..4_usize, at in 8_usize..600, byte: u8) {
+        let file = if which == 0 { &all_widths()[0] } else { &tables()[which - 1] };
+        let mut damaged = bytes(file);
         let at = at % damaged.len();
         damaged[at] = byte;
-        // The header ends with its checksum, each section too.
-        let mut begin = 0;
-        let mut end = 8 + 4 * 13 + 24;
-        while end + 4 <= damaged.len() {
-            let crc = crc32fast::hash(&damaged[begin..end]);
-            damaged[end..end + 4].copy_from_slice(&crc.to_le_bytes());
-            begin = end + 4;
-            let Some(length) = damaged.get(begin + 4..begin + 12) else { break };
-            let length = u64::from_le_bytes(length.try_into().expect("eight bytes"));
-            end = (begin + 12).saturating_add(usize::try_from(length).unwrap_or(usize::MAX));
-            if end.checked_add(4).is_none_or(|end| end > damaged.len()) {
-                break;
-            }
-        }
+        mend(&mut damaged);
         if let Ok(file) = parsed(&damaged) {
             prop_assert_eq!(bytes(&file), damaged);
         }
+    }
+
+    #[test]
+    fn files_of_any_numbers_are_read(rows in real_blocks()) {
+        let file = small_of_numbers(&rows);
+        prop_assert_eq!(parsed(&bytes(&file)), Ok(file));
     }
 
     #[test]

@@ -322,6 +322,7 @@ fn a_study_blames_no_back_face() {
             executor: ExecutorKind::Batch.into(),
             format: FLOATS,
             sweep: false,
+            values: None,
         },
         options: PrtCardOptions::default(),
     };

@@ -2,7 +2,8 @@
 //!
 //! - [`Bicluster`], [`Biclustering`]: rows, columns, and a value for each column (equations 4 to 8);
 //! - [`mod@reference`]: Algorithm 1 on a dense matrix, every operation tried by equation 9;
-//! - [`bicluster`]: the same decisions by influence values in queues (section V, Precomputation Optimization).
+//! - [`bicluster`]: the same decisions by influence values in queues (section V, Precomputation Optimization), on
+//!   integers that are equal where numbers are: multiples of the matrix's unit, else numbers by their first appearance.
 //!
 //! Choices that the paper leaves open, the same for both:
 //! - The remaining non-zeros are numbered row by row; the n-th bicluster starts at one chosen uniformly by a seeded
@@ -15,13 +16,16 @@
 
 mod draw;
 mod lines;
+mod numbers;
 mod options;
 mod queue;
 pub mod reference;
 mod search;
+mod sums;
 mod tally;
 mod whole;
 
 pub use options::{BiclusterError, BiclusterOptions};
 pub use search::bicluster;
+pub use sums::BiclusterResidual;
 pub use whole::{Bicluster, Biclustering};

@@ -1,28 +1,32 @@
-//! Algorithm 1 literally: a dense matrix, every operation tried, each evaluated by equation 9.
+//! Algorithm 1 literally: a dense matrix, every operation tried, each evaluated by equation 9. Numbers are whole
+//! multiples of the finest f64, 2^-1074, in integers of any length.
 
 use std::collections::BTreeSet;
 
+use num_bigint::BigInt;
+
 use super::draw::start;
-use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
+use super::{Bicluster, BiclusterOptions, Biclustering};
+use crate::bi_scale::exact::ExactNumber;
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 
 /// A submatrix T_b: its rows, and its columns with the values t of the bicluster.
 #[derive(Clone, Debug)]
 struct Submatrix {
     rows: Vec<usize>,
-    columns: Vec<(usize, i64)>,
+    columns: Vec<(usize, BigInt)>,
 }
 
 impl Submatrix {
     /// Equation 9: 2 nnz(M) - (r + 2l - 1) - 2 nnz(M_R), where M_R is M less the bicluster.
-    fn reduction(&self, matrix: &[Vec<i64>]) -> i64 {
+    fn reduction(&self, matrix: &[Vec<BigInt>]) -> i64 {
         let mut nonzeros = 0;
         let mut residual_nonzeros = 0;
         for &row in &self.rows {
-            for &(column, t) in &self.columns {
-                let value = matrix[row][column];
-                nonzeros += i64::from(value != 0);
-                residual_nonzeros += i64::from(value - t != 0);
+            for (column, t) in &self.columns {
+                let value = &matrix[row][*column];
+                nonzeros += i64::from(*value != BigInt::ZERO);
+                residual_nonzeros += i64::from(value != t);
             }
         }
         let cost = (self.rows.len() + 2 * self.columns.len()).cast_signed() as i64 - 1;
@@ -41,9 +45,9 @@ impl Submatrix {
     }
 
     /// The same for a column. Also `None` if a column is 0 in all rows, and so has no value.
-    fn with_column_changed(&self, column: usize, matrix: &[Vec<i64>]) -> Option<Self> {
+    fn with_column_changed(&self, column: usize, matrix: &[Vec<BigInt>]) -> Option<Self> {
         let mut changed = self.clone();
-        match changed.columns.iter().position(|&(inside, _)| inside == column) {
+        match changed.columns.iter().position(|(inside, _)| *inside == column) {
             None => changed.columns.push((column, self.most_frequent(column, matrix)?)),
             Some(_) if changed.columns.len() == 1 => return None,
             Some(at) => _ = changed.columns.remove(at),
@@ -52,83 +56,97 @@ impl Submatrix {
     }
 
     /// The most frequent value other than 0 in the rows of a column, the lowest of equally frequent ones.
-    fn most_frequent(&self, column: usize, matrix: &[Vec<i64>]) -> Option<i64> {
-        let values: Vec<i64> = self.rows.iter().map(|&row| matrix[row][column]).filter(|&value| value != 0).collect();
-        let count = |value: i64| values.iter().filter(|&&other| other == value).count();
-        values.iter().copied().max_by(|&a, &b| count(a).cmp(&count(b)).then(b.cmp(&a)))
+    fn most_frequent(&self, column: usize, matrix: &[Vec<BigInt>]) -> Option<BigInt> {
+        let values: Vec<&BigInt> =
+            self.rows.iter().map(|&row| &matrix[row][column]).filter(|value| **value != BigInt::ZERO).collect();
+        let count = |value: &BigInt| values.iter().filter(|other| **other == value).count();
+        values.iter().copied().max_by(|a, b| count(a).cmp(&count(b)).then(b.cmp(a))).cloned()
     }
 
-    fn bicluster(mut self) -> Bicluster {
+    /// The bicluster; values are appended to `numbers`, and named by their index there.
+    fn bicluster(mut self, numbers: &mut Vec<BigInt>) -> Bicluster {
         self.rows.sort_unstable();
         self.columns.sort_unstable();
-        let entry = |&(column, t): &(usize, i64)| MatrixEntry {
-            index: column as u32,
-            value: i32::try_from(t).expect("a value of the matrix, whose residuals were checked"),
+        let entry = |(column, t): (usize, BigInt)| {
+            numbers.push(t);
+            MatrixEntry { index: column as u32, value: (numbers.len() - 1) as i32 }
         };
         Bicluster {
             rows: self.rows.iter().map(|&row| row as u32).collect(),
-            columns: self.columns.iter().map(entry).collect(),
+            columns: self.columns.into_iter().map(entry).collect(),
         }
     }
 }
 
 /// Algorithm 1. A row or column costs a look at all of the matrix, so this is for small ones.
 ///
-/// # Errors
-/// [`BiclusterError::Residual`] if a residual leaves 32 bits.
-pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Biclustering, BiclusterError> {
+/// # Panics
+/// If the largest residual to drop is negative or not finite.
+pub fn bicluster(matrix: &SparseMatrix, options: BiclusterOptions) -> Biclustering {
     let mut left = dense(matrix);
-    let mut dropped = BTreeSet::new();
-    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
+    assert!(options.drop >= 0.0, "a size");
+    let drop = whole(options.drop);
+    let (mut dropped, mut numbers) = (BTreeSet::new(), Vec::new());
+    let mut found = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
     // Line 2: until no element is left.
     while let Some((row, column)) = choose(&left, options.seed, found.len()) {
         // Lines 5 and 6.
-        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column])] };
+        let mut submatrix = Submatrix { rows: vec![row], columns: vec![(column, left[row][column].clone())] };
         // Lines 7 to 20.
         while let Some(better) = best_operation(&submatrix, &left, options.deletion) {
             submatrix = better;
         }
         // Lines 15 and 16: what is taken away is the bicluster, so that the residual stays.
         for &row in &submatrix.rows {
-            for &(column, t) in &submatrix.columns {
-                left[row][column] -= t;
-                let value = left[row][column];
-                if value != 0 && value.unsigned_abs() <= options.drop.into() && dropped.insert((row, column)) {
-                    left[row][column] = 0;
-                } else if i32::try_from(value).is_err() {
-                    return Err(BiclusterError::Residual { row: row as u32, column: column as u32, value });
-                }
+            for (column, t) in &submatrix.columns {
+                let value = &left[row][*column] - t;
+                let is_small = value != BigInt::ZERO && value.magnitude() <= drop.magnitude();
+                let goes = is_small && dropped.insert((row, *column));
+                left[row][*column] = if goes { BigInt::ZERO } else { value };
             }
         }
-        found.push(&submatrix.bicluster());
+        found.push(&submatrix.bicluster(&mut numbers));
     }
-    Ok(found)
+    let number = |index: i32| ExactNumber::new(numbers[index as usize].clone(), ExactNumber::LEAST_EXPONENT);
+    found.with_numbers(matrix.values().fraction_bits(), number)
 }
 
-fn dense(matrix: &SparseMatrix) -> Vec<Vec<i64>> {
+fn dense(matrix: &SparseMatrix) -> Vec<Vec<BigInt>> {
     let row = |row| {
-        let mut values = vec![0; matrix.columns()];
+        let mut values = vec![BigInt::ZERO; matrix.columns()];
         for entry in matrix.row(row) {
-            values[entry.index as usize] = i64::from(entry.value);
+            values[entry.index as usize] = whole(matrix.value(entry.value));
         }
         values
     };
     (0..matrix.rows()).map(row).collect()
 }
 
+/// A number in units of 2^-1074.
+fn whole(value: f64) -> BigInt {
+    assert!(value.is_finite(), "a finite number");
+    let fraction = BigInt::from(value.to_bits() % (1 << 52));
+    let exponent = value.to_bits() / (1 << 52) % (1 << 11);
+    let magnitude = match exponent {
+        0 => fraction,
+        normal => (BigInt::from(1_u64 << 52) + fraction) * BigInt::from(2).pow(normal as u32 - 1),
+    };
+    if value < 0.0 { -magnitude } else { magnitude }
+}
+
 /// The element that the next bicluster starts at, row and column.
-fn choose(left: &[Vec<i64>], seed: u64, number: usize) -> Option<(usize, usize)> {
+fn choose(left: &[Vec<BigInt>], seed: u64, number: usize) -> Option<(usize, usize)> {
     let places = left.iter().enumerate().flat_map(|(row, values)| {
-        values.iter().enumerate().filter(|(_, value)| **value != 0).map(move |(column, _)| (row, column))
+        values.iter().enumerate().filter(|(_, value)| **value != BigInt::ZERO).map(move |(column, _)| (row, column))
     });
     let places: Vec<(usize, usize)> = places.collect();
     (!places.is_empty()).then(|| places[start(seed, number as u64, places.len() as u64) as usize])
 }
 
 /// The submatrix after the operation that reduces the cost most; `None` if none reduces it.
-fn best_operation(submatrix: &Submatrix, left: &[Vec<i64>], deletion: bool) -> Option<Submatrix> {
+fn best_operation(submatrix: &Submatrix, left: &[Vec<BigInt>], deletion: bool) -> Option<Submatrix> {
     let rows = (0..left.len()).filter(|row| deletion || !submatrix.rows.contains(row));
-    let is_inside = |column: usize| submatrix.columns.iter().any(|&(inside, _)| inside == column);
+    let is_inside = |column: usize| submatrix.columns.iter().any(|(inside, _)| *inside == column);
     let columns = (0..left[0].len()).filter(|&column| deletion || !is_inside(column));
     let after_rows = rows.filter_map(|row| submatrix.with_row_changed(row));
     let after_columns = columns.filter_map(|column| submatrix.with_column_changed(column, left));

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 use super::draw::{Counts, start};
 use super::lines::Lines;
+use super::numbers::{KnownNumbers, SearchNumbers, UnitNumbers};
 use super::queue::BucketQueue;
 use super::tally::ColumnTally;
 use super::{Bicluster, BiclusterError, BiclusterOptions, Biclustering};
@@ -17,7 +18,9 @@ use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 /// Biclusters of a matrix, identical to those of [`reference::bicluster`](super::reference::bicluster). `found` is
 /// called after each with the number of remaining non-zeros.
 ///
-/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters.
+/// Memory is 16 bytes per non-zero and some 50 per row and column, besides the biclusters. Where there is no unit in
+/// which 32 bits hold the values and all residuals, some 100 bytes per distinct number more. If a residual is the first
+/// that 32 bits do not hold, the search begins again, and `found` counts down from all non-zeros once more.
 ///
 /// # Errors
 /// [`BiclusterError`].
@@ -26,15 +29,23 @@ pub fn bicluster(
     options: BiclusterOptions,
     found: &mut dyn FnMut(u64),
 ) -> Result<Biclustering, BiclusterError> {
-    let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.fraction_bits());
-    let mut search = Search::new(matrix, options)?;
-    while search.left.total() > 0 {
-        search.begin(start(options.seed, biclustering.len() as u64, search.left.total()));
-        while search.step() {}
-        biclustering.push(&search.end()?);
-        found(search.left.total());
+    let nonzeros = matrix.nonzeros() as u64;
+    if u32::try_from(nonzeros).is_err() {
+        return Err(BiclusterError::TooMany { found: nonzeros });
     }
-    Ok(biclustering)
+    let values = matrix.values();
+    if let (Some(bits), None) = (values.fraction_bits(), values.table_len()) {
+        let (entries, begins) = matrix.to_rows();
+        let lines = (Lines::new(entries, begins), matrix.columns());
+        let mut search = Search::new(lines, UnitNumbers::new(options.drop, bits), options);
+        if let Some(biclustering) = search.run(matrix, found) {
+            return Ok(biclustering);
+        }
+    }
+    let (numbers, entries, begins) = KnownNumbers::new(matrix, options.drop);
+    let mut search = Search::new((Lines::new(entries, begins), matrix.columns()), numbers, options);
+    let biclustering = search.run(matrix, found).ok_or(BiclusterError::Residuals)?;
+    Ok(biclustering.with_numbers(values.fraction_bits(), |integer| search.numbers.exact(integer)))
 }
 
 /// State of the lines of one direction: rows or columns.
@@ -146,49 +157,46 @@ impl SearchSide {
     }
 
     /// Subtracts the bicluster's entries from a line inside: `all` entries of the line; `places` are the crossing
-    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or the crossing
-    /// line and value of a residual that does not fit 32 bits. Residuals for which `goes` is true are dropped.
-    fn subtract(
+    /// lines' indices in `inside`, and `t` their values. Returns the change of the number of entries, or `None` if
+    /// there is no integer for a residual. Residuals for which `goes` is true are dropped.
+    fn subtract<N: SearchNumbers>(
         &mut self,
         line: u32,
         all: impl ExactSizeIterator<Item = MatrixEntry>,
-        places: &[u32],
+        (places, numbers): (&[u32], &mut N),
         t: impl Fn(u32) -> i32,
-        mut goes: impl FnMut(u32, i32) -> bool,
-    ) -> Result<i64, (u32, i64)> {
+        mut goes: impl FnMut(&N, u32, i32) -> bool,
+    ) -> Option<i64> {
         let before = self.lines.get(line as usize).len().cast_signed() as i64;
         self.met.clear();
         self.met.resize(all.len(), false);
-        let (met, mut too_large) = (&mut self.met, None);
+        let (met, mut has_all) = (&mut self.met, true);
         let subtract = |entry: MatrixEntry| {
             let place = places[entry.index as usize];
             if place == OUTSIDE {
                 return Some(entry);
             }
             met[place as usize] = true;
-            let residual = i64::from(entry.value) - i64::from(t(entry.index));
-            let value = i32::try_from(residual).unwrap_or_else(|_| {
-                too_large = Some((entry.index, residual));
-                0
-            });
-            (value != 0 && !goes(entry.index, value)).then_some(MatrixEntry { value, ..entry })
+            let residual = numbers.difference(entry.value, t(entry.index));
+            has_all &= residual.is_some();
+            let value = residual.unwrap_or(0);
+            (value != 0 && !goes(numbers, entry.index, value)).then_some(MatrixEntry { value, ..entry })
         };
         self.lines.change(line as usize, subtract);
-        if let Some(residual) = too_large {
-            return Err(residual);
+        if !has_all {
+            return None;
         }
         // Elements of the line that were 0 become -t.
         let is_new = |entry: &MatrixEntry| !self.met[places[entry.index as usize] as usize];
         self.more.clear();
         for entry in all.filter(is_new) {
-            let residual = -i64::from(entry.value);
-            let value = i32::try_from(residual).map_err(|_| (entry.index, residual))?;
-            if !goes(entry.index, value) {
+            let value = numbers.difference(0, entry.value)?;
+            if !goes(numbers, entry.index, value) {
                 self.more.push(MatrixEntry { value, ..entry });
             }
         }
         self.lines.add(line as usize, &self.more);
-        Ok(self.lines.get(line as usize).len().cast_signed() as i64 - before)
+        Some(self.lines.get(line as usize).len().cast_signed() as i64 - before)
     }
 
     /// Resets everything but the entries.
@@ -203,8 +211,9 @@ impl SearchSide {
 }
 
 #[derive(Debug)]
-struct Search {
+struct Search<N> {
     options: BiclusterOptions,
+    numbers: N,
     rows: SearchSide,
     columns: SearchSide,
     /// Per column the counts of its values in the rows inside.
@@ -217,26 +226,32 @@ struct Search {
     dropped: BTreeSet<(u32, u32)>,
 }
 
-impl Search {
-    fn new(matrix: &SparseMatrix, options: BiclusterOptions) -> Result<Self, BiclusterError> {
-        let width = matrix.columns();
-        let nonzeros = matrix.nonzeros() as u64;
-        if u32::try_from(nonzeros).is_err() {
-            return Err(BiclusterError::TooMany { found: nonzeros });
-        }
-        let (entries, begins) = matrix.to_rows();
-        let rows = Lines::new(entries, begins);
+impl<N: SearchNumbers> Search<N> {
+    fn new((rows, width): (Lines, usize), numbers: N, options: BiclusterOptions) -> Self {
         let columns = rows.transposed(width);
         let left = Counts::new((0..rows.len()).map(|row| rows.get(row).len() as u64));
-        Ok(Self {
+        Self {
             options,
+            numbers,
             rows: SearchSide::new(rows),
             columns: SearchSide::new(columns),
             tallies: vec![ColumnTally::default(); width],
             values: vec![0; width],
             left,
             dropped: BTreeSet::new(),
-        })
+        }
+    }
+
+    /// Lines 2 to 21, with the numbers of the search as values; `None` if a residual has no integer.
+    fn run(&mut self, matrix: &SparseMatrix, found: &mut dyn FnMut(u64)) -> Option<Biclustering> {
+        let mut biclustering = Biclustering::empty(matrix.rows(), matrix.columns(), matrix.values().clone());
+        while self.left.total() > 0 {
+            self.begin(start(self.options.seed, biclustering.len() as u64, self.left.total()));
+            while self.step() {}
+            biclustering.push(&self.end()?);
+            found(self.left.total());
+        }
+        Some(biclustering)
     }
 
     /// The least key of a row, and of a column, whose insertion may gain.
@@ -303,7 +318,8 @@ impl Search {
     }
 
     fn insert_column(&mut self, column: u32) {
-        self.values[column as usize] = self.tallies[column as usize].most_frequent();
+        let order = |a: i32, b: i32| self.numbers.order(a, b);
+        self.values[column as usize] = self.tallies[column as usize].most_frequent(order);
         self.columns.insert(column);
         self.cross_rows(column, u32::wrapping_add);
     }
@@ -327,31 +343,29 @@ impl Search {
         }
     }
 
-    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix.
-    fn end(&mut self) -> Result<Bicluster, BiclusterError> {
+    /// Lines 15 and 16: the finished bicluster, subtracted from the remaining matrix; `None` if a residual has no
+    /// integer.
+    fn end(&mut self) -> Option<Bicluster> {
         let bicluster = self.bicluster();
-        let (drop, dropped) = (self.options.drop, &mut self.dropped);
+        let (numbers, dropped) = (&mut self.numbers, &mut self.dropped);
         for &MatrixEntry { index: column, value: t } in &bicluster.columns {
             let all = bicluster.rows.iter().map(|&row| MatrixEntry { index: row, value: t });
             // Columns come first and only look residuals up; the rows below drop the same ones and record them.
-            let goes = |row, value: i32| value.unsigned_abs() <= drop && !dropped.contains(&(row, column));
-            self.columns
-                .subtract(column, all, &self.rows.places, |_| t, goes)
-                .map_err(|(row, value)| BiclusterError::Residual { row, column, value })?;
+            let goes = |numbers: &N, row, value: i32| numbers.is_dropped(value) && !dropped.contains(&(row, column));
+            self.columns.subtract(column, all, (&self.rows.places, numbers), |_| t, goes)?;
         }
         for &row in &bicluster.rows {
-            let (places, values) = (&self.columns.places, &self.values);
+            let (places, values) = (&self.columns.places[..], &self.values);
             let all = bicluster.columns.iter().copied();
-            let goes = |column, value: i32| value.unsigned_abs() <= drop && dropped.insert((row, column));
-            let more = self.rows.subtract(row, all, places, |column| values[column as usize], goes);
-            let more = more.map_err(|(column, value)| BiclusterError::Residual { row, column, value })?;
+            let goes = |numbers: &N, column, value: i32| numbers.is_dropped(value) && dropped.insert((row, column));
+            let more = self.rows.subtract(row, all, (places, numbers), |column| values[column as usize], goes)?;
             self.left.add(row as usize, more);
         }
         self.columns.touched.iter().for_each(|&column| self.tallies[column as usize].clear());
         for side in [&mut self.rows, &mut self.columns] {
             side.reset();
         }
-        Ok(bicluster)
+        Some(bicluster)
     }
 
     fn bicluster(&self) -> Bicluster {

@@ -1,14 +1,15 @@
 //! Biclusters.
 
-use super::BiclusterError;
-use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
+use crate::bi_scale::exact::ExactNumber;
+use crate::bi_scale::matrix::MatrixEntry;
+use crate::bi_scale::values::EntryValues;
 
 /// A constant-column bicluster: within each of its columns, all of its rows have the same value (equation 4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bicluster {
     /// Its rows j_1 ... j_r, increasing.
     pub rows: Vec<u32>,
-    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, in units of the matrix.
+    /// Its columns k_1 ... k_l, increasing, each with its value t, other than 0, as [`Biclustering::values`] has it.
     pub columns: Vec<MatrixEntry>,
 }
 
@@ -18,21 +19,22 @@ impl Bicluster {
         self.rows.len() as u64 + 2 * self.columns.len() as u64 - 1
     }
 
-    /// True if it fits a matrix of this size: rows and columns in range and increasing, no value 0.
-    pub(crate) fn fits(&self, matrix_rows: usize, matrix_columns: usize) -> bool {
+    /// True if it fits a matrix of this size: rows and columns in range and increasing, values other than 0 that there
+    /// are.
+    pub(crate) fn fits(&self, [matrix_rows, matrix_columns]: [usize; 2], values: &EntryValues) -> bool {
         let increase = self.rows.is_sorted_by(|a, b| a < b) && self.columns.is_sorted_by(|a, b| a.index < b.index);
         let row_fits = self.rows.last().is_some_and(|&row| (row as usize) < matrix_rows);
         let column_fits = self.columns.last().is_some_and(|last| (last.index as usize) < matrix_columns);
-        increase && row_fits && column_fits && self.columns.iter().all(|entry| entry.value != 0)
+        increase && row_fits && column_fits && self.columns.iter().all(|entry| values.has(entry.value))
     }
 }
 
 /// A matrix as a sum of biclusters (equation 8), in the order in which they were found.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Biclustering {
     matrix_rows: usize,
     matrix_columns: usize,
-    fraction_bits: u32,
+    values: EntryValues,
     row_begins: Vec<usize>,
     rows: Vec<u32>,
     column_begins: Vec<usize>,
@@ -41,10 +43,10 @@ pub struct Biclustering {
 
 impl Biclustering {
     /// No biclusters, for a zero matrix of this size.
-    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, fraction_bits: u32) -> Self {
+    pub(crate) fn empty(matrix_rows: usize, matrix_columns: usize, values: EntryValues) -> Self {
         let (row_begins, column_begins) = (vec![0], vec![0]);
         let (rows, columns) = (Vec::new(), Vec::new());
-        Self { matrix_rows, matrix_columns, fraction_bits, row_begins, rows, column_begins, columns }
+        Self { matrix_rows, matrix_columns, values, row_begins, rows, column_begins, columns }
     }
 
     pub(crate) fn push(&mut self, bicluster: &Bicluster) {
@@ -69,14 +71,43 @@ impl Biclustering {
         [self.matrix_rows, self.matrix_columns]
     }
 
-    /// Number of fraction bits of the values.
-    pub fn fraction_bits(&self) -> u32 {
-        self.fraction_bits
+    /// The same with other integers for values, by the number of each: in units of 2^-`fraction_bits` where there are
+    /// such and 32 bits hold all, else in a table.
+    pub(super) fn with_numbers(mut self, fraction_bits: Option<u32>, number: impl Fn(i32) -> ExactNumber) -> Self {
+        let mut integers: Vec<i32> = self.columns.iter().map(|entry| entry.value).collect();
+        integers.sort_unstable();
+        integers.dedup();
+        let mut numbers: Vec<(ExactNumber, i32)> = integers.iter().map(|&integer| (number(integer), integer)).collect();
+        numbers.sort_unstable();
+        let mut distinct: Vec<ExactNumber> = numbers.iter().map(|(number, _)| number.clone()).collect();
+        distinct.dedup();
+        let (values, entries) = EntryValues::of_numbers(fraction_bits, &distinct);
+        let mut of_integers: Vec<(i32, i32)> = Vec::with_capacity(numbers.len());
+        let mut at = 0;
+        for (number, integer) in numbers {
+            at += usize::from(number != distinct[at]);
+            of_integers.push((integer, entries[at]));
+        }
+        of_integers.sort_unstable();
+        for entry in &mut self.columns {
+            let at = of_integers.binary_search_by_key(&entry.value, |(integer, _)| *integer);
+            entry.value = of_integers[at.expect("one of the integers")].1;
+        }
+        Self { values, ..self }
     }
 
-    /// The unit of the integer values: 2^-`fraction_bits`.
-    pub fn unit(&self) -> f64 {
-        1.0 / f64::from(1_u32 << self.fraction_bits)
+    /// The numbers that the values of columns stand for.
+    pub fn values(&self) -> &EntryValues {
+        &self.values
+    }
+
+    /// The number that a value of a column stands for; the nearest f64 where it is a residual that no f64 holds.
+    ///
+    /// # Panics
+    /// If there can be no such value.
+    #[inline]
+    pub fn value(&self, entry: i32) -> f64 {
+        self.values.value(entry)
     }
 
     /// The rows of a bicluster, increasing.
@@ -133,47 +164,5 @@ impl Biclustering {
             }
         }
         (begins, of_row)
-    }
-
-    /// The sum of the biclusters, which is exactly the original matrix.
-    ///
-    /// # Errors
-    /// As [`Self::sum_by_rows`].
-    pub fn sum(&self) -> Result<SparseMatrix, BiclusterError> {
-        let mut matrix = SparseMatrix::new(self.matrix_columns, self.fraction_bits).expect("the size of a matrix");
-        self.sum_by_rows(&mut |_, entries| matrix.push_row(entries).expect("a row of a matrix"))?;
-        Ok(matrix)
-    }
-
-    /// As [`Self::sum`], row by row: `take` is called with each row and its entries.
-    ///
-    /// # Errors
-    /// [`BiclusterError::Residual`] if a value does not fit 32 bits, which can happen for biclusters from elsewhere.
-    pub fn sum_by_rows(&self, take: &mut dyn FnMut(usize, &[MatrixEntry])) -> Result<(), BiclusterError> {
-        let (begins, of_row) = self.by_row();
-        let mut sums = vec![0_i64; self.matrix_columns];
-        let (mut touched, mut entries) = (Vec::new(), Vec::new());
-        for (row, ends) in begins.windows(2).enumerate() {
-            for &bicluster in &of_row[ends[0]..ends[1]] {
-                for entry in self.columns_of(bicluster as usize) {
-                    sums[entry.index as usize] += i64::from(entry.value);
-                    touched.push(entry.index);
-                }
-            }
-            touched.sort_unstable();
-            touched.dedup();
-            entries.clear();
-            for column in touched.drain(..) {
-                let value = std::mem::take(&mut sums[column as usize]);
-                let residual = BiclusterError::Residual { row: row as u32, column, value };
-                match i32::try_from(value) {
-                    Ok(0) => {}
-                    Ok(value) => entries.push(MatrixEntry { index: column, value }),
-                    Err(_) => return Err(residual),
-                }
-            }
-            take(row, &entries);
-        }
-        Ok(())
     }
 }

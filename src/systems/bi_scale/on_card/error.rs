@@ -27,6 +27,11 @@ pub enum BiScaleCardError {
     /// Places beyond what single precision addresses.
     #[error("expected at most {most} {what}, whose places single precision tells apart, found {found}")]
     Places { what: &'static str, most: usize, found: usize },
+    /// A value that single precision does not hold, not even rounded.
+    #[error(
+        "expected values of biclusters within single precision, found {found:e} in bicluster {bicluster}: scale the matrix"
+    )]
+    Value { bicluster: usize, found: f64 },
     /// No room for a direction.
     #[error(
         "a direction of light, texture coordinates and the view need 3 sets of texture coordinates; `{device}` has \

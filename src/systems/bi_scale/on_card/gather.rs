@@ -3,7 +3,8 @@
 //!
 //! The sums are those of [`Gather::multiply`](crate::bi_scale::product::Gather::multiply), with additions in the same
 //! order, so that a card with single precision gives its bits unless one of them is subnormal, which `gt200` flushes.
-//! Lists have about the paper's size: four bytes for a row of a bicluster, eight for a column.
+//! Lists have about the paper's size: four bytes for a row of a bicluster, eight for a column. Values of biclusters are
+//! rounded to single precision, which is exact for shares of visibility; those beyond its range are refused.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -83,7 +84,8 @@ impl GatherCard {
     /// Uploads the lists of biclusters.
     ///
     /// # Errors
-    /// [`BiScaleCardError`] if the device lacks the shader version, texture format or texture size.
+    /// [`BiScaleCardError`] if the device lacks the shader version, texture format or texture size, or a value is
+    /// beyond single precision.
     pub fn new(
         profile: impl Into<Arc<Profile>>,
         executor: impl Into<Executor>,
@@ -100,6 +102,7 @@ impl GatherCard {
             let (most, found) = (MOST_PLACES - 1, columns);
             return Err(BiScaleCardError::Places { what: "columns", most, found });
         }
+        require_singles(biclusters)?;
         let instructions = limits.instructions.map_or(INSTRUCTIONS, |limit| limit as usize).min(INSTRUCTIONS);
         let of = |is_weighted| ListLimits { texels: ListSumKernel::most_texels(is_weighted, instructions), side };
         let buffer = buffer_lists(biclusters, (of(true), &profile.name))?;
@@ -255,6 +258,17 @@ impl Stage {
     }
 }
 
+/// Refuses biclusters with values beyond single precision.
+fn require_singles(biclusters: &Biclustering) -> Result<(), BiScaleCardError> {
+    for bicluster in 0..biclusters.len() {
+        let values = biclusters.columns_of(bicluster).iter().map(|entry| biclusters.value(entry.value));
+        if let Some(found) = values.into_iter().find(|value| !(*value as f32).is_finite()) {
+            return Err(BiScaleCardError::Value { bicluster, found });
+        }
+    }
+    Ok(())
+}
+
 /// The lists of the bicluster buffer: columns, increasing, with their values. The texel after the last column is 0.
 fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result<Lists, BiScaleCardError> {
     let [_, columns] = biclusters.matrix_size();
@@ -264,7 +278,7 @@ fn buffer_lists(biclusters: &Biclustering, limits: (ListLimits, &str)) -> Result
     let texel = |bicluster: usize, at: usize| {
         let columns = biclusters.columns_of(bicluster);
         let of = |at: usize| {
-            let value = |value: i32| (biclusters.unit() * f64::from(value)) as f32;
+            let value = |value: i32| biclusters.value(value) as f32;
             columns.get(at).map_or([none, 0.0], |entry| [entry.index as f32 + 0.5, value(entry.value)])
         };
         let ([a, b], [c, d]) = (of(2 * at), of(2 * at + 1));

@@ -176,7 +176,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
     let mut values = vec![0.0; rows.len() * columns];
     for (into, &row) in values.chunks_exact_mut(columns).zip(&rows) {
         for entry in matrix.row(row) {
-            into[entry.index as usize] = (matrix.unit() * f64::from(entry.value)) as f32;
+            into[entry.index as usize] = matrix.value(entry.value) as f32;
         }
     }
     let signal = Signal::new(columns, values).map_err(|_| RivalError::Dark)?;

@@ -16,9 +16,11 @@ pub trait RowColumn: Copy + Send + Sync {
 
 /// A value as a layout keeps it.
 pub trait RowValue: Copy + Send + Sync {
-    /// The value of a number of units; `None` if it is out of range.
-    fn of(units: i32, unit: f64) -> Option<Self>;
-    /// The value in f32; exact up to 24 bits.
+    /// The values that there is room for.
+    const HOLDS: &'static str;
+    /// The value of an entry; `None` if it is out of range.
+    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self>;
+    /// The value in f32; exact up to 24 bits. `unit` is that of the matrix, if it has one.
     fn single(self, unit: f32) -> f32;
 }
 
@@ -49,8 +51,11 @@ impl RowColumn for u32 {
 }
 
 impl RowValue for i8 {
-    fn of(units: i32, _: f64) -> Option<Self> {
-        units.try_into().ok()
+    const HOLDS: &'static str = "values of -128 to 127 units";
+
+    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self> {
+        matrix.values().fraction_bits()?;
+        entry.try_into().ok()
     }
 
     #[inline(always)]
@@ -60,8 +65,10 @@ impl RowValue for i8 {
 }
 
 impl RowValue for f32 {
-    fn of(units: i32, unit: f64) -> Option<Self> {
-        Some((unit * f64::from(units)) as Self)
+    const HOLDS: &'static str = "values within single precision";
+
+    fn of(matrix: &SparseMatrix, entry: i32) -> Option<Self> {
+        Some(matrix.value(entry) as Self).filter(|value| value.is_finite())
     }
 
     #[inline(always)]
@@ -97,7 +104,7 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
         assert!(u32::try_from(matrix.nonzeros()).is_ok(), "entries that 32 bits can count");
         let mut rows = Self {
             width: matrix.columns(),
-            unit: matrix.unit() as f32,
+            unit: matrix.values().unit() as f32,
             begins: Vec::with_capacity(matrix.rows() + 1),
             columns: Vec::with_capacity(matrix.nonzeros()),
             values: Vec::with_capacity(matrix.nonzeros()),
@@ -107,8 +114,9 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
             for entry in matrix.row(row) {
                 let column = entry.index;
                 rows.columns.push(I::of(column).ok_or(RivalError::ColumnRange { column, most: I::MOST })?);
-                let value = entry.value;
-                rows.values.push(V::of(value, matrix.unit()).ok_or(RivalError::ValueRange { row, value })?);
+                let value = V::of(matrix, entry.value);
+                let out_of_range = || RivalError::ValueRange { row, value: matrix.value(entry.value), holds: V::HOLDS };
+                rows.values.push(value.ok_or_else(out_of_range)?);
             }
             rows.begins.push(rows.columns.len() as u32);
         }

@@ -20,10 +20,8 @@ pub enum RivalError {
     #[error("expected columns of at most {most} in this layout, found {column}: take one of wider numbers")]
     ColumnRange { column: u32, most: u32 },
     /// A value that a layout's numbers do not hold.
-    #[error(
-        "expected values of -128 to 127 units in this layout, found {value} in row {row}: take one of wider numbers"
-    )]
-    ValueRange { row: usize, value: i32 },
+    #[error("expected {holds} in this layout, found {value:e} in row {row}: take one of wider numbers")]
+    ValueRange { row: usize, value: f64, holds: &'static str },
     /// Rows without coefficients.
     #[error("expected 1 to {LIGHT_TEXELS} coefficients per row, found {found}")]
     Coefficients { found: usize },

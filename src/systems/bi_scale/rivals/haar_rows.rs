@@ -101,7 +101,7 @@ impl HaarRows {
         let of_rows: Vec<Vec<(u16, f64)>> = (0..matrix.rows())
             .into_par_iter()
             .map_init(scratch, |(haar, square), row| {
-                let mut all = coefficients(matrix.row(row), matrix.unit(), haar, square);
+                let mut all = coefficients(matrix, row, haar, square);
                 keep_largest(&mut all, options.keep, &weights);
                 all
             })
@@ -176,13 +176,13 @@ fn weights(priority: CoefficientPriority) -> Vec<f64> {
 }
 
 /// All non-zero coefficients of a row, by increasing number; only faces with an entry are transformed.
-fn coefficients(entries: &[MatrixEntry], unit: f64, haar: &mut Haar, square: &mut [f64]) -> Vec<(u16, f64)> {
+fn coefficients(matrix: &SparseMatrix, row: usize, haar: &mut Haar, square: &mut [f64]) -> Vec<(u16, f64)> {
     let face = |entry: &MatrixEntry| entry.index as usize / FACE;
     let mut all = Vec::new();
-    for of_face in entries.chunk_by(|a, b| face(a) == face(b)) {
+    for of_face in matrix.row(row).chunk_by(|a, b| face(a) == face(b)) {
         square.fill(0.0);
         let first = face(&of_face[0]) * FACE;
-        of_face.iter().for_each(|entry| square[entry.index as usize - first] = unit * f64::from(entry.value));
+        of_face.iter().for_each(|entry| square[entry.index as usize - first] = matrix.value(entry.value));
         haar.forward(square);
         let nonzero = (first..).zip(&*square).filter(|(_, value)| **value != 0.0);
         all.extend(nonzero.map(|(at, &value)| (at as u16, value)));

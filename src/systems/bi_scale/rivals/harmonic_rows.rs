@@ -48,7 +48,7 @@ impl HarmonicRows {
         values.par_chunks_exact_mut(count).enumerate().for_each(|(row, into)| {
             let mut sums = vec![0.0; count];
             for entry in matrix.row(row) {
-                let (texel, share) = (entry.index as usize, matrix.unit() * f64::from(entry.value));
+                let (texel, share) = (entry.index as usize, matrix.value(entry.value));
                 let scale = share * functions.solid_angles[texel];
                 sums.iter_mut().zip(functions.of(texel)).for_each(|(sum, y)| *sum += scale * y);
             }

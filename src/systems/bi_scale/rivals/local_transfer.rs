@@ -59,7 +59,7 @@ impl<'a> LocalTransfer<'a> {
         let mut shares = vec![0.0; LIGHT_TEXELS];
         for row in vertex * self.local()..(vertex + 1) * self.local() {
             for entry in self.matrix.row(row) {
-                shares[entry.index as usize] = self.matrix.unit() * f64::from(entry.value);
+                shares[entry.index as usize] = self.matrix.value(entry.value);
             }
         }
         shares

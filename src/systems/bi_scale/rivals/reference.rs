@@ -13,7 +13,7 @@ use super::haar_rows::CoefficientPriority;
 pub fn dense_row(matrix: &SparseMatrix, row: usize) -> Vec<f64> {
     let mut dense = vec![0.0; matrix.columns()];
     for entry in matrix.row(row) {
-        dense[entry.index as usize] = matrix.unit() * f64::from(entry.value);
+        dense[entry.index as usize] = matrix.value(entry.value);
     }
     dense
 }

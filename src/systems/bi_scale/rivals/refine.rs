@@ -66,7 +66,7 @@ impl ByColumn {
         sums.fill(0.0);
         let mut square = 0.0;
         for entry in matrix.row(row) {
-            let value = matrix.unit() * f64::from(entry.value);
+            let value = matrix.value(entry.value);
             let lines = &self.values[entry.index as usize * self.stride..][..self.stride];
             sums.iter_mut().zip(lines).for_each(|(sum, line)| *sum += value * line);
             square += value * value;
@@ -150,8 +150,7 @@ fn refit(matrix: &SparseMatrix, before: &RowSubspace, form: CpcaForm, rows: &[us
 
 /// Adds `scale` times a row to `into`.
 fn add(matrix: &SparseMatrix, row: usize, scale: f64, into: &mut [f64]) {
-    let scale = scale * matrix.unit();
-    matrix.row(row).iter().for_each(|entry| into[entry.index as usize] += scale * f64::from(entry.value));
+    matrix.row(row).iter().for_each(|entry| into[entry.index as usize] += scale * matrix.value(entry.value));
 }
 
 /// Appends a vector to orthonormal ones after orthonormalising it; false if it is linearly dependent on them.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{MeshDigest, PrtKind, VERSION};
+use super::{MeshDigest, PrtKind};
 use crate::io::ReadError;
 use crate::transfer::SignalError;
 use crate::transfer::clustering::ClusteringError;
@@ -27,12 +27,12 @@ pub enum PrtFileError {
     #[diagnostic(code(crossbar::prt::kind), help("`crossbar {}` takes it", found.command()))]
     OtherKind { path: PathBuf, expected: PrtKind, found: PrtKind },
     /// It is of a version that is not known.
-    #[error("{}: expected a .prt file of version 1 to {VERSION}, found version {found}", path.display())]
+    #[error("{}: expected a .prt file of version 1 to {most}, found version {found}", path.display())]
     #[diagnostic(
         code(crossbar::prt::version),
         help("a newer crossbar has written it: use that one, or write it again")
     )]
-    Version { path: PathBuf, found: u32 },
+    Version { path: PathBuf, most: u32, found: u32 },
     /// It ends too early.
     #[error("{}: expected {needed} bytes of {what} at {offset}, found {found}", path.display())]
     #[diagnostic(code(crossbar::prt::truncated), help("the file is cut; copy or write it again"))]

@@ -1,5 +1,7 @@
 //! The system that a `.prt` file belongs to.
 
+use super::VERSION;
+
 /// The system that a `.prt` file belongs to: the number of its conventions, which docs/prt-format.md specifies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::FromRepr)]
 #[repr(u32)]
@@ -17,6 +19,17 @@ pub enum PrtKind {
 }
 
 impl PrtKind {
+    /// The latest version of any kind.
+    pub(super) const LATEST_VERSION: u32 = Self::BiScale.latest_version();
+
+    /// The latest version of such files.
+    pub const fn latest_version(self) -> u32 {
+        match self {
+            Self::LowFrequency | Self::AllFrequency => VERSION,
+            Self::BiScale => 2,
+        }
+    }
+
     /// The command that takes such files.
     pub const fn command(self) -> &'static str {
         match self {

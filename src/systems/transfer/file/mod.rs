@@ -20,7 +20,7 @@ use super::clustering::Clustering;
 
 /// The first bytes of a file: they are no valid text, and are changed by programs that convert line ends.
 pub const MAGIC: &[u8; 8] = b"\x89PRT\r\n\x1a\n";
-/// The version that is written, and the newest one that can be read.
+/// The version of all files but those of bi-scale transfer with tables of values.
 pub const VERSION: u32 = 1;
 /// Largest size of a file that is read, in bytes (4 GiB).
 pub const MAX_BYTES: u64 = 1 << 32;

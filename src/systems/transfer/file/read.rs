@@ -174,31 +174,28 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The beginning, with the version first: what follows depends on it.
-    pub(crate) fn version(&mut self) -> Result<(), PrtFileError> {
+    /// The beginning, up to the conventions, on which the rest of the header depends; returns the version.
+    pub(crate) fn begin(&mut self, expected: PrtKind) -> Result<u32, PrtFileError> {
         if !self.bytes.starts_with(MAGIC) {
             return Err(PrtFileError::Magic { path: self.name.into() });
         }
         self.at = MAGIC.len();
-        match self.integer("header")? {
-            VERSION => Ok(()),
-            found => Err(PrtFileError::Version { path: self.name.into(), found }),
+        let (version, number) = (self.integer("header")?, self.integer("header")?);
+        let most = expected.latest_version();
+        let other_version = || PrtFileError::Version { path: self.name.into(), most, found: version };
+        if !(VERSION..=PrtKind::LATEST_VERSION).contains(&version) {
+            return Err(other_version());
         }
-    }
-
-    /// The conventions, before the rest of the header, which depends on them.
-    pub(crate) fn conventions(&mut self, expected: PrtKind) -> Result<(), PrtFileError> {
-        let number = self.integer("header")?;
         match PrtKind::from_repr(number) {
-            Some(found) if found == expected => Ok(()),
+            Some(found) if found == expected && version > most => Err(other_version()),
+            Some(found) if found == expected => Ok(version),
             Some(found) => Err(PrtFileError::OtherKind { path: self.name.into(), expected, found }),
             None => Err(self.field("conventions", "1 to 3", number.to_string())),
         }
     }
 
     fn header(&mut self) -> Result<PrtHeader, PrtFileError> {
-        self.version()?;
-        self.conventions(PrtKind::LowFrequency)?;
+        self.begin(PrtKind::LowFrequency)?;
         let mut fields = [0; FIELDS];
         for field in &mut fields {
             *field = self.integer("header")?;

@@ -36,12 +36,14 @@ pub(super) struct Causes<'a> {
 
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
-        let bits = match (&rendering.file.matrix, &rendering.file.biclusters) {
-            (Some(matrix), _) => matrix.fraction_bits(),
-            (None, Some(biclusters)) => biclusters.fraction_bits(),
+        let values = match (&rendering.file.matrix, &rendering.file.biclusters) {
+            (Some(matrix), _) => matrix.values(),
+            (None, Some(biclusters)) => biclusters.values(),
             (None, None) => return Err(no_mesh_transfer()),
         };
-        let sampling = VisibilitySampling { log2_samples: (bits / 2).min(2), horizon: meaning.horizon };
+        // Values without a unit are means of any number of samples.
+        let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
+        let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
         let tracer = HostTracer::new(&rendering.surface.mesh, Sides::Both);
         Ok(Self { rendering, tracer, sampling, fine: rendering.light.fine(&DMat3::IDENTITY)? })
     }

@@ -71,14 +71,7 @@ impl TexturedSurface {
     /// Per vertex what a pixel exactly at it would show of its first triangle, whether or not the camera sees it.
     pub(super) fn at_vertices(&self, camera: &Camera) -> Vec<SurfacePixel> {
         let eye = wide(camera.eye());
-        let mut first = vec![None; self.vertices.len()];
-        for (triangle, corners) in (0..).zip(self.vertices.triangles()) {
-            for (corner, &vertex) in corners.iter().enumerate() {
-                first[vertex as usize].get_or_insert((triangle, corner));
-            }
-        }
-        // Every vertex is a corner of a triangle.
-        let places = first.into_iter().flatten().zip(self.vertices.positions());
+        let places = self.vertices.first_corners().into_iter().zip(self.vertices.positions());
         let shown = |((triangle, corner), &place): ((u32, usize), &[f32; 3])| {
             let mut weights = [0.0; 3];
             weights[corner] = 1.0;

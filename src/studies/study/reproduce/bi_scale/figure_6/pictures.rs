@@ -86,7 +86,7 @@ impl<'a> VertexPictures<'a> {
             for entry in (vertex * local..(vertex + 1) * local).flat_map(|row| matrix.row(row)) {
                 let texel = entry.index as usize;
                 let direction = frame.to_local(texel_center(texel));
-                let share = matrix.unit() * f64::from(entry.value);
+                let share = matrix.value(entry.value);
                 let response = share * SURFACE.value(*view, direction) * direction.z.max(0.0);
                 (0..3).for_each(|channel| sum[channel] += response * self.light[channel][texel]);
             }

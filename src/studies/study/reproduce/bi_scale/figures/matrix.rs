@@ -53,7 +53,7 @@ impl Rows<'_> {
         let mut texels = vec![[0_u8; 3]; LIGHT_TEXELS];
         for row in self.first..self.first + self.count {
             for entry in self.matrix.row(row) {
-                let value = grey(self.matrix.unit() * f64::from(entry.value));
+                let value = grey(self.matrix.value(entry.value));
                 let is_marked = row == self.marked;
                 texels[entry.index as usize] = if is_marked { [value, 0, 0] } else { [value; 3] };
             }
@@ -75,7 +75,7 @@ impl Rows<'_> {
         let mut shares = vec![0.0; self.count * width];
         for row in 0..self.count {
             for entry in self.matrix.row(self.first + row) {
-                let value = self.matrix.unit() * f64::from(entry.value);
+                let value = self.matrix.value(entry.value);
                 shares[row * width + entry.index as usize / COLUMNS_PER_PIXEL] += value / COLUMNS_PER_PIXEL as f64;
             }
         }
