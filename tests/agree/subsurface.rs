@@ -146,6 +146,10 @@ fn adaptive_links_are_the_hosts() {
                     let name = format!("{count} adaptive links, rgb {rgb}, {map:?}, half {half}");
                     agrees(case, &name, &links, options, &[], &lights());
                     case += 1;
+                    if count == 16 && !half {
+                        let tiled = SubsurfaceCardOptions { tiles: Some(4), ..options };
+                        agrees(case, &format!("{name}, as tiles"), &links, tiled, &[], &lights());
+                    }
                 }
             }
         }

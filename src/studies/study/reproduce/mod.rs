@@ -42,8 +42,8 @@ use paper::{row as paper_row, value as printed_value};
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
 pub use row::{
-    Bound, Contradiction, Explanation, Judgement, Method, Origin, PaperFigure, PaperRow, RowVerdict, Setting, Standing,
-    Sweep,
+    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperFigure, PaperRow, RowVerdict,
+    Setting, Standing, Sweep,
 };
 use shared::Shared;
 pub use summary::ReproducedPaper;

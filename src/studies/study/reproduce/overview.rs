@@ -2,19 +2,22 @@
 
 use strum::VariantArray as _;
 
-use super::{EntryChart, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
+use super::{EntryChart, MissClass, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
 const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted within bounds in numbers, {} are met in order only, and {} are \
     the paper's own values set against each other; {} are explained, {} missed, and {} contradicted by their own paper.";
 const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
+const MISSED: &str = "Missed for what is in the way: {}.";
 const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
 /// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
     let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    for sentence in [judged(&rows), rounded(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten() {
+    for sentence in
+        [judged(&rows), classes(&rows), rounded(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten()
+    {
         all.conclusion(sentence.to_string());
     }
     for entry in tally(&rows) {
@@ -74,6 +77,14 @@ fn judged(rows: &[&PaperRow]) -> Option<Prose> {
     let judged = count(rows, |row| !chose_a_constant(row));
     let figures = std::iter::once(judged).chain(verdicts.map(of));
     (judged > 0).then(|| Prose::new(JUDGED, figures.map(|figure| figure.to_string())))
+}
+
+/// Number of missed rows by class.
+fn classes(rows: &[&PaperRow]) -> Option<Prose> {
+    let of = |class: MissClass| (count(rows, |row| row.missed() == Some(class)), class);
+    let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
+    let counts: Vec<String> = counts.map(|(count, class)| format!("{class} {count}")).collect();
+    (!counts.is_empty()).then(|| Prose::new(MISSED, [counts.join(", ")]))
 }
 
 fn rounded(rows: &[&PaperRow]) -> Option<Prose> {

@@ -5,11 +5,11 @@ use strum::VariantArray as _;
 
 use super::overview::{overview, overview_chart, tally as counts};
 use super::summary::summary_lines;
-use super::{EntryChart, PaperRow, Reproduced, RowVerdict};
+use super::{EntryChart, Judgement, Paper, PaperRow, ReproduceError, Reproduced, RowVerdict, papers};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% standing \
-     printed_inputs bound low high by_rounding verdict explanation contradiction";
+     printed_inputs bound low high by_rounding verdict missed_for explanation contradiction";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -43,6 +43,7 @@ fn rows(found: &Reproduced) -> Table {
             high,
             row.holds_by_rounding().into(),
             row.verdict().to_string().into(),
+            row.missed().map(|class| class.to_string()).into(),
             row.explanation().map(super::Explanation::text).into(),
             row.contradiction().map(|contradiction| contradiction.text().to_owned()).into(),
         ]);
@@ -55,10 +56,22 @@ fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
     [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
 }
 
-const SHOWN: [&str; 11] =
-    ["what", "place", "unit", "paper", "ours", "readings", "difference_%", "verdict", "bound", "device", "method"];
+const SHOWN: [&str; 12] = [
+    "what",
+    "place",
+    "unit",
+    "paper",
+    "ours",
+    "readings",
+    "difference_%",
+    "verdict",
+    "missed_for",
+    "bound",
+    "device",
+    "method",
+];
 
-fn shown(row: &PaperRow) -> [Cell; 11] {
+fn shown(row: &PaperRow) -> [Cell; 12] {
     let target = &row.target;
     let readings = row.range().map(|range| range.map(|end| target.beside(end).text()).join(" to "));
     let rounded = if row.holds_by_rounding() { ", by the rounding of the print" } else { "" };
@@ -71,6 +84,7 @@ fn shown(row: &PaperRow) -> [Cell; 11] {
         readings.into(),
         Cell::decimals(100.0 * row.difference(), 1),
         row.verdict().to_string().into(),
+        row.missed().map(|class| class.to_string()).into(),
         format!("{}{rounded}", row.bound.text()).into(),
         row.device.into(),
         row.method.to_string().into(),
@@ -130,6 +144,20 @@ pub fn notes(found: &Reproduced) -> Table {
     table
 }
 
+/// Table of the printed figures that no row judges, with the reasons, of the papers that have a row among these.
+fn unjudged(found: &Reproduced) -> Result<Table, ReproduceError> {
+    let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
+    let has_row = |paper: &&Paper| all(found).any(|(_, row)| row.target.id.starts_with(&format!("{}/", paper.id)));
+    for figure in papers()?.iter().filter(has_row).flat_map(|paper| &paper.figures) {
+        if let Judgement::Not(reason) = &figure.judgement {
+            let texts = [&figure.id, &figure.what, &figure.place].map(|text| Cell::from(text.as_str()));
+            let rest = [figure.cell(), figure.unit.as_str().into(), reason.as_str().into()];
+            table.push(texts.into_iter().chain(rest));
+        }
+    }
+    Ok(table)
+}
+
 /// Table of the number of rows per verdict.
 fn tally(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
@@ -183,7 +211,7 @@ const HOW: &str = "The papers' figures beside ours, each figure in one row. A fi
     is which of two values is larger; and consistent in print if nothing is run and the paper's values are set against each other. Calibrated rows chose a constant of \
     the model: they stand apart and are no evidence. Where the text allows several readings, all must lie within the bound. Outside it a row is missed, unless a sweep of this \
     run over something that the papers leave open reaches the value without losing another row that holds: then it is explained, with the setting. \
-    Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value.";
+    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value.";
 
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
@@ -196,6 +224,10 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
     overview_chart(&mut all, found);
     all.paragraph(how.to_string());
     tables(found).into_iter().chain([notes(found)]).for_each(|table| all.table(table));
+    // The files are known to be whole: rows have come of them.
+    if let Ok(table) = unjudged(found) {
+        all.table(FoundTable::from(table).csv("unjudged").field("unjudged").unprinted());
+    }
     let mut entries = Vec::new();
     for (entry, found) in found {
         all.counted_heading(entry.title, counts(&found.rows.iter().collect::<Vec<_>>()));

@@ -160,6 +160,7 @@ pub(super) fn lit_card(
         links: way.links,
         scattered: way.links,
         half: way.half,
+        tiles: None,
         memory: None,
     };
     let (executor, eta) = (parameters.executor.clone(), parameters.material.eta);

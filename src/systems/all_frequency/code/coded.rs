@@ -142,19 +142,37 @@ impl CodedSegment {
         Ok(Self::new(part, options))
     }
 
+    /// Quantises a compressed segment in an absolute step, the same for all representatives. Each is multiplied by the
+    /// root mean square of its weights beforehand, so that its weights are about 1; numbers beyond 16 bits of the step
+    /// are cut off. Weights are coded by the options.
+    ///
+    /// # Errors
+    /// [`CodeOptionsError`].
+    ///
+    /// # Panics
+    /// As [`CodedTransfer::new`].
+    pub fn code_in_steps(part: &CompressedSegment, step: f64, options: CodeOptions) -> Result<Self, CodeOptionsError> {
+        options.check()?;
+        let sizes = mean_weights(&part.clustering, &firsts(&counts(&part.clustering)));
+        let steps = sizes.into_iter().map(|size| if size > 0.0 { (step / size) as f32 } else { 0.0 });
+        Ok(Self::with_steps(part, options, steps.collect()))
+    }
+
     fn new(part: &CompressedSegment, options: CodeOptions) -> Self {
+        let largest: Vec<f64> = vectors(&part.clustering).map(|row| largest(row.iter())).collect();
+        Self::with_steps(part, options, steps(&largest, options.representative_bits, options.scale))
+    }
+
+    /// Quantises representatives in these steps, and weights by the options.
+    fn with_steps(part: &CompressedSegment, options: CodeOptions, representative_steps: Vec<f32>) -> Self {
         let clustering = &part.clustering;
         assert!(clustering.subspaces().len() <= 1 << 16, "clusters that 16 bits can number");
-        let counts = clustering.subspaces().iter().map(|cluster| u8::try_from(cluster.len()));
-        let counts: Vec<u8> = counts.collect::<Result<_, _>>().expect("at most 255 vectors");
+        let counts = counts(clustering);
         let firsts = firsts(&counts);
-        let rows: Vec<&[f64]> = clustering.subspaces().iter().flat_map(|cluster| cluster.vectors()).collect();
-        let largest: Vec<f64> = rows.iter().map(|row| largest(row.iter())).collect();
-        let representative_steps = steps(&largest, options.representative_bits, options.scale);
-        let codes = rows.iter().zip(&representative_steps);
+        let codes = vectors(clustering).zip(&representative_steps);
         let codes: Vec<i16> = codes.flat_map(|(row, &step)| row.iter().map(move |&v| quantise(v, step))).collect();
 
-        let largest = largest_weights(clustering, &firsts, rows.len());
+        let largest = largest_weights(clustering, &firsts, representative_steps.len());
         let weight_steps = steps(&largest, options.weight_bits, options.scale);
         let mut weights = Vec::with_capacity(clustering.all_weights().len());
         for (point, &cluster) in clustering.of_point().iter().enumerate() {
@@ -203,6 +221,17 @@ impl CodedSegment {
     }
 }
 
+/// The representatives of all clusters, cluster by cluster.
+fn vectors(clustering: &Clustering) -> impl Iterator<Item = &[f64]> {
+    clustering.subspaces().iter().flat_map(|cluster| cluster.vectors())
+}
+
+/// Number of representatives of each cluster.
+fn counts(clustering: &Clustering) -> Vec<u8> {
+    let counts = clustering.subspaces().iter().map(|cluster| u8::try_from(cluster.len()));
+    counts.collect::<Result<_, _>>().expect("at most 255 vectors")
+}
+
 fn firsts(counts: &[u8]) -> Vec<usize> {
     let mut next = 0;
     let before = counts.iter().map(|&count| {
@@ -224,6 +253,18 @@ fn largest_weights(clustering: &Clustering, firsts: &[usize], rows: usize) -> Ve
         most.iter_mut().zip(clustering.weights(point)).for_each(|(most, weight)| *most = most.max(weight.abs()));
     }
     most
+}
+
+/// The root mean square weight on each representative.
+fn mean_weights(clustering: &Clustering, firsts: &[usize]) -> Vec<f64> {
+    let mut sums = vec![(0.0_f64, 0_u32); vectors(clustering).count()];
+    for (point, &cluster) in clustering.of_point().iter().enumerate() {
+        let sums = &mut sums[firsts[cluster as usize]..];
+        for (sum, weight) in sums.iter_mut().zip(clustering.weights(point)) {
+            *sum = (sum.0 + weight * weight, sum.1 + 1);
+        }
+    }
+    sums.into_iter().map(|(squares, count)| (squares / f64::from(count.max(1))).sqrt()).collect()
 }
 
 /// The quantisation step of each representative, whose largest magnitude is in `most`.
@@ -269,6 +310,36 @@ mod tests {
             weight.abs() * steps[0] + steps[1] * (1.0 + steps[0])
         });
         terms.sum::<f64>() * (1.0 + 1e-9) + 1e-12
+    }
+
+    /// Representatives times the sizes of their weights are multiples of the step, within half of it or at the end of
+    /// 16 bits; a coarser step leaves fewer numbers.
+    #[test]
+    fn an_absolute_step_is_that_of_numbers_with_weights_of_about_1() {
+        let transfer = sample(3, 16);
+        let mut nonzeros = Vec::new();
+        for halves in [4, 10, 16] {
+            let step = 1.0 / f64::from(1_u32 << halves);
+            for part in &transfer.segments {
+                let coded = CodedSegment::code_in_steps(part, step, CodeOptions::default()).expect("coded");
+                let sizes = mean_weights(&part.clustering, &coded.firsts());
+                let codes = coded.representatives.decode();
+                let rows = vectors(&part.clustering).zip(codes.chunks_exact(coded.representatives.columns()));
+                for ((row, codes), size) in rows.zip(sizes) {
+                    for (value, &code) in row.iter().zip(codes) {
+                        let (value, found) = (value * size, f64::from(code) * step);
+                        let is_cut = code == i16::MAX || code == i16::MIN;
+                        // The step of a representative is stored in single precision.
+                        assert!(is_cut || (found - value).abs() <= step * 0.51 + 1e-6 * value.abs(), "{value} {found}");
+                    }
+                }
+                nonzeros.push(coded.representatives.nonzeros());
+            }
+        }
+        let of_steps: Vec<usize> = nonzeros.chunks(transfer.segments.len()).map(|parts| parts.iter().sum()).collect();
+        assert!(of_steps[0] < of_steps[1] && of_steps[1] <= of_steps[2], "{of_steps:?}");
+        let none = CodeOptions { weight_bits: 1, ..CodeOptions::default() };
+        assert!(CodedSegment::code_in_steps(&transfer.segments[0], 1.0, none).is_err());
     }
 
     #[test]

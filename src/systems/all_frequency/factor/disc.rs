@@ -1,13 +1,16 @@
 //! Errors of approximations, over texels whose directions lie above the horizon.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::error::FactorizationError;
 use super::factors::ProductFactors;
 use super::product::ProductFunction;
 use super::table::ProductTable;
 use crate::elementary::on_circle;
-use crate::linalg::{Matrix, dot};
+use crate::linalg::{LeadingSvd, Matrix, dot};
 use crate::sphere::ParabolicMap;
 
 /// The error of an approximation of f, over pairs of view and light.
@@ -104,61 +107,43 @@ impl ProductErrors {
     }
 }
 
-/// The part of a table whose texels have their centers above the horizon: 812 of 1,024 for maps of 32 x 32.
+/// f at pairs of directions above the horizon, each of which stands for a solid angle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DiscSamples {
-    view: Vec<usize>,
-    light: Vec<usize>,
-    maps: [ParabolicMap; 2],
-    values: Matrix,
+pub struct HemisphereSamples {
+    /// Directions of the views and of the lights.
+    pub directions: [Vec<DVec3>; 2],
+    /// Solid angles of the same, in steradians.
+    pub solid_angles: [Vec<f64>; 2],
+    /// f, one row per view, one column per light.
+    pub values: Matrix,
 }
 
-impl DiscSamples {
-    /// The samples of a table.
-    pub fn new(table: &ProductTable) -> Self {
-        let maps = [table.view(), table.light()];
-        let [view, light] = maps.map(inside);
-        let rows = view.iter().flat_map(|&row| light.iter().map(move |&column| table.values().row(row)[column]));
-        let values = Matrix::new([view.len(), light.len()], rows.collect()).expect("no larger than the table");
-        Self { view, light, maps, values }
-    }
-
-    /// Number of texels of the view's and of the light's map.
-    pub fn counts(&self) -> [usize; 2] {
-        [self.view.len(), self.light.len()]
-    }
-
-    /// f, one row per view, one column per light.
-    pub const fn values(&self) -> &Matrix {
-        &self.values
-    }
-
-    /// Directions of the views and of the lights.
-    pub fn directions(&self) -> [Vec<DVec3>; 2] {
-        self.each_texel(|map, column, row| map.direction(column, row))
-    }
-
-    /// Solid angles of the views' and of the lights' texels, in steradians.
-    pub fn solid_angles(&self) -> [Vec<f64>; 2] {
-        self.each_texel(ParabolicMap::solid_angle)
-    }
-
-    fn each_texel<T>(&self, of: impl Fn(ParabolicMap, usize, usize) -> T) -> [Vec<T>; 2] {
-        let along = |map: ParabolicMap, texels: &[usize]| {
-            texels.iter().map(|texel| of(map, texel % map.side(), texel / map.side())).collect()
+impl HemisphereSamples {
+    /// f, clamped to `limit`, at [`ProductErrors::directions`] for both view and light: one sample per pair.
+    pub fn of_equal_angles(product: &dyn ProductFunction, limit: f64) -> Self {
+        let directions = ProductErrors::directions();
+        let angle = 2.0 * PI / directions.len() as f64;
+        let row = |view: &DVec3| -> Vec<f64> {
+            directions.iter().map(|light| product.value(*view, *light).clamp(-limit, limit)).collect()
         };
-        [along(self.maps[0], &self.view), along(self.maps[1], &self.light)]
+        let rows: Vec<Vec<f64>> = directions.par_iter().map(row).collect();
+        let values = Matrix::new([directions.len(); 2], rows.concat()).expect("a value per pair");
+        let solid_angles = [vec![angle; directions.len()], vec![angle; directions.len()]];
+        Self { directions: [directions.clone(), directions], solid_angles, values }
     }
 
-    /// Errors of factors at these texels.
-    pub fn errors(&self, factors: &ProductFactors) -> ProductErrors {
-        ProductErrors::over(self.counts(), |at, f, found| {
+    /// Errors of the `terms` largest singular values of these samples themselves, or of all there are.
+    ///
+    /// # Errors
+    /// [`FactorizationError::Svd`].
+    pub fn term_errors(&self, terms: usize) -> Result<ProductErrors, FactorizationError> {
+        let svd = LeadingSvd::new(&self.values, terms.max(1))?;
+        let lights: Vec<Vec<f64>> = (0..self.values.column_count()).map(|at| column(&svd.right, at)).collect();
+        Ok(ProductErrors::over(self.counts(), |at, f, found| {
             f.copy_from_slice(self.values.row(at));
-            let g = factors.view_texel(self.view[at]);
-            for (value, &light) in found.iter_mut().zip(&self.light) {
-                *value = dot(g, factors.light_texel(light));
-            }
-        })
+            let view: Vec<f64> = column(&svd.left, at).iter().zip(&svd.values).map(|(u, value)| u * value).collect();
+            found.iter_mut().zip(&lights).for_each(|(found, light)| *found = dot(&view, light));
+        }))
     }
 
     /// Errors of other values for the same pairs.
@@ -168,6 +153,63 @@ impl DiscSamples {
             found.copy_from_slice(values.row(at));
         })
     }
+
+    fn counts(&self) -> [usize; 2] {
+        [self.values.row_count(), self.values.column_count()]
+    }
+}
+
+fn column(matrix: &Matrix, at: usize) -> Vec<f64> {
+    (0..matrix.row_count()).map(|row| matrix.row(row)[at]).collect()
+}
+
+/// The part of a table whose texels have their centers above the horizon: 812 of 1,024 for maps of 32 x 32.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscSamples {
+    view: Vec<usize>,
+    light: Vec<usize>,
+    samples: HemisphereSamples,
+}
+
+impl DiscSamples {
+    /// The samples of a table.
+    pub fn new(table: &ProductTable) -> Self {
+        let maps = [table.view(), table.light()];
+        let [view, light] = maps.map(inside);
+        let rows = view.iter().flat_map(|&row| light.iter().map(move |&column| table.values().row(row)[column]));
+        let values = Matrix::new([view.len(), light.len()], rows.collect()).expect("no larger than the table");
+        let directions =
+            [(maps[0], &view), (maps[1], &light)].map(|(map, texels)| each(map, texels, ParabolicMap::direction));
+        let solid_angles =
+            [(maps[0], &view), (maps[1], &light)].map(|(map, texels)| each(map, texels, ParabolicMap::solid_angle));
+        Self { view, light, samples: HemisphereSamples { directions, solid_angles, values } }
+    }
+
+    /// Number of texels of the view's and of the light's map.
+    pub fn counts(&self) -> [usize; 2] {
+        self.samples.counts()
+    }
+
+    /// The texels as directions, with f.
+    pub const fn samples(&self) -> &HemisphereSamples {
+        &self.samples
+    }
+
+    /// Errors of factors at these texels.
+    pub fn errors(&self, factors: &ProductFactors) -> ProductErrors {
+        ProductErrors::over(self.counts(), |at, f, found| {
+            f.copy_from_slice(self.samples.values.row(at));
+            let g = factors.view_texel(self.view[at]);
+            for (value, &light) in found.iter_mut().zip(&self.light) {
+                *value = dot(g, factors.light_texel(light));
+            }
+        })
+    }
+}
+
+/// A quantity of each of some texels, by column and row.
+fn each<T>(map: ParabolicMap, texels: &[usize], of: impl Fn(ParabolicMap, usize, usize) -> T) -> Vec<T> {
+    texels.iter().map(|texel| of(map, texel % map.side(), texel / map.side())).collect()
 }
 
 /// Texels with centers above the horizon.
@@ -187,6 +229,20 @@ mod tests {
         let directions = ProductErrors::directions();
         let mean = directions.iter().sum::<DVec3>() / 1024.0;
         assert!(mean.x.abs() < 1e-2 && mean.y.abs() < 1e-2 && (mean.z - 0.5).abs() < 1e-12, "{mean}");
+    }
+
+    /// As many terms as the rank leave nothing, fewer what the singular values say; all directions have the same angle.
+    #[test]
+    fn terms_of_equal_angles_are_those_of_their_singular_values() {
+        let samples = HemisphereSamples::of_equal_angles(&Brdf::Lambert { albedo: 0.6 }, 3.0);
+        let whole: f64 = samples.solid_angles[0].iter().sum();
+        assert!((whole - 2.0 * PI).abs() < 1e-12 && samples.counts() == [1024; 2]);
+        assert!(samples.term_errors(1).expect("a term").max < 1e-14, "Lambert has one term");
+        let lobe = HemisphereSamples::of_equal_angles(&Brdf::Phong { albedo: 0.1, specular: 0.8, exponent: 9.0 }, 3.0);
+        let values = LeadingSvd::new(&lobe.values, 1).expect("values").values;
+        let expected = (values[4..].iter().map(|value| value * value).sum::<f64>() / (1024.0 * 1024.0)).sqrt();
+        let found = lobe.term_errors(4).expect("terms").rms;
+        assert!((found - expected).abs() < 1e-9 * expected, "{found} {expected}");
     }
 
     #[test]

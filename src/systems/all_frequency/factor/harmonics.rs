@@ -1,6 +1,6 @@
 //! The same table in spherical harmonics, the output basis of earlier work: the lower part of the table of section 3.
 
-use super::disc::{DiscSamples, ProductErrors};
+use super::disc::{HemisphereSamples, ProductErrors};
 use super::error::FactorizationError;
 use crate::linalg::{Matrix, Svd};
 use crate::sphere::{function_count, harmonics};
@@ -25,27 +25,28 @@ pub enum HarmonicSides {
     Both,
 }
 
-/// Errors of harmonics of an order at the texels of a table that lie above the horizon. Integrals are sums over these
-/// texels, weighted by their solid angles.
+/// Errors of harmonics of an order at samples above the horizon. Integrals are sums over these samples, weighted by
+/// their solid angles.
 ///
 /// # Errors
-/// [`FactorizationError::Svd`] if the functions depend on each other on so few texels that least squares has no answer.
+/// [`FactorizationError::Svd`] if the functions depend on each other on so few samples that least squares has no
+/// answer.
 ///
 /// # Panics
 /// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
 pub fn harmonic_errors(
-    disc: &DiscSamples,
+    samples: &HemisphereSamples,
     order: usize,
     fit: HarmonicFit,
     sides: HarmonicSides,
 ) -> Result<ProductErrors, FactorizationError> {
-    let [view, light] = [0, 1].map(|side| Expansion::new(disc, side, order, fit));
+    let [view, light] = [0, 1].map(|side| Expansion::new(samples, side, order, fit));
     let values = match sides {
-        HarmonicSides::Light => light?.columns(disc.values())?,
-        HarmonicSides::View => view?.rows(disc.values())?,
-        HarmonicSides::Both => view?.rows(&light?.columns(disc.values())?)?,
+        HarmonicSides::Light => light?.columns(&samples.values)?,
+        HarmonicSides::View => view?.rows(&samples.values)?,
+        HarmonicSides::Both => view?.rows(&light?.columns(&samples.values)?)?,
     };
-    Ok(disc.errors_of(&values))
+    Ok(samples.errors_of(&values))
 }
 
 /// Converts values at texels to coefficients, and back.
@@ -57,8 +58,13 @@ struct Expansion {
 }
 
 impl Expansion {
-    fn new(disc: &DiscSamples, side: usize, order: usize, fit: HarmonicFit) -> Result<Self, FactorizationError> {
-        let (directions, angles) = (&disc.directions()[side], &disc.solid_angles()[side]);
+    fn new(
+        samples: &HemisphereSamples,
+        side: usize,
+        order: usize,
+        fit: HarmonicFit,
+    ) -> Result<Self, FactorizationError> {
+        let (directions, angles) = (&samples.directions[side], &samples.solid_angles[side]);
         let count = function_count(order);
         let mut y = Matrix::zeros([directions.len(), count])?;
         for (row, &direction) in directions.iter().enumerate() {
@@ -98,13 +104,13 @@ impl Expansion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::all_frequency::factor::{FactorSampling, Lobe, ProductTable, Supersamples};
+    use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, ProductTable, Supersamples};
     use crate::transfer::brdf::Brdf;
 
-    fn disc(side: usize, product: &dyn super::super::ProductFunction) -> DiscSamples {
+    fn disc(side: usize, product: &dyn super::super::ProductFunction) -> HemisphereSamples {
         let sampling = FactorSampling { side, supersamples: Supersamples::NONE, ..FactorSampling::default() };
         let table: ProductTable = sampling.table(product, &mut |_, _| ()).expect("a table");
-        DiscSamples::new(&table)
+        DiscSamples::new(&table).samples().clone()
     }
 
     #[test]

@@ -5,7 +5,8 @@
 //! - [`FactorSampling`]: f on parabolic maps, a [`ProductTable`]; choices that the paper leaves open are named options;
 //! - [`Factorization`]: its singular values, and [`ProductFactors`] of any number of terms, interpolated between
 //!   texels;
-//! - [`ProductErrors`], [`harmonic_errors`]: errors of approximations by terms and by spherical harmonics.
+//! - [`ProductErrors`], [`harmonic_errors`]: errors of approximations by terms and by spherical harmonics, at texels
+//!   ([`DiscSamples`]) or at directions with equal solid angles ([`HemisphereSamples`]).
 //!
 //! Directions are local: z is the normal, x the tangent.
 
@@ -21,7 +22,7 @@ mod product;
 mod sampling;
 mod table;
 
-pub use disc::{DiscSamples, ProductErrors};
+pub use disc::{DiscSamples, HemisphereSamples, ProductErrors};
 pub use error::FactorizationError;
 pub use factorization::{Factorization, PAIR_DISTANCE, SplitPair};
 pub use factors::{DiffuseFactor, ProductFactors};

@@ -10,6 +10,9 @@
 //!   `TXD`: the level of detail is then level + 1/2, of which the sampler's bias takes the half away. For a rectangle
 //!   that holds all levels side by side, w is side / 2^level, and `p[1]` is (-2, 2 side, 0, 0): a level begins at
 //!   2 side - 2 w.
+//!
+//! Textures of links may be tiles of fewer, larger ones, row by row: one more constant has the corner of each tile but
+//! the first of a texture, which is added to the place of the texel.
 
 use std::fmt::Write as _;
 
@@ -58,17 +61,19 @@ pub struct GatherKernel {
     pub half: bool,
     /// True if it adds to the target of the previous pass.
     pub continues: bool,
+    /// Tiles along an edge of a texture of links: 1 for a texture each.
+    pub tiles: usize,
 }
 
 impl GatherKernel {
-    /// All of them.
+    /// All of them, with a texture for each tile.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for layout in [LinkLayout::Fixed, LinkLayout::Adaptive] {
             for map in [MapTexture::Leveled, MapTexture::Rectangle] {
                 for bits in 0..8_u8 {
                     let [rgb, half, continues] = [1, 2, 4].map(|bit| bits & bit != 0);
-                    all.push(Self { layout, rgb, map, half, continues });
+                    all.push(Self { layout, rgb, map, half, continues, tiles: 1 });
                 }
             }
         }
@@ -81,15 +86,17 @@ impl GatherKernel {
         let map = if self.map == MapTexture::Leveled { "leveled" } else { "rectangle" };
         let part = |on: bool, word: &'static str| if on { word } else { "" };
         let [rgb, half] = [part(self.rgb, "_rgb"), part(self.half, "_half")];
-        format!("gather_{layout}_{map}{rgb}{half}{}", part(self.continues, "_next"))
+        let tiles = if self.tiles > 1 { format!("_tiles_{}", self.tiles) } else { String::new() };
+        format!("gather_{layout}_{map}{rgb}{half}{}{tiles}", part(self.continues, "_next"))
     }
 
     /// The program for so many links.
     pub fn text(&self, links: usize) -> String {
-        let mut writer = Writer { kernel: *self, text: "!!FP1.0\n".to_owned(), unit: 1 };
+        let first = self.constants_before_tiles(links);
+        let mut writer = Writer { kernel: *self, text: "!!FP1.0\n".to_owned(), textures: 0, first };
         let _ = writeln!(writer.text, "# {}: {links} links", self.name());
         if self.continues {
-            writer.read(SUM, "f[TEX0]");
+            writer.read(SUM, ("f[TEX0]", 1));
         }
         match self.layout {
             LinkLayout::Fixed => (0..links).step_by(4).for_each(|from| writer.fixed(from, links)),
@@ -104,18 +111,27 @@ impl GatherKernel {
         instructions(&self.text(links))
     }
 
-    /// Samplers for so many links.
-    pub fn samplers(&self, links: usize) -> usize {
-        let textures = match (self.layout, self.rgb) {
+    /// Textures of so many links, each a tile of one or a texture of its own.
+    pub const fn link_textures(&self, links: usize) -> usize {
+        match (self.layout, self.rgb) {
             (LinkLayout::Fixed, false) => links.div_ceil(4),
-            (LinkLayout::Fixed, true) => links / 4 * 3 + (links % 4).min(3),
+            (LinkLayout::Fixed, true) => links / 4 * 3 + if links % 4 < 3 { links % 4 } else { 3 },
             (LinkLayout::Adaptive, rgb) => links * if rgb { 2 } else { 1 },
-        };
-        1 + usize::from(self.continues) + textures
+        }
+    }
+
+    /// Samplers for so many links.
+    pub const fn samplers(&self, links: usize) -> usize {
+        1 + self.continues as usize + self.link_textures(links).div_ceil(self.tiles * self.tiles)
     }
 
     /// Constants for so many links.
     pub fn constants(&self, links: usize) -> usize {
+        let tiles = self.link_textures(links).min(self.tiles * self.tiles);
+        self.constants_before_tiles(links) + tiles.saturating_sub(1)
+    }
+
+    const fn constants_before_tiles(&self, links: usize) -> usize {
         match (self.layout, self.map) {
             (LinkLayout::Fixed, _) => 1 + links,
             (LinkLayout::Adaptive, MapTexture::Leveled) => 1,
@@ -142,8 +158,10 @@ const COMPONENTS: [&str; 4] = ["x", "y", "z", "w"];
 struct Writer {
     kernel: GatherKernel,
     text: String,
-    /// The next image unit that is free.
-    unit: usize,
+    /// Textures of links that have been read.
+    textures: usize,
+    /// The first constant of tiles.
+    first: usize,
 }
 
 impl Writer {
@@ -151,10 +169,23 @@ impl Writer {
         format!("{}{number}", if self.kernel.half { 'H' } else { 'R' })
     }
 
-    /// Reads the next texture.
-    fn read(&mut self, into: usize, at: &str) {
-        let _ = writeln!(self.text, "TEX {}, {at}, TEX{}, RECT;", self.register(into), self.unit);
-        self.unit += 1;
+    /// Reads a texture that has a texel for each of the target's.
+    fn read(&mut self, into: usize, (at, unit): (&str, usize)) {
+        let _ = writeln!(self.text, "TEX {}, {at}, TEX{unit}, RECT;", self.register(into));
+    }
+
+    /// Reads the next texture of links.
+    fn read_links(&mut self, into: usize) {
+        let in_one = self.kernel.tiles * self.kernel.tiles;
+        let unit = 1 + usize::from(self.kernel.continues) + self.textures / in_one;
+        match self.textures % in_one {
+            0 => self.read(into, ("f[TEX0]", unit)),
+            tile => {
+                let _ = writeln!(self.text, "ADDR {PLACE}, f[TEX0], p[{}];", self.first + tile - 1);
+                self.read(into, (PLACE, unit));
+            }
+        }
+        self.textures += 1;
     }
 
     /// Reads the map.
@@ -174,7 +205,7 @@ impl Writer {
         let count = (links - from).min(4);
         let textures = if self.kernel.rgb { count.min(3) } else { 1 };
         for texture in 0..textures {
-            self.read(FACTORS + texture, "f[TEX0]");
+            self.read_links(FACTORS + texture);
         }
         for (link, component) in COMPONENTS[..count].iter().enumerate() {
             self.read_map(&format!("p[{}]", 1 + from + link));
@@ -191,10 +222,10 @@ impl Writer {
     }
 
     fn adaptive(&mut self) {
-        self.read(FACTORS, "f[TEX0]");
+        self.read_links(FACTORS);
         let link = self.register(FACTORS);
         if self.kernel.rgb {
-            self.read(FACTORS + 1, "f[TEX0]");
+            self.read_links(FACTORS + 1);
         }
         match self.kernel.map {
             MapTexture::Leveled => {

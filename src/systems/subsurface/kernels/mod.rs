@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn sixteen_links_fit_as_the_paper_has_them() {
         let nv35 = Profile::named("nv35").expect("a card");
-        let kernel = |layout, map, rgb| GatherKernel { layout, rgb, map, half: false, continues: false };
+        let kernel = |layout, map, rgb| GatherKernel { layout, rgb, map, half: false, continues: false, tiles: 1 };
         let fixed = kernel(LinkLayout::Fixed, MapTexture::Leveled, false);
         assert_eq!((fixed.instructions(16), fixed.samplers(16)), (37, 5));
         let rgb = kernel(LinkLayout::Fixed, MapTexture::Leveled, true);
@@ -89,6 +89,10 @@ mod tests {
         assert!(adaptive.checked(&nv35, 15).is_ok());
         let refused = adaptive.checked(&nv35, 16).expect_err("17 samplers").to_string();
         assert!(refused.contains("TEX16"), "{refused}");
+        // Sixteen textures as tiles of one: an addition for each but the first, and one pass.
+        let tiled = GatherKernel { tiles: 4, ..adaptive };
+        assert_eq!((tiled.instructions(16), tiled.samplers(16), tiled.constants(16)), (49 + 15, 2, 1 + 15));
+        assert!(tiled.checked(&nv35, 16).is_ok());
         for kernel in GatherKernel::all() {
             let most = (1..=64).rev().find(|&n| kernel.samplers(n) <= 16 && kernel.constants(n) <= 64).expect("one");
             let program = kernel.checked(&nv35, most).unwrap_or_else(|e| panic!("{e}"));

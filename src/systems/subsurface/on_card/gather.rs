@@ -34,6 +34,11 @@ impl GatherProgram {
     pub fn samplers(&self) -> usize {
         self.kernel.samplers(self.links)
     }
+
+    /// The number of textures on the card for its links, tiles counted as if all were taken.
+    pub(super) fn link_textures(&self) -> usize {
+        (self.samplers() - 1 - usize::from(self.kernel.continues)) * self.kernel.tiles * self.kernel.tiles
+    }
 }
 
 /// Textures, programs and targets of pass 2.
@@ -58,8 +63,15 @@ impl Gather {
         let map = map_texture(options);
         let programs = programs(machine.profile(), links, options)?;
         let format = options.links.format();
-        let upload = |index| Ok(links.on_card(index, map).upload(machine, format)?);
-        let textures = (0..links.texture_count()).map(upload).collect::<Result<_, SubsurfaceCardError>>()?;
+        let (tiles, mut textures, mut next) = (options.tiles_per_edge(), Vec::new(), 0);
+        for program in &programs {
+            let end = next + program.kernel.link_textures(program.links);
+            while next < end {
+                let count = (tiles * tiles).min(end - next);
+                textures.push(links.tiled((next, count), tiles, map).upload(machine, format)?);
+                next += count;
+            }
+        }
         let target = |_| Ok(new_target(machine, options.scattered.format(), [links.side as usize; 2])?);
         let targets = (0..programs.len().min(2)).map(target).collect::<Result<_, SubsurfaceCardError>>()?;
         let factor = (1.0 / options.map.scale()) as f32;
@@ -102,7 +114,11 @@ impl Gather {
             (None, MapTexture::Rectangle) => vec![[-2.0, 2.0 * self.side as f32, 0.0, 0.0]],
             (None, MapTexture::Leveled) => Vec::new(),
         };
-        constants(std::iter::once([factor; 4]).chain(places))
+        let tiles = program.kernel.tiles;
+        let corner = |tile: usize| [(tile % tiles) as f32, (tile / tiles) as f32].map(|at| at * self.side as f32);
+        let corners = (1..tiles * tiles).take(program.kernel.link_textures(program.links).saturating_sub(1));
+        let corners = corners.map(|tile| [corner(tile)[0], corner(tile)[1], 0.0, 0.0]);
+        constants(std::iter::once([factor; 4]).chain(places).chain(corners))
     }
 
     fn target(&self, pass: usize) -> TextureId {
@@ -129,7 +145,8 @@ pub(super) fn programs(
     let mut programs = Vec::new();
     let mut from = 0;
     while from < links.count {
-        let kernel = GatherKernel { continues: from > 0, ..links.kernel(map_texture(options), options.half) };
+        let tiles = options.tiles_per_edge();
+        let kernel = GatherKernel { continues: from > 0, tiles, ..links.kernel(map_texture(options), options.half) };
         let most = most_links(profile, kernel)?.min(links.count - from);
         programs.push(GatherProgram { kernel, from, links: most, checked: kernel.checked(profile, most)? });
         from += most;

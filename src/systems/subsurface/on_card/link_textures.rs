@@ -73,18 +73,31 @@ impl LinkTextures {
 
     /// The program that follows the links in a map of this kind.
     pub(super) fn kernel(&self, map: MapTexture, half: bool) -> GatherKernel {
-        GatherKernel { layout: self.layout(), rgb: self.rgb, map, half, continues: false }
+        GatherKernel { layout: self.layout(), rgb: self.rgb, map, half, continues: false, tiles: 1 }
     }
 
-    /// The number of textures on the card.
+    /// The number of textures, each a tile of one on the card or one of its own.
     pub(super) fn texture_count(&self) -> usize {
-        self.kernel(MapTexture::Leveled, false).samplers(self.count) - 1
+        self.kernel(MapTexture::Leveled, false).link_textures(self.count)
     }
 
-    /// Bytes of the textures on the card.
-    pub(super) fn bytes(&self, format: FloatTexels) -> u64 {
+    /// Bytes of `count` textures on the card.
+    pub(super) fn bytes(&self, format: FloatTexels, count: usize) -> u64 {
         let texels = u64::from(self.side) * u64::from(self.side);
-        texels * self.texture_count() as u64 * format.format().bytes() as u64
+        texels * count as u64 * format.format().bytes() as u64
+    }
+
+    /// Textures from `first` on as tiles of one, row by row, `tiles` along an edge; 0 where there are no more than
+    /// `count`.
+    pub(super) fn tiled(&self, (first, count): (usize, usize), tiles: usize, map: MapTexture) -> Texels {
+        if tiles == 1 {
+            return self.on_card(first, map);
+        }
+        let all: Vec<Texels> = (first..first + count).map(|index| self.on_card(index, map)).collect();
+        let side = self.side as usize;
+        Texels::from_fn([tiles * side; 2], |x, y| {
+            all.get(y / side * tiles + x / side).map_or([0.0; 4], |texels| texels.row(y % side)[x % side])
+        })
     }
 
     /// A texture as [`GatherKernel`] reads it.

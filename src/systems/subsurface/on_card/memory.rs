@@ -1,6 +1,7 @@
 //! Memory of the card that the passes take.
 
 use super::error::SubsurfaceCardError;
+use super::gather::GatherProgram;
 use super::levels::LeveledMap;
 use super::link_textures::LinkTextures;
 use super::options::{LightStage, SubsurfaceCardOptions};
@@ -14,13 +15,14 @@ pub struct CardMemory {
 }
 
 impl CardMemory {
-    pub(super) fn new(links: &LinkTextures, options: &SubsurfaceCardOptions, gather_passes: usize) -> Self {
+    pub(super) fn new(links: &LinkTextures, options: &SubsurfaceCardOptions, programs: &[GatherProgram]) -> Self {
         let texels = u64::from(links.side) * u64::from(links.side);
         let [map, levels, row] = LeveledMap::bytes(options.map, links.side, links.layout());
         let geometry = if options.light == LightStage::Texels { 2 * 16 * texels } else { 0 };
-        let scattered = texels * options.scattered.format().bytes() as u64 * gather_passes.min(2) as u64;
+        let scattered = texels * options.scattered.format().bytes() as u64 * programs.len().min(2) as u64;
+        let textures = programs.iter().map(GatherProgram::link_textures).sum();
         let parts = vec![
-            ("links", links.bytes(options.links)),
+            ("links", links.bytes(options.links, textures)),
             ("radiosity map", map),
             ("levels", levels),
             ("levels side by side", row),

@@ -77,8 +77,8 @@ impl SubsurfaceCard {
         options.check()?;
         MeshError::check_size("texels along a side of the links' atlas", model.side() as usize, links.side as usize)?;
         Self::fits(&profile, links, &options)?;
-        let passes = gather::programs(&profile, links, &options)?.len();
-        let memory = CardMemory::new(links, &options, passes);
+        let programs = gather::programs(&profile, links, &options)?;
+        let memory = CardMemory::new(links, &options, &programs);
         memory.check(&profile, options.memory)?;
         let mut machine = executor.into().machine(profile)?;
         let map = LeveledMap::new(&mut machine, options.map, model.side(), links.layout())?;

@@ -98,13 +98,23 @@ pub struct SubsurfaceCardOptions {
     pub scattered: FloatTexels,
     /// True if pass 2 computes in half precision, but for places in a rectangle.
     pub half: bool,
+    /// How many textures of links lie along an edge of one texture that holds them as tiles; `None` for a texture each.
+    pub tiles: Option<u32>,
     /// The card's memory in bytes, if it shall be an error to need more.
     pub memory: Option<u64>,
 }
 
 impl SubsurfaceCardOptions {
+    /// Textures of links along an edge of one on the card.
+    pub(super) fn tiles_per_edge(&self) -> usize {
+        self.tiles.unwrap_or(1) as usize
+    }
+
     pub(super) fn check(&self) -> Result<(), MeshError> {
         let scale = self.map.scale();
+        if self.tiles == Some(0) {
+            return Err(MeshError::Figure { what: "a number of tiles above 0", found: 0.0 });
+        }
         if scale.is_finite() && scale > 0.0 && (scale as f32).is_normal() {
             return Ok(());
         }

@@ -211,7 +211,7 @@ fn bits_do_not_depend_on_threads() {
 fn a_white_furnace_shows_what_terms_lose() {
     for (table, terms) in [(sampled(12, &COOK_TORRANCE), 9), (sampled(12, &SCHLICK), 9)] {
         let (found, disc) = (all_terms(&table), DiscSamples::new(&table));
-        let [_, weights] = disc.solid_angles();
+        let [_, weights] = disc.samples().solid_angles.clone();
         let texels: Vec<usize> = (0..144).filter(|at| table.light().direction(at % 12, at / 12).z > 0.0).collect();
         let length = dot(&weights, &weights).sqrt();
         for (kept, most) in [(terms, found.singular_values()[terms] * length), (found.rank(), 1e-11)] {

@@ -23,7 +23,12 @@ pub(super) fn rows(disc: &DiscSamples) -> Result<Vec<HarmonicRow>, Factorization
     for sides in [HarmonicSides::View, HarmonicSides::Light, HarmonicSides::Both] {
         for fit in [HarmonicFit::ZeroHemisphere, HarmonicFit::LeastSquares] {
             for order in ORDERS.filter(|&order| disc.counts().iter().all(|&count| count > function_count(order))) {
-                rows.push(HarmonicRow { order, fit, sides, errors: harmonic_errors(disc, order, fit, sides)? });
+                rows.push(HarmonicRow {
+                    order,
+                    fit,
+                    sides,
+                    errors: harmonic_errors(disc.samples(), order, fit, sides)?,
+                });
             }
         }
     }

@@ -120,6 +120,11 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
         ("multiplications", 2.0 / 3.0 * (24 * N * M * 3) as f64),
     ];
     let mut rows: Vec<PaperRow> = counts.into_iter().map(count).collect::<Result<_, _>>()?;
+    // "A compression factor of 77 (1.3% of raw size)"; Table 1 has one more digit.
+    let size = printed_value("all-frequency/size-bunny")?;
+    let [factor, of_sentence] = [size, (10.0 * size).round() / 10.0].map(|size| 100.0 / size);
+    let factor = equation("all-frequency/factor-bunny", (factor, Standing::Predicted { from: "size of Table 1" }))?;
+    rows.push(factor.with_readings([of_sentence]));
     let columns = Column::all()?;
     let per_second = |column: &Column, fps: f64| {
         let [clusters, vertices] = column.multiplies();

@@ -1,7 +1,8 @@
 //! Section 3: errors of ten terms and of spherical harmonics for two reflectances, and Figure 3.
 
-use super::forms::{Form, FormErrors, ORDERS, TERMS, cook_torrance, schlick};
+use super::forms::{Form, FormErrors, ORDERS, TERMS, at_equal_angles, cook_torrance, schlick};
 use super::{EntryFindings, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, number, roughness, solved};
+use crate::all_frequency::factor::ProductErrors;
 
 /// PrintedReflectance in the names of its figures, with its forms.
 struct PrintedReflectance {
@@ -25,7 +26,8 @@ const HOW: &str = "PrintedReflectance times cosine on parabolic maps of {} x {} 
     singular value decomposition, and spherical harmonics by integrals over the hemisphere for view and light. Errors are over the {} x {} pairs \
     of texels whose directions lie above the horizon. The paper names the models and their parameters, and none of their factors: the rows have \
     the form of the textbooks, in which no energy is made; the tables beside them have the other printed denominators, and forms that a search beforehand had found nearer. \
-    Forms at centers have one sample per pair.";
+    Forms at centers have one sample per pair; those at equal angles are sampled at {} directions with equal solid angles instead of on maps, their \
+    singular values are those of these samples, and harmonics are integrated over them.";
 const QUESTION: &str = "which denominators, Fresnel and shadowing terms the paper's two reflectances have, where on the hemisphere its errors are \
     taken, and whether the harmonics expand view, light or both.";
 
@@ -33,8 +35,12 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
     let (mut rows, mut tables, mut functions) = (Vec::new(), Vec::new(), Vec::new());
     for reflectance in &REFLECTANCES {
         let mut settings = Vec::new();
-        for form in (reflectance.forms)() {
-            settings.push(Setting { at: form.0.to_owned(), values: FormErrors::new(&form)?.values() });
+        let forms = (reflectance.forms)();
+        for form in &forms {
+            settings.push(Setting { at: form.0.to_owned(), values: FormErrors::new(form)?.values() });
+        }
+        for (name, lobe) in at_equal_angles(&forms) {
+            settings.push(Setting { at: name, values: FormErrors::at_equal_angles(&lobe)?.values() });
         }
         let sweep = Sweep { name: reflectance.sweep, parameter: "form", settings };
         let stated = &sweep.settings[0].values;
@@ -60,6 +66,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         number(TERMS as f64, 0),
         number(inside, 0),
         number(inside, 0),
+        number(ProductErrors::directions().len() as f64, 0),
     ];
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures)],

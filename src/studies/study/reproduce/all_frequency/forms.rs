@@ -3,7 +3,7 @@
 use super::{HOST, ReproduceError, failed};
 use crate::all_frequency::factor::{
     Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HarmonicFit,
-    HarmonicSides, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
+    HarmonicSides, HemisphereSamples, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
 };
 use crate::sphere::MAX_ORDER;
 
@@ -51,16 +51,37 @@ pub(super) fn bare(lobe: Lobe) -> Lobe {
 /// Interpretations of Schlick's model, his own first.
 pub(super) fn schlick() -> Vec<Form> {
     let lobe = Lobe::schlick(0.2, 0.2, 0.8);
-    let quarter = Lobe { denominators: Denominators::Quarter, ..lobe };
-    let tangent = TangentCosine::HalfVector;
-    let distribution = FacetDistribution::Schlick { roughness: 0.2, isotropy: 0.2, tangent };
-    let half = Lobe { distribution, ..quarter };
+    let half = quarter_of_half_vector(lobe);
     vec![
         ("normalised", lobe, FactorSampling::default()),
-        ("quarter", quarter, FactorSampling::default()),
+        ("quarter", Lobe { denominators: Denominators::Quarter, ..lobe }, FactorSampling::default()),
         ("quarter_of_half_vector", half, FactorSampling::default()),
         ("half_vector_at_centers", half, centers()),
     ]
+}
+
+/// Keeps a quarter of distribution, shadowing and Fresnel reflectance, with the half vector's own component along the
+/// tangent.
+pub(super) fn quarter_of_half_vector(lobe: Lobe) -> Lobe {
+    let distribution = match lobe.distribution {
+        FacetDistribution::Schlick { roughness, isotropy, .. } => {
+            FacetDistribution::Schlick { roughness, isotropy, tangent: TangentCosine::HalfVector }
+        }
+        other => other,
+    };
+    Lobe { distribution, denominators: Denominators::Quarter, ..lobe }
+}
+
+/// Lobes of some interpretations, each once, with their names where they are sampled at equal solid angles: "1024
+/// samples in both light direction and view direction sampled over the hemisphere" need not be texels of a map.
+pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
+    let mut found: Vec<(String, Lobe)> = Vec::new();
+    for (name, lobe, _) in forms {
+        if !found.iter().any(|(_, other)| other == lobe) {
+            found.push((format!("{name}_at_equal_angles"), *lobe));
+        }
+    }
+    found
 }
 
 impl FormErrors {
@@ -69,9 +90,19 @@ impl FormErrors {
         let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
         let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
         let disc = DiscSamples::new(&table);
-        let terms = disc.errors(&found.factors(TERMS));
+        Self::of(disc.errors(&found.factors(TERMS)), disc.samples())
+    }
+
+    /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
+    pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, ReproduceError> {
+        let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().clamp.limit());
+        let terms = samples.term_errors(TERMS).map_err(|error| failed(HOST)(&error))?;
+        Self::of(terms, &samples)
+    }
+
+    fn of(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, ReproduceError> {
         let of = |order: usize| {
-            harmonic_errors(&disc, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
+            harmonic_errors(samples, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
                 .map_err(|error| failed(HOST)(&error))
         };
         let mut functions = MAX_ORDER * MAX_ORDER;

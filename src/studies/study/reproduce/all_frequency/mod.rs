@@ -1,5 +1,6 @@
 //! "All-Frequency Precomputed Radiance Transfer for Glossy Objects" (Liu, Sloan, Shum, Snyder 2004).
 
+mod codings;
 mod counts;
 mod factors;
 mod figures;

@@ -1,14 +1,18 @@
 //! Models of Table 1, or our stand-ins, compressed and encoded.
 
+use std::rc::Rc;
+
+use super::codings::CODINGS;
 use super::forms::{Form, TERMS, cook_torrance, schlick};
 use super::{HOST, ReproduceError, failed};
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::code::{CodeOptions, CodedSegment, CodedTransfer, ScaleOf};
+use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
 use crate::all_frequency::factor::Factorization;
 use crate::all_frequency::transfer::transfer_of;
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
+use crate::scene::built::ground::{GROUND_SIDE, on_ground};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
@@ -24,30 +28,6 @@ const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];
 pub(super) const REDUCED_ITERATIONS: usize = 4;
 /// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
 pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
-
-/// Codings of representatives: the first as in the paper, the others vary what it leaves open.
-pub(super) const CODINGS: [Coding; 5] = [
-    Coding { name: "16_bits", bits: 16, scale: ScaleOf::Representative },
-    Coding { name: "16_bits_step_per_segment", bits: 16, scale: ScaleOf::Segment },
-    Coding { name: "steps_of_12_bits", bits: 12, scale: ScaleOf::Representative },
-    Coding { name: "steps_of_10_bits", bits: 10, scale: ScaleOf::Representative },
-    Coding { name: "steps_of_8_bits", bits: 8, scale: ScaleOf::Representative },
-];
-
-/// Coding of representatives.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Coding {
-    pub(super) name: &'static str,
-    /// Bits of the largest number.
-    pub(super) bits: u8,
-    scale: ScaleOf,
-}
-
-impl Coding {
-    fn options(self) -> CodeOptions {
-        CodeOptions { representative_bits: self.bits, scale: self.scale, ..CodeOptions::default() }
-    }
-}
 
 /// Model of Table 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,11 +78,19 @@ impl TableMaterial {
     }
 }
 
-/// Visibility at the vertices of a model.
+/// Vertices along an edge of the ground.
+pub(super) const fn ground_side(size: ModelSize) -> u32 {
+    match size {
+        ModelSize::Printed => GROUND_SIDE,
+        ModelSize::Reduced => 24,
+    }
+}
+
+/// Visibility at the vertices of a model, or of its ground.
 pub(super) struct ModelVisibility {
-    vertices: Vertices,
+    vertices: Rc<Vertices>,
     maps: VisibilityMaps,
-    hats: Hats,
+    hats: Rc<Hats>,
     size: ModelSize,
 }
 
@@ -138,24 +126,48 @@ pub(super) struct CodedModel {
 }
 
 impl ModelVisibility {
-    /// Computes visibility by ray casting.
-    pub(super) fn new(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
+    /// Computes visibility by ray casting, of a model by itself.
+    pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
         let fail = failed(HOST);
         let mesh = model.mesh(size)?;
         let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         let mut tracer = HostTracer::new(&mesh, Sides::Both);
         let maps = VisibilityMaps::trace(&vertices, &all, &mut tracer, &mut |_, _| ()).map_err(|e| fail(&e))?;
-        Ok(Self { vertices, maps, hats: Hats::new(HatWidth::TwoTexels), size })
+        Ok(Self { vertices: Rc::new(vertices), maps, hats: Rc::new(Hats::new(HatWidth::TwoTexels)), size })
     }
 
-    /// Compresses and encodes the transfer.
-    pub(super) fn compressed(&self, reflectance: &Reflectance) -> Result<CompressedModel, ReproduceError> {
+    /// Computes visibility of a model on a ground, and of that ground.
+    pub(super) fn on_ground(model: TableModel, size: ModelSize) -> Result<[Self; 2], ReproduceError> {
+        let fail = failed(HOST);
+        let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).map_err(|e| fail(&e))?;
+        let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).map_err(|e| fail(&e))?;
+        let is_ground = |&vertex: &u32| vertices.materials()[vertex as usize] == 1;
+        let (ground, own): (Vec<u32>, Vec<u32>) = (0..vertices.len() as u32).partition(is_ground);
+        let mut tracer = HostTracer::new(&mesh, Sides::Both);
+        let mut trace = |of: &[u32]| VisibilityMaps::trace(&vertices, of, &mut tracer, &mut |_, _| ());
+        let [own, ground] = [trace(&own).map_err(|e| fail(&e))?, trace(&ground).map_err(|e| fail(&e))?];
+        let (vertices, hats) = (Rc::new(vertices), Rc::new(Hats::new(HatWidth::TwoTexels)));
+        let of = |maps| Self { vertices: Rc::clone(&vertices), maps, hats: Rc::clone(&hats), size };
+        Ok([own, ground].map(of))
+    }
+
+    /// Share of the segments that hold transfer.
+    pub(super) fn omega(&self) -> f64 {
+        SegmentCensus::new(&self.vertices, &self.maps, &self.hats).omega()
+    }
+
+    /// Compresses and encodes the transfer: of some segments for reduced models, unless all are wanted.
+    pub(super) fn compressed(
+        &self,
+        reflectance: &Reflectance,
+        wants_all: bool,
+    ) -> Result<CompressedModel, ReproduceError> {
         let fail = failed(HOST);
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
         let reduced = self.size == ModelSize::Reduced;
         let all: Vec<usize> = (0..Segmentation::Quarters.count()).collect();
-        let wanted = if reduced { &SOME_SEGMENTS[..] } else { &all[..] };
+        let wanted = if reduced && !wants_all { &SOME_SEGMENTS[..] } else { &all[..] };
         let mut work = SegmentSums::default();
         for &segment in wanted {
             if let Some(found) = transfer.segment(segment).map_err(|e| fail(&e))? {
@@ -164,9 +176,9 @@ impl ModelVisibility {
             }
         }
         let (rows, coefficients) = (reflectance.terms(), Segmentation::Quarters.len());
-        let (vertices, squares) = (self.vertices.len(), work.squares);
+        let (vertices, squares) = (self.maps.len(), work.squares);
         let coded = CODINGS.into_iter().zip(work.coded).zip(work.coded_errors).map(|((coding, segments), error)| {
-            let options = CodeOptions { representative_bits: 16, ..coding.options() };
+            let options = coding.counted();
             let size = CodedTransfer { rows, coefficients, vertices, options, segments }.size();
             let numbers = size.as_the_paper_counts();
             let headers = (size.total() - numbers) as f64;
@@ -176,7 +188,7 @@ impl ModelVisibility {
         Ok(CompressedModel {
             vertices,
             segments: wanted.len(),
-            omega: SegmentCensus::new(&self.vertices, &self.maps, &self.hats).omega(),
+            omega: self.omega(),
             clusters: work.clusters,
             raw: (4 * wanted.len() * coefficients * rows * vertices) as f64,
             clustered: 4.0 * work.numbers as f64,
@@ -213,7 +225,7 @@ impl SegmentSums {
         let compressed = CompressedSegment::new(segment, vertices, signal, &options, |step| steps.push(*step));
         let compressed = compressed.map_err(|e| fail(&e))?;
         for (at, coding) in CODINGS.into_iter().enumerate() {
-            let coded = CodedSegment::code(&compressed, coding.options()).map_err(|e| fail(&e))?;
+            let coded = coding.code(&compressed)?;
             self.coded_errors[at] += coded.squared_errors(signal).iter().sum::<f64>();
             self.coded[at].push(coded);
         }

@@ -4,17 +4,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::figure_3::EYE;
-use super::signals::{BIRD, ComputedSignal, SIGNALS};
+use super::signals::{BIRD, ComputedSignal, SIGNALS, anisotropic};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
-use super::{EntryFindings, HOST, PaperRow, Prose, ReproduceError, Shared, failed, number, solved};
+use super::{
+    EntryFindings, HOST, ModelSize, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, failed, number, solved,
+};
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, NamedPicture, Table};
 use crate::sphere::{DirectionRule, HarmonicLight};
 use crate::study::prt::ExitRadiance;
 use crate::tracer::HostTracer;
-use crate::transfer::brdf::ExitBasis;
+use crate::transfer::brdf::{Brdf, ExitBasis};
 
 /// Degree of the rule that integrates exit radiance without a projection.
 const DEGREE: usize = 62;
@@ -28,71 +30,119 @@ const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
     ("", "least squares", 5, true),
 ];
 
+/// Fresnel reflectances at normal incidence of the sweep, from that of glass to that of metals.
+const NORMAL_INCIDENCES: [f64; 5] = [0.04, 0.1, 0.2, 0.4, 0.8];
+
 const HOW: &str = "{} vertices of the smooth model, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
     hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are those of pictures, root mean square over that of exit radiance \
     without any projection: the integral of BRDF and light over {} directions per vertex, shadows and all. Pixels count as silhouette below a cosine of {} \
     between view and normal.";
+const FRESNEL: &str = "The BRDF is lost, and with it the reflectance at normal incidence, which decides how much of the energy of the Fresnel factor lies at silhouettes: \
+    it is swept from {} to {}. Rows have the value of all other figures, which was chosen before.";
 const QUESTION: &str = "the model, its BRDF and the lights of Figure 7.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let paper = &SIGNALS[BIRD];
-    let light = HarmonicLight::red_and_blue(5);
-    let glossy = |order: usize, least_squares: bool, incident: Incident| ExitRadiance::Glossy {
-        basis: ExitBasis::of_order(order),
-        least_squares,
-        incident,
+    let stated = ProjectedPictures::new(paper.material.brdf(), shared.models, true)?;
+    let mut rows = stated.rows()?;
+    let setting = |&at: &f64| -> Result<Setting, ReproduceError> {
+        let found = ProjectedPictures::new(anisotropic(at), shared.models, false)?;
+        Ok(Setting { at: number(at, 2), values: found.ratios().to_vec() })
     };
-    let (mut exact, mut exact_radiance, mut points) = (Vec::new(), Vec::new(), 0);
-    let mut table = Table::of("Errors of pictures", "figure projection rows error_% silhouettes_%");
-    let (mut errors, mut pictures) = (Vec::new(), Vec::new());
-    for (mark, name, order, least_squares) in PROJECTIONS {
-        let incident = Incident::Harmonics { order: 5, inverse: least_squares };
-        let computed = ComputedSignal::projected(paper, glossy(order, least_squares, incident), shared.models)?;
-        let mut view = ModelView::new(&computed, &light, EYE)?;
-        if exact.is_empty() {
-            exact_radiance = exit_radiance(&computed, &light, view.eye())?;
-            exact = view.of_vertices(&exact_radiance);
-        }
-        view.expose(&exact);
-        let error = view.difference(None, &exact, |_| true)?;
-        let rim = view.difference(None, &exact, |cosine| cosine < RIM)?;
-        let rows = order * order;
-        let shares = [error, rim].map(|share| Cell::percent(100.0 * share));
-        table.push([Cell::from(mark), name.into(), rows.into()].into_iter().chain(shares));
-        errors.push([error, rim]);
-        let file = format!("cpca-figure-7-{}-{rows}", name.replace(' ', "-"));
-        pictures.push(view.picture(None, file, format!("{name}, {rows} rows"))?);
-        if points == 0 {
-            let file = "cpca-figure-7-exact".to_owned();
-            pictures.insert(0, view.shown(&exact_radiance, file, "what they are held against".to_owned())?);
-            pictures.push(view.light("cpca-figure-7", RED_AND_BLUE)?);
-            points = computed.signal.points();
-        }
-    }
+    let settings = NORMAL_INCIDENCES.iter().map(setting).collect::<Result<_, _>>()?;
+    let sweep = Sweep { name: "Fresnel factors of the BRDF", parameter: "reflectance at normal incidence", settings };
+    sweep.explain(&mut rows);
+    let swept = sweep.table("Rows by the reflectance at normal incidence", &rows, (None, |value| value));
     let directions = DirectionRule::hemisphere(DEGREE).len();
-    let figures = [points, 16, 16, 25, directions].map(|count| number(count as f64, 0));
+    let figures = [stated.points, 16, 16, 25, directions].map(|count| number(count as f64, 0));
+    let ends = [NORMAL_INCIDENCES[0], NORMAL_INCIDENCES[NORMAL_INCIDENCES.len() - 1]].map(|end| number(end, 2));
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)]))],
-        rows: rows(&errors)?,
+        text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)])), Prose::new(FRESNEL, ends)],
+        rows,
         questions: vec![QUESTION],
-        tables: vec![table],
-        pictures,
+        tables: vec![stated.table, swept],
+        pictures: stated.pictures,
         ..EntryFindings::default()
     })
+}
+
+/// All projections with one BRDF.
+struct ProjectedPictures {
+    /// Errors of the picture and of its silhouettes, per projection.
+    errors: Vec<[f64; 2]>,
+    table: Table,
+    pictures: Vec<NamedPicture>,
+    /// Number of vertices.
+    points: usize,
+}
+
+impl ProjectedPictures {
+    fn new(brdf: Brdf, models: ModelSize, draws: bool) -> Result<Self, ReproduceError> {
+        let light = HarmonicLight::red_and_blue(5);
+        let glossy = |order: usize, least_squares: bool, incident: Incident| ExitRadiance::Glossy {
+            basis: ExitBasis::of_order(order),
+            least_squares,
+            incident,
+        };
+        let (mut exact, mut exact_radiance) = (Vec::new(), Vec::new());
+        let table = Table::of("Errors of pictures", "figure projection rows error_% silhouettes_%");
+        let mut found = Self { errors: Vec::new(), table, pictures: Vec::new(), points: 0 };
+        for (mark, name, order, least_squares) in PROJECTIONS {
+            let incident = Incident::Harmonics { order: 5, inverse: least_squares };
+            let exit = glossy(order, least_squares, incident);
+            let computed = ComputedSignal::with_brdf(&SIGNALS[BIRD], brdf, exit, models)?;
+            let mut view = ModelView::new(&computed, &light, EYE)?;
+            if exact.is_empty() {
+                exact_radiance = exit_radiance(&computed, brdf, (&light, view.eye()))?;
+                exact = view.of_vertices(&exact_radiance);
+            }
+            view.expose(&exact);
+            let error = view.difference(None, &exact, |_| true)?;
+            let rim = view.difference(None, &exact, |cosine| cosine < RIM)?;
+            let rows = order * order;
+            let shares = [error, rim].map(|share| Cell::percent(100.0 * share));
+            found.table.push([Cell::from(mark), name.into(), rows.into()].into_iter().chain(shares));
+            found.errors.push([error, rim]);
+            if draws {
+                if found.points == 0 {
+                    let file = "cpca-figure-7-exact".to_owned();
+                    let caption = "what they are held against".to_owned();
+                    found.pictures.push(view.shown(&exact_radiance, file, caption)?);
+                }
+                let file = format!("cpca-figure-7-{}-{rows}", name.replace(' ', "-"));
+                found.pictures.push(view.picture(None, file, format!("{name}, {rows} rows"))?);
+                if found.points == 0 {
+                    found.pictures.push(view.light("cpca-figure-7", RED_AND_BLUE)?);
+                }
+            }
+            found.points = computed.signal.points();
+        }
+        Ok(found)
+    }
+
+    /// Values of the rows.
+    fn ratios(&self) -> [f64; 4] {
+        let [zero, least, zero_25] = [self.errors[0], self.errors[1], self.errors[2]];
+        [zero[0] / least[0], zero[1] / least[1], zero[1] / least[1] * least[0] / zero[0], zero_25[0] / least[0]]
+    }
+
+    fn rows(&self) -> Result<Vec<PaperRow>, ReproduceError> {
+        let ids = ["figure-7-16", "figure-7-silhouettes", "figure-7-especially", "figure-7-25"];
+        ids.into_iter().zip(self.ratios()).map(|(id, ours)| solved(id, ours)).collect()
+    }
 }
 
 /// Radiance of every vertex towards an eye from BRDF and light alone: section 3.1 without harmonics, direct light with
 /// shadows only.
 fn exit_radiance(
     computed: &ComputedSignal,
-    light: &HarmonicLight,
-    eye: DVec3,
+    brdf: Brdf,
+    (light, eye): (&HarmonicLight, DVec3),
 ) -> Result<Vec<[f64; 3]>, ReproduceError> {
     let vertices = &computed.vertices;
     let mut tracer = HostTracer::new(&computed.mesh, Sides::Both);
     let rays = TracedRays::trace(vertices, DirectionRule::hemisphere(DEGREE), &mut tracer, false);
     let rays = rays.map_err(|e| failed(HOST)(&e))?;
-    let brdf = computed.paper.material.brdf();
     let of_vertex = |vertex: usize| {
         let frame = &vertices.frames()[vertex];
         let view = frame.to_local((eye - wide(vertices.positions()[vertex])).normalize_or_zero());
@@ -107,14 +157,4 @@ fn exit_radiance(
         sum
     };
     Ok((0..vertices.len()).into_par_iter().map(of_vertex).collect())
-}
-
-fn rows(errors: &[[f64; 2]]) -> Result<Vec<PaperRow>, ReproduceError> {
-    let [zero, least, zero_25] = [errors[0], errors[1], errors[2]];
-    Ok(vec![
-        solved("figure-7-16", zero[0] / least[0])?,
-        solved("figure-7-silhouettes", zero[1] / least[1])?,
-        solved("figure-7-especially", zero[1] / least[1] * least[0] / zero[0])?,
-        solved("figure-7-25", zero_25[0] / least[0])?,
-    ])
 }

@@ -20,7 +20,7 @@ use crate::scene::built::transfer_models::TransferModel;
 /// Index of both optimisations in [`COLUMNS`].
 const BOTH: usize = 3;
 /// Inputs of the modelled rates: calibration of the host's rate, and overdraw.
-const INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate; the printed overdraw";
+pub(super) const INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate; the printed overdraw";
 /// Inputs of the modelled rates where overdraw is that of our clusters.
 pub(super) const OWN_INPUTS: &str = "2.9 Hz of the uncompressed head, which chose the host's rate";
 

@@ -27,12 +27,17 @@ const BOUNCES: u32 = 2;
 /// Isotropic BRDF: the "glossy phong models" of Figure 8.
 const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0 };
 /// Anisotropic BRDF with a Fresnel factor (Figure 7).
-const ANISOTROPIC: Brdf = Brdf::Ward { albedo: 0.2, specular: 0.4, roughness: [0.2, 0.5] };
+const ANISOTROPIC: Brdf = anisotropic(0.4);
 const LAMBERT: Brdf = Brdf::Lambert { albedo: 0.8 };
 /// Scattering medium, for a marble statuette about 10 mm high: its triangles are smaller than the mean free path.
 const MEDIUM: &str = "marble";
 const MM_PER_UNIT: f64 = 4.0;
 const SOLID_ANGLE: f64 = 0.1;
+
+/// Anisotropic BRDF with another Fresnel reflectance at normal incidence.
+pub(super) const fn anisotropic(normal_incidence: f64) -> Brdf {
+    Brdf::Ward { albedo: 0.2, specular: normal_incidence, roughness: [0.2, 0.5] }
+}
 
 /// Reflection model of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,13 +141,23 @@ impl ComputedSignal {
         exit: ExitRadiance,
         models: ModelSize,
     ) -> Result<Self, ReproduceError> {
+        Self::with_brdf(paper, paper.material.brdf(), exit, models)
+    }
+
+    /// Computes a signal with another BRDF and another projection.
+    pub(super) fn with_brdf(
+        paper: &'static PaperSignal,
+        brdf: Brdf,
+        exit: ExitRadiance,
+        models: ModelSize,
+    ) -> Result<Self, ReproduceError> {
         let fail = failed(HOST);
         let mesh = paper.model.mesh(paper.coarser(models));
         let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|e| fail(&e))?;
         let precomputation = Precomputation {
             mesh: &mesh,
             vertices: &vertices,
-            channels: vec![(0, vec![paper.material.brdf()])],
+            channels: vec![(0, vec![brdf])],
             exit,
             order: paper.size.columns.isqrt(),
             degree: paper.degree(models),

@@ -6,7 +6,7 @@
 
 use serde::Deserialize;
 
-use crate::study::reproduce::row::{Bound, Judgement, Origin, PaperFigure};
+use crate::study::reproduce::row::{Bound, Judgement, MissClass, Origin, PaperFigure};
 
 /// File of a paper.
 #[derive(Clone, Debug, Deserialize)]
@@ -34,6 +34,9 @@ pub(super) struct FigureGroup {
     pub(super) place: String,
     #[serde(flatten)]
     pub(super) shared: FigureTerms,
+    /// Changes of what was stated of all its figures, the oldest first.
+    #[serde(default)]
+    pub(super) changed: Vec<Change>,
     pub(super) figures: Vec<FileFigure>,
 }
 
@@ -65,16 +68,18 @@ pub(super) struct FileFigure {
     pub(super) implied: Option<String>,
     /// Reason for a value that the paper does not have.
     pub(super) inferred: Option<String>,
+    /// Class of the miss of its row. No part of what is stated: it is said after the result.
+    pub(super) missed: Option<MissClass>,
     /// Date of the statement of its bound; the file's first if not given.
     pub(super) stated: Option<String>,
-    /// Changes of what was stated, the oldest first.
+    /// Changes of what was stated, the oldest first; those of its group come before them.
     #[serde(default)]
     pub(super) changed: Vec<Change>,
     #[serde(flatten)]
     pub(super) own: FigureTerms,
 }
 
-/// Change of a figure after its statement, with what it had before.
+/// Change of a figure after its statement, with what it had before; an empty reading where it had none.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Change {
@@ -98,6 +103,11 @@ impl FileFigure {
             unjudged: judged.1,
             reading: own.reading.or(shared.reading),
         }
+    }
+
+    /// Changes of the figure, the oldest first.
+    pub(super) fn changes<'a>(&'a self, group: &'a FigureGroup) -> impl DoubleEndedIterator<Item = &'a Change> {
+        group.changed.iter().chain(&self.changed)
     }
 }
 
@@ -152,6 +162,7 @@ fn figure(paper: &str, group: &FigureGroup, entry: &FileFigure, above: &[PaperFi
         place: group.place.clone(),
         origin,
         judgement,
+        missed: entry.missed,
     })
 }
 

@@ -28,12 +28,13 @@ pub(super) fn verify(text: &str) -> Result<(), String> {
     if let Some(figure) = figures().find(|figure| figure.stated.as_ref().is_some_and(|date| !dated(date))) {
         return Err(format!("`{}` is stated on a date that is not listed", figure.id));
     }
-    let reasoned = |figure: &&FileFigure| {
-        figure.changed.iter().all(|change| !change.why.is_empty())
-            && figure.changed.is_sorted_by(|one, next| one.date <= next.date)
+    let of_groups = || file.group.iter().flat_map(|group| group.figures.iter().map(move |figure| (group, figure)));
+    let reasoned = |&(group, figure): &(&FigureGroup, &FileFigure)| {
+        figure.changes(group).all(|change| !change.why.is_empty())
+            && figure.changes(group).map(|change| &change.date).is_sorted()
     };
-    match figures().find(|figure| !reasoned(figure)) {
-        Some(figure) => Err(format!("the changes of `{}` need reasons, the oldest first", figure.id)),
+    match of_groups().find(|figure| !reasoned(figure)) {
+        Some((_, figure)) => Err(format!("the changes of `{}` need reasons, the oldest first", figure.id)),
         None => Ok(()),
     }
 }
@@ -52,14 +53,14 @@ fn digest(file: &PaperFile, first: &str, date: &str) -> String {
 /// Line of a figure with its changes undone.
 fn as_stated(group: &FigureGroup, figure: &FileFigure) -> String {
     let (mut terms, mut value) = (figure.terms(group), figure.value.clone());
-    for change in figure.changed.iter().rev() {
+    for change in figure.changes(group).rev() {
         let before = change.before.clone();
         value = change.value.clone().or(value);
         if before.bound.is_some() || before.unjudged.is_some() {
             (terms.bound, terms.unjudged) = (before.bound, before.unjudged);
         }
         terms.unit = before.unit.or(terms.unit);
-        terms.reading = before.reading.or(terms.reading);
+        terms.reading = before.reading.or(terms.reading).filter(|reading| !reading.is_empty());
     }
     // Reasons for not judging are words, and may be put better.
     let unjudged = terms.unjudged.map(|_| "unjudged");
@@ -110,6 +111,9 @@ mod tests {
         let before = r#"date = "2026-12-01", bound = "15 %", why = "the text says about""#;
         let listed = format!(r#"value = "5", bound = "20 %", changed = [{{ {before} }}]"#);
         assert_eq!(verify(&file(&listed, &stated())), Ok(()));
+        let since = r#"date = "2026-12-02", reading = "", why = "the text allows two""#;
+        let read = format!(r#"value = "5", bound = "15 %", reading = "late; early", changed = [{{ {since} }}]"#);
+        assert_eq!(verify(&file(&read, &stated())), Ok(()), "it had no reading");
         let without = listed.replace("the text says about", "");
         assert!(verify(&file(&without, &stated())).is_err(), "a change needs a reason");
     }

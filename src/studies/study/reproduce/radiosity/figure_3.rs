@@ -24,7 +24,7 @@ const RESIDUALS: [f64; 9] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-
 const HOW: &str = "A closed Cornell box without blocks, its form factors in closed form and by contour integrals, solved in f64 from zero. No card \
     takes part: equation 4 converges as Jacobi's iteration does. The paper's \"about twice as many iterations to converge\" is read twice: \
     by the iterations down to {} of what the residual was, and late, by the slopes of the plot's lines over its last half. The row has \
-    both, for each channel.";
+    both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
 
 pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
     let system = closed_box()?;

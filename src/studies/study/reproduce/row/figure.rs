@@ -34,6 +34,31 @@ pub enum Judgement {
     Not(String),
 }
 
+/// Reason why a row is missed, as far as it is known. It is said of a missed row alone and changes no verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, strum::Display, strum::VariantArray)]
+pub enum MissClass {
+    /// The text allows several readings, or leaves a choice of the method open.
+    #[serde(rename = "reading open")]
+    #[strum(to_string = "reading open")]
+    ReadingOpen,
+    /// The paper's model, scene, light or BRDF is not available.
+    #[serde(rename = "model lost")]
+    #[strum(to_string = "model lost")]
+    ModelLost,
+    /// A time depends on hardware or a driver whose figures are not known.
+    #[serde(rename = "hardware timing unknown")]
+    #[strum(to_string = "hardware timing unknown")]
+    HardwareTiming,
+    /// Ours is another method, or another model of the same thing, knowingly.
+    #[serde(rename = "ours differs")]
+    #[strum(to_string = "ours differs")]
+    OursDiffers,
+    /// Another place of the paper speaks against the figure, without a computation that shows it.
+    #[serde(rename = "paper contradicts")]
+    #[strum(to_string = "paper contradicts")]
+    PaperContradicts,
+}
+
 /// Value of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperFigure {
@@ -53,6 +78,8 @@ pub struct PaperFigure {
     pub origin: Origin,
     /// Bound of the row that judges it, or the reason why there is none.
     pub judgement: Judgement,
+    /// Class of its miss, where its row is missed.
+    pub missed: Option<MissClass>,
 }
 
 impl PaperFigure {

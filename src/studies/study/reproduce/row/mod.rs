@@ -12,7 +12,7 @@ mod sweep;
 pub use bound::Bound;
 pub use contradiction::Contradiction;
 pub use explanation::Explanation;
-pub use figure::{Judgement, Origin, PaperFigure};
+pub use figure::{Judgement, MissClass, Origin, PaperFigure};
 pub use sweep::{Setting, Sweep};
 
 /// Method by which our value was computed.
@@ -193,6 +193,11 @@ impl PaperRow {
         }
     }
 
+    /// Class of the miss; `None` for a row that is not missed.
+    pub fn missed(&self) -> Option<MissClass> {
+        self.target.missed.filter(|_| self.verdict() == RowVerdict::Missed)
+    }
+
     /// Explanation of the row by a sweep, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
         self.explanation.as_ref()
@@ -218,6 +223,7 @@ pub(super) mod tests {
             place: "section 6.1".to_owned(),
             origin: Origin::Printed,
             judgement: Judgement::Within(Bound::Relative(0.1)),
+            missed: Some(MissClass::ModelLost),
         }
     }
 
@@ -232,6 +238,7 @@ pub(super) mod tests {
             [15.0, 18.0, 13.0].map(|ours| row(ours).verdict()),
             [RowVerdict::Predicted, RowVerdict::Missed, RowVerdict::Missed]
         );
+        assert_eq!([15.0, 18.0].map(|ours| row(ours).missed()), [None, Some(MissClass::ModelLost)]);
     }
 
     /// Print set against print, and an order, are told from predictions.

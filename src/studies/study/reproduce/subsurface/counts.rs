@@ -1,8 +1,9 @@
 //! Counts of section 4: nodes, interactions, lookups, textures, instructions, samplers.
 
-use super::gather::{GatherCost, VARIANTS};
+use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number, paper_row,
+    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, failed,
+    number, paper_row,
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
@@ -15,7 +16,8 @@ pub(super) const MODELS: [(&str, u32, &str); 3] =
 const LINK_BYTES: f64 = 8.0;
 
 const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} links take {} where they are fixed, {} where they are adaptive: \
-    these need one sampler more than the card has, so a second pass reads the sum of the first. The clustering is our own, for the paper's is in \
+    these need one sampler more than the card has, so a second pass reads the sum of the first; with the textures of links as tiles of a larger one they take {} in a \
+    single pass. The paper does not say how its card held the links. The clustering is our own, for the paper's is in \
     another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
@@ -25,13 +27,24 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (fixed, adaptive) = (fixed.lookups, adaptive.lookups);
     let lookups = |id: &str, ours: f64| paper_row(id, (CARD, Method::Pipeline), (ours, Standing::Counted));
     let mut rows = vec![lookups("subsurface/lookups-fixed", fixed)?, lookups("subsurface/lookups-adaptive", adaptive)?];
+    // The same links on the same map, in textures of their own and as tiles.
+    let same = VARIANTS.iter().zip(costs).filter(|(variant, _)| !variant.fixed && variant.map == EIGHT);
+    let setting = |(variant, cost): (&Variant, &GatherCost)| {
+        let at = if variant.tiles.is_some() { "tiles" } else { "of their own" };
+        Setting { at: at.to_owned(), values: vec![cost.lookups] }
+    };
+    let held =
+        Sweep { name: "how 16 adaptive links are held", parameter: "textures", settings: same.map(setting).collect() };
+    held.explain(&mut rows[1..]);
+    let tiled = held.settings.last().map_or(f64::NAN, |setting| setting.values[0]);
+    let held = held.table("Lookups by how adaptive links are held", &rows[1..], (None, |value| value));
     for (model, _, stand_in) in MODELS {
         rows.push(nodes(model, stand_in)?);
     }
     Ok(EntryFindings {
-        text: vec![Prose::new(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0)])],
+        text: vec![Prose::new(HOW, [LINKS.to_string(), number(fixed, 0), number(adaptive, 0), number(tiled, 0)])],
         rows,
-        tables: vec![storage(), programs(costs)],
+        tables: vec![storage(), programs(costs), held],
         questions: vec!["how the authors cluster faces, and which of the two choices of links was timed."],
         ..EntryFindings::default()
     })

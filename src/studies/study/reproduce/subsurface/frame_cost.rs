@@ -102,6 +102,7 @@ fn model_on(
         links: FloatTexels::Fp16,
         scattered: FloatTexels::Fp16,
         half: false,
+        tiles: None,
         memory: None,
     };
     Ok(SubsurfaceCard::new(profile, ExecutorKind::Batch, model, &links, 1.3, options)?)

@@ -67,6 +67,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     };
     let settings = left_open(costs).map(setting).collect();
     Sweep { name: "frames by format and precision of pass 2", parameter: "variant", settings }.explain(&mut rates);
+    let small = gather_at(SIDES[0], &rows, costs);
     rows.extend(rates);
     rows.push(figure_7()?);
     rows.push(paper_row(
@@ -88,7 +89,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             HOST.into(),
         ],
         rows,
-        tables: vec![table(&frames, &costs[OURS]), variants(&frames, costs), links()],
+        tables: vec![table(&frames, &costs[OURS]), small, variants(&frames, costs), links()],
         questions: vec![
             "the size of the window, the model of Figure 7, and the host that computed links with what it evaluated for each.",
         ],
@@ -144,6 +145,21 @@ fn links() -> Table {
         table.push([Cell::decimals(evaluations, 0), Cell::measured(link_seconds(evaluations))]);
     });
     table
+}
+
+/// Table of the rows on pass 2 at a size, under each variant that the text leaves open. It explains nothing: the
+/// printed times contain waits for the display.
+fn gather_at(side: f64, rows: &[PaperRow], costs: &[GatherCost]) -> Table {
+    let rows: Vec<PaperRow> =
+        rows.iter().filter(|row| row.target.id.ends_with(&format!("-{side}-2"))).cloned().collect();
+    let setting = |(_, (variant, cost)): (usize, (&Variant, &GatherCost))| Setting {
+        at: variant.name.to_owned(),
+        values: vec![1e3 * cost.seconds(side); rows.len()],
+    };
+    let settings = left_open(costs).map(setting).collect();
+    let sweep = Sweep { name: "pass 2 by format and precision", parameter: "variant", settings };
+    let title = format!("Pass 2 at {side} x {side} by variant of fixed links; the printed times contain waits");
+    sweep.table(&title, &rows, (None, |value| value))
 }
 
 /// Table of modelled and printed passes.

@@ -36,6 +36,22 @@ impl Run {
         Ok(Self { counts: engine.counts(), log: engine.take_log() })
     }
 
+    /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, of an engine without a
+    /// card: fractions of a full bucket.
+    pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, ReproduceError> {
+        let parameters = EngineParameters { octree: OCTREE, card: false, sides: Sides::Both, ..parameters };
+        let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
+        let mut means = Vec::new();
+        for bundle in &work.bundles {
+            engine.submit(bundle)?;
+            let filled = engine.occupancy();
+            if !filled.is_empty() {
+                means.push(filled.iter().sum::<f64>() / filled.len() as f64);
+            }
+        }
+        Ok(means)
+    }
+
     /// Log of the card's commands and the host's work.
     pub(super) fn log(&self) -> &[Event] {
         &self.log

@@ -3,10 +3,11 @@
 
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, ReproduceError};
+use super::super::{EntryChart, EntryFindings, Method, PaperRow, ReproduceError, paper_row};
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
-use super::{QUESTION, host_work, how, sensitivity};
+use super::workload::TIMES;
+use super::{QUESTION, RATE, host_work, how, sensitivity};
 use crate::report::{Chart, Series};
 
 const PLACE: &str = "Table 3";
@@ -22,7 +23,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
     let lines = found.of(PLACE);
     Ok(EntryFindings {
         text: vec![how(room), passes(&lines), octree(found)],
-        rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).collect(),
+        rows: std::iter::once(host_alone(room)?).chain(found.rows(PLACE)).chain([readback(&lines)?]).collect(),
         questions: vec![
             QUESTION,
             "how full the leaves of the host's octree were when it was timed alone, and whether the engine had the same octree.",
@@ -43,6 +44,13 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         }],
         ..EntryFindings::default()
     })
+}
+
+/// Row on the points of speed-up that synchronous read-back costs: asynchronous read-back less plus card.
+fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, ReproduceError> {
+    let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
+    let lost = ours("asynchronous read-back") - ours("plus card");
+    paper_row("ray-engine/readback-points", (TIMES, Method::Engine), (lost, RATE))
 }
 
 /// Paragraph on the time per pass implied by the printed values and ours.

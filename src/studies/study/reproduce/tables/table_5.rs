@@ -1,9 +1,10 @@
 //! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
 
 use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Prose, ReproduceError, number};
+use super::super::{EntryChart, EntryFindings, Method, PaperRow, Prose, ReproduceError, Standing, number, paper_row};
+use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
-use super::teapot::TeapotRoom;
+use super::teapot::{TeapotRoom, Variant};
 use super::{QUESTION, how};
 use crate::report::{Chart, Series};
 
@@ -11,14 +12,16 @@ const PLACE: &str = "Table 5";
 
 const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, and their rays are forced to the host: {} in a ray at {}, {} at {}. \
     What a pass costs is mostly commands, whose costs are guesses; the sweep multiplies all of them by one factor, for the rows of all three tables.";
+const FILL: &str = "Section 5.3 says how full the buckets of the ray tree typically are: the rows have the mean of those with rays after each bundle of the room's rays, \
+    while none leaves for want of others. Figure 4 and figure 6 of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
 
 pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
     Ok(EntryFindings {
-        text: vec![how(room), size(&lines)],
-        rows: found.rows(PLACE),
+        text: vec![how(room), size(&lines), FILL.into()],
+        rows: found.rows(PLACE).into_iter().chain(fill(room)?).collect(),
         questions: vec![
             QUESTION,
             "what draws, uploads and read-backs cost the authors' driver: a factor on our guesses moves all rows.",
@@ -34,6 +37,14 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         }],
         ..EntryFindings::default()
     })
+}
+
+/// Rows on the fill of the ray tree's buckets.
+fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], ReproduceError> {
+    let means = Run::fill_of(&room.work, Variant::PLUS_CARD.parameters())?;
+    let filled = 100.0 * means.iter().sum::<f64>() / means.len().max(1) as f64;
+    let row = |id: &str, ours: f64| paper_row(id, ("host", Method::Engine), (ours, Standing::Counted));
+    Ok([row("ray-engine/buckets-least", filled)?, row("ray-engine/buckets-free", 100.0 - filled)?])
 }
 
 fn size(lines: &[&SpeedUpRun]) -> Prose {

@@ -5,9 +5,10 @@ use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::geom::Mesh;
 use crate::geom::teapot::teapot;
-use crate::scene::built::ground::GROUND_SIDE;
 use crate::scene::built::transfer_models::TransferModel;
+use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector};
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
+pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
 
 /// Builds a bird as a stand-in for tweety, and the stand-in for the Buddha.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
@@ -20,14 +21,6 @@ pub(super) fn buddha(models: ModelSize) -> Mesh {
 
 pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, ReproduceError> {
     teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
-}
-
-/// Vertices along an edge of the ground.
-pub(super) const fn ground(models: ModelSize) -> u32 {
-    match models {
-        ModelSize::Printed => GROUND_SIDE,
-        ModelSize::Reduced => 24,
-    }
 }
 
 /// Vertices per cluster: fewer for models with few vertices, so that there are several clusters.
@@ -48,14 +41,24 @@ pub(super) fn options(models: ModelSize, vectors: usize) -> SegmentOptions {
     }
 }
 
-/// Anisotropic reflectance of Figures 1 and 7.
-pub(super) fn schlick() -> Lobe {
-    Lobe::schlick(0.2, 0.2, 0.8)
+/// Reflectance of a figure: the name of its form, and the lobe.
+pub(super) type NamedLobe = (&'static str, Lobe);
+
+/// Anisotropic reflectance of Figures 1 and 7: the textbooks' form, and the one nearest to the printed errors.
+pub(super) fn schlick() -> [NamedLobe; 2] {
+    let lobe = Lobe::schlick(0.2, 0.2, 0.8);
+    [("textbook", lobe), ("quarter of half vector", quarter_of_half_vector(lobe))]
 }
 
-/// Reflectance of the glossy Buddha.
-pub(super) fn cook_torrance() -> Lobe {
-    Lobe::cook_torrance(0.4, 0.5)
+/// Reflectance of Figure 2 and of the glossy Buddha, likewise.
+pub(super) fn cook_torrance() -> [NamedLobe; 2] {
+    let lobe = Lobe::cook_torrance(0.4, 0.5);
+    [("textbook", lobe), ("distribution alone", bare(lobe))]
+}
+
+/// End of the names of files of a form: none for the textbooks'.
+pub(super) fn ending(form: &str) -> String {
+    if form == "textbook" { String::new() } else { format!("-{}", form.replace(' ', "-")) }
 }
 
 /// Factors a reflectance by its singular vectors into `terms` terms.
