@@ -131,7 +131,7 @@ impl StudyArgs for Args {
     }
 }
 
-/// What the pictures and comparing them take, by their headers.
+/// Checks the memory of the pictures and of comparing them, by their headers.
 fn require_memory(files: &[PictureFile; 2]) -> Result<(), Problem> {
     /// Colors, what the eye makes of them, and the maps.
     const PER_PIXEL: u64 = 400;

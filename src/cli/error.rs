@@ -45,9 +45,9 @@ pub enum Problem {
     #[error("{what}")]
     #[diagnostic(code(crossbar::usage), help("{help}"))]
     Usage {
-        /// What is wrong.
+        /// The fault.
         what: String,
-        /// What to do.
+        /// Advice for the user.
         help: String,
     },
 }
@@ -118,7 +118,7 @@ fn render(diagnostic: &dyn Diagnostic, terminal: bool, all: bool) -> String {
     text
 }
 
-/// What a check found, as text for standard output.
+/// A finding of the checker, as text for standard output.
 pub(super) fn render_finding(finding: &dyn Diagnostic, all: bool) -> String {
     render(finding, io::stdout().is_terminal(), all)
 }
@@ -148,7 +148,7 @@ pub(super) fn print_warnings<W: Diagnostic + Clone + Send + Sync + 'static>(warn
     }
 }
 
-/// What is wrong with the arguments, for machines: clap's sentence, and what it says to do.
+/// A usage error for machines: clap's sentence and its help.
 fn usage_problem(error: &clap::Error) -> Problem {
     let text = visible(&error.render().to_string()).into_owned();
     let (what, help) = text.split_once("\n\n").unwrap_or((&text, ""));
@@ -180,7 +180,7 @@ pub(super) fn print_usage(
     };
 }
 
-/// Whether the error is only that nobody reads the output any more.
+/// Returns `true` if the error is a closed output pipe.
 pub(super) fn reader_left(report: &Report) -> bool {
     report.downcast_ref::<OutputError>().is_some_and(|error| error.0.kind() == io::ErrorKind::BrokenPipe)
 }

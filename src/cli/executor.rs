@@ -27,7 +27,7 @@ pub(super) struct GpuArgs {
 }
 
 impl GpuArgs {
-    /// Whether they say anything.
+    /// Returns `true` if any is given.
     pub(super) fn is_given(&self) -> bool {
         self.adapter.is_some()
     }
@@ -64,7 +64,7 @@ impl DeviceExecutor {
     }
 }
 
-/// What decides hits: exact arithmetic, or an executor of the card.
+/// Arithmetic that decides hits: exact, or an executor of the card.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Decider {
     /// Exact arithmetic: the truth
@@ -78,7 +78,7 @@ pub(super) enum Decider {
 }
 
 impl Decider {
-    /// What was asked for; a card that was named is asked, unless the executor says otherwise.
+    /// The requested caster; a card that was named, unless the executor says otherwise.
     pub(super) fn choose(executor: Option<Self>, device: Option<&str>) -> Self {
         executor.unwrap_or(if device.is_some() { Self::Batch } else { Self::Exact })
     }

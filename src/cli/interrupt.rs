@@ -1,4 +1,4 @@
-//! What a signal that asks for the end leaves behind: nothing but a sentence that says so.
+//! Termination by a signal: it leaves nothing behind but a sentence that says so.
 
 #[cfg(unix)]
 use super::{Problem, error};

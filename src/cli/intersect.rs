@@ -62,14 +62,14 @@ pub(super) struct Args {
     #[arg(long, value_name = "D")]
     device: Option<String>,
 
-    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
+    /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     executor: Option<Decider>,
 
     #[command(flatten)]
     gpu: GpuArgs,
 
-    /// Who finds first hits [default: exact arithmetic, or `--device` alone without an octree]
+    /// Caster of rays, which finds first hits [default: exact arithmetic, or `--device` alone without an octree]
     #[arg(long, value_enum, value_name = "C")]
     caster: Option<CasterArg>,
 
@@ -83,7 +83,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
-/// What finds the hits.
+/// The source of hits.
 enum HitSource {
     Exact,
     Card(Box<Profile>, Executor),
@@ -94,7 +94,7 @@ enum HitSource {
 struct Answer {
     hits: Vec<Candidate>,
     engine: Option<EngineCounts>,
-    /// What is left of the answer in the card's number format, where that is next to nothing.
+    /// Warning where the card's number format leaves almost no bits of the answer.
     warning: Option<String>,
     build_s: f64,
     cast_s: f64,

@@ -156,7 +156,7 @@ impl StudyArgs for Args {
 }
 
 impl Args {
-    /// What so many rays, the truth about them and the files of every row take.
+    /// Memory of the rays, their exact hits and the files of every row.
     fn need(&self, rays: u64, triangles: u64) -> miette::Result<MemoryNeed> {
         const PER_PIXEL: u64 = 350;
         const PER_PIXEL_AND_ROW: u64 = 50;

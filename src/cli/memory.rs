@@ -12,7 +12,7 @@ use bytesize::ByteSize;
 use miette::Diagnostic;
 use sysinfo::{Pid, ProcessRefreshKind, ProcessesToUpdate, System};
 
-/// What `--memory-limit` says; not set where nothing is said.
+/// The value of `--memory-limit`; not set without the option.
 static ASKED: OnceLock<u64> = OnceLock::new();
 
 /// Memory of the program itself: code, tables, buffers of files, and work so small that nobody asks whether it fits
@@ -35,13 +35,13 @@ pub enum LimitSource {
     /// `--memory-limit`.
     #[strum(to_string = "allowed by `--memory-limit`")]
     Option,
-    /// What the system can give.
+    /// The system's free memory.
     #[strum(to_string = "free on this computer")]
     System,
-    /// What the control group, a container for example, still allows.
+    /// The rest of the limit of the control group, a container for example.
     #[strum(to_string = "left to this control group or container")]
     ControlGroup,
-    /// What the limit of the process's addresses still allows.
+    /// The rest of the limit of the process's addresses.
     #[strum(to_string = "left to this process by `ulimit -v`")]
     Process,
 }
@@ -53,17 +53,17 @@ pub enum LimitSource {
 pub struct MemoryError {
     /// The work.
     pub what: String,
-    /// What it needs at most.
+    /// Upper bound of its memory.
     pub need: ByteSize,
-    /// What there is.
+    /// The limit.
     pub limit: ByteSize,
-    /// Who says so.
+    /// Source of the limit.
     pub from: LimitSource,
     /// How to ask for less.
     pub help: String,
 }
 
-/// What a command takes at most.
+/// Upper bound of a command's memory.
 #[derive(Clone, Debug)]
 pub(super) struct MemoryNeed {
     /// The work, as in "tracing 512x512 pixels".
@@ -155,7 +155,7 @@ fn limit() -> (u64, LimitSource) {
     limits.into_iter().min_by_key(|limit| limit.0).unwrap_or((u64::MAX, LimitSource::System))
 }
 
-/// What the limit of the process's addresses leaves once all threads have theirs; `None` without a limit.
+/// The rest of the limit of the process's addresses after those of all threads; `None` without a limit.
 fn process_limit() -> Option<u64> {
     let (start, threads) = START.get().copied().unwrap_or_default();
     let taken = address_space_taken().max(start + (threads + HELPERS) * THREAD);

@@ -65,9 +65,9 @@ pub use out::Out;
 pub use progress::ProgressBar;
 pub use size::{BadSize, Size};
 
-/// What `main` returns when the check that was asked for failed.
+/// Exit code for a failed check.
 const CHECK_FAILED: u8 = 1;
-/// What `main` returns on bad input or usage.
+/// Exit code for bad input or usage.
 const BAD_INPUT: u8 = 2;
 
 /// Global illumination on the first programmable graphics cards, emulated to the bit.
@@ -140,7 +140,7 @@ pub fn program() -> clap::Command {
     outputs::with_negative_numbers(model_file::with_options(Cli::command()))
 }
 
-/// What a command line asks for, itself with its defaults, and whether its options go together.
+/// A parsed command line, the same line with its defaults, and the check that its options go together.
 type Parsed = (Cli, String, Result<(), Problem>);
 
 fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {

@@ -28,7 +28,7 @@ impl Out {
         Self { stdout, json, all_errors, deaf: false, outlive_reader: false }
     }
 
-    /// Whether machines read this.
+    /// Returns `true` if the output is for machines.
     pub const fn json(&self) -> bool {
         self.json
     }

@@ -1,4 +1,4 @@
-//! What holds for the options of all commands at once.
+//! Options that all commands share.
 
 use std::path::{Path, PathBuf};
 

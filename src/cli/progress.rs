@@ -15,7 +15,7 @@ const FIRST: Duration = Duration::from_secs(2);
 /// From one plain line to the next.
 const EVERY: Duration = Duration::from_secs(10);
 
-/// Whether errors are JSON for machines, which plain lines would be in the way of.
+/// True if errors are JSON for machines, which plain lines would disturb.
 static SILENT: AtomicBool = AtomicBool::new(false);
 
 /// Shows no plain lines from here on.
@@ -94,7 +94,7 @@ impl PlainLines {
         Self { next: start + FIRST }
     }
 
-    /// Whether a line is due; if so, the next one is put off.
+    /// Returns `true` if a line is due; if so, the next one is put off.
     fn due(&mut self, now: Instant) -> bool {
         let due = now >= self.next;
         if due {
@@ -104,7 +104,7 @@ impl PlainLines {
     }
 }
 
-/// What is done of how many.
+/// A line of progress: steps done, of all.
 fn plain_line(what: &str, done: u64, total: u64) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };

@@ -34,7 +34,7 @@ Exits with 1 if a figure is missed. Some are: docs/papers lists them with the op
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES, allow_negative_numbers = true)]
 pub(super) struct Args {
-    /// What to reproduce [default: everything]
+    /// Entries to reproduce [default: everything]
     #[arg(value_name = "ID")]
     entries: Vec<String>,
 

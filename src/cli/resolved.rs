@@ -39,7 +39,7 @@ pub(super) fn command_line(program: &Command, matches: &ArgMatches) -> String {
     text
 }
 
-/// Whether the argument has its default only, and another one that was given excludes it.
+/// Returns `true` if the argument has its default only, and another one that was given excludes it.
 fn replaced(command: &Command, arg: &Arg, matches: &ArgMatches) -> bool {
     let given = |other: &&Arg| matches.value_source(other.get_id().as_str()) == Some(ValueSource::CommandLine);
     let default = matches.value_source(arg.get_id().as_str()) == Some(ValueSource::DefaultValue);
@@ -99,7 +99,7 @@ mod tests {
         assert!(merl.contains("--clamp 3") && !merl.contains("--isotropy"), "{merl}");
     }
 
-    /// What is written can be given again.
+    /// Resolved options parse to themselves.
     #[test]
     fn what_is_resolved_resolves_to_itself() {
         for line in [

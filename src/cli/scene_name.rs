@@ -61,7 +61,7 @@ pub(super) struct EyeArgs {
 }
 
 impl EyeArgs {
-    /// Whether nothing was asked for.
+    /// Returns `true` without options.
     pub(super) fn is_default(&self) -> bool {
         let Self { eye, target, up, tan_half_height } = *self;
         eye.is_none() && target.is_none() && up.is_none() && tan_half_height.is_none()

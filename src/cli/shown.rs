@@ -24,7 +24,7 @@ pub(super) struct ShownError {
     /// Related diagnostics that were left out.
     more: usize,
     cause: Option<Box<Self>>,
-    /// Whether a cause is a diagnostic, so that its code and help are shown.
+    /// True if a cause is a diagnostic, so that its code and help are shown.
     cause_is_diagnostic: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What `crossbar --version` says.
+//! Text of `crossbar --version`.
 
 use std::sync::LazyLock;
 

@@ -1,4 +1,4 @@
-//! What the commands that trace rays share: sizes, sides, folders of results.
+//! Options of all commands that trace rays: sizes, sides, folders of results.
 
 use std::path::{Path, PathBuf};
 
@@ -94,7 +94,7 @@ pub(super) fn require_file(path: &Path, per_byte: u64, help: &str) -> Result<(),
     memory::require(format_args!("reading `{}`", path.display()), length.saturating_mul(per_byte), help)
 }
 
-/// What a picture takes while it is decoded, in bytes: codes of 16 bits or floats, then the samples of each channel.
+/// Memory for decoding a picture, in bytes: codes of 16 bits or floats, then the samples of each channel.
 pub(super) fn decoded_bytes(file: &PictureFile) -> u64 {
     const PER_PIXEL: u64 = 24;
     const PER_SAMPLE: u64 = 8;

@@ -4,7 +4,7 @@ use refsim::{isa::Mask, output::FragmentFate};
 
 use crate::report::digits::{Quantity, count, shown};
 
-/// What became of a fragment.
+/// The stage at which a fragment ended.
 pub(super) const fn fate(fate: FragmentFate) -> &'static str {
     match fate {
         FragmentFate::KilledByShader => "is killed by the program",

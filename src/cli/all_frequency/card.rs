@@ -55,7 +55,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "F")]
     map_format: Option<TexelFormat>,
 
-    /// Who interpolates between their texels, for products [default: sampler]
+    /// Filter between their texels, for products [default: sampler]
     #[arg(long, value_name = "WHO", value_parser = variants::<MapFilter>())]
     filter: Option<MapFilter>,
 

@@ -31,7 +31,7 @@ pub(super) struct Args {
     #[arg(value_name = "X.prt")]
     signal: PathBuf,
 
-    /// What it was compressed to
+    /// Its compressed form
     #[arg(value_name = "Y.prt")]
     compressed: PathBuf,
 

@@ -76,7 +76,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "A", value_parser = number::not_negative)]
     albedo: Option<f64>,
 
-    /// What stands in front of the lobe of cook-torrance and schlick [default: normalised]
+    /// Denominator of the lobe of cook-torrance and schlick [default: normalised]
     #[arg(long, value_name = "D", value_parser = variants::<Denominators>())]
     denominators: Option<Denominators>,
 
@@ -112,7 +112,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "LIMIT", default_value = "3", allow_hyphen_values = true)]
     clamp: LimitArg,
 
-    /// Whether samples are cut off before their mean is taken, or the mean after [default: after]
+    /// Order of clamping and averaging of samples [default: after]
     #[arg(long, value_name = "WHEN", value_parser = clamp_when())]
     clamp_when: Option<fn(f64) -> ProductClamp>,
 

@@ -44,7 +44,7 @@ fn original_of(file: &AllFrequencyFile, mesh: &MeshDigest, path: &Path) -> miett
     Ok(original)
 }
 
-/// What a surface's radiance is multiplied by: its albedo, or 1 if it has none.
+/// Factor of a surface's radiance: its albedo, or 1 if it has none.
 pub(super) fn color(material: &Material) -> [f64; 3] {
     match &material.surface {
         Surface::Diffuse { albedo } | Surface::Glossy { albedo, .. } => albedo.map(f64::from),
@@ -52,7 +52,7 @@ pub(super) fn color(material: &Material) -> [f64; 3] {
     }
 }
 
-/// What `render` and `card` draw.
+/// Model, light and camera of `render` and `card`.
 #[derive(Debug, clap::Args)]
 pub(super) struct LitArgs {
     /// Visibility or coded transfer; coded transfer is drawn where there are both

@@ -29,7 +29,7 @@ Examples:
   crossbar all-frequency lighting --keep 200 --by transfer --transfer docs/examples/step_all.prt --model docs/examples/step.obj
       the coefficients that this model answers to most";
 
-/// What coefficients are chosen by.
+/// Measure of importance of coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum ByArg {
     /// Magnitude
@@ -55,7 +55,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=6144))]
     keep: Option<u32>,
 
-    /// What --keep chooses them by
+    /// Measure of importance for --keep
     #[arg(long, value_enum, value_name = "WHAT", default_value = "area", requires = "keep")]
     by: ByArg,
 
@@ -168,7 +168,7 @@ impl Truncation {
         Ok(Self { segmentation, by, keep, responses: args.responses()? })
     }
 
-    /// What is kept of a light.
+    /// Truncates a light.
     fn of(&self, cube: &CubeLight) -> Result<LightTruncation, Problem> {
         let priority = match (&self.responses, self.by) {
             (Some(responses), _) => TruncationPriority::Transfer(responses),

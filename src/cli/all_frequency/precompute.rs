@@ -52,7 +52,7 @@ pub(super) struct Args {
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
-    /// What `crossbar all-frequency factor` wrote: view_factors.npy and light_factors.npy in a folder [default: the one
+    /// Output of `crossbar all-frequency factor`: view_factors.npy and light_factors.npy in a folder [default: the one
     /// term of a diffuse surface]
     #[arg(long, value_name = "DIR")]
     factors: Option<PathBuf>,
@@ -164,7 +164,7 @@ fn findings(sight: &FoundSight, path: &Path) -> Findings {
     found
 }
 
-/// What `crossbar all-frequency factor` wrote into a folder.
+/// Reads the factors that `crossbar all-frequency factor` wrote into a folder.
 fn load_factors(folder: &Path) -> miette::Result<ProductFactors> {
     let [view, light] = ["view_factors.npy", "light_factors.npy"].map(|name| folder.join(name));
     let table = |path: &Path| load_numbers(path, "array of factors", MAX_FACTORS);

@@ -97,7 +97,7 @@ fn compute(unit: &Unit, flags: bool, input: impl Read, out: &mut Out) -> miette:
     Ok(Verdict::Done)
 }
 
-/// What the options ask for, once they go together.
+/// The unit that the options make, once they go together.
 fn unit(args: &Args) -> Result<Unit, Problem> {
     let convert = args.op == AluOperation::Convert;
     let to = match args.to {

@@ -53,7 +53,7 @@ impl AluOperation {
         }
     }
 
-    /// Whether the result is 0 or 1 instead of a number of the format.
+    /// Returns `true` if the result is 0 or 1 instead of a number of the format.
     pub(super) const fn is_comparison(self) -> bool {
         matches!(self, Self::Table(Op::Equal | Op::LessEqual | Op::Less))
     }
@@ -67,7 +67,7 @@ pub(super) struct Unit {
     pub(super) env: Env,
     /// The format of the result (that of the operands, but for `convert`).
     pub(super) to: Format,
-    /// Whether `roundToInt` raises inexact.
+    /// True if `roundToInt` raises inexact.
     pub(super) exact: bool,
 }
 
@@ -82,7 +82,7 @@ impl Unit {
         if self.op.is_comparison() { 1 } else { self.to.width() }
     }
 
-    /// Whether a result is a NaN.
+    /// Returns `true` if a result is a NaN.
     pub(super) const fn is_nan(&self, result: u32) -> bool {
         !self.op.is_comparison() && self.to.is_nan(result)
     }

@@ -32,7 +32,7 @@ struct InputError(#[from] io::Error);
 #[diagnostic(code(crossbar::alu::empty), help("pipe lines in, as from `testfloat_gen f16_add`"))]
 struct NothingToVerify;
 
-/// What became of some consecutive lines: text for the output, and the first error, after which nothing was read.
+/// Output for consecutive lines, and the first error, after which nothing was read.
 #[derive(Default)]
 struct TaskOutput {
     text: Vec<u8>,

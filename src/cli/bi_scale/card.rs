@@ -47,11 +47,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "EDGES", default_value = "wrapped", value_parser = variants::<BlockEdges>())]
     blocks: BlockEdges,
 
-    /// What the card holds light in
+    /// Format of light on the card
     #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LightFormat>())]
     light_format: LightFormat,
 
-    /// What vertices hold local light in
+    /// Format of local light at vertices
     #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<LocalFormat>())]
     local_format: LocalFormat,
 

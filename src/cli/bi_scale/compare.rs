@@ -91,7 +91,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "BY", default_value = "area", value_parser = variants::<CoefficientPriority>())]
     priority: CoefficientPriority,
 
-    /// What they are stored as, beside two bytes for their numbers
+    /// Storage of coefficients, beside two bytes for their numbers
     #[arg(long, value_name = "AS", default_value = "byte", value_parser = variants::<CoefficientStorage>())]
     storage: CoefficientStorage,
 

@@ -1,4 +1,4 @@
-//! What the verbs of `crossbar bi-scale` read and write: matrices, biclusters, models.
+//! Input and output of the verbs of `crossbar bi-scale`: matrices, biclusters, models.
 
 use std::path::Path;
 
@@ -47,7 +47,7 @@ pub(super) fn vertices_of(model: &Path, file: &Path, meaning: Option<&BiScaleMea
     Ok(vertices)
 }
 
-/// Whether a file is a matrix as text, by its name.
+/// Returns `true` if a file is a matrix as text, by its name.
 fn is_text(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mtx"))
 }

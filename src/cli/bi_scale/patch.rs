@@ -23,7 +23,7 @@ const COLOR: [f32; 3] = [0.5; 3];
 /// How a patch is made.
 #[derive(Debug, clap::Args)]
 pub(super) struct PatchArgs {
-    /// What of the heights is drawn, but for `plain`, which has none [default: relief]
+    /// Detail drawn of the heights, but for `plain`, which has none [default: relief]
     #[arg(long, value_name = "WHAT", value_parser = variants::<MesoDetail>())]
     detail: Option<MesoDetail>,
 

@@ -47,7 +47,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", default_value_t = 8, value_parser = clap::value_parser!(u8).range(1..=64))]
     directions: u8,
 
-    /// What ends the view of a vertex
+    /// Horizon of a vertex
     #[arg(long, value_name = "WHAT", default_value = "geometry", value_parser = variants::<Horizon>())]
     horizon: Horizon,
 

@@ -73,7 +73,7 @@ impl TextureArgs {
         [transfer].into_iter().chain(picture.inputs()).chain(light.file()).chain(files).collect()
     }
 
-    /// What pictures need, and the samples of patches.
+    /// Memory of pictures and of the samples of patches.
     pub(super) fn memory(&self, pictures: MemoryNeed) -> MemoryNeed {
         let patches = self.texture.iter().filter(|texture| patch_kind(&texture.source).is_some()).count() as u64;
         let bytes = pictures.bytes.saturating_add(patches.saturating_mul(self.patches.bytes()));

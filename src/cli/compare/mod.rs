@@ -38,11 +38,11 @@ pub(in crate::cli) struct Args {
     /// The case, a TOML file: see `crossbar run`
     case: PathBuf,
 
-    /// Who computes on the left [default: scalar]
+    /// Executor on the left [default: scalar]
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     left: Option<DeviceExecutor>,
 
-    /// Who computes on the right [default: batch, or as on the left where the sides differ in something else]
+    /// Executor on the right [default: batch, or as on the left where the sides differ in something else]
     #[arg(long, value_enum, value_name = "EXECUTOR")]
     right: Option<DeviceExecutor>,
 

@@ -1,4 +1,4 @@
-//! What a file of low-frequency transfer holds, as arrays of NumPy's.
+//! The contents of a file of low-frequency transfer as NumPy arrays.
 
 use std::io;
 use std::path::{Path, PathBuf};

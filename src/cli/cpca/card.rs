@@ -40,7 +40,7 @@ pub(super) struct Args {
     #[command(flatten)]
     light: HarmonicLightArgs,
 
-    /// What vertices hold weights in
+    /// Format of weights at vertices
     #[arg(long, value_name = "F", default_value = "fp32", value_parser = variants::<WeightFormat>())]
     weights: WeightFormat,
 

@@ -33,7 +33,7 @@ pub(super) struct Args {
     #[arg(value_name = "SIGNAL")]
     signal: PathBuf,
 
-    /// What it was compressed to
+    /// Its compressed form
     #[arg(value_name = "Y.prt")]
     compressed: PathBuf,
 

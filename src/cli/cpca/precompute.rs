@@ -46,7 +46,7 @@ pub(super) struct Args {
     #[arg(value_name = "MODEL", help = transfer_model_help())]
     model: PathBuf,
 
-    /// What a vertex makes of light
+    /// Kind of transfer at a vertex
     #[arg(long, value_enum, value_name = "KIND", default_value = "diffuse")]
     kind: KindArg,
 

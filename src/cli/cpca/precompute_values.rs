@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use crate::transfer::brdf::ExitBasis;
 
-/// What a vertex makes of light.
+/// Kind of transfer at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum KindArg {
     /// A vector per vertex: the same radiance in all directions

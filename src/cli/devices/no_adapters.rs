@@ -1,4 +1,4 @@
-//! What a build without the feature `wgpu` says of GPU adapters.
+//! GPU adapters in a build without the feature `wgpu`: an error that names the feature.
 
 use crate::cli::{Out, Problem, Verdict};
 

@@ -134,7 +134,7 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, surfaces that
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, surfaces that
     /// do not emit at 18 % grey on average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
@@ -155,7 +155,7 @@ pub(super) enum FactorsArg {
     Hemicube,
 }
 
-/// What form factors obey.
+/// Law that form factors must obey.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Law {
     /// Area times form factor is the same from both sides

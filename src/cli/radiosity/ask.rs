@@ -1,4 +1,4 @@
-//! What the options of `crossbar radiosity` ask for.
+//! The parameters that the options of `crossbar radiosity` make.
 
 use super::args::{Args, FactorsArg, Law};
 use super::values::SolverArg;

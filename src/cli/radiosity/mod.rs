@@ -67,7 +67,7 @@ impl StudyArgs for Args {
 }
 
 impl Args {
-    /// What the matrices of so many patches take, and the pictures of every method.
+    /// Memory of the matrices of that many patches, and of the pictures of every method.
     fn need(&self, patches: usize) -> miette::Result<MemoryNeed> {
         // Measured: 83 with the matrices on a card, whose batch executor keeps decoded texels.
         const PER_PAIR: u64 = 96;

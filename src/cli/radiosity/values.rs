@@ -1,4 +1,4 @@
-//! What the options of `crossbar radiosity` can be.
+//! Options of `crossbar radiosity`.
 
 use std::str::FromStr;
 

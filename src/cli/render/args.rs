@@ -52,7 +52,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "D")]
     pub(super) device: Option<String>,
 
-    /// Who decides [default: batch where a device is named and for `--caster engine`, else exact]
+    /// Arithmetic that decides hits [default: batch where a device is named and for `--caster engine`, else exact]
     #[arg(long, value_enum)]
     pub(super) executor: Option<Decider>,
 
@@ -68,7 +68,7 @@ pub(in crate::cli) struct Args {
     pub(super) light: LightArgs,
 }
 
-/// What to do about too large a picture.
+/// Help for a picture that is too large.
 pub(super) const SMALLER: &str = "ask for a smaller `--size`";
 
 /// How light is found.
@@ -87,7 +87,7 @@ pub(super) enum Renderer {
 }
 
 impl Renderer {
-    /// What a picture by it is called.
+    /// Title of its pictures.
     pub(super) const fn title(self) -> &'static str {
         match self {
             Self::Eye => "Eye rays with a lamp at the eye",
@@ -122,7 +122,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "NAME")]
     pub(super) view: Option<String>,
 
-    /// What radiance is multiplied by for picture.png; 1 is white [default: 1]
+    /// Factor of radiance in picture.png; 1 is white [default: 1]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,
 
@@ -143,7 +143,7 @@ pub(super) struct LightArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=65536))]
     pub(super) gather: Option<u32>,
 
-    /// Who finds first hits [default: host]
+    /// Caster of rays, which finds first hits [default: host]
     #[arg(long, value_enum, value_name = "C")]
     pub(super) caster: Option<CasterArg>,
 
@@ -153,7 +153,7 @@ pub(super) struct LightArgs {
 }
 
 impl LightArgs {
-    /// Whether anything was said that only makes sense of a lit scene.
+    /// Returns `true` if an option was given that needs a lit scene.
     pub(super) fn asked(&self) -> bool {
         self.renderer.is_some() || self.samples.is_some() || self.view.is_some() || self.caster.is_some()
     }

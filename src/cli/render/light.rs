@@ -61,7 +61,7 @@ fn rays(picture: &RenderedPicture) -> Table {
     table
 }
 
-/// What the picture, its files and the photons take.
+/// Checks the memory of the picture, its files and the photons.
 fn require_memory(args: &Args, renderer: Renderer, scene: &Scene) -> Result<(), MemoryError> {
     const PER_PIXEL: u64 = 400;
     const PER_PHOTON: u64 = 450;

@@ -8,7 +8,7 @@ use crate::scene::{Camera, Scene};
 /// A scene to be lit.
 pub(super) struct LitScene {
     pub(super) scene: Scene,
-    /// Whether it comes with lights and views of its own.
+    /// True if it has lights and views of its own.
     pub(super) lit: bool,
 }
 

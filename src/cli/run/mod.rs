@@ -40,7 +40,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Who computes; the bits are the same
+    /// Executor; the bits are the same
     #[arg(long, value_enum, default_value = "scalar")]
     executor: DeviceExecutor,
 
@@ -87,7 +87,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(verdict)
 }
 
-/// What the surfaces of a case take, and their pictures; its textures are there already.
+/// Checks the memory of a case's surfaces and their pictures; its textures are there already.
 pub(super) fn setup_memory(setup: &Setup) -> Result<(), MemoryError> {
     let [width, height] = setup.size;
     // What is stored, its channels as numbers, and the file of them.

@@ -1,4 +1,4 @@
-//! What every instruction wrote at one pixel, as text and as JSON.
+//! Results of every instruction at one pixel, as text and as JSON.
 
 use refsim::{
     exec::{FragmentFormats, Step, inputs_read},
@@ -24,7 +24,7 @@ use crate::{
 pub(super) struct Traced<'a> {
     pub(super) setup: &'a Setup,
     pub(super) trace: &'a PixelTrace,
-    /// Whether the executor says which exceptions instructions raise.
+    /// True if the executor reports exceptions of instructions.
     pub(super) knows_flags: bool,
 }
 
@@ -53,7 +53,7 @@ impl Traced<'_> {
         self.setup.profile.rules.format
     }
 
-    /// What the rasteriser gave the program, as far as it can be read, and the depth.
+    /// The program's inputs from the rasteriser, as far as they can be read, and the depth.
     fn interpolated(&self, fragment: &FragmentTrace) -> Vec<TraceRow> {
         let reads = inputs_read(&self.setup.pixel);
         let input = &fragment.shading.input;
@@ -84,7 +84,7 @@ impl Traced<'_> {
             .collect()
     }
 
-    /// What a step wrote, component by component; truth values of predicates are 0 and 1.
+    /// Results of a step, component by component; truth values of predicates are 0 and 1.
     fn written(&self, step: &Step) -> Vec<TraceRow> {
         let instruction = self.setup.pixel.instructions.get(step.instruction);
         let Some(destination) = instruction.and_then(|i| i.destination) else { return Vec::new() };
@@ -98,7 +98,7 @@ impl Traced<'_> {
         step.mask.components().map(shown).collect()
     }
 
-    /// What the fragment leaves: the program's depth, if it decides one, and the targets before and after.
+    /// The fragment's depth, if the program decides one, and the targets before and after.
     fn stored(&self, fragment: &FragmentTrace) -> Table {
         let mut table = Table::new("Targets", &["surface", "before", "after"]);
         let (before, after) = (&fragment.before, &fragment.after);
@@ -213,7 +213,7 @@ impl Traced<'_> {
         table
     }
 
-    /// What became of the fragment, in a line.
+    /// The fragment's result, in a line.
     fn result(&self, fragment: &FragmentTrace) -> String {
         let own = fragment.shading.output.depth.map(|depth| {
             let number = Number { format: depth.format, bits: depth.bits };

@@ -76,7 +76,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "C", value_parser = rgb())]
     pub(super) channels: Vec<bool>,
 
-    /// What link textures hold; may be repeated [default: fp16]
+    /// Format of link textures; may be repeated [default: fp16]
     #[arg(long, value_name = "F", value_parser = variants::<FloatTexels>())]
     pub(super) link_format: Vec<FloatTexels>,
 
@@ -127,7 +127,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "X,Y,Z", value_parser = place, allow_hyphen_values = true)]
     pub(super) probe: Vec<[f64; 3]>,
 
-    /// Whether to gather over all pairs of texels too [default: yes for atlases up to 32]
+    /// Gather over all pairs of texels too [default: yes for atlases up to 32]
     #[arg(long, value_name = "YES", value_parser = yes_or_no())]
     pub(super) all_pairs: Option<bool>,
 
@@ -157,7 +157,7 @@ pub(in crate::cli) struct Args {
     #[command(flatten)]
     pub(super) eye: EyeArgs,
 
-    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     pub(super) exposure: Option<f64>,

@@ -1,4 +1,4 @@
-//! What the options of `crossbar subsurface` ask for.
+//! The parameters that the options of `crossbar subsurface` make.
 
 use glam::{DMat3, DVec3};
 
@@ -140,7 +140,7 @@ pub(super) fn require_lights(args: &Args) -> Result<(), Problem> {
     }
 }
 
-/// Whether all pairs are gathered.
+/// Returns `true` if all pairs are gathered.
 pub(super) fn all_pairs(args: &Args) -> Result<bool, Problem> {
     let asked = args.all_pairs == Some(true);
     if asked && args.atlas > MOST_ALL_PAIRS {

@@ -37,7 +37,7 @@ impl StudyArgs for Args {
         model_name::named_file(&self.model).into_iter().chain(self.irradiance.as_deref()).chain(lights).collect()
     }
 
-    /// What the atlas, its links, the card's textures and the pictures of every way take.
+    /// Memory of the atlas, its links, the card's textures and the pictures of every way.
     fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
         // Before memory, which what cannot be has no need of.
         require_side(self.atlas).map_err(no_atlas)?;

@@ -1,4 +1,4 @@
-//! What the options of `crossbar subsurface` can be.
+//! Options of `crossbar subsurface`.
 
 use std::str::FromStr;
 

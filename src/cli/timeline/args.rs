@@ -48,7 +48,7 @@ pub(in crate::cli) struct Args {
     #[arg(long, default_value = "both", value_parser = models())]
     pub(super) model: &'static [Level],
 
-    /// Whether the host waits for what it reads back [default: as the run says]
+    /// Read-back mode: the host waits, or not [default: as the run says]
     #[arg(long, value_name = "MODE", value_parser = readback())]
     pub(super) readback: Option<ReadBackMode>,
 

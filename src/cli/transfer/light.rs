@@ -63,7 +63,7 @@ pub(in crate::cli) struct LightArgs {
 }
 
 impl LightArgs {
-    /// What it is, in a few words.
+    /// Its name in a few words.
     pub(in crate::cli) fn name(&self) -> String {
         self.light.name()
     }
@@ -93,7 +93,7 @@ pub(in crate::cli) struct HarmonicLightArgs {
 }
 
 impl HarmonicLightArgs {
-    /// What it is, in a few words.
+    /// Its name in a few words.
     pub(in crate::cli) fn name(&self) -> String {
         self.light.name()
     }
@@ -130,7 +130,7 @@ impl DistantLightArg {
         if let Self::Picture(path) = self { Some(path) } else { None }
     }
 
-    /// What it is, in a few words.
+    /// Its name in a few words.
     fn name(&self) -> String {
         match self {
             Self::Constant(_) => "a constant light".to_owned(),

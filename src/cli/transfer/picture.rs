@@ -26,7 +26,7 @@ pub(in crate::cli) struct PictureArgs {
     #[command(flatten)]
     eye: EyeArgs,
 
-    /// What radiance is multiplied by in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
+    /// Factor of radiance in pictures; 1 is white [default: auto-exposure, the model at 18 % grey on
     /// average]
     #[arg(long, value_name = "X", value_parser = number::positive)]
     exposure: Option<f64>,
@@ -77,7 +77,7 @@ pub(in crate::cli) struct FramesArgs {
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=360))]
     frames: u32,
 
-    /// What --frames turns
+    /// The object that --frames turns
     #[arg(long, value_name = "WHAT", default_value = "light", requires = "frames", value_parser = variants::<Turning>())]
     turn: Turning,
 }

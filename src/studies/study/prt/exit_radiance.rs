@@ -10,7 +10,7 @@ use crate::transfer::clustering::Clustering;
 use crate::transfer::file::PrtMeaning;
 use crate::transfer::{Signal, Vertices};
 
-/// What the numbers of a vertex mean, under a light of as many functions.
+/// Meaning of the numbers of a vertex, with a light of as many functions.
 pub(in crate::study) struct Lit<'a> {
     channels: usize,
     functions: &'a [u16],

@@ -12,7 +12,7 @@ use crate::scene::Camera;
 use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
 
-/// What each pixel shows: the corners of a triangle with weights that sum to 1, or nothing.
+/// The surface point in each pixel: corners of a triangle with weights that sum to 1, or none.
 pub(in crate::study) struct Seen {
     pixels: Vec<Option<([u32; 3], DVec3)>>,
 }

@@ -21,7 +21,7 @@ pub struct LitView {
     pub light: String,
     /// The camera.
     pub camera: Camera,
-    /// What radiance is multiplied by; `None` for auto-exposure: 18 % grey on average.
+    /// Factor of radiance; `None` for auto-exposure: 18 % grey on average.
     pub exposure: Option<f64>,
 }
 

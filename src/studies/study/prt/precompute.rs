@@ -23,7 +23,7 @@ pub enum ExitRadiance {
     Glossy {
         /// Their functions.
         basis: ExitBasis,
-        /// Whether by least squares; else by integrals over the hemisphere.
+        /// True for least squares; else by integrals over the hemisphere.
         least_squares: bool,
         /// How light reaches the BRDF.
         incident: Incident,

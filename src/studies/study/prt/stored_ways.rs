@@ -18,7 +18,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 /// directions of 8 x 8, about, and the light's own.
 const COARSE_SIDES: [usize; 2] = [4, 32];
 
-/// What is compared.
+/// The transfer to be stored in several ways.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredComparison<'a> {
     /// T.

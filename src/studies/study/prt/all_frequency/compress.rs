@@ -16,12 +16,12 @@ use crate::transfer::{TransferError, Vertices};
 use super::kept::KeptSegments;
 use super::tally::{CompressionTally, SegmentTally};
 
-/// What is compressed, and how.
+/// Transfer to be compressed, and options.
 #[derive(Debug)]
 pub struct SegmentedCompression<'a> {
     /// The vertices of the model.
     pub vertices: &'a Vertices,
-    /// What each sees.
+    /// Visibility at each vertex.
     pub maps: &'a VisibilityMaps,
     /// The hats of the light's texels.
     pub hats: HatWidth,

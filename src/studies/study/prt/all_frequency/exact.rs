@@ -1,4 +1,4 @@
-//! What rendering begins with: the light's coefficients (step 1 of section 6), and transferred radiance without
+//! First steps of rendering: the light's coefficients (step 1 of section 6), and transferred radiance without
 //! compression, M_p L, the raw matrix of one segment after the other.
 
 use glam::DMat3;

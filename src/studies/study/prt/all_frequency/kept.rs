@@ -29,10 +29,10 @@ pub struct KeptSegments {
     work: Work,
 }
 
-/// What the segments belong to: names of settings, and the settings.
+/// Settings of the work that the segments belong to, by name.
 type Work = BTreeMap<String, String>;
 
-/// What became of a segment: nothing where all of its transfer is 0.
+/// Result for a segment; none where all of its transfer is 0.
 #[derive(Debug, Serialize, Deserialize)]
 struct FinishedSegment(Option<SegmentRecord>);
 
@@ -140,7 +140,7 @@ impl KeptSegments {
     }
 }
 
-/// What a file holds, if there is one.
+/// Reads a JSON file, if there is one.
 fn read_json<T: for<'a> Deserialize<'a>>(path: &Path, expected: &'static str) -> Result<Option<T>, StudyError> {
     let bytes = match fs::read(path) {
         Ok(bytes) => bytes,

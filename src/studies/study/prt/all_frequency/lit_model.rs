@@ -1,4 +1,4 @@
-//! What all studies of all-frequency transfer draw.
+//! The model, light and camera of all studies of all-frequency transfer.
 
 use crate::all_frequency::file::AllFrequencyFile;
 use crate::geom::Mesh;

@@ -17,7 +17,7 @@ pub(super) enum Transferred {
     Exact { rows: usize, values: Vec<[f64; 3]> },
 }
 
-/// What a frame took, in seconds.
+/// Times of a frame, in seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FrameTimes {
     pub(super) light: f64,
@@ -46,7 +46,7 @@ impl<'a> Part<'a> {
         Self { vertices, colors, file, shader }
     }
 
-    /// Whether transfer is coded.
+    /// Returns `true` if transfer is coded.
     pub(super) fn is_coded(&self) -> bool {
         self.shader.is_some()
     }
@@ -87,7 +87,7 @@ impl<'a> Part<'a> {
         radiance
     }
 
-    /// What steps 2, 3 and 4 multiply.
+    /// Multiplications of steps 2, 3 and 4.
     pub(super) fn multiplies(&self, light: &[[f32; 3]]) -> [u64; 3] {
         let steps = self.shader.as_ref().map(|shader| shader.multiplies(light));
         let Multiplies { per_cluster, per_vertex } = steps.unwrap_or_default();

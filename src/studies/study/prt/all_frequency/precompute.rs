@@ -1,4 +1,4 @@
-//! What each vertex of a model sees.
+//! Visibility at the vertices of a model.
 
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::file::AllFrequencyFile;
@@ -14,7 +14,7 @@ use crate::transfer::{TransferError, Vertices};
 /// A model whose visibility is wanted.
 #[derive(Debug)]
 pub struct SightOfModel<'a> {
-    /// What is in the light's way: its mesh, or that on its ground.
+    /// The occluders: its mesh, or that on its ground.
     pub scene: &'a Mesh,
     /// The vertices that transfer is computed at.
     pub vertices: &'a Vertices,
@@ -26,7 +26,7 @@ pub struct SightOfModel<'a> {
     pub ground: Option<&'a Vertices>,
 }
 
-/// What its vertices see.
+/// Visibility at its vertices.
 #[derive(Debug)]
 pub struct FoundSight {
     /// The file.

@@ -97,7 +97,7 @@ fn radiance(parts: &[Part<'_>], transferred: &[Transferred], camera: &Camera, ti
     parts.iter().zip(transferred).flat_map(|(part, transferred)| part.radiance(transferred, camera, times)).collect()
 }
 
-/// What rendering multiplies, and what it took here.
+/// Multiplications of rendering, and its time here.
 fn time(parts: &[Part<'_>], light: &HaarLight, times: FrameTimes, found: &mut Findings) {
     let light = light.singles();
     let sums = parts.iter().map(|part| part.multiplies(&light));
@@ -133,7 +133,7 @@ impl AllFrequencyRendering {
         std::iter::once(Part::new(&self.lit.vertices, &self.lit.colors, &self.lit.file)).chain(ground).collect()
     }
 
-    /// What a camera's pixels show, vertices of the ground after those of the model.
+    /// The surface point in each of a camera's pixels; vertices of the ground follow those of the model.
     fn seen(&self, camera: &Camera) -> Seen {
         let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
         let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();

@@ -1,6 +1,6 @@
-//! What became of transfer that was compressed and coded.
+//! Errors and sizes of transfer after compression and coding.
 
-/// What became of a segment.
+/// Error and size of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentTally {
     /// The segment.
@@ -19,7 +19,7 @@ pub struct SegmentTally {
     pub seconds: [f64; 3],
 }
 
-/// What became of all segments.
+/// Errors and sizes of all segments.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompressionTally {
     /// Segment by segment, without empty ones.

@@ -26,7 +26,7 @@ const BLOCK: usize = 256;
 /// The pictures of all rungs, of which the last is that of transfer.
 type Pictures = Vec<Vec<[f64; 3]>>;
 
-/// What tells the errors of a rendering apart.
+/// Pictures that separate the errors of a rendering by cause.
 pub(super) struct Causes<'a> {
     rendering: &'a BiScaleRendering,
     tracer: HostTracer,
@@ -115,7 +115,7 @@ impl<'a> Causes<'a> {
     }
 }
 
-/// What the pictures show, with the picture by rays.
+/// Findings of the pictures, with the picture by rays.
 pub(super) fn report(
     rendering: &BiScaleRendering,
     found_pictures: &CausePictures,

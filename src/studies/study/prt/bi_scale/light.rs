@@ -14,7 +14,7 @@ pub struct LocalLight {
     pub way: &'static str,
     /// Red, green and blue of each row of the transfer.
     pub rows: Vec<[f64; 3]>,
-    /// What the multiplication took.
+    /// Time of the multiplication.
     pub seconds: f64,
 }
 

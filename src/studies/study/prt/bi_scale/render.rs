@@ -15,7 +15,7 @@ use crate::study::prt::of_texels;
 use crate::study::prt::turned_frames::Turned;
 use crate::study::{ProgressFn, Study, StudyError};
 
-/// What steps of a frame took, in seconds.
+/// Times of the steps of a frame, in seconds.
 #[derive(Clone, Copy, Debug)]
 struct StepTimes {
     light: f64,
@@ -23,7 +23,7 @@ struct StepTimes {
     shading: f64,
 }
 
-/// What some work gives, and its seconds.
+/// The result of some work, and its time in seconds.
 fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
     let start = Instant::now();
     let found = work();
@@ -95,7 +95,7 @@ impl BiScaleRendering {
         found.table(FoundTable::from(table).csv("textures").field("textures"));
     }
 
-    /// What the steps took here.
+    /// Times of the steps here.
     fn time(&self, pixels: &[Option<SurfacePixel>], times: StepTimes, found: &mut Findings) {
         let lights = self.textures.first().map_or(0, |texture| texture.samples.light().directions().len());
         let shown_pixels = pixels.iter().flatten().count();

@@ -1,4 +1,4 @@
-//! What is drawn.
+//! The picture that is drawn.
 
 use super::surface::TexturedSurface;
 use crate::bi_scale::file::BiScaleFile;
@@ -22,7 +22,7 @@ pub struct BiScaleRendering {
     pub light: DistantLight,
     /// Pictures with the light or the camera carried round the model.
     pub frames: TurnedFrames,
-    /// Whether to hold the picture against one by rays; all textures must have patches.
+    /// True to compare the picture with one by rays; all textures must have patches.
     pub reference: bool,
     /// Format and names of vertices, if their radiance is written, at the texture coordinates of their first triangles.
     pub values: Option<VertexValues>,

@@ -32,7 +32,7 @@ pub fn creased(mesh: &Mesh, degrees: f64) -> Mesh {
     mesh.creased(on_circle(degrees / 360.0)[0])
 }
 
-/// What a pixel shows.
+/// The surface point in a pixel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfacePixel {
     pub(super) triangle: u32,
@@ -60,7 +60,7 @@ impl TexturedSurface {
         Ok(Self { mesh, vertices, texture_of, repeat })
     }
 
-    /// What the pixels of a camera show, front faces only.
+    /// The surface points in the pixels of a camera, front faces only.
     pub(super) fn pixels(&self, camera: &Camera) -> Vec<Option<SurfacePixel>> {
         let rays = camera.rays();
         let (hits, _) = HostTracer::new(&self.mesh, Sides::Front).nearest_all(&rays);

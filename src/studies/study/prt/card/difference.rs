@@ -50,7 +50,7 @@ pub(super) fn held(pixels: &[[f64; 3]], is_clamped: bool) -> Vec<[f64; 3]> {
 
 /// A card's picture beside the host's, both exposed.
 pub(super) struct ComparedPicture<'a> {
-    /// What the target holds.
+    /// Numbers in the target.
     pub(super) drawn: &'a [[f64; 3]],
     /// In double precision, neither clamped nor quantised.
     pub(super) host: &'a [[f64; 3]],

@@ -22,11 +22,11 @@ pub struct CardSetting {
     pub profile: Profile,
     /// Its switches that were set.
     pub switches: Vec<(String, String)>,
-    /// What runs its programs.
+    /// Executor of its programs.
     pub executor: Executor,
     /// The picture's format.
     pub format: TexelFormat,
-    /// Whether number formats, maps and targets are varied one after the other.
+    /// True to vary number formats, maps and targets one after the other.
     pub sweep: bool,
     /// Format and names of vertices, if their radiance is written: that of the host, from the numbers that are drawn.
     pub values: Option<VertexValues>,
@@ -49,7 +49,7 @@ impl CardSetting {
 pub(super) struct PictureStudy<'a> {
     pub(super) card: &'a CardSetting,
     pub(super) view: &'a LitView,
-    /// What card and host compute from.
+    /// Input that card and host share.
     pub(super) from: &'static str,
 }
 

@@ -10,7 +10,7 @@ const NOT_ALONE: [&str; 2] = ["none", "card"];
 /// A variant of a picture, and how far it is off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureVariant {
-    /// What is varied.
+    /// The varied setting.
     pub axis: &'static str,
     /// Its value.
     pub choice: String,

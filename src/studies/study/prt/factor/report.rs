@@ -1,4 +1,4 @@
-//! What was found, as a page.
+//! Findings as a page.
 
 use glam::DVec3;
 use serde_json::json;
@@ -169,7 +169,7 @@ impl BrdfFactors {
         found.table(FoundTable::from(table).csv("between").field("between_texels"));
     }
 
-    /// What of light from everywhere is reflected: a white furnace.
+    /// Share of uniform light that is reflected: a white furnace.
     fn albedos(&self, table: &ProductTable, factors: &ProductFactors) -> Table {
         let mut rows =
             Table::of("Directional albedo: light of radiance 1 from everywhere", "view_degrees f table terms");

@@ -45,7 +45,7 @@ pub(super) fn picture(radiance: &[f64]) -> Picture {
     Picture::rgb(SIZE, SIZE, &pixels)
 }
 
-/// What brings a picture to 18 % grey on average where it is lit.
+/// Exposure that brings a picture to 18 % grey on average where it is lit.
 pub(super) fn exposure(radiance: &[f64]) -> f64 {
     let colors: Vec<[f64; 3]> = radiance.iter().map(|&value| [value; 3]).collect();
     crate::study::prt::auto_exposure(&colors)

@@ -1,4 +1,4 @@
-//! What is factored, and why it cannot be.
+//! The reflectance to be factored, and the errors of choosing it.
 
 use crate::all_frequency::factor::{
     FactorSampling, Factorization, FactorizationError, Lobe, MerlBrdf, MerlChannel, ProductFunction, ProductTable,

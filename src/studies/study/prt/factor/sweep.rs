@@ -13,7 +13,7 @@ use crate::study::{ProgressFn, StudyError};
 /// Pixels per degree of whoever looks: a screen of 0.7 m width and 3,840 pixels from 0.7 m away, FLIP's usual figure.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 
-/// What table and chart show.
+/// Title of table and chart.
 const TITLE: &str = "Errors of the terms by roughness";
 
 /// One roughness.

@@ -12,7 +12,7 @@ fn view_of(place: &ProductPlace) -> ViewNumbers {
     if let ProductPlace::Pixels(options) = place { options.view } else { ViewNumbers::default() }
 }
 
-/// What a card that rounds nothing would draw: exposed, neither clamped nor quantised. 0 where nothing is seen.
+/// The picture of a card that rounds nothing: exposed, neither clamped nor quantised. 0 where nothing is seen.
 pub(super) fn exact_pixels(
     mesh: &TransferredMesh<'_>,
     seen: &[Option<SeenPixel>],

@@ -21,7 +21,7 @@ pub struct AllFrequencyOnCard {
     pub card: CardSetting,
     /// Where products with G are made.
     pub place: ProductPlace,
-    /// Whether the card makes the sums over representatives too; transfer must be coded.
+    /// True if the card makes the sums over representatives too; transfer must be coded.
     pub sums_on_card: bool,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct HostSteps {
     pub(super) cut: LightTruncation,
     pub(super) transferred: TransferredRadiance,
     pub(super) multiplies: Multiplies,
-    /// What sums by the card asked of host and card.
+    /// Work of host and card for sums by the card.
     pub(super) sums: Option<CardSums>,
 }
 
@@ -51,7 +51,7 @@ impl AllFrequencyOnCard {
         exact::coefficients((&self.lit.light, self.lit.decimation), &DMat3::IDENTITY, keep)
     }
 
-    /// What the host computes before a card draws.
+    /// The host's work before a card draws.
     pub(super) fn steps(&self) -> Result<HostSteps, StudyError> {
         let cut = self.cut(self.lit.keep)?;
         if self.sums_on_card {

@@ -33,7 +33,7 @@ pub struct BiScaleOnCard {
     pub light: DistantLight,
     /// The card that draws.
     pub card: CardSetting,
-    /// What the card holds light in.
+    /// Format of light on the card.
     pub light_format: LightFormat,
     /// How the display is made.
     pub options: DisplayOptions,

@@ -20,15 +20,15 @@ pub(super) struct Way<'a> {
     pub(super) profile: &'a Profile,
     pub(super) format: TexelFormat,
     pub(super) options: PrtCardOptions,
-    /// Whether what is asked of host and card is kept.
+    /// True to log the work of host and card.
     pub(super) timed: bool,
 }
 
-/// What a card drew.
+/// A picture drawn by a card.
 pub(super) struct Drawn {
     /// Radiance times exposure per pixel, as the target holds it.
     pub(super) colors: Vec<[f64; 3]>,
-    /// What the frame asked of host and card; nothing if it is not timed.
+    /// Work of host and card for the frame; empty if it is not timed.
     pub(super) log: Vec<Event>,
     pub(super) size: TransferSize,
     pub(super) draws: ChunkCounts,

@@ -19,7 +19,7 @@ const SIDES: [usize; 5] = [8, 16, 32, 64, 128];
 
 /// A variant of the reference.
 struct Choice {
-    /// What is varied.
+    /// The varied setting.
     axis: &'static str,
     label: String,
     device: &'static str,

@@ -19,7 +19,7 @@ pub struct OnCard {
     pub view: LitView,
     /// Its vertices, the points of the clusters.
     pub vertices: Vertices,
-    /// What the numbers of a vertex mean.
+    /// Meaning of the numbers of a vertex.
     pub meaning: PrtMeaning,
     /// The clusters.
     pub clustering: Clustering,
