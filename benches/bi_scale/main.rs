@@ -12,11 +12,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, Throughput};
+use crossbar::bi_scale::baselines::WideRows;
 use crossbar::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::Gather;
-use crossbar::bi_scale::rivals::WideRows;
 use crossbar::bi_scale::transfer::transfer_matrix;
 use crossbar::geom::Sides;
 use crossbar::scene::built::transfer_models::TransferModel;

@@ -21,9 +21,9 @@ use std::fmt::Debug;
 
 /// The features seen so far, as text.
 #[derive(Default)]
-struct Seen(BTreeSet<String>);
+struct SeenFeatures(BTreeSet<String>);
 
-impl Seen {
+impl SeenFeatures {
     fn add(&mut self, what: &str, value: impl Debug) {
         self.0.insert(format!("{what} {value:?}"));
     }
@@ -61,7 +61,7 @@ fn programs(version: Version, count: u64) -> Vec<Program> {
     out
 }
 
-fn note_source(seen: &mut Seen, version: Version, source: &Source) {
+fn note_source(seen: &mut SeenFeatures, version: Version, source: &Source) {
     seen.add(&format!("{version} modifier"), source.modifier);
     seen.add(&format!("{version} file"), source.register.file);
     let swizzle: String = source.swizzle.0.iter().map(|c| ['x', 'y', 'z', 'w', '0', '1'][usize::from(*c)]).collect();
@@ -73,7 +73,7 @@ fn note_source(seen: &mut Seen, version: Version, source: &Source) {
     }
 }
 
-fn note(seen: &mut Seen, version: Version, instruction: &Instruction) {
+fn note(seen: &mut SeenFeatures, version: Version, instruction: &Instruction) {
     let name = format!("{version} {:?}", instruction.opcode);
     seen.add(&format!("{version} opcode"), instruction.opcode);
     if let Some(comparison) = instruction.comparison {
@@ -184,7 +184,7 @@ fn wanted(version: Version) -> Vec<String> {
 #[test]
 fn programs_reach_every_opcode_modifier_and_swizzle() {
     for version in Version::ALL.into_iter().chain(Version::FRAGMENT) {
-        let mut seen = Seen::default();
+        let mut seen = SeenFeatures::default();
         let all = programs(version, 1500);
         assert!(all.len() > 500, "{version}: only {} of 1500 programs are legal", all.len());
         for program in &all {
@@ -207,7 +207,7 @@ fn programs_reach_every_opcode_modifier_and_swizzle() {
 }
 
 /// Notes the kinds of OpenGL state that a program reads, and its fog.
-fn note_state(seen: &mut Seen, program: &Program) {
+fn note_state(seen: &mut SeenFeatures, program: &Program) {
     seen.add("fog", program.fog.map(|fog| fog.mode));
     for parameter in &program.parameters {
         let ParameterSource::State(binding) = parameter.source else { continue };
@@ -250,7 +250,7 @@ fn wanted_state() -> Vec<String> {
     out
 }
 
-fn note_scene(seen: &mut Seen, case: &Case) {
+fn note_scene(seen: &mut SeenFeatures, case: &Case) {
     let scene = &case.scene;
     for (slot, image, state) in &scene.textures {
         seen.add("texture", image.format());
@@ -290,7 +290,7 @@ fn note_scene(seen: &mut Seen, case: &Case) {
 
 #[test]
 fn scenes_reach_every_state() {
-    let mut seen = Seen::default();
+    let mut seen = SeenFeatures::default();
     for suite in suite::all() {
         let quick = matches!(suite.kind, Kind::Texture(_) | Kind::Address(..) | Kind::Target(_) | Kind::Geometry(_));
         let quick = quick || matches!(suite.kind, Kind::Depth(_) | Kind::Compare(_) | Kind::Blend(_));
@@ -329,7 +329,7 @@ fn scenes_reach_every_state() {
 
 #[test]
 fn devices_reach_every_switch_value() {
-    let mut seen = Seen::default();
+    let mut seen = SeenFeatures::default();
     for suite in suite::all() {
         let Kind::Card(card, _) = suite.kind else { continue };
         for seed in 0..suite.seeds {

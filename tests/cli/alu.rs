@@ -1,8 +1,8 @@
 //! `crossbar alu`: streams, verdicts, digests.
 
-use crate::{Ran, crossbar};
+use crate::{ProgramOutput, crossbar};
 
-fn alu(arguments: &str, input: &str) -> Ran {
+fn alu(arguments: &str, input: &str) -> ProgramOutput {
     let mut all = vec!["alu"];
     all.extend(arguments.split_whitespace());
     crossbar(&all, input)

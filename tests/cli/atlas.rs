@@ -5,7 +5,7 @@ use std::path::Path;
 use crossbar::io::load_mesh;
 use serde_json::Value;
 
-use crate::{Ran, crossbar, crossbar_in};
+use crate::{ProgramOutput, crossbar, crossbar_in};
 
 const TEAPOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/examples/teapot.obj");
 
@@ -25,7 +25,7 @@ fn what_it_says() {
     insta::assert_snapshot!("atlas_unknown", refused(&["stand-in-hat"]));
 }
 
-fn run(folder: &Path, arguments: &[&str]) -> Ran {
+fn run(folder: &Path, arguments: &[&str]) -> ProgramOutput {
     let ran = crossbar_in(folder, &[&["atlas", TEAPOT, "--side", "64", "--size", "32x24"], arguments].concat(), "");
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""));
     ran

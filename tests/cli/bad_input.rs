@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::{Ran, crossbar, crossbar_in};
+use crate::{ProgramOutput, crossbar, crossbar_in};
 
 /// Runs in a fresh folder that must be as empty afterwards as before, and expects an error in one piece.
-fn refused(arguments: &[&str], input: &str) -> Ran {
+fn refused(arguments: &[&str], input: &str) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let ran = crossbar_in(folder.path(), arguments, input);
     assert_refused(&ran, arguments);
@@ -13,7 +13,7 @@ fn refused(arguments: &[&str], input: &str) -> Ran {
     ran
 }
 
-fn assert_refused(ran: &Ran, arguments: &[&str]) {
+fn assert_refused(ran: &ProgramOutput, arguments: &[&str]) {
     assert_eq!(ran.code, Some(2), "{arguments:?}: {}", ran.stderr);
     assert_eq!(ran.stdout, "", "{arguments:?} found nothing to say on standard output");
     assert!(!ran.stderr.contains("panicked"), "{arguments:?}: {}", ran.stderr);

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::{Ran, crossbar, crossbar_in};
+use crate::{ProgramOutput, crossbar, crossbar_in};
 
 /// Checks `text` as `shader.psa` in a folder of its own.
-fn check(text: &[u8], arguments: &[&str]) -> Ran {
+fn check(text: &[u8], arguments: &[&str]) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("shader.psa"), text).expect("a file");
     let mut all = vec!["check", "shader.psa"];

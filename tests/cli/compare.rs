@@ -4,10 +4,10 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::{Ran, case::CASES, case::example, crossbar_in};
+use crate::{ProgramOutput, case::CASES, case::example, crossbar_in};
 
 /// Runs the program on `text` as `case.toml` in a folder of its own.
-fn on(text: &str, arguments: &[&str]) -> Ran {
+fn on(text: &str, arguments: &[&str]) -> ProgramOutput {
     let folder = tempfile::tempdir().expect("a folder for the test");
     fs::write(folder.path().join("case.toml"), text).expect("a file");
     crossbar_in(folder.path(), arguments, "")

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crossbar::picture::{ChannelUnit, Picture, Samples, exr, hdr, png};
 
-use crate::{Ran, crossbar_in};
+use crate::{ProgramOutput, crossbar_in};
 
 /// A slope of 16 x 12 pixels.
 fn slope(red: f32) -> Picture {
@@ -47,7 +47,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn diff(folder: &Path, arguments: &[&str]) -> Ran {
+fn diff(folder: &Path, arguments: &[&str]) -> ProgramOutput {
     crossbar_in(folder, &[&["diff"], arguments].concat(), "")
 }
 

@@ -38,4 +38,4 @@ mod tracing;
 mod tree;
 mod vertex_names;
 
-use program::{Ran, crossbar, crossbar_in, start};
+use program::{ProgramOutput, crossbar, crossbar_in, start};

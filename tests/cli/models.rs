@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::program::{Ran, crossbar_in};
+use crate::program::{ProgramOutput, crossbar_in};
 
 const BLENDER: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nusemtl m\nf 1 2 3\nf 1 4 3\n";
 const RAYS: &str = "ox,oy,oz,dx,dy,dz\n0.75,-1,0.25,0,1,0\n0.25,-1,0.75,0,1,0\n";
@@ -17,7 +17,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-fn run(folder: &Path, line: &str) -> Ran {
+fn run(folder: &Path, line: &str) -> ProgramOutput {
     crossbar_in(folder, &line.split(' ').collect::<Vec<_>>(), "")
 }
 

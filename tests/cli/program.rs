@@ -6,13 +6,13 @@ use std::process::{Child, Command, Stdio};
 
 /// Exit code and output of a run.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Ran {
+pub(crate) struct ProgramOutput {
     pub(crate) code: Option<i32>,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
-impl Ran {
+impl ProgramOutput {
     /// The three in one text, for snapshots.
     pub(crate) fn transcript(&self) -> String {
         let code = self.code.map_or_else(|| "none".to_owned(), |code| code.to_string());
@@ -21,7 +21,7 @@ impl Ran {
 }
 
 /// Runs the program in `folder` with `input` on standard input; environment variables cannot change its output's style.
-pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Ran {
+pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> ProgramOutput {
     let mut child = Command::new(env!("CARGO_BIN_EXE_crossbar"))
         .args(arguments)
         .current_dir(folder)
@@ -44,7 +44,7 @@ pub(crate) fn crossbar_in(folder: &Path, arguments: &[&str], input: &str) -> Ran
     // Lines of progress depend on the computer's speed.
     let stderr = text(output.stderr);
     let stderr = stderr.split_inclusive('\n').filter(|line| !line.starts_with("progress: ")).collect();
-    Ran { code: output.status.code(), stdout: text(output.stdout), stderr }
+    ProgramOutput { code: output.status.code(), stdout: text(output.stdout), stderr }
 }
 
 /// Starts the program with its output discarded.
@@ -56,6 +56,6 @@ pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Child {
 }
 
 /// Runs the program in the project's folder.
-pub(crate) fn crossbar(arguments: &[&str], input: &str) -> Ran {
+pub(crate) fn crossbar(arguments: &[&str], input: &str) -> ProgramOutput {
     crossbar_in(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, input)
 }

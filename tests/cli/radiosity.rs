@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::{Ran, crossbar_in};
+use crate::{ProgramOutput, crossbar_in};
 use approx::abs_diff_eq;
 
-fn radiosity(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
+fn radiosity(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let mut all = vec!["radiosity"];
     all.extend(arguments);

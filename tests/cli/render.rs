@@ -1,8 +1,8 @@
 //! `crossbar render` with the host renderers.
 
-use crate::{Ran, crossbar_in};
+use crate::{ProgramOutput, crossbar_in};
 
-fn render(arguments: &[&str]) -> (Ran, tempfile::TempDir) {
+fn render(arguments: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let mut all = vec!["render"];
     all.extend(arguments);

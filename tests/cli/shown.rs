@@ -7,7 +7,7 @@ use wait4::Wait4 as _;
 
 use crossbar::report::visible::is_hidden;
 
-use crate::{Ran, crossbar, crossbar_in};
+use crate::{ProgramOutput, crossbar, crossbar_in};
 
 /// A temporary folder with the files of a test.
 fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
@@ -18,7 +18,7 @@ fn folder_with(files: &[(&str, &[u8])]) -> tempfile::TempDir {
     folder
 }
 
-fn check(text: &str, more: &[&str]) -> Ran {
+fn check(text: &str, more: &[&str]) -> ProgramOutput {
     let folder = folder_with(&[("shader.psa", text.as_bytes())]);
     crossbar_in(folder.path(), &[&["check", "shader.psa", "--device", "r200"], more].concat(), "")
 }
@@ -39,7 +39,7 @@ fn an_error_far_to_the_right_is_shown_with_its_column() {
 /// Escape sequences, a carriage return, and characters that reverse the text's direction.
 const HOSTILE: &str = "\x1b]0;title\x07\x1b[2J\r\u{202e}\u{9b}31m\u{200b}";
 
-fn nothing_hidden(ran: &Ran, what: &str) {
+fn nothing_hidden(ran: &ProgramOutput, what: &str) {
     for text in [&ran.stdout, &ran.stderr] {
         assert!(!text.contains(|c| c != '\n' && is_hidden(c)), "{what}: {text:?}");
     }

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::{Ran, crossbar_in};
+use crate::{ProgramOutput, crossbar_in};
 
 /// A tetrahedron.
 const MODEL: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 const SMALL: [&str; 10] =
     ["subsurface", "m.obj", "--mm-per-unit", "5", "--material", "marble", "--atlas", "16", "--size", "16x16"];
 
-fn subsurface(more: &[&str]) -> (Ran, tempfile::TempDir) {
+fn subsurface(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     std::fs::write(folder.path().join("m.obj"), MODEL).expect("written");
     (crossbar_in(folder.path(), &[&SMALL[..], more].concat(), ""), folder)
@@ -134,7 +134,7 @@ fn number(row: &BTreeMap<String, String>, column: &str) -> f64 {
     row[column].parse().unwrap_or_else(|_| panic!("{column}: expected a number, found `{}`", row[column]))
 }
 
-fn done(more: &[&str]) -> (Ran, tempfile::TempDir) {
+fn done(more: &[&str]) -> (ProgramOutput, tempfile::TempDir) {
     let (ran, folder) = subsurface(more);
     assert_eq!((ran.code, ran.stderr.as_str()), (Some(0), ""), "{more:?}");
     (ran, folder)

@@ -18,7 +18,7 @@ use crate::report::{Cell, Findings, Table};
 use crate::study::prt::{CompressionTally, KeptSegments, SegmentTally, SegmentedCompression};
 use crate::transfer::clustering::CpcaMethod;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::hats::Hats;
+use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::SegmentCensus;
 
 const EXAMPLES: &str = "\
@@ -116,7 +116,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bar = ProgressBar::new("", 1);
     let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
-    let census = SegmentCensus::new(&vertices, maps, &Hats::new(file.hats));
+    let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));
     let raw = compression.raw_bytes();
     let small = AllFrequencyFile { visibility: None, coded: Some(coded), ..file };
     save_all_frequency(&small, &args.out).map_err(Problem::from)?;

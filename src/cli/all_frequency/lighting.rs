@@ -15,8 +15,8 @@ use crate::io::{write_cube_table, write_file};
 use crate::report::{Cell, Findings, Table};
 use crate::sphere::turn_around_z;
 use crate::transfer::grid::{LIGHT_SIDE, Segmentation};
-use crate::transfer::hats::Hats;
 use crate::transfer::light::{CubeLight, CubeLightError, Decimation, HaarLight, LightTruncation, TruncationPriority};
+use crate::transfer::linear_basis::LinearBasis;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -147,7 +147,7 @@ impl Args {
             let what = format!("{}: expected visibility, found coded transfer alone", path.display());
             Problem::usage(what, "name a file that `crossbar all-frequency precompute` wrote")
         })?;
-        let hats = Hats::new(file.hats);
+        let hats = LinearBasis::new(file.hats);
         let responses = transfer_of(&vertices, maps, &hats, &file.reflectance).mean_responses();
         Ok(Some(responses.map_err(crate::cli::transfer::model::refused)?))
     }

@@ -20,7 +20,7 @@ use crate::report::Findings;
 use crate::scene::built::ground::{ground_of, on_ground};
 use crate::sphere::ParabolicMap;
 use crate::study::prt::{FoundSight, SightOfModel};
-use crate::transfer::hats::HatWidth;
+use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::VISIBILITY_BYTES;
 use crate::transfer::{Tangents, Vertices};
 
@@ -39,9 +39,9 @@ Examples:
 The file holds 98,304 bits per vertex: `crossbar all-frequency compress` makes transfer of them.";
 
 /// The widths of the hats of the light's texels, for `--hats`.
-fn hats() -> OneOf<HatWidth> {
-    let two = ("two", "To the centers of its neighbors", HatWidth::TwoTexels);
-    one_of([("one", "A texel alone", HatWidth::OneTexel), two])
+fn hats() -> OneOf<BasisWidth> {
+    let two = ("two", "To the centers of its neighbors", BasisWidth::TwoTexels);
+    one_of([("one", "A texel alone", BasisWidth::OneTexel), two])
 }
 
 /// Compute what each vertex of a model sees, for light of all frequencies
@@ -64,7 +64,7 @@ pub(super) struct Args {
 
     /// Width in texels of the hats of the light's texels
     #[arg(long, value_name = "WIDTH", default_value = "two", value_parser = hats())]
-    hats: HatWidth,
+    hats: BasisWidth,
 
     /// Where the tangents of local frames come from: `any`, `texture` (a file's materials are not read then), or an
     /// axis X,Y,Z

@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 
 use super::file::{load, turned, vertices_of};
 use super::vertex_errors::VertexErrors;
+use crate::bi_scale::baselines::{
+    BaselineError, CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RowClusterOptions,
+    StoredTransfer,
+};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::BiScaleFile;
 use crate::bi_scale::product::by_rows;
-use crate::bi_scale::rivals::{
-    CoefficientPriority, CoefficientStorage, HaarRowOptions, LocalTransfer, RivalError, RowClusterOptions,
-    StoredTransfer,
-};
 use crate::bi_scale::transfer::light_vectors;
 use crate::cli::one_of::variants;
 use crate::cli::study::written;
@@ -120,7 +120,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         (None, None) => return Err(Problem::usage("no matrix", "name another file").into()),
     };
     if matrix.columns() != LIGHT_TEXELS {
-        return Err(refused(&RivalError::Columns { found: matrix.columns() }).into());
+        return Err(refused(&BaselineError::Columns { found: matrix.columns() }).into());
     }
     // A sample in f32, and of its largest cluster, which may be all of it, two copies and their products in f64.
     let sample = u64::from(args.sample).min(matrix.rows() as u64);

@@ -17,7 +17,7 @@ use crate::transfer::file::read::{Reader, bytes_of};
 use crate::transfer::file::write::{Section, digest_fields, tangent_fields};
 use crate::transfer::file::{MAGIC, MeshDigest, PrtFileError, PrtKind, VERSION};
 use crate::transfer::grid::Segmentation;
-use crate::transfer::hats::HatWidth;
+use crate::transfer::linear_basis::BasisWidth;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps};
 
 const FACTORS: &[u8; 4] = b"FACT";
@@ -34,7 +34,7 @@ pub struct AllFrequencyFile {
     /// The mesh whose vertices it belongs to.
     pub mesh: MeshDigest,
     /// The width of the light texels' hat functions.
-    pub hats: HatWidth,
+    pub hats: BasisWidth,
     /// The reflectance; its color is the mesh's.
     pub reflectance: Reflectance,
     /// The visible directions of each vertex, one map per vertex.
@@ -82,7 +82,7 @@ pub fn parse_all_frequency(bytes: &[u8], name: &Path) -> Result<AllFrequencyFile
     };
     let [vertices, triangles, vertex_crc, triangle_crc] = digest;
     let mesh = MeshDigest { tangents, vertices, triangles, vertex_crc, triangle_crc };
-    let hats = if hats == 1 { HatWidth::OneTexel } else { HatWidth::TwoTexels };
+    let hats = if hats == 1 { BasisWidth::OneTexel } else { BasisWidth::TwoTexels };
     let mut file = AllFrequencyFile { mesh, hats, reflectance: Reflectance::Diffuse, visibility: None, coded: None };
     let mut before = 0;
     for _ in 0..sections {
@@ -239,7 +239,7 @@ pub fn write_all_frequency(file: &AllFrequencyFile, out: &mut dyn Write) -> io::
     }
     let factors = if let Reflectance::Factored(factors) = &file.reflectance { Some(factors) } else { None };
     let sections = [factors.is_some(), file.visibility.is_some(), file.coded.is_some()];
-    let hats = if file.hats == HatWidth::OneTexel { 1 } else { 2 };
+    let hats = if file.hats == BasisWidth::OneTexel { 1 } else { 2 };
     let (tangents, axis) = tangent_fields(file.mesh.tangents);
     let mut header = MAGIC.to_vec();
     let first = [VERSION, PrtKind::AllFrequency as u32, terms as u32, hats, sections.map(u32::from).iter().sum()];

@@ -8,9 +8,10 @@
 //! - [`code`]: that as integers of a few bits, representatives without their zeros (section 4);
 //! - [`shade`]: transferred radiance from coded transfer and light (section 6);
 //! - [`kernels`], [`on_card`]: transferred radiance drawn by vertex and pixel programs (section 6);
-//! - [`rivals`]: the methods that Figure 1 compares with;
+//! - [`baselines`]: the methods that Figure 1 compares with;
 //! - [`mod@reference`]: all of it by plain loops, without compression.
 
+pub mod baselines;
 pub mod code;
 pub mod compressed;
 pub mod factor;
@@ -19,7 +20,6 @@ pub mod kernels;
 pub mod on_card;
 pub mod reference;
 mod reflectance;
-pub mod rivals;
 pub mod shade;
 pub mod transfer;
 

@@ -8,7 +8,7 @@ use glam::DVec3;
 use crate::elementary::atan2;
 use crate::geom::vector::{unit, wide};
 use crate::transfer::Vertices;
-use crate::transfer::hats::HatWidth;
+use crate::transfer::linear_basis::BasisWidth;
 
 /// Distance of ray origins from the triangles at a vertex, relative to the mesh's size.
 const LIFT: f64 = 1e-7;
@@ -27,7 +27,7 @@ pub struct AllFrequencyReference<'a> {
     /// The radiance of each light texel, with index 1024 face + 32 row + column.
     pub light: &'a [f64],
     /// Interpolation of the light between texels.
-    pub hats: HatWidth,
+    pub hats: BasisWidth,
 }
 
 impl std::fmt::Debug for AllFrequencyReference<'_> {
@@ -76,7 +76,7 @@ impl AllFrequencyReference<'_> {
     /// The light's radiance in a direction.
     fn light(&self, face: usize, row: usize, column: usize) -> f64 {
         let texel = |row: usize, column: usize| self.light[(face * LIGHT + row) * LIGHT + column];
-        if self.hats == HatWidth::OneTexel {
+        if self.hats == BasisWidth::OneTexel {
             return texel(row * LIGHT / FINE, column * LIGHT / FINE);
         }
         // In texels, from the center of the first texel.

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use super::Reflectance;
 use crate::transfer::grid::{FineDirections, LIGHT_TEXELS, Segmentation};
 use crate::transfer::haar::Haar;
-use crate::transfer::hats::Hats;
+use crate::transfer::linear_basis::LinearBasis;
 use crate::transfer::visibility::{VISIBILITY_BYTES, VisibilityMaps, check};
 use crate::transfer::{Signal, TransferError, Vertices};
 
@@ -41,7 +41,7 @@ pub struct FactoredTransfer<'a, F> {
     /// Visibility maps of the vertices whose transfer is computed.
     pub maps: &'a VisibilityMaps,
     /// Hat functions of the light's texels.
-    pub hats: &'a Hats,
+    pub hats: &'a LinearBasis,
     /// m, the number of components of F: at least 1.
     pub rows: usize,
     /// F: writes all `rows` components for a local direction of length 1 with z > 0 (z along the normal, x along the
@@ -53,7 +53,7 @@ pub struct FactoredTransfer<'a, F> {
 pub fn transfer_of<'a>(
     vertices: &'a Vertices,
     maps: &'a VisibilityMaps,
-    hats: &'a Hats,
+    hats: &'a LinearBasis,
     reflectance: &'a Reflectance,
 ) -> FactoredTransfer<'a, impl Fn(DVec3, &mut [f64]) + Sync> {
     let response = |direction: DVec3, into: &mut [f64]| reflectance.light(direction, into);

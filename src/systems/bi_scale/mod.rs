@@ -6,11 +6,12 @@
 //! - [`mod@file`]: transfer and biclusters in `.prt` files;
 //! - [`bicluster`]: T as a sum of constant-column biclusters (sections IV-B and IV-C, Algorithm 1);
 //! - [`product`]: light times that sum (section V, Algorithm 2);
-//! - [`rivals`]: baselines, other ways to store transfer (section VI-B);
+//! - [`baselines`]: baselines, other ways to store transfer (section VI-B);
 //! - [`on_card`]: products and pictures by an emulated card, [`kernels`] its programs (section V, Rendering);
 //! - [`texture`]: the bidirectional textures that local light illuminates (section III);
 //! - [`shade`]: pixels, their product (section III, equation 3).
 
+pub mod baselines;
 pub mod bicluster;
 pub mod directions;
 pub mod exact;
@@ -20,7 +21,6 @@ pub mod kernels;
 pub mod matrix;
 pub mod on_card;
 pub mod product;
-pub mod rivals;
 pub mod shade;
 pub mod texture;
 pub mod transfer;

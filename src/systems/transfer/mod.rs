@@ -21,8 +21,8 @@ pub mod file;
 mod frame;
 pub mod grid;
 pub mod haar;
-pub mod hats;
 pub mod light;
+pub mod linear_basis;
 mod load;
 mod origins;
 #[expect(clippy::needless_range_loop, reason = "arrays in step, lane by lane, become vector instructions")]
@@ -42,7 +42,7 @@ pub use frame::LocalFrame;
 pub use load::{SignalFileError, load_signal, load_signal_and_meaning};
 pub(crate) use origins::{RayOrigin, origins};
 pub use shooter::ray_length;
-pub(crate) use shooter::{Asked, FrontHit, Shooter};
+pub(crate) use shooter::{FrontHit, Shooter, VertexRays};
 pub use signal::{Signal, SignalError};
 pub(crate) use skyline::{Occluders, SkyPart, ones};
 pub use vertices::{Tangents, Vertices};

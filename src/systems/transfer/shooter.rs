@@ -34,7 +34,7 @@ impl FrontHit {
 }
 
 /// The rays of a vertex that the caster must trace.
-pub(crate) struct Asked {
+pub(crate) struct VertexRays {
     pub(crate) directions: Vec<u32>,
     pub(crate) rays: Vec<Ray>,
     pub(crate) below_horizon: u64,
@@ -68,7 +68,7 @@ impl<'a> Shooter<'a> {
     }
 
     /// The rays that the caster must trace; sets the `bits` of directions that are certainly blocked.
-    pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> Asked {
+    pub(crate) fn shadow_rays(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
         // AVX-512 is no faster than AVX2 here, and often slower.
         let level = SimdLevel::widest().min(SimdLevel::Avx2);
         level.run(
@@ -78,10 +78,10 @@ impl<'a> Shooter<'a> {
     }
 
     #[inline(always)]
-    fn shadow_packets(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> Asked {
+    fn shadow_packets(&self, vertex: usize, waiting: &mut Vec<u32>, bits: &mut [u64]) -> VertexRays {
         let (frame, origin) = (&self.vertices.frames()[vertex], &self.origins[vertex]);
         let at = self.tree.origin(origin.at);
-        let mut asked = Asked { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
+        let mut asked = VertexRays { directions: Vec::new(), rays: Vec::new(), below_horizon: 0 };
         let mut blocker = None;
         for (number, places) in self.packets.places().enumerate() {
             let packet = self.packets.packet(number, frame, origin);

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use crate::{Ran, crossbar_in};
+use crate::{ProgramOutput, crossbar_in};
 use texts::Command;
 
 /// Reduced sizes and counts of long work: command, option and the value that replaces the one in the text. Where
@@ -102,7 +102,7 @@ fn exemption(arguments: &[String]) -> Option<&'static str> {
     NOT_RUN.iter().map(|(start, _)| *start).find(|start| named(start))
 }
 
-fn run(folder: &Path, arguments: &[String], input: &str) -> Ran {
+fn run(folder: &Path, arguments: &[String], input: &str) -> ProgramOutput {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     crossbar_in(folder, &words, input)
 }

@@ -85,7 +85,7 @@ fn every_option_changes_something_or_is_refused() {
             (row, at, options)
         })
         .collect();
-    let told: Vec<Told> = lines.par_iter().map(|(row, at, options)| tell(*row, *at, options)).collect();
+    let told: Vec<OptionFaults> = lines.par_iter().map(|(row, at, options)| tell(*row, *at, options)).collect();
     let faults: Vec<&String> = told.iter().flat_map(|told| &told.faults).collect();
     assert!(faults.is_empty(), "{faults:#?}");
     if step == 1 {
@@ -101,15 +101,15 @@ fn every_option_changes_something_or_is_refused() {
 
 /// Results for one command line.
 #[derive(Debug, Default)]
-struct Told {
+struct OptionFaults {
     faults: Vec<String>,
     /// Row of the table and name of the option.
     accepted: Vec<(usize, &'static str)>,
 }
 
-fn tell(row: usize, at: usize, options: &[TriedOption]) -> Told {
+fn tell(row: usize, at: usize, options: &[TriedOption]) -> OptionFaults {
     let base = TABLE[row].bases[at];
-    let mut told = Told::default();
+    let mut told = OptionFaults::default();
     if options.is_empty() {
         return told;
     }

@@ -7,8 +7,8 @@ use crossbar::picture::Picture;
 use crossbar::sphere::{ClearSky, EnvironmentPicture};
 use crossbar::tracer::HostTracer;
 use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, CubeLightError, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::drawn::CubeCard;
 use crossbar::transfer::visibility::{VisibilityMaps, VisibilitySampling};
 use glam::{DMat3, DVec3};
@@ -70,7 +70,7 @@ fn what_is_no_transfer_is_refused() {
     let profile = |device: &str| Profile::named(device).expect("a device");
     let card = |device: &str| CubeCard::new(profile(device), ExecutorKind::Scalar, VisibilitySampling::default());
     assert!(card("r350").expect("a card").draw(&vertices, &[9]).is_err());
-    let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), Hats::new(HatWidth::OneTexel));
+    let (maps, hats) = (trace(&mesh, &vertices, &[2, 5]), LinearBasis::new(BasisWidth::OneTexel));
     let other = super::vertices(&clutter(1, 1, 1.0));
     let elsewhere = FactoredTransfer {
         vertices: &other,

@@ -8,15 +8,15 @@ use crossbar::all_frequency::transfer::{TransferSegment, transfer_of};
 use crossbar::transfer::Vertices;
 use crossbar::transfer::clustering::{CpcaMethod, CpcaStep};
 use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 
 use super::{all, close, clutter, factors, in_threads, trace, vertices};
 
 /// All segments of the transfer of some maps.
 pub(super) fn segments(vertices: &Vertices, maps: &VisibilityMaps, reflectance: &Reflectance) -> Vec<TransferSegment> {
-    let hats = Hats::new(HatWidth::TwoTexels);
+    let hats = LinearBasis::new(BasisWidth::TwoTexels);
     transfer_of(vertices, maps, &hats, reflectance).segments().map(|segment| segment.expect("transfer")).collect()
 }
 

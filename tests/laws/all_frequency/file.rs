@@ -8,7 +8,7 @@ use crossbar::all_frequency::file::{
     AllFrequencyFile, load_all_frequency, parse_all_frequency, save_all_frequency, write_all_frequency,
 };
 use crossbar::transfer::file::{MeshDigest, parse_prt};
-use crossbar::transfer::hats::HatWidth;
+use crossbar::transfer::linear_basis::BasisWidth;
 use proptest::prelude::*;
 
 use super::coding::compressed;
@@ -34,7 +34,7 @@ fn whole() -> AllFrequencyFile {
     let options = CodeOptions { representative_bits: 9, weight_bits: 11, scale: ScaleOf::Segment };
     let coded = CodedTransfer::new(&transfer, options).expect("coded");
     let mesh = MeshDigest::new(&vertices);
-    AllFrequencyFile { mesh, hats: HatWidth::OneTexel, reflectance, visibility: Some(maps), coded: Some(coded) }
+    AllFrequencyFile { mesh, hats: BasisWidth::OneTexel, reflectance, visibility: Some(maps), coded: Some(coded) }
 }
 
 /// A small file with coded transfer alone.
@@ -47,7 +47,7 @@ fn small() -> AllFrequencyFile {
     let coded = CodedTransfer::new(&transfer, CodeOptions::default()).expect("coded");
     let mesh = MeshDigest::new(&vertices);
     let reflectance = Reflectance::Diffuse;
-    AllFrequencyFile { mesh, hats: HatWidth::TwoTexels, reflectance, visibility: None, coded: Some(coded) }
+    AllFrequencyFile { mesh, hats: BasisWidth::TwoTexels, reflectance, visibility: None, coded: Some(coded) }
 }
 
 #[test]

@@ -4,15 +4,15 @@
 use std::f64::consts::PI;
 
 use crossbar::sphere::CubeMap;
-use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::segments_below_horizon;
 use glam::DVec3;
 
 use super::close;
 
 /// The least number of segments below the horizon, the mean and the largest, over the directions of a fine cube map.
-fn below(width: HatWidth, side: usize) -> (u32, f64, u32) {
-    let (hats, map) = (Hats::new(width), CubeMap::new(side));
+fn below(width: BasisWidth, side: usize) -> (u32, f64, u32) {
+    let (hats, map) = (LinearBasis::new(width), CubeMap::new(side));
     let (mut least, mut most, mut sum, mut whole) = (24, 0, 0.0, 0.0);
     for at in 0..map.len() {
         let (face, row, column) = (at / (side * side), at / side % side, at % side);
@@ -35,16 +35,16 @@ fn on_average_6_65_segments_are_below_the_horizon() {
     let perimeter = 2.0 * (arc(middle, edge) + arc(edge, corner));
     let closed = 24.0 * (2.0 * PI - perimeter) / (4.0 * PI);
     close(closed, 6.649, 5e-4, "the closed form");
-    let (least, mean, most) = below(HatWidth::OneTexel, 64);
+    let (least, mean, most) = below(BasisWidth::OneTexel, 64);
     // Fine directions lie half a fine texel inside of a segment's border: a little more is below.
     assert!(mean > closed && mean < closed * 1.03, "{mean} {closed}");
     assert_eq!((least, most), (6, 8));
 }
 
-/// Hats of two texels reach over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
+/// LinearBasis of two texels reach over the borders, so fewer segments are empty: 3 at least, 6.44 on average.
 #[test]
 fn with_hats_that_reach_over_fewer_are() {
-    let (least, mean, most) = below(HatWidth::TwoTexels, 64);
+    let (least, mean, most) = below(BasisWidth::TwoTexels, 64);
     assert_eq!((least, most), (3, 7));
     close(mean, 6.44, 0.02, "the mean");
 }
@@ -52,7 +52,7 @@ fn with_hats_that_reach_over_fewer_are() {
 /// Along an axis: the four segments of the face behind, and of the sides those that touch the horizon from below.
 #[test]
 fn along_an_axis_twelve_are_below_without_reach() {
-    let [one, two] = [HatWidth::OneTexel, HatWidth::TwoTexels].map(Hats::new);
+    let [one, two] = [BasisWidth::OneTexel, BasisWidth::TwoTexels].map(LinearBasis::new);
     for axis in DVec3::AXES {
         for normal in [axis, -axis] {
             assert_eq!(segments_below_horizon(normal, &one).count_ones(), 12);

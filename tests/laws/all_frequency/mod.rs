@@ -1,16 +1,16 @@
 //! System 5: light in cube texels, visibility in fine directions, transfer in Haar wavelets.
 
 mod bad_input;
+mod baselines;
 mod card;
 mod coding;
 mod file;
 mod geometry;
 mod haar;
-mod hats;
 mod light;
+mod linear_basis;
 mod orientation;
 mod reflectance;
-mod rivals;
 mod shadows;
 mod symmetry;
 mod transfer;

@@ -5,8 +5,8 @@ use crossbar::io::{parse_cube_table, write_cube_table};
 use crossbar::picture::Picture;
 use crossbar::sphere::EnvironmentPicture;
 use crossbar::transfer::grid::{LIGHT_MAP, LIGHT_SIDE, Segmentation};
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, Decimation, HaarLight};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use glam::{DMat3, DVec3};
 use std::path::Path;
 
@@ -37,7 +37,7 @@ fn one_texel(face: &str, row: usize, column: usize) -> CubeLight {
 fn seen(light: &HaarLight, normal: DVec3) -> f64 {
     let mesh = flat(&[observer(normal)]);
     let vertices = vertices(&mesh);
-    let (maps, hats) = (trace(&mesh, &vertices, &[0]), Hats::new(HatWidth::TwoTexels));
+    let (maps, hats) = (trace(&mesh, &vertices, &[0]), LinearBasis::new(BasisWidth::TwoTexels));
     let response = |s: DVec3, into: &mut [f64]| into[0] = s.z;
     let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 1, response };
     assert_eq!(all(&vertices).len(), 3);

@@ -2,7 +2,7 @@
 
 use crossbar::geom::teapot::teapot;
 use crossbar::scene::built::ground::{GROUND_SIDE, on_ground};
-use crossbar::transfer::hats::{HatWidth, Hats};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::SegmentCensus;
 use crossbar::transfer::{Tangents, Vertices};
 use glam::DVec3;
@@ -33,7 +33,7 @@ fn the_ground_receives_the_shadow_of_its_model() {
     assert!((0.5..0.95).contains(&open(1)), "beside it: {}", open(1));
     assert!(open(2) < 0.05, "below it: {}", open(2));
     // All twelve segments below the ground are empty; with hats that reach over, the four of the face below.
-    let census = |width| SegmentCensus::new(&vertices, &maps, &Hats::new(width));
-    assert_eq!(census(HatWidth::OneTexel).below_horizon, 3 * 12);
-    assert_eq!(census(HatWidth::TwoTexels).below_horizon, 3 * 4);
+    let census = |width| SegmentCensus::new(&vertices, &maps, &LinearBasis::new(width));
+    assert_eq!(census(BasisWidth::OneTexel).below_horizon, 3 * 12);
+    assert_eq!(census(BasisWidth::TwoTexels).below_horizon, 3 * 4);
 }

@@ -6,8 +6,8 @@ use crossbar::all_frequency::transfer::FactoredTransfer;
 use crossbar::geom::Mesh;
 use crossbar::sphere::CubeMap;
 use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_SIDE, LIGHT_SIDE, Segmentation};
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use crossbar::transfer::{Tangents, Vertices};
 use glam::{DMat3, DVec3};
@@ -38,7 +38,7 @@ fn places(turn: &DMat3, side: usize) -> Vec<usize> {
 
 /// M L of every vertex, with F of three components that depend on the tangent.
 fn radiance(vertices: &Vertices, maps: &VisibilityMaps, light: &CubeLight) -> BTreeMap<u32, [f64; 3]> {
-    let (hats, light) = (Hats::new(HatWidth::TwoTexels), HaarLight::new(light, Segmentation::Quarters));
+    let (hats, light) = (LinearBasis::new(BasisWidth::TwoTexels), HaarLight::new(light, Segmentation::Quarters));
     let response = |s: DVec3, into: &mut [f64]| into.copy_from_slice(&[s.z, s.z * s.x, s.z * s.y * s.y]);
     let transfer = FactoredTransfer { vertices, maps, hats: &hats, rows: 3, response };
     let mut sums = BTreeMap::new();

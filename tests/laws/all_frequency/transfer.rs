@@ -8,14 +8,14 @@ use crossbar::elementary::{atan2, on_circle};
 use crossbar::geom::random::CounterRng;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::grid::{FINE_SIDE, FineDirections, Segmentation};
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, HaarLight};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::SegmentCensus;
 use glam::DVec3;
 
 use super::{all, close, clutter, flat, in_threads, observer, trace, vertices};
 
-const WIDTHS: [HatWidth; 2] = [HatWidth::OneTexel, HatWidth::TwoTexels];
+const WIDTHS: [BasisWidth; 2] = [BasisWidth::OneTexel, BasisWidth::TwoTexels];
 
 fn cosine(s: DVec3, into: &mut [f64]) {
     into[0] = s.z;
@@ -51,11 +51,11 @@ fn radiance(segments: &[TransferSegment], light: &HaarLight, vertex: u32, rows: 
 fn segments(
     vertices: &Vertices,
     mesh: &crossbar::geom::Mesh,
-    width: HatWidth,
+    width: BasisWidth,
     rows: usize,
     response: impl Fn(DVec3, &mut [f64]) + Sync,
 ) -> Vec<TransferSegment> {
-    let (maps, hats) = (trace(mesh, vertices, &all(vertices)), Hats::new(width));
+    let (maps, hats) = (trace(mesh, vertices, &all(vertices)), LinearBasis::new(width));
     let transfer = FactoredTransfer { vertices, maps: &maps, hats: &hats, rows, response };
     transfer.segments().map(|segment| segment.expect("transfer")).collect()
 }
@@ -100,7 +100,7 @@ fn a_square_overhead_shadows_its_form_factor() {
         let [a, b, c, d] = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         let mesh = flat(&[observer(DVec3::Z), [a, b, c], [a, c, d]]);
         let vertices = vertices(&mesh);
-        let found = radiance(&segments(&vertices, &mesh, HatWidth::TwoTexels, 1, cosine), &light, 0, 1)[0][0] / PI;
+        let found = radiance(&segments(&vertices, &mesh, BasisWidth::TwoTexels, 1, cosine), &light, 0, 1)[0][0] / PI;
         let root = (1.0 + x * x).sqrt();
         let factor = 4.0 / PI * x / root * atan2(x, root);
         // Fine texels along the rim count as a whole or not: their number is below 4 sides of 128 (1 + |tan|) / x, a
@@ -147,7 +147,7 @@ fn transfer_times_light_is_the_reference() {
 fn bits_do_not_depend_on_threads() {
     let mesh = clutter(3, 20, 1.0);
     let vertices = vertices(&mesh);
-    let of = |threads| in_threads(threads, || segments(&vertices, &mesh, HatWidth::TwoTexels, 3, glossy));
+    let of = |threads| in_threads(threads, || segments(&vertices, &mesh, BasisWidth::TwoTexels, 3, glossy));
     let expected = of(1);
     assert!(of(2) == expected && of(5) == expected);
 }
@@ -159,7 +159,7 @@ fn empty_segments_are_left_out_and_counted() {
     let vertices = vertices(&mesh);
     let maps = trace(&mesh, &vertices, &all(&vertices));
     for width in WIDTHS {
-        let hats = Hats::new(width);
+        let hats = LinearBasis::new(width);
         let transfer = FactoredTransfer { vertices: &vertices, maps: &maps, hats: &hats, rows: 3, response: glossy };
         let census = SegmentCensus::new(&vertices, &maps, &hats);
         let mut nonempty = 0;
@@ -186,7 +186,7 @@ fn empty_segments_are_left_out_and_counted() {
     let none = FactoredTransfer {
         vertices: &vertices,
         maps: &maps,
-        hats: &Hats::new(HatWidth::OneTexel),
+        hats: &LinearBasis::new(BasisWidth::OneTexel),
         rows: 0,
         response: glossy,
     };
@@ -198,7 +198,7 @@ fn empty_segments_are_left_out_and_counted() {
 fn mean_responses_are_means_of_magnitudes() {
     let mesh = clutter(6, 12, 2.5);
     let vertices = vertices(&mesh);
-    for segment in segments(&vertices, &mesh, HatWidth::OneTexel, 3, glossy) {
+    for segment in segments(&vertices, &mesh, BasisWidth::OneTexel, 3, glossy) {
         let found = segment.mean_response(vertices.len());
         for (at, found) in found.into_iter().enumerate() {
             let points = (0..segment.signal.points()).flat_map(|point| {

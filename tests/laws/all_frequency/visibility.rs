@@ -7,7 +7,7 @@ use crossbar::sphere::CUBE_FACES;
 use crossbar::tracer::HostTracer;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::grid::{FINE_DIRECTIONS, FINE_MAP, FINE_SIDE};
-use crossbar::transfer::hats::HatWidth;
+use crossbar::transfer::linear_basis::BasisWidth;
 use crossbar::transfer::visibility::drawn::CubeCard;
 use crossbar::transfer::visibility::{Horizon, VISIBILITY_BYTES, VisibilityMaps, VisibilitySampling};
 use glam::DVec3;
@@ -137,7 +137,7 @@ fn rays_see_what_the_reference_sees() {
             vertices: &vertices,
             product: &product,
             light: &[0.0; 6144],
-            hats: HatWidth::OneTexel,
+            hats: BasisWidth::OneTexel,
         };
         for (map, &vertex) in of.iter().enumerate() {
             let eye = DVec3::from(vertices.positions()[vertex as usize].map(f64::from));

@@ -1,8 +1,8 @@
 //! System 6: transfer to local directions, biclusters of it, other ways to store it, files.
 
+mod baselines;
 mod biclusters;
 mod file;
-mod rivals;
 mod shade;
 mod texture;
 mod transfer;

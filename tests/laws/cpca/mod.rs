@@ -1,9 +1,9 @@
 //! System 4: radiance transfer at vertices, clustered principal components, their coherence, files and cards.
 
+mod baselines;
 mod card;
 mod coherence;
 mod compression;
 mod file;
-mod rivals;
 mod to_error;
 mod transfer;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::interpolate::Seen;
+use super::interpolate::SeenSurface;
 use crate::geom::Mesh;
 use crate::geom::vector::wide;
 use crate::picture::Picture;
@@ -19,7 +19,7 @@ pub(in crate::study) struct FineView {
     side: u32,
     /// Samples along an edge of a pixel.
     samples: u32,
-    seen: Seen,
+    seen: SeenSurface,
 }
 
 impl FineView {
@@ -35,7 +35,7 @@ impl FineView {
         let samples = (SAMPLED_SIDE / side.max(1)).max(1);
         let points: Vec<DVec3> = framing.iter().map(|&vertex| wide(vertices.positions()[vertex as usize])).collect();
         let camera = framed(wide(eye), &points, 1.0).camera(side * samples, side * samples)?;
-        Ok(Self { side, samples, seen: Seen::new(mesh, vertices, &camera) })
+        Ok(Self { side, samples, seen: SeenSurface::new(mesh, vertices, &camera) })
     }
 
     /// Picture of colors of vertices, black where nothing is: the mean of each pixel's samples.

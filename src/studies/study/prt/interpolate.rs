@@ -13,11 +13,11 @@ use crate::tracer::HostTracer;
 use crate::transfer::Vertices;
 
 /// The surface point in each pixel: corners of a triangle with weights that sum to 1, or none.
-pub(in crate::study) struct Seen {
+pub(in crate::study) struct SeenSurface {
     pixels: Vec<Option<([u32; 3], DVec3)>>,
 }
 
-impl Seen {
+impl SeenSurface {
     /// From a camera, front faces only.
     pub(in crate::study) fn new(mesh: &Mesh, vertices: &Vertices, camera: &Camera) -> Self {
         Self::of_parts(&[(mesh, vertices)], camera)

@@ -50,7 +50,7 @@ pub(super) use exit_radiance::Lit;
 pub use factor::{BrdfFactors, FactorSubject};
 pub(super) use factor::{SweptRoughness, roughness_table};
 pub(super) use fine_view::{FineView, filtered};
-pub(super) use interpolate::{Seen, linear_picture};
+pub(super) use interpolate::{SeenSurface, linear_picture};
 pub(super) use light_picture::{light_picture, of_texels};
 pub use lit_view::LitView;
 pub(super) use lit_view::auto_exposure;

@@ -2,7 +2,7 @@
 
 use super::compression_error::CompressionError;
 use super::exit_radiance::{Lit, no_transfer};
-use super::interpolate::Seen;
+use super::interpolate::SeenSurface;
 use super::lit_view::LitView;
 use super::turned_frames::{Turned, TurnedFrames};
 use super::vertex_values::VertexValues;
@@ -43,7 +43,7 @@ impl Study for Rendering {
     fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         let steps = self.frames.steps(2);
         progress("rays", 0, steps);
-        let seen = Seen::new(&self.mesh, &self.vertices, &self.view.camera);
+        let seen = SeenSurface::new(&self.mesh, &self.vertices, &self.view.camera);
         progress("radiance", 1, steps);
         let of_vertex = self.radiance((&self.light, &self.view.camera), None)?;
         let drawn = seen.colors(&of_vertex, [0.0; 3]);
@@ -71,7 +71,7 @@ impl Rendering {
     /// Linear radiance of all pixels, as [`Self::radiance`].
     fn colors(
         &self,
-        seen: &Seen,
+        seen: &SeenSurface,
         from: (&HarmonicLight, &Camera),
         original: Option<&Signal>,
     ) -> Result<Vec<[f64; 3]>, StudyError> {
@@ -94,19 +94,19 @@ impl Rendering {
     }
 
     /// The pixels with light or camera turned.
-    fn turned(&self, seen: &Seen, turned: Turned) -> Result<Vec<[f64; 3]>, StudyError> {
+    fn turned(&self, seen: &SeenSurface, turned: Turned) -> Result<Vec<[f64; 3]>, StudyError> {
         match turned {
             Turned::Light(turn) => {
                 let light = self.light.rotated(&HarmonicRotation::new(self.light.order(), &turn)?);
                 self.colors(seen, (&light, &self.view.camera), None)
             }
             Turned::Camera(camera) => {
-                self.colors(&Seen::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
+                self.colors(&SeenSurface::new(&self.mesh, &self.vertices, &camera), (&self.light, &camera), None)
             }
         }
     }
 
-    fn conclude(&self, seen: &Seen, found: &mut Findings) {
+    fn conclude(&self, seen: &SeenSurface, found: &mut Findings) {
         found.conclusion(self.view.sentence(seen.count()));
         let least = self.light.extremes().map(|channel| channel.least);
         if least.iter().any(|&radiance| radiance < 0.0) {
@@ -121,7 +121,7 @@ impl Rendering {
     /// The original beside the clusters, and where they differ.
     fn compare(
         &self,
-        seen: &Seen,
+        seen: &SeenSurface,
         original: &Signal,
         drawn: &[[f64; 3]],
         exposure: f64,
@@ -170,7 +170,7 @@ impl Rendering {
     }
 
     /// The cluster of each pixel's nearest vertex.
-    fn clusters(&self, seen: &Seen, found: &mut Findings) {
+    fn clusters(&self, seen: &SeenSurface, found: &mut Findings) {
         let Some(clustering) = &self.file.clustering else { return };
         let color = |vertex: Option<u32>| {
             let Some(vertex) = vertex else { return [0; 3] };

@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
+use crate::bi_scale::baselines::{
+    BaselineError, CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer,
+    NarrowRows, ReshuffledVisibility, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
+};
 use crate::bi_scale::bicluster::Biclustering;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::product::by_rows;
-use crate::bi_scale::rivals::{
-    CoefficientPriority, HaarRowOptions, HaarRows, HarmonicRows, LocalLightError, LocalTransfer, NarrowRows,
-    ReshuffledVisibility, RivalError, RowClusterOptions, RowClusters, StoredSize, StoredTransfer, WideRows,
-};
 use crate::report::words::counted;
 use crate::report::{Cell, Table};
 use crate::study::ProgressFn;
@@ -55,19 +55,19 @@ impl StoredComparison<'_> {
     /// All ways under some lights, biclusters first. `visit` sees each when it is made.
     ///
     /// # Errors
-    /// [`RivalError`]; what a layout of narrow numbers has no room for is left out.
+    /// [`BaselineError`]; what a layout of narrow numbers has no room for is left out.
     pub fn ways(
         &self,
         lights: &[LightChannels],
         progress: &mut ProgressFn<'_>,
         visit: &mut dyn FnMut(&str, &dyn StoredTransfer),
-    ) -> Result<Vec<StoredWay>, RivalError> {
+    ) -> Result<Vec<StoredWay>, BaselineError> {
         if self.matrix.columns() != LIGHT_TEXELS {
-            return Err(RivalError::Columns { found: self.matrix.columns() });
+            return Err(BaselineError::Columns { found: self.matrix.columns() });
         }
         let exact: Vec<Vec<f64>> =
             lights.iter().map(|light| joined(light, |light| by_rows(self.matrix, light))).collect();
-        let mut ways = Ways { lights, exact, found: Vec::new(), visit };
+        let mut ways = StorageMethods { lights, exact, found: Vec::new(), visit };
         let (rows, budget) = (self.matrix.rows(), self.biclusters.sizes()[0].bytes);
         ways.push("biclusters", self.biclusters, 0.0);
         let start = Instant::now();
@@ -127,7 +127,7 @@ impl StoredComparison<'_> {
 /// Behind ways that take about as many bytes as biclusters.
 const EQUAL: &str = ", in the bytes of biclusters";
 
-struct Ways<'a> {
+struct StorageMethods<'a> {
     lights: &'a [LightChannels],
     /// T L by light, all channels one after another.
     exact: Vec<Vec<f64>>,
@@ -135,12 +135,12 @@ struct Ways<'a> {
     visit: &'a mut dyn FnMut(&str, &dyn StoredTransfer),
 }
 
-impl Ways<'_> {
+impl StorageMethods<'_> {
     fn make<S: StoredTransfer>(
         &mut self,
         name: impl Into<String>,
-        make: impl FnOnce() -> Result<S, RivalError>,
-    ) -> Result<(), RivalError> {
+        make: impl FnOnce() -> Result<S, BaselineError>,
+    ) -> Result<(), BaselineError> {
         let start = Instant::now();
         let stored = make()?;
         let seconds = start.elapsed().as_secs_f64();

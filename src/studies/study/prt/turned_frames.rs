@@ -11,7 +11,7 @@ use crate::scene::Camera;
 use crate::sphere::turn_around_z;
 use crate::study::{ProgressFn, StudyError};
 
-/// What is carried round a model.
+/// The object that is carried round a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::EnumIter, strum::EnumMessage)]
 #[strum(serialize_all = "lowercase")]
 pub enum Turning {
@@ -27,7 +27,7 @@ pub enum Turning {
 pub struct TurnedFrames {
     /// Number of pictures.
     pub count: u32,
-    /// What is carried.
+    /// The object that is carried.
     pub turning: Turning,
 }
 

@@ -223,7 +223,7 @@ pub const ENTRIES: &[ReproduceEntry] = &[
     },
     ReproduceEntry {
         id: "all-frequency-figures",
-        title: "Rivals, terms, clusters, representatives, truncation and frame rates (all-frequency transfer, figures 1, 2 and 4 to 7)",
+        title: "Baselines, terms, clusters, representatives, truncation and frame rates (all-frequency transfer, figures 1, 2 and 4 to 7)",
         work: all_frequency::figures,
     },
     ReproduceEntry {

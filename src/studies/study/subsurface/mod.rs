@@ -1,6 +1,7 @@
 //! Subsurface scattering of a model by several ways of gathering: the three passes of an emulated card, the host's sums
 //! over the same links, and those over all pairs of texels.
 
+mod all_pairs;
 mod angles;
 mod conclusion;
 mod environment;
@@ -13,7 +14,6 @@ mod pictures;
 mod report;
 mod roundings;
 mod tables;
-mod truth;
 mod vertices;
 mod walk;
 mod way;
@@ -26,6 +26,7 @@ use crate::subsurface::links::Links;
 use crate::subsurface::on_card::CardModel;
 use crate::subsurface::{Dipole, irradiance};
 
+pub use all_pairs::{AllPairs, GatherError};
 pub use angles::{AngleBin, BinError};
 pub use error::no_atlas;
 pub use link_table::LinkRow;
@@ -33,7 +34,6 @@ pub use model::ModelLengths;
 pub use outcome::SubsurfaceOutcome;
 pub use parameters::{GatherWay, Lighting, MapBits, Parameters};
 pub use roundings::RoundingRow;
-pub use truth::{GatherError, Truth};
 pub use walk::WalkedChannel;
 pub use way::WayRow;
 
@@ -82,7 +82,7 @@ pub fn run(parameters: &Parameters, progress: &mut ProgressFn<'_>) -> Result<Sub
         return Err(StudyError::new("subsurface::dark", "expected light on the model, found none").with_help(help));
     }
     let truth = if parameters.reference {
-        Some(truth::truth(&atlas, parameters, &dipoles, &irradiance, progress)?)
+        Some(all_pairs::gather(&atlas, parameters, &dipoles, &irradiance, progress)?)
     } else {
         None
     };

@@ -1,9 +1,9 @@
 //! Results of the study.
 
+use super::all_pairs::AllPairs;
 use super::link_table::LinkRow;
 use super::model::ModelLengths;
 use super::roundings::RoundingRow;
-use super::truth::Truth;
 use super::walk::WalkedChannel;
 use super::way::WayRow;
 use crate::atlas::Atlas;
@@ -21,7 +21,7 @@ pub struct SubsurfaceOutcome {
     /// E of equation 8 per texel, by the host.
     pub irradiance: Vec<[f64; 3]>,
     /// All pairs, if asked for.
-    pub truth: Option<Truth>,
+    pub truth: Option<AllPairs>,
     /// Photons that walked, per channel, if asked for; `None` for a channel without light.
     pub walked: Option<[Option<WalkedChannel>; 3]>,
     /// For each probe its texel.

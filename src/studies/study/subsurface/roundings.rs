@@ -1,7 +1,7 @@
 //! Effect of the card's open rounding rules: each value of each rounding switch, over the same links.
 
 use super::GatherWay;
-use super::truth::GatherError;
+use super::all_pairs::GatherError;
 use super::way::{Scene, gathered, lit_card};
 use crate::study::{ProgressFn, StudyError};
 use crate::subsurface::links::{Links, MeanWeighting};

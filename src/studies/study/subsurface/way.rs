@@ -6,8 +6,8 @@ use refsim::event::Event;
 use refsim::num::Format;
 use refsim::timing::TimingError;
 
+use super::all_pairs::{AllPairs, GatherError};
 use super::error::no_time;
-use super::truth::{GatherError, Truth};
 use super::{AngleBin, GatherWay, Lighting, MapBits, Parameters, angles};
 use crate::atlas::Atlas;
 use crate::picture::Picture;
@@ -30,7 +30,7 @@ pub(super) struct Scene<'a> {
     pub(super) dipoles: &'a [Dipole; 3],
     /// Per texel, by the host.
     pub(super) irradiance: &'a [[f64; 3]],
-    pub(super) truth: Option<&'a Truth>,
+    pub(super) truth: Option<&'a AllPairs>,
 }
 
 /// Results of a way of gathering.

@@ -137,7 +137,7 @@ impl FactorSampling {
         let map = ParabolicMap::new(self.side);
         let [views, lights] = [self.supersamples.view, self.supersamples.light].map(|edge| self.directions(edge));
         let motions = product.symmetry().motions();
-        let whole = Whole { motions, side: self.side };
+        let whole = SymmetricMap { motions, side: self.side };
         let first: Vec<usize> = (0..map.texels()).filter(|&texel| whole.first(texel).0 == texel).collect();
         let mut values = Matrix::zeros([map.texels(); 2])?;
         for (batch, texels) in first.chunks(BATCH).enumerate() {
@@ -209,12 +209,12 @@ impl FactorSampling {
 }
 
 /// A map with a group of motions: rotations and mirrorings of its texels.
-struct Whole {
+struct SymmetricMap {
     motions: &'static [Motion],
     side: usize,
 }
 
-impl Whole {
+impl SymmetricMap {
     /// The first texel that a motion of the group takes to `texel`, and that motion.
     fn first(&self, texel: usize) -> (usize, Motion) {
         let from = |&motion: &Motion| (moved_back(motion, self.side, texel), motion);

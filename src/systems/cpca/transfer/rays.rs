@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::geom::{Hit, Ray};
 use crate::sphere::DirectionRule;
 use crate::tracer::Caster;
-use crate::transfer::{Asked, FrontHit, Occluders, Shooter, TransferError, Vertices, ones, origins};
+use crate::transfer::{FrontHit, Occluders, Shooter, TransferError, VertexRays, Vertices, ones, origins};
 
 /// Number of vertices whose shadow rays are traced together; few rays of each are left to the caster.
 const SHADOW_BLOCK: usize = 1024;
@@ -117,7 +117,7 @@ impl TracedRays {
 
     fn shadows(&mut self, shooter: &Shooter<'_>, caster: &mut dyn Caster) -> Result<(), TransferError> {
         for (first, blocked) in (0..).step_by(SHADOW_BLOCK).zip(self.blocked.chunks_mut(SHADOW_BLOCK * self.words)) {
-            let asked: Vec<Asked> = blocked
+            let asked: Vec<VertexRays> = blocked
                 .par_chunks_mut(self.words)
                 .enumerate()
                 .map_init(Vec::new, |waiting, (at, bits)| shooter.shadow_rays(first + at, waiting, bits))

@@ -8,14 +8,14 @@ use crate::linalg::dot;
 
 /// Requested pairs of points and clusters, and scratch memory.
 #[derive(Debug, Default)]
-pub(super) struct Asked {
+pub(super) struct ErrorRequests {
     /// A cluster and a point.
     wanted: Vec<(u32, u32)>,
     residuals: [Vec<f64>; MANY],
     sums: Vec<[PartialSums; MANY]>,
 }
 
-impl Asked {
+impl ErrorRequests {
     /// Asks for the error of a point in a cluster.
     #[inline(always)]
     pub(super) fn push(&mut self, cluster: u32, point: u32) {

@@ -18,7 +18,7 @@ use super::axes::Axes;
 use super::carried::Carried;
 use super::estimate::{Estimator, LANES, LowerBounds, ScaledSubspace};
 use super::groups::{Groups, PointGroup};
-use super::least::Asked;
+use super::least::ErrorRequests;
 use super::{AffineSubspace, CpcaForm};
 use crate::linalg::dot;
 use crate::transfer::Signal;
@@ -115,7 +115,7 @@ impl<'a> Points<'a> {
 struct Scratch {
     clusters: Vec<u32>,
     bounds: LowerBounds,
-    asked: Asked,
+    asked: ErrorRequests,
 }
 
 /// A search for the best clusters.

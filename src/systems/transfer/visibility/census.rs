@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::maps::VisibilityMaps;
 use crate::transfer::Vertices;
 use crate::transfer::grid::{FineDirections, Segmentation};
-use crate::transfer::hats::Hats;
+use crate::transfer::linear_basis::LinearBasis;
 
 /// Counts of the 24 segments of the light over all vertices: below the horizon, shadowed, or with transfer. Each
 /// segment of a vertex is in exactly one of the three numbers.
@@ -30,7 +30,7 @@ impl SegmentCensus {
     ///
     /// # Panics
     /// If the maps are of other vertices.
-    pub fn new(vertices: &Vertices, maps: &VisibilityMaps, hats: &Hats) -> Self {
+    pub fn new(vertices: &Vertices, maps: &VisibilityMaps, hats: &LinearBasis) -> Self {
         let of_map = |map: usize| {
             let normal = vertices.frames()[maps.vertices()[map] as usize].normal();
             let below = segments_below_horizon(normal, hats);
@@ -61,7 +61,7 @@ impl SegmentCensus {
 }
 
 /// The segments of which no fine direction lies above the horizon of a unit normal, a bit each from the lowest up.
-pub fn segments_below_horizon(normal: DVec3, hats: &Hats) -> u32 {
+pub fn segments_below_horizon(normal: DVec3, hats: &LinearBasis) -> u32 {
     let directions = FineDirections::get().directions();
     let is_above = |fine: usize| normal.dot(directions[fine]) > 0.0;
     (0..Segmentation::Quarters.count())

@@ -13,7 +13,7 @@ const TEXEL_SINE: f64 = 0.034;
 
 /// The fine directions of a vertex in which rays must be cast, and counts of the others.
 #[derive(Debug, Default)]
-pub(super) struct Asked {
+pub(super) struct UndecidedDirections {
     pub(super) fine: Vec<u32>,
     pub(super) above: u64,
     pub(super) below_triangles: u64,
@@ -26,11 +26,11 @@ pub(super) fn look(
     sampling: VisibilitySampling,
     waiting: &mut Vec<u32>,
     bits: &mut [u64],
-) -> Asked {
+) -> UndecidedDirections {
     let skyline = occluders.skyline(wide(origin.at), frame, waiting);
     let (fine_directions, normal) = (sampling.directions(), frame.normal());
     let sees_below = sampling.horizon == Horizon::Geometry;
-    let mut asked = Asked::default();
+    let mut asked = UndecidedDirections::default();
     for texel in 0..LIGHT_TEXELS {
         let center = texel_center(texel);
         let height = normal.dot(center);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::maps::{VisibilityMaps, VisibilitySampling};
-use super::sight::{Asked, above, look, set};
+use super::sight::{UndecidedDirections, above, look, set};
 use crate::geom::Ray;
 use crate::geom::vector::narrow;
 use crate::tracer::Caster;
@@ -72,7 +72,7 @@ impl VisibilityMaps {
         maps.counts.unclear = unclear(&rays.origins, of);
         for (block, of_block) in of.chunks(BLOCK).enumerate() {
             let words = &mut maps.words_mut()[block * BLOCK * map_words..];
-            let asked: Vec<(Asked, Vec<Ray>)> = words
+            let asked: Vec<(UndecidedDirections, Vec<Ray>)> = words
                 .par_chunks_mut(map_words)
                 .zip(of_block)
                 .map_init(Vec::new, |waiting, (bits, &vertex)| {

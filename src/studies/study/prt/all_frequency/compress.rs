@@ -9,7 +9,7 @@ use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::study::{ProgressFn, StudyError};
 use crate::transfer::clustering::CpcaError;
 use crate::transfer::grid::Segmentation;
-use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{TransferError, Vertices};
 
@@ -24,7 +24,7 @@ pub struct SegmentedCompression<'a> {
     /// Visibility at each vertex.
     pub maps: &'a VisibilityMaps,
     /// The hats of the light's texels.
-    pub hats: HatWidth,
+    pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: &'a Reflectance,
     /// How segments are compressed.
@@ -47,7 +47,7 @@ impl SegmentedCompression<'_> {
     /// # Errors
     /// If transfer cannot be computed, compressed or coded, or finished segments cannot be kept or taken.
     pub fn run(&self, progress: &mut ProgressFn<'_>) -> Result<(CodedTransfer, CompressionTally), StudyError> {
-        let hats = Hats::new(self.hats);
+        let hats = LinearBasis::new(self.hats);
         let transfer = transfer_of(self.vertices, self.maps, &hats, self.reflectance);
         let mut tally = CompressionTally::default();
         let count = Segmentation::Quarters.count();

@@ -4,7 +4,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::all_frequency::transfer::transfer_of;
 use crate::study::ProgressFn;
-use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{TransferError, Vertices};
 
@@ -27,13 +27,13 @@ pub struct CodedErrors {
 /// If what is coded belongs to other vertices or another reflectance.
 pub fn coded_errors(
     (vertices, maps): (&Vertices, &VisibilityMaps),
-    hats: HatWidth,
+    hats: BasisWidth,
     reflectance: &Reflectance,
     coded: &CodedTransfer,
     progress: &mut ProgressFn<'_>,
 ) -> Result<CodedErrors, TransferError> {
     assert_eq!((coded.vertices, coded.rows), (vertices.len(), reflectance.terms()), "coded transfer of these vertices");
-    let hats = Hats::new(hats);
+    let hats = LinearBasis::new(hats);
     let transfer = transfer_of(vertices, maps, &hats, reflectance);
     let none = vec![0.0; vertices.len()];
     let mut found = CodedErrors { squared_errors: none.clone(), squares: none };

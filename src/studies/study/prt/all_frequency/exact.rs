@@ -8,10 +8,10 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::transfer_of;
 use crate::linalg::dot;
 use crate::transfer::grid::Segmentation;
-use crate::transfer::hats::{HatWidth, Hats};
 use crate::transfer::light::{
     CubeLightError, Decimation, DistantLight, HaarLight, LightTruncation, TruncationPriority,
 };
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{TransferError, Vertices};
 
@@ -28,11 +28,11 @@ pub(in crate::study) fn coefficients(
 /// Per vertex m rows of three channels.
 pub(in crate::study) fn transferred(
     (vertices, maps): (&Vertices, &VisibilityMaps),
-    hats: HatWidth,
+    hats: BasisWidth,
     reflectance: &Reflectance,
     light: &HaarLight,
 ) -> Result<Vec<[f64; 3]>, TransferError> {
-    let (hats, rows) = (Hats::new(hats), reflectance.terms());
+    let (hats, rows) = (LinearBasis::new(hats), reflectance.terms());
     let transfer = transfer_of(vertices, maps, &hats, reflectance);
     let mut radiance = vec![[0.0; 3]; vertices.len() * rows];
     for segment in transfer.segments() {

@@ -16,7 +16,7 @@ use crate::all_frequency::file::{AllFrequencyFile, load_all_frequency, save_all_
 use crate::io::{WriteError, write_file};
 use crate::study::StudyError;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::hats::HatWidth;
+use crate::transfer::linear_basis::BasisWidth;
 
 /// Code of the errors.
 const CODE: &str = "crossbar::prt::kept";
@@ -120,7 +120,7 @@ impl KeptSegments {
     pub(super) fn keep(
         &self,
         tally: &SegmentTally,
-        (hats, reflectance): (HatWidth, &Reflectance),
+        (hats, reflectance): (BasisWidth, &Reflectance),
         coded: CodedTransfer,
     ) -> Result<(), StudyError> {
         let (mesh, reflectance) = (self.mesh, reflectance.clone());

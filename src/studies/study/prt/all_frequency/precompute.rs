@@ -7,7 +7,7 @@ use crate::geom::exact::Sides;
 use crate::study::ProgressFn;
 use crate::tracer::HostTracer;
 use crate::transfer::file::MeshDigest;
-use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{TransferError, Vertices};
 
@@ -19,7 +19,7 @@ pub struct SightOfModel<'a> {
     /// The vertices that transfer is computed at.
     pub vertices: &'a Vertices,
     /// The hats of the light's texels.
-    pub hats: HatWidth,
+    pub hats: BasisWidth,
     /// The reflectance.
     pub reflectance: Reflectance,
     /// The vertices of the ground below it, which is diffuse: the second part of the scene.
@@ -61,7 +61,7 @@ impl SightOfModel<'_> {
     }
 
     fn found(&self, vertices: &Vertices, maps: VisibilityMaps, reflectance: Reflectance) -> FoundSight {
-        let census = SegmentCensus::new(vertices, &maps, &Hats::new(self.hats));
+        let census = SegmentCensus::new(vertices, &maps, &LinearBasis::new(self.hats));
         let mesh = MeshDigest::new(vertices);
         let file = AllFrequencyFile { mesh, hats: self.hats, reflectance, visibility: Some(maps), coded: None };
         FoundSight { file, census }

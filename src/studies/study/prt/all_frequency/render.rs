@@ -16,7 +16,7 @@ use crate::report::{Cell, Findings, FoundTable, NamedPicture, Provenance, Table,
 use crate::scene::Camera;
 use crate::study::prt::render::cluster_color;
 use crate::study::prt::turned_frames::Turned;
-use crate::study::prt::{Seen, TurnedFrames, VertexValues, of_texels};
+use crate::study::prt::{SeenSurface, TurnedFrames, VertexValues, of_texels};
 use crate::study::{ProgressFn, Study, StudyError};
 use crate::transfer::Vertices;
 use crate::transfer::light::{HaarLight, LightTruncation};
@@ -134,10 +134,10 @@ impl AllFrequencyRendering {
     }
 
     /// The surface point in each of a camera's pixels; vertices of the ground follow those of the model.
-    fn seen(&self, camera: &Camera) -> Seen {
+    fn seen(&self, camera: &Camera) -> SeenSurface {
         let ground = self.ground.as_ref().map(|ground| (&ground.mesh, &ground.vertices));
         let parts: Vec<_> = std::iter::once((&self.lit.mesh, &self.lit.vertices)).chain(ground).collect();
-        Seen::of_parts(&parts, camera)
+        SeenSurface::of_parts(&parts, camera)
     }
 
     /// Step 1: the light's coefficients.
@@ -148,7 +148,7 @@ impl AllFrequencyRendering {
         Ok(cut)
     }
 
-    fn conclude(&self, seen: &Seen, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
+    fn conclude(&self, seen: &SeenSurface, drawn: &[[f64; 3]], cut: &LightTruncation, found: &mut Findings) {
         found.conclusion(self.lit.view.sentence(seen.count()));
         let share = shown(100.0 * cut.kept_energy, Quantity::Measured);
         found.conclusion(format!(
@@ -174,7 +174,7 @@ impl AllFrequencyRendering {
     /// Uncompressed transfer beside the coded, and where they differ.
     fn compare(
         &self,
-        seen: &Seen,
+        seen: &SeenSurface,
         (of_vertex, drawn): (&[[f64; 3]], &[[f64; 3]]),
         exact: &[[f64; 3]],
         exposure: f64,
@@ -211,7 +211,7 @@ impl AllFrequencyRendering {
     }
 
     /// The clusters of the three segments with most vertices, as in Figure 4.
-    fn clusters(&self, seen: &Seen, found: &mut Findings) {
+    fn clusters(&self, seen: &SeenSurface, found: &mut Findings) {
         let Some(coded) = &self.lit.file.coded else { return };
         let mut largest: Vec<_> = coded.segments.iter().collect();
         largest.sort_by_key(|part| std::cmp::Reverse(part.vertices.len()));
@@ -240,7 +240,7 @@ impl AllFrequencyRendering {
     /// Frames with light or camera carried round z.
     fn frames(
         &self,
-        seen: &Seen,
+        seen: &SeenSurface,
         parts: &[Part<'_>],
         (still, exposure): (&[Transferred], f64),
         found: &mut Findings,

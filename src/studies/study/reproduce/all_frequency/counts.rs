@@ -8,7 +8,7 @@ use crate::linalg::dot;
 use crate::report::{Cell, Table};
 use crate::sphere::CubeMap;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
-use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::segments_below_horizon;
 
 /// Rows of a glossy transfer matrix, representatives per cluster, and target vertices per cluster.
@@ -175,7 +175,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 
 /// Minimum number of segments below the horizon of a normal, and the mean over all directions.
 fn below_horizon() -> (f64, f64) {
-    let (hats, map) = (Hats::new(HatWidth::OneTexel), CubeMap::new(NORMALS));
+    let (hats, map) = (LinearBasis::new(BasisWidth::OneTexel), CubeMap::new(NORMALS));
     let (mut counts, mut weights) = (Vec::new(), Vec::new());
     for (face, row, column) in
         (0..6 * NORMALS * NORMALS).map(|at| (at / NORMALS / NORMALS, at / NORMALS % NORMALS, at % NORMALS))

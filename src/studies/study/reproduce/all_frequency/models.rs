@@ -18,7 +18,7 @@ use crate::study::reproduce::ModelSize;
 use crate::tracer::HostTracer;
 use crate::transfer::clustering::{CpcaStep, CpcaStepKind};
 use crate::transfer::grid::Segmentation;
-use crate::transfer::hats::{HatWidth, Hats};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Signal, Tangents, Vertices};
 
@@ -90,7 +90,7 @@ pub(super) const fn ground_side(size: ModelSize) -> u32 {
 pub(super) struct ModelVisibility {
     vertices: Rc<Vertices>,
     maps: VisibilityMaps,
-    hats: Rc<Hats>,
+    hats: Rc<LinearBasis>,
     size: ModelSize,
 }
 
@@ -134,7 +134,7 @@ impl ModelVisibility {
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         let mut tracer = HostTracer::new(&mesh, Sides::Both);
         let maps = VisibilityMaps::trace(&vertices, &all, &mut tracer, &mut |_, _| ()).map_err(|e| fail(&e))?;
-        Ok(Self { vertices: Rc::new(vertices), maps, hats: Rc::new(Hats::new(HatWidth::TwoTexels)), size })
+        Ok(Self { vertices: Rc::new(vertices), maps, hats: Rc::new(LinearBasis::new(BasisWidth::TwoTexels)), size })
     }
 
     /// Computes visibility of a model on a ground, and of that ground.
@@ -147,7 +147,7 @@ impl ModelVisibility {
         let mut tracer = HostTracer::new(&mesh, Sides::Both);
         let mut trace = |of: &[u32]| VisibilityMaps::trace(&vertices, of, &mut tracer, &mut |_, _| ());
         let [own, ground] = [trace(&own).map_err(|e| fail(&e))?, trace(&ground).map_err(|e| fail(&e))?];
-        let (vertices, hats) = (Rc::new(vertices), Rc::new(Hats::new(HatWidth::TwoTexels)));
+        let (vertices, hats) = (Rc::new(vertices), Rc::new(LinearBasis::new(BasisWidth::TwoTexels)));
         let of = |maps| Self { vertices: Rc::clone(&vertices), maps, hats: Rc::clone(&hats), size };
         Ok([own, ground].map(of))
     }

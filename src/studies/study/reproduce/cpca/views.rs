@@ -9,7 +9,7 @@ use crate::picture::rgb8;
 use crate::report::{NamedPicture, false_color};
 use crate::scene::Camera;
 use crate::sphere::HarmonicLight;
-use crate::study::prt::{FineView, Lit, Seen, auto_exposure, cluster_color, light_picture};
+use crate::study::prt::{FineView, Lit, SeenSurface, auto_exposure, cluster_color, light_picture};
 use crate::transfer::clustering::Clustering;
 
 /// Side of the pictures whose differences are measured, in pixels.
@@ -26,7 +26,7 @@ pub(super) struct ModelView<'a> {
     computed: &'a ComputedSignal,
     light: &'a HarmonicLight,
     camera: Camera,
-    seen: Seen,
+    seen: SeenSurface,
     /// View of the pictures that are shown.
     fine: FineView,
     exposure: f64,
@@ -41,7 +41,7 @@ impl<'a> ModelView<'a> {
     ) -> Result<Self, ReproduceError> {
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
         let camera = camera.map_err(|e| failed(HOST)(&e))?;
-        let seen = Seen::new(&computed.mesh, &computed.vertices, &camera);
+        let seen = SeenSurface::new(&computed.mesh, &computed.vertices, &camera);
         let all: Vec<u32> = (0..computed.vertices.len() as u32).collect();
         let model = (&computed.mesh, &computed.vertices);
         let fine = FineView::new(model, eye, (computed.models.picture_side(), &all)).map_err(|e| failed(HOST)(&e))?;

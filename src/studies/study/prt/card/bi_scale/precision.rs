@@ -16,37 +16,37 @@ const TEXELS: [TexelFormat; 3] = [TexelFormat::Rgba8, TexelFormat::Rgba16f, Texe
 
 /// A way to hold the numbers of a frame.
 #[derive(Clone, Copy, Debug)]
-struct Way {
+struct CardDrawing {
     light: LightFormat,
     options: DisplayOptions,
     target: TexelFormat,
 }
 
 /// All in single precision.
-const FINE: Way = Way {
+const FINE: CardDrawing = CardDrawing {
     light: LightFormat::Fp32,
     options: DisplayOptions { edges: BlockEdges::Wrapped, texture: FLOATS, local: LocalFormat::Fp32 },
     target: FLOATS,
 };
 
-fn ways() -> Vec<(&'static str, String, Way)> {
+fn ways() -> Vec<(&'static str, String, CardDrawing)> {
     let mut all = vec![("none", "fp32".to_owned(), FINE)];
     for light in LightFormat::iter().filter(|light| *light != FINE.light) {
-        all.push(("light L", light.to_string(), Way { light, ..FINE }));
+        all.push(("light L", light.to_string(), CardDrawing { light, ..FINE }));
     }
     for local in LocalFormat::iter().filter(|local| *local != FINE.options.local) {
         let options = DisplayOptions { local, ..FINE.options };
-        all.push(("interpolated L~", local.to_string(), Way { options, ..FINE }));
+        all.push(("interpolated L~", local.to_string(), CardDrawing { options, ..FINE }));
     }
     for texture in TEXELS.into_iter().filter(|texture| *texture != FLOATS) {
         let options = DisplayOptions { texture, ..FINE.options };
-        all.push(("bidirectional texture", texture.to_string(), Way { options, ..FINE }));
+        all.push(("bidirectional texture", texture.to_string(), CardDrawing { options, ..FINE }));
     }
     for target in TEXELS.into_iter().filter(|target| *target != FLOATS) {
-        all.push(("target", target.to_string(), Way { target, ..FINE }));
+        all.push(("target", target.to_string(), CardDrawing { target, ..FINE }));
     }
     let options = DisplayOptions { edges: BlockEdges::Touching, ..FINE.options };
-    all.push(("blocks", "touching, with seams".to_owned(), Way { options, ..FINE }));
+    all.push(("blocks", "touching, with seams".to_owned(), CardDrawing { options, ..FINE }));
     all
 }
 

@@ -11,12 +11,12 @@ use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::on_card::{CompressedTransfer, PrtCard, PrtCardOptions};
 use crate::geom::vector::wide;
 use crate::study::StudyError;
-use crate::study::prt::interpolate::Seen;
+use crate::study::prt::interpolate::SeenSurface;
 use crate::transfer::brdf::ExitBasis;
 
 /// A way to draw.
 #[derive(Clone, Copy)]
-pub(super) struct Way<'a> {
+pub(super) struct CardDrawing<'a> {
     pub(super) profile: &'a Profile,
     pub(super) format: TexelFormat,
     pub(super) options: PrtCardOptions,
@@ -45,7 +45,7 @@ pub(super) struct ChunkCounts {
     pub(super) drawn: u64,
 }
 
-impl Way<'_> {
+impl CardDrawing<'_> {
     pub(super) fn draw(
         &self,
         study: &OnCard,
@@ -82,5 +82,5 @@ pub(super) fn on_host(
     let towards =
         |vertex: usize| study.vertices.frames()[vertex].to_local(eye - wide(study.vertices.positions()[vertex]));
     let view: Vec<DVec3> = (0..study.vertices.len()).map(towards).collect();
-    Seen::by_raster(seen).radiance(exit, &view, &|direction, y| basis.values(direction, y))
+    SeenSurface::by_raster(seen).radiance(exit, &view, &|direction, y| basis.values(direction, y))
 }

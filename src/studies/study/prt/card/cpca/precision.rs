@@ -4,7 +4,7 @@ use refsim::device::Profile;
 use refsim::texture::TexelFormat;
 use strum::IntoEnumIterator;
 
-use super::picture::Way;
+use super::picture::CardDrawing;
 use super::subject::OnCard;
 use crate::card::SeenPixel;
 use crate::cpca::on_card::{CompressedTransfer, PrtCardOptions, WeightFormat};
@@ -86,7 +86,7 @@ pub(super) fn variants(
 ) -> Result<Vec<PictureVariant>, StudyError> {
     let draw = |choice: &Choice| -> Result<Vec<[f64; 3]>, StudyError> {
         let profile = Profile::named(choice.device)?;
-        let way = Way { profile: &profile, format: choice.format, options: choice.options, timed: false };
+        let way = CardDrawing { profile: &profile, format: choice.format, options: choice.options, timed: false };
         Ok(held(&way.draw(study, transfer, exposure)?.colors, true))
     };
     let expected = draw(&reference())?;

@@ -1,6 +1,6 @@
 //! Findings of clustered principal components on a card.
 
-use super::picture::{Way, on_host};
+use super::picture::{CardDrawing, on_host};
 use super::subject::OnCard;
 use super::{precision, tables};
 use crate::card::seen_pixels;
@@ -27,7 +27,7 @@ impl Study for OnCard {
         let study = PictureStudy { card, view: &self.view, from: "the same clusters" };
         let (exposure, host) = study.exposed(on_host(self, &seen, &basis, &exit));
         progress("card", 1, steps);
-        let way = Way { profile: &card.profile, format: card.format, options: self.options, timed: true };
+        let way = CardDrawing { profile: &card.profile, format: card.format, options: self.options, timed: true };
         let drawn = way.draw(self, transfer, exposure)?;
         let compared = ComparedPicture::new(&seen, &drawn.colors, (&host, card.is_clamped()));
         let mut found = study.findings("Compressed transfer on a card", &compared, exposure)?;

@@ -6,9 +6,9 @@ use super::lit::Surface;
 use super::scene::{FigureScene, PictureDifference, stand_in};
 use super::{FigureParts, HOST, ModelSize, Prose, ReproduceError, failed, models, number, solved};
 use crate::all_frequency::Reflectance;
+use crate::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::ProductFunction;
-use crate::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
 use crate::report::{Cell, Table};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::grid::Segmentation;
@@ -103,7 +103,7 @@ impl<'a> Methods<'a> {
         let scene = self.scene;
         let lights: Vec<&[[f64; 3]]> =
             [self.light.texels()].into_iter().chain(self.cut.iter().map(Vec::as_slice)).collect();
-        let subject = RivalSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
+        let subject = BaselineSubject { vertices: &scene.vertices, maps, hats: &scene.hats, product };
         let mut all = FixedView(subject).radiance(scene.eye(), &lights);
         let harmonics = HarmonicTransfer::new(subject, ORDER);
         all.insert(1, harmonics.radiance(scene.eye(), &harmonics.light(self.light.texels())));

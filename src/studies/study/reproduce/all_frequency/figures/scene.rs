@@ -10,12 +10,12 @@ use crate::report::NamedPicture;
 use crate::scene::Camera;
 use crate::scene::built::ground::on_ground;
 use crate::sphere::{function_count, harmonics};
-use crate::study::prt::{FineView, Seen, auto_exposure, linear_picture};
+use crate::study::prt::{FineView, SeenSurface, auto_exposure, linear_picture};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::tracer::HostTracer;
 use crate::transfer::grid::LIGHT_MAP;
-use crate::transfer::hats::{HatWidth, Hats};
 use crate::transfer::light::{CubeLight, Decimation, DistantLight};
+use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::VisibilityMaps;
 use crate::transfer::{Tangents, Vertices};
 
@@ -31,9 +31,9 @@ pub(super) struct FigureScene {
     pub(super) of_model: VisibilityMaps,
     /// Visibility at the vertices of the ground.
     pub(super) of_ground: VisibilityMaps,
-    pub(super) hats: Hats,
+    pub(super) hats: LinearBasis,
     camera: Camera,
-    seen: Seen,
+    seen: SeenSurface,
     /// View of the pictures that are shown.
     pub(super) fine: FineView,
 }
@@ -65,10 +65,10 @@ impl FigureScene {
         let place = (middle + size * eye).as_vec3().to_array();
         let camera = Camera::new(place, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.3, SIDE, SIDE);
         let camera = camera.map_err(|e| problem(&e))?;
-        let seen = Seen::new(&mesh, &vertices, &camera);
+        let seen = SeenSurface::new(&mesh, &vertices, &camera);
         let framed = (models.picture_side(), &own[..]);
         let fine = FineView::new((&mesh, &vertices), place, framed).map_err(|e| problem(&e))?;
-        Ok(Self { vertices, of_model, of_ground, hats: Hats::new(HatWidth::default()), camera, seen, fine })
+        Ok(Self { vertices, of_model, of_ground, hats: LinearBasis::new(BasisWidth::default()), camera, seen, fine })
     }
 
     pub(super) fn eye(&self) -> DVec3 {

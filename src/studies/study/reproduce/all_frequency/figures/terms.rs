@@ -7,7 +7,7 @@ use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
 use super::{FigureParts, ModelSize, Prose, ReproduceError, models, number, solved};
 use crate::all_frequency::Reflectance;
-use crate::all_frequency::rivals::{FixedView, RivalSubject};
+use crate::all_frequency::baselines::{BaselineSubject, FixedView};
 use crate::report::{Cell, NamedPicture, Table};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::{CubeLight, HaarLight};
@@ -55,7 +55,8 @@ fn of_form(
     let of_most = Reflectance::Factored(factorization.factors(most));
     let dark = vec![[0.0; 3]; scene.of_ground.len()];
     let raw = surface(scene, &of_most).raw(&HaarLight::new(light, Segmentation::Quarters))?;
-    let subject = RivalSubject { vertices: &scene.vertices, maps: &scene.of_model, hats: &scene.hats, product: &lobe };
+    let subject =
+        BaselineSubject { vertices: &scene.vertices, maps: &scene.of_model, hats: &scene.hats, product: &lobe };
     let exact = FixedView(subject).radiance(scene.eye(), &[light.texels()]).remove(0);
     let colored: Vec<[f64; 3]> =
         exact.iter().map(|rgb| [0, 1, 2].map(|channel| rgb[channel] * COLOR[channel])).collect();

@@ -13,8 +13,8 @@ use crate::report::{Cell, Table};
 use crate::sphere::turn_around_z;
 use crate::study::reproduce::{Setting, Sweep};
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
-use crate::transfer::hats::Hats;
 use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crate::transfer::linear_basis::LinearBasis;
 
 const SOURCES: u64 = 40;
 /// Angular radii of sources in degrees; the rows use the third.
@@ -112,7 +112,7 @@ impl FlickerFrames {
 
 pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
-    let hats: &Hats = &scene.hats;
+    let hats: &LinearBasis = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
     let segments: Vec<TransferSegment> = transfer.segments().collect::<Result<_, _>>().map_err(|e| failed(HOST)(&e))?;
     let frames = FlickerFrames::new(&segments, scene.vertices.len())?;

@@ -12,9 +12,9 @@ use super::{
     EntryFindings, HOST, Method, ModelSize, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number,
     paper_row, printed_value, solved,
 };
+use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::bi_scale::rivals::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::bi_scale::transfer::light_vectors;
 use crate::scene::built::flat_models::FlatModel;
 use crate::scene::built::transfer_models::TransferModel;

@@ -9,7 +9,7 @@ use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
 use crate::report::{Cell, NamedPicture, Table};
 use crate::scene::Camera;
-use crate::study::prt::{FineView, LightChannels, Seen, auto_exposure, linear_picture};
+use crate::study::prt::{FineView, LightChannels, SeenSurface, auto_exposure, linear_picture};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::grid::texel_center;
 
@@ -30,7 +30,7 @@ pub(super) struct VertexPictures<'a> {
     scene: &'a ChairModel,
     light: &'a LightChannels,
     camera: Camera,
-    seen: Seen,
+    seen: SeenSurface,
     /// View of the pictures that are shown.
     fine: FineView,
     /// Local direction of the eye at each vertex.
@@ -47,7 +47,7 @@ impl<'a> VertexPictures<'a> {
         let eye = (middle + size * EYE).as_vec3().to_array();
         let camera = Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.22, SIDE, SIDE)
             .map_err(|error| failed(HOST)(&error))?;
-        let seen = Seen::new(&scene.seen.mesh, &scene.seen.vertices, &camera);
+        let seen = SeenSurface::new(&scene.seen.mesh, &scene.seen.vertices, &camera);
         let all: Vec<u32> = (0..scene.seen.vertices.len() as u32).collect();
         let fine = FineView::new((&scene.seen.mesh, &scene.seen.vertices), eye, (side, &all));
         let fine = fine.map_err(|error| failed(HOST)(&error))?;

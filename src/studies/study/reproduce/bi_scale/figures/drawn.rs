@@ -4,9 +4,9 @@ use glam::DMat3;
 
 use super::scene::{FigureSize, SAMPLES, TexturedModel};
 use super::{HOST, ReproduceError, failed};
+use crate::bi_scale::baselines::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
-use crate::bi_scale::rivals::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::picture::Picture;
 use crate::report::NamedPicture;

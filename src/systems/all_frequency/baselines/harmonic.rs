@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::RivalSubject;
+use super::BaselineSubject;
 use crate::sphere::{DirectionRule, function_count, harmonics};
 use crate::transfer::grid::{FINE_DIRECTIONS, FineDirections, LIGHT_TEXELS};
-use crate::transfer::hats::HatWeights;
+use crate::transfer::linear_basis::BasisWeights;
 
 /// The degree of the rule that reflectance is projected by: exact for polynomials, a degree or two per direction else.
 const DEGREE: usize = 44;
@@ -18,7 +18,7 @@ const DEGREE: usize = 44;
 /// Everything is in the global frame: rotating both sides of a sum over whole bands changes nothing.
 #[derive(Debug)]
 pub struct HarmonicTransfer<'a> {
-    subject: RivalSubject<'a>,
+    subject: BaselineSubject<'a>,
     order: usize,
     /// Per fine direction the functions.
     functions: Vec<f64>,
@@ -29,7 +29,7 @@ impl<'a> HarmonicTransfer<'a> {
     ///
     /// # Panics
     /// If the order is not 1 to [`crate::sphere::MAX_ORDER`].
-    pub fn new(subject: RivalSubject<'a>, order: usize) -> Self {
+    pub fn new(subject: BaselineSubject<'a>, order: usize) -> Self {
         let count = function_count(order);
         let mut functions = vec![0.0; FINE_DIRECTIONS * count];
         let directions = FineDirections::get().directions();
@@ -51,7 +51,7 @@ impl<'a> HarmonicTransfer<'a> {
         let mut coefficients = vec![[0.0; 3]; function_count(self.order)];
         for (fine, &angle) in FineDirections::get().solid_angles().iter().enumerate() {
             let mut radiance = [0.0; 3];
-            for (texel, weight) in HatWeights::of(self.subject.hats.width(), fine).iter() {
+            for (texel, weight) in BasisWeights::of(self.subject.hats.width(), fine).iter() {
                 (0..3).for_each(|channel| radiance[channel] += weight * texels[texel][channel]);
             }
             for (sum, y) in coefficients.iter_mut().zip(self.functions(fine)) {

@@ -2,15 +2,15 @@
 
 use std::f64::consts::PI;
 
+use crossbar::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crossbar::all_frequency::factor::{Lobe, ProductFunction};
 use crossbar::all_frequency::reference::AllFrequencyReference;
-use crossbar::all_frequency::rivals::{FixedView, HarmonicTransfer, RivalSubject};
 use crossbar::geom::Mesh;
 use crossbar::transfer::Vertices;
 use crossbar::transfer::brdf::Brdf;
 use crossbar::transfer::grid::Segmentation;
-use crossbar::transfer::hats::{HatWidth, Hats};
 use crossbar::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
+use crossbar::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crossbar::transfer::visibility::VisibilityMaps;
 use glam::{DMat3, DVec3};
 
@@ -22,19 +22,19 @@ const EYE: DVec3 = DVec3::new(1.5, -2.0, 2.5);
 struct Clutter {
     vertices: Vertices,
     maps: VisibilityMaps,
-    hats: Hats,
+    hats: LinearBasis,
 }
 
 impl Clutter {
-    fn new(mesh: &Mesh, width: HatWidth) -> Self {
+    fn new(mesh: &Mesh, width: BasisWidth) -> Self {
         let vertices = vertices(mesh);
         let maps = trace(mesh, &vertices, &all(&vertices));
-        Self { vertices, maps, hats: Hats::new(width) }
+        Self { vertices, maps, hats: LinearBasis::new(width) }
     }
 
-    fn subject<'a>(&'a self, product: &'a dyn ProductFunction) -> RivalSubject<'a> {
+    fn subject<'a>(&'a self, product: &'a dyn ProductFunction) -> BaselineSubject<'a> {
         let Self { vertices, maps, hats } = self;
-        RivalSubject { vertices, maps, hats, product }
+        BaselineSubject { vertices, maps, hats, product }
     }
 }
 
@@ -60,7 +60,7 @@ fn squares(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
 #[test]
 fn a_fixed_view_under_the_whole_light_is_the_reference() {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
-    for width in [HatWidth::OneTexel, HatWidth::TwoTexels] {
+    for width in [BasisWidth::OneTexel, BasisWidth::TwoTexels] {
         let clutter = Clutter::new(&clutter(3, 12, 0.9), width);
         let texels = light();
         let found = FixedView(clutter.subject(&lobe)).radiance(EYE, &[texels.texels()]).remove(0);
@@ -97,19 +97,19 @@ fn a_fixed_view_under_the_whole_light_is_the_reference() {
 /// of an open Lambert vertex in a furnace: its albedo, up to fine texels cut by the horizon.
 #[test]
 fn harmonics_of_a_furnace_are_the_albedo() {
-    let open = Clutter::new(&flat(&[observer(DVec3::new(0.3, -0.5, 0.9).normalize())]), HatWidth::TwoTexels);
+    let open = Clutter::new(&flat(&[observer(DVec3::new(0.3, -0.5, 0.9).normalize())]), BasisWidth::TwoTexels);
     let lambert = Brdf::Lambert { albedo: 0.7 };
     let white = CubeLight::constant([1.0, 2.0, 0.5]).expect("a light");
     for order in [2, 3, 5] {
-        let rival = HarmonicTransfer::new(open.subject(&lambert), order);
-        let light = rival.light(white.texels());
+        let baseline = HarmonicTransfer::new(open.subject(&lambert), order);
+        let light = baseline.light(white.texels());
         close(light[0][0], (4.0 * PI).sqrt(), 1e-9, "the first harmonic of a furnace");
         // Up to l = 3 the cube's symmetry makes the sums over its directions 0; beyond, the rule has an error of the
         // square of a fine texel's width, 1/64 of a face.
         let (symmetric, others) = light[1..].split_at(light.len().min(16) - 1);
         assert!(symmetric.iter().flatten().all(|value| value.abs() < 1e-9), "{light:?}");
         assert!(others.iter().flatten().all(|value| value.abs() < 1.0 / (64.0 * 64.0)), "{light:?}");
-        let found = rival.radiance(DVec3::new(0.3, -0.5, 0.9) * 4.0, &light)[0];
+        let found = baseline.radiance(DVec3::new(0.3, -0.5, 0.9) * 4.0, &light)[0];
         for (found, radiance) in found.into_iter().zip([1.0, 2.0, 0.5]) {
             close(found, 0.7 * radiance, 2e-4, "an open vertex");
         }
@@ -121,7 +121,7 @@ fn harmonics_of_a_furnace_are_the_albedo() {
 #[test]
 fn more_is_nearer() {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
-    let clutter = Clutter::new(&clutter(3, 12, 0.9), HatWidth::TwoTexels);
+    let clutter = Clutter::new(&clutter(3, 12, 0.9), BasisWidth::TwoTexels);
     let (subject, texels) = (clutter.subject(&lobe), light());
     let faces = HaarLight::new(&texels, Segmentation::Faces);
     let kept = [10, 40, 160, 6144].map(|keep| {
@@ -135,8 +135,8 @@ fn more_is_nearer() {
     let errors: Vec<f64> = wavelets.iter().map(|found| squares(found, &exact) / all).collect();
     assert!(errors.windows(2).all(|two| two[1] < two[0]) && errors[3] < 1e-24, "{errors:?}");
     let orders = [2, 3, 5, 8].map(|order| {
-        let rival = HarmonicTransfer::new(subject, order);
-        squares(&rival.radiance(EYE, &rival.light(texels.texels())), &exact) / all
+        let baseline = HarmonicTransfer::new(subject, order);
+        squares(&baseline.radiance(EYE, &baseline.light(texels.texels())), &exact) / all
     });
     assert!(orders.windows(2).all(|two| two[1] < two[0]), "{orders:?}");
     assert!(orders[2] > 1e-3, "order 5 has no room for a disk of two degrees: {orders:?}");

@@ -1,6 +1,6 @@
 //! Transfer with the frames of its vertices: what is needed to rotate harmonics or visibility.
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use crate::bi_scale::directions::{LocalDirections, hemisphere};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::sphere::{function_count, harmonics};
@@ -23,18 +23,18 @@ impl<'a> LocalTransfer<'a> {
     /// Row M p + j of the matrix is local direction j in frame p.
     ///
     /// # Errors
-    /// [`RivalError::Columns`], [`RivalError::Rows`].
+    /// [`BaselineError::Columns`], [`BaselineError::Rows`].
     pub fn new(
         matrix: &'a SparseMatrix,
         frames: &'a [LocalFrame],
         directions: &'a LocalDirections,
-    ) -> Result<Self, RivalError> {
+    ) -> Result<Self, BaselineError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(RivalError::Columns { found: matrix.columns() });
+            return Err(BaselineError::Columns { found: matrix.columns() });
         }
         let expected = frames.len() * directions.directions().len();
         if matrix.rows() != expected {
-            return Err(RivalError::Rows { expected, found: matrix.rows() });
+            return Err(BaselineError::Rows { expected, found: matrix.rows() });
         }
         Ok(Self { matrix, frames, directions })
     }

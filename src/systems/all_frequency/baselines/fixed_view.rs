@@ -3,13 +3,13 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::RivalSubject;
+use super::BaselineSubject;
 use crate::all_frequency::transfer::FactoredTransfer;
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 
 /// \[NRH03\]: "glossy objects seen from a fixed view". Rows are those of equation 10 with f(v, s) in place of F(s).
 #[derive(Clone, Copy, Debug)]
-pub struct FixedView<'a>(pub RivalSubject<'a>);
+pub struct FixedView<'a>(pub BaselineSubject<'a>);
 
 impl FixedView<'_> {
     /// The row of a map's vertex: the contribution of each light texel of radiance 1 to its radiance towards a local
@@ -18,7 +18,7 @@ impl FixedView<'_> {
     /// # Panics
     /// If there is no such map.
     pub fn row(&self, map: usize, view: DVec3) -> Vec<f64> {
-        let RivalSubject { vertices, maps, hats, product } = self.0;
+        let BaselineSubject { vertices, maps, hats, product } = self.0;
         let response = |light: DVec3, into: &mut [f64]| into[0] = product.value(view, light);
         let transfer = FactoredTransfer { vertices, maps, hats, rows: 1, response };
         let mut row = vec![0.0; LIGHT_TEXELS];

@@ -1,4 +1,4 @@
-//! Hats: one light texel's share of each fine direction, over all edges and corners of the cube.
+//! LinearBasis: one light texel's share of each fine direction, over all edges and corners of the cube.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -7,15 +7,15 @@ use crossbar::sphere::{CUBE_FACES, CubeMap};
 use crossbar::transfer::grid::{
     FINE_DIRECTIONS, FINE_SIDE, FineDirections, LIGHT_SIDE, LIGHT_TEXELS, Segmentation, light_texel,
 };
-use crossbar::transfer::hats::{HatWeights, HatWidth, Hats};
+use crossbar::transfer::linear_basis::{BasisWeights, BasisWidth, LinearBasis};
 use glam::{DMat3, DVec3};
 
 use super::{close, texel_of};
 
-const WIDTHS: [HatWidth; 2] = [HatWidth::OneTexel, HatWidth::TwoTexels];
+const WIDTHS: [BasisWidth; 2] = [BasisWidth::OneTexel, BasisWidth::TwoTexels];
 
-fn weights(width: HatWidth, fine: usize) -> BTreeMap<usize, f64> {
-    HatWeights::of(width, fine).iter().collect()
+fn weights(width: BasisWidth, fine: usize) -> BTreeMap<usize, f64> {
+    BasisWeights::of(width, fine).iter().collect()
 }
 
 fn direction(texel: usize, side: usize) -> DVec3 {
@@ -28,7 +28,7 @@ fn hats_are_a_partition_of_unity() {
     for width in WIDTHS {
         let mut counts = [0; 5];
         for fine in 0..FINE_DIRECTIONS {
-            let found: Vec<(usize, f64)> = HatWeights::of(width, fine).iter().collect();
+            let found: Vec<(usize, f64)> = BasisWeights::of(width, fine).iter().collect();
             let sum: f64 = found.iter().map(|(_, weight)| weight).sum();
             assert!((sum - 1.0).abs() <= f64::EPSILON, "{width} {fine}: {sum}");
             assert_eq!(found[0].0, light_texel(fine));
@@ -41,7 +41,7 @@ fn hats_are_a_partition_of_unity() {
             counts[found.len()] += 1;
         }
         // 24 corners of faces, 2 x 2 fine directions at each: three texels.
-        let expected = if width == HatWidth::OneTexel {
+        let expected = if width == BasisWidth::OneTexel {
             [0, FINE_DIRECTIONS, 0, 0, 0]
         } else {
             [0, 0, 0, 96, FINE_DIRECTIONS - 96]
@@ -61,11 +61,11 @@ fn hats_have_the_symmetry_of_the_cube() {
     for turn in generators {
         for fine in (0..FINE_DIRECTIONS).filter(|fine| fine % FINE_SIDE < 8 || fine % 5 == 0) {
             let turned = texel_of(turn * direction(fine, FINE_SIDE), FINE_SIDE);
-            let expected: BTreeMap<usize, f64> = weights(HatWidth::TwoTexels, fine)
+            let expected: BTreeMap<usize, f64> = weights(BasisWidth::TwoTexels, fine)
                 .into_iter()
                 .map(|(texel, weight)| (texel_of(turn * direction(texel, LIGHT_SIDE), LIGHT_SIDE), weight))
                 .collect();
-            assert_eq!(weights(HatWidth::TwoTexels, turned), expected, "{fine} turned to {turned}");
+            assert_eq!(weights(BasisWidth::TwoTexels, turned), expected, "{fine} turned to {turned}");
         }
     }
 }
@@ -75,7 +75,7 @@ fn hats_have_the_symmetry_of_the_cube() {
 #[test]
 fn hats_are_continuous_over_edges() {
     let change = |a: usize, b: usize| {
-        let [a, b] = [a, b].map(|fine| weights(HatWidth::TwoTexels, fine));
+        let [a, b] = [a, b].map(|fine| weights(BasisWidth::TwoTexels, fine));
         let texels = a.keys().chain(b.keys()).collect::<std::collections::BTreeSet<_>>();
         texels.into_iter().map(|texel| (a.get(texel).unwrap_or(&0.0) - b.get(texel).unwrap_or(&0.0)).abs()).sum::<f64>()
     };
@@ -100,7 +100,7 @@ fn hats_are_continuous_over_edges() {
 /// The directions of a segment: its own, and with hats of two texels those beside it.
 #[test]
 fn segments_reach_half_a_texel_beyond_their_border() {
-    let [one, two] = WIDTHS.map(Hats::new);
+    let [one, two] = WIDTHS.map(LinearBasis::new);
     for segment in 0..Segmentation::Quarters.count() {
         let own: Vec<usize> = one.directions(segment).collect();
         let is_own = |fine: &usize| Segmentation::Quarters.place(light_texel(*fine))[0] == segment;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::{MatrixEntry, SparseMatrix};
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
@@ -88,13 +88,13 @@ impl HaarRows {
     /// The most important coefficients of each row of a matrix.
     ///
     /// # Errors
-    /// [`RivalError::Columns`], [`RivalError::Coefficients`].
-    pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, RivalError> {
+    /// [`BaselineError::Columns`], [`BaselineError::Coefficients`].
+    pub fn new(matrix: &SparseMatrix, options: HaarRowOptions) -> Result<Self, BaselineError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(RivalError::Columns { found: matrix.columns() });
+            return Err(BaselineError::Columns { found: matrix.columns() });
         }
         if !(1..=LIGHT_TEXELS).contains(&options.keep) {
-            return Err(RivalError::Coefficients { found: options.keep });
+            return Err(BaselineError::Coefficients { found: options.keep });
         }
         let weights = weights(options.priority);
         let scratch = || (Haar::new(LIGHT_SIDE), vec![0.0; FACE]);

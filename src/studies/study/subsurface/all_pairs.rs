@@ -10,7 +10,7 @@ const CHANNELS: [&str; 3] = ["red", "green", "blue"];
 
 /// Radiosities over all pairs, in f64.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Truth {
+pub struct AllPairs {
     /// Per texel, row by row.
     pub texels: Vec<[f64; 3]>,
     /// Per probe.
@@ -45,14 +45,15 @@ impl GatherError {
 }
 
 /// All pairs, once for each pair of channels that differ; `dipoles` are those of red, green and blue.
-pub(super) fn truth(
+pub(super) fn gather(
     atlas: &Atlas,
     parameters: &Parameters,
     dipoles: &[Dipole; 3],
     irradiance: &[[f64; 3]],
     progress: &mut ProgressFn<'_>,
-) -> Result<Truth, StudyError> {
-    let mut found = Truth { texels: vec![[0.0; 3]; irradiance.len()], probes: vec![[0.0; 3]; parameters.probes.len()] };
+) -> Result<AllPairs, StudyError> {
+    let mut found =
+        AllPairs { texels: vec![[0.0; 3]; irradiance.len()], probes: vec![[0.0; 3]; parameters.probes.len()] };
     for channel in 0..3 {
         let values: Vec<f64> = irradiance.iter().map(|e| e[channel]).collect();
         let same = |&other: &usize| {

@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
+use crossbar::bi_scale::baselines::{
+    BaselineError, HarmonicRows, LocalLightError, LocalTransfer, ReshuffledVisibility, StoredTransfer, cell_integrals,
+};
 use crossbar::bi_scale::directions::LocalDirections;
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::by_rows;
-use crossbar::bi_scale::rivals::{
-    HarmonicRows, LocalLightError, LocalTransfer, ReshuffledVisibility, RivalError, StoredTransfer, cell_integrals,
-};
 use crossbar::bi_scale::transfer::light_vector;
 use crossbar::sphere::{CubeMap, DirectionRule, harmonics};
 use crossbar::transfer::grid::LIGHT_MAP;
@@ -92,7 +92,7 @@ fn higher_orders_are_nearer() {
     assert!(falling[0] > falling[1] && falling[1] > falling[2], "{falling:?}");
     assert!(of_light(5, &smooth) < of_both(5, &smooth));
     assert!(of_light(5, &hard) > 0.5, "{}", of_light(5, &hard));
-    assert_eq!(HarmonicRows::of_light(&matrix, 11), Err(RivalError::Order { found: 11 }));
+    assert_eq!(HarmonicRows::of_light(&matrix, 11), Err(BaselineError::Order { found: 11 }));
 }
 
 /// Down-sampled visibility, reshuffled, direction by direction; and its error, which finer texels do not take away.
@@ -129,7 +129,7 @@ fn a_shuffle_takes_the_texel_of_each_direction() {
         let error = LocalLightError::new(&found, &expected);
         assert!(error.relative > 0.05, "{side}: {error:?}");
     }
-    assert_eq!(ReshuffledVisibility::new(&transfer, 5), Err(RivalError::CoarseSide { found: 5 }));
+    assert_eq!(ReshuffledVisibility::new(&transfer, 5), Err(BaselineError::CoarseSide { found: 5 }));
 }
 
 /// A vertex that sees everything, under the same light from everywhere: each direction gets its solid angle.
@@ -159,6 +159,6 @@ fn a_constant_light_stays_constant() {
 #[test]
 fn frames_of_another_model_are_refused() {
     let (vertices, matrix, directions) = transfer();
-    let expected = RivalError::Rows { expected: 15 * 16, found: 16 * 16 };
+    let expected = BaselineError::Rows { expected: 15 * 16, found: 16 * 16 };
     assert_eq!(LocalTransfer::new(&matrix, &vertices.frames()[1..], &directions).err(), Some(expected));
 }

@@ -1,12 +1,12 @@
 //! Rows in wavelets, against plain loops.
 
 use approx::assert_relative_eq;
+use crossbar::bi_scale::baselines::reference::{by_largest_coefficients, dense_row};
+use crossbar::bi_scale::baselines::{
+    BaselineError, CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows, StoredTransfer,
+};
 use crossbar::bi_scale::matrix::SparseMatrix;
 use crossbar::bi_scale::product::by_rows;
-use crossbar::bi_scale::rivals::reference::{by_largest_coefficients, dense_row};
-use crossbar::bi_scale::rivals::{
-    CoefficientPriority, CoefficientStorage, HaarRowOptions, HaarRows, RivalError, StoredTransfer,
-};
 use crossbar::transfer::haar::Haar;
 
 use super::{any_rows, light, transfer};
@@ -91,7 +91,7 @@ fn bytes_are_steps_of_the_largest() {
 #[test]
 fn what_is_no_transfer_is_refused() {
     let narrow = SparseMatrix::new(32, 0).unwrap();
-    assert_eq!(HaarRows::new(&narrow, HaarRowOptions::default()), Err(RivalError::Columns { found: 32 }));
+    assert_eq!(HaarRows::new(&narrow, HaarRowOptions::default()), Err(BaselineError::Columns { found: 32 }));
     let none = HaarRowOptions { keep: 0, ..HaarRowOptions::default() };
-    assert_eq!(HaarRows::new(&any_rows(1, 2), none), Err(RivalError::Coefficients { found: 0 }));
+    assert_eq!(HaarRows::new(&any_rows(1, 2), none), Err(BaselineError::Coefficients { found: 0 }));
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{ExitCoefficients, RivalError};
+use super::{BaselineError, ExitCoefficients};
 use crate::geom::vector::wide;
 use crate::linalg::Matrix;
 use crate::sphere::ParabolicMap;
@@ -30,11 +30,11 @@ impl ViewMap {
     /// of incident radiance.
     ///
     /// # Errors
-    /// [`RivalError::BrdfRows`] if it has other rows.
-    pub fn of_brdf(basis: &ExitBasis, brdf: &Matrix, map: ParabolicMap) -> Result<Self, RivalError> {
+    /// [`BaselineError::BrdfRows`] if it has other rows.
+    pub fn of_brdf(basis: &ExitBasis, brdf: &Matrix, map: ParabolicMap) -> Result<Self, BaselineError> {
         let (expected, found) = (basis.len(), brdf.row_count());
         if expected != found {
-            return Err(RivalError::BrdfRows { expected, found });
+            return Err(BaselineError::BrdfRows { expected, found });
         }
         let mut y = vec![0.0; expected];
         Ok(Self::from_fn(map, brdf.column_count(), |direction, into| {
@@ -63,20 +63,20 @@ impl ViewMap {
     /// Radiance of every vertex towards an eye: the functions at the view direction times the vertex's coefficients.
     ///
     /// # Errors
-    /// [`RivalError`] for coefficients of other functions or vertices.
+    /// [`BaselineError`] for coefficients of other functions or vertices.
     pub fn radiance(
         &self,
         vertices: &Vertices,
         coefficients: &ExitCoefficients,
         eye: DVec3,
-    ) -> Result<Vec<[f32; 3]>, RivalError> {
+    ) -> Result<Vec<[f32; 3]>, BaselineError> {
         let (expected, found) = (self.functions, coefficients.row_count());
         if expected != found {
-            return Err(RivalError::Coefficients { expected, found });
+            return Err(BaselineError::Coefficients { expected, found });
         }
         let (expected, found) = (vertices.len(), coefficients.vertex_count());
         if expected != found {
-            return Err(RivalError::Vertices { expected, found });
+            return Err(BaselineError::Vertices { expected, found });
         }
         let towards = |vertex: usize| {
             let view = (eye - wide(vertices.positions()[vertex])).normalize_or_zero();

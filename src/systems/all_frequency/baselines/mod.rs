@@ -12,4 +12,4 @@ mod subject;
 
 pub use fixed_view::FixedView;
 pub use harmonic::HarmonicTransfer;
-pub use subject::RivalSubject;
+pub use subject::BaselineSubject;

@@ -9,7 +9,7 @@ use crate::transfer::grid::LIGHT_TEXELS;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum RivalError {
+pub enum BaselineError {
     /// A matrix whose columns are not the light texels.
     #[error("expected a matrix of {LIGHT_TEXELS} columns, a light texel each, found {found}")]
     Columns { found: usize },

@@ -25,7 +25,7 @@ use crate::sphere::CUBE_FACES;
 /// The width of the hat function of a light texel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, strum::Display, strum::EnumString, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
-pub enum HatWidth {
+pub enum BasisWidth {
     /// The texel alone: a box.
     OneTexel,
     /// Bilinear, to the centers of the neighbors.
@@ -38,23 +38,23 @@ const SHARED: usize = 4;
 
 /// The light texels with a weight in a fine direction, the texel that contains it first, and the weights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HatWeights {
+pub struct BasisWeights {
     texels: [u32; SHARED],
     weights: [f64; SHARED],
     count: usize,
 }
 
-impl HatWeights {
+impl BasisWeights {
     /// The weights of a fine direction, given by its number.
     ///
     /// # Panics
     /// If there is no such direction.
-    pub fn of(width: HatWidth, fine: usize) -> Self {
+    pub fn of(width: BasisWidth, fine: usize) -> Self {
         assert!(fine < FINE_DIRECTIONS, "a fine direction, not {fine}");
         let [face, row, column] = face_row_column(fine, FINE_SIDE);
         let own = [row / SUPERSAMPLES, column / SUPERSAMPLES].map(usize::cast_signed);
         let mut found = Self::default();
-        if width == HatWidth::OneTexel {
+        if width == BasisWidth::OneTexel {
             found.add(texel(face, own), 1.0);
             return found;
         }
@@ -132,29 +132,29 @@ pub(crate) struct SegmentSample {
 
 /// The hat functions of one segment's texels: the fine directions in which any of them is not 0, in order.
 #[derive(Clone, Debug)]
-pub(crate) struct SegmentHats {
+pub(crate) struct SegmentBasis {
     pub(crate) samples: Vec<SegmentSample>,
     /// The words of visibility bits with samples: index of the word, mask of its samples, and index of the word's first
     /// sample.
     pub(crate) words: Vec<(u32, u64, u32)>,
-    /// See [`Hats::rim`].
+    /// See [`LinearBasis::rim`].
     rim: Vec<u32>,
 }
 
 /// The hat functions of all segments.
 #[derive(Clone, Debug)]
-pub struct Hats {
-    width: HatWidth,
-    segments: Vec<SegmentHats>,
+pub struct LinearBasis {
+    width: BasisWidth,
+    segments: Vec<SegmentBasis>,
 }
 
-impl Hats {
+impl LinearBasis {
     /// The hat functions of all light texels, for 24 segments.
-    pub fn new(width: HatWidth) -> Self {
+    pub fn new(width: BasisWidth) -> Self {
         let segmentation = Segmentation::Quarters;
         let mut samples: Vec<Vec<SegmentSample>> = vec![Vec::new(); segmentation.count()];
         for (fine, &solid_angle) in FineDirections::get().solid_angles().iter().enumerate() {
-            for (texel, weight) in HatWeights::of(width, fine).iter() {
+            for (texel, weight) in BasisWeights::of(width, fine).iter() {
                 let [segment, place] = segmentation.place(texel);
                 let of_segment = &mut samples[segment];
                 if of_segment.last().is_none_or(|last| last.fine as usize != fine) {
@@ -166,11 +166,11 @@ impl Hats {
                 sample.count += 1;
             }
         }
-        Self { width, segments: samples.into_iter().map(SegmentHats::new).collect() }
+        Self { width, segments: samples.into_iter().map(SegmentBasis::new).collect() }
     }
 
     /// Their width.
-    pub const fn width(&self) -> HatWidth {
+    pub const fn width(&self) -> BasisWidth {
         self.width
     }
 
@@ -188,12 +188,12 @@ impl Hats {
         self.segments[segment].rim.iter().map(|&fine| fine as usize)
     }
 
-    pub(crate) fn segment(&self, segment: usize) -> &SegmentHats {
+    pub(crate) fn segment(&self, segment: usize) -> &SegmentBasis {
         &self.segments[segment]
     }
 }
 
-impl SegmentHats {
+impl SegmentBasis {
     fn new(samples: Vec<SegmentSample>) -> Self {
         let mut words: Vec<(u32, u64, u32)> = Vec::new();
         for (at, sample) in samples.iter().enumerate() {
@@ -249,12 +249,12 @@ mod tests {
     #[test]
     fn inside_a_face_hats_are_bilinear() {
         // Fine row 41 is row 1 of texel row 10, 1/8 above its center; fine column 47 column 3 of texel 11, 3/8 right.
-        let found: Vec<_> = HatWeights::of(HatWidth::TwoTexels, 4 * 16_384 + 41 * 128 + 47).iter().collect();
+        let found: Vec<_> = BasisWeights::of(BasisWidth::TwoTexels, 4 * 16_384 + 41 * 128 + 47).iter().collect();
         let at = |row: usize, column: usize| 4 * 1024 + row * 32 + column;
         let expected =
             [(at(10, 11), 35.0 / 64.0), (at(10, 12), 21.0 / 64.0), (at(9, 11), 5.0 / 64.0), (at(9, 12), 3.0 / 64.0)];
         assert_eq!(found, expected);
-        let one: Vec<_> = HatWeights::of(HatWidth::OneTexel, 4 * 16_384 + 41 * 128 + 47).iter().collect();
+        let one: Vec<_> = BasisWeights::of(BasisWidth::OneTexel, 4 * 16_384 + 41 * 128 + 47).iter().collect();
         assert_eq!(one, [(at(10, 11), 1.0)]);
     }
 

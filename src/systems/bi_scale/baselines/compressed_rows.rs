@@ -1,6 +1,6 @@
 //! Compressed rows: the columns and values of each row one after another.
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
 
@@ -96,11 +96,11 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
     /// The rows of a matrix.
     ///
     /// # Errors
-    /// [`RivalError::ColumnRange`], [`RivalError::ValueRange`] if the layout has no room for them.
+    /// [`BaselineError::ColumnRange`], [`BaselineError::ValueRange`] if the layout has no room for them.
     ///
     /// # Panics
     /// If there are more entries than 32 bits can count.
-    pub fn new(matrix: &SparseMatrix) -> Result<Self, RivalError> {
+    pub fn new(matrix: &SparseMatrix) -> Result<Self, BaselineError> {
         assert!(u32::try_from(matrix.nonzeros()).is_ok(), "entries that 32 bits can count");
         let mut rows = Self {
             width: matrix.columns(),
@@ -113,9 +113,10 @@ impl<I: RowColumn, V: RowValue> CompressedRows<I, V> {
         for row in 0..matrix.rows() {
             for entry in matrix.row(row) {
                 let column = entry.index;
-                rows.columns.push(I::of(column).ok_or(RivalError::ColumnRange { column, most: I::MOST })?);
+                rows.columns.push(I::of(column).ok_or(BaselineError::ColumnRange { column, most: I::MOST })?);
                 let value = V::of(matrix, entry.value);
-                let out_of_range = || RivalError::ValueRange { row, value: matrix.value(entry.value), holds: V::HOLDS };
+                let out_of_range =
+                    || BaselineError::ValueRange { row, value: matrix.value(entry.value), holds: V::HOLDS };
                 rows.values.push(value.ok_or_else(out_of_range)?);
             }
             rows.begins.push(rows.columns.len() as u32);

@@ -1,6 +1,6 @@
 //! Clustered principal components of the rows of a sparse matrix (section VI-B, Figure 6).
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use super::refine::{PlacedRow, RowSubspace, placed, refitted};
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
@@ -76,12 +76,12 @@ impl RowClusters {
     /// with the number of finished rounds.
     ///
     /// # Errors
-    /// [`RivalError::Dark`], [`RivalError::Sample`], [`RivalError::Clusters`].
+    /// [`BaselineError::Dark`], [`BaselineError::Sample`], [`BaselineError::Clusters`].
     pub fn new(
         matrix: &SparseMatrix,
         options: &RowClusterOptions,
         observe: &mut dyn FnMut(usize),
-    ) -> Result<Self, RivalError> {
+    ) -> Result<Self, BaselineError> {
         let mut subspaces = first(matrix, options)?;
         let mut rows = placed(matrix, &subspaces);
         let mut history = vec![total(&rows)];
@@ -164,13 +164,13 @@ impl StoredTransfer for RowClusters {
 }
 
 /// The initial clusters, from a sample of rows.
-fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSubspace>, RivalError> {
+fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSubspace>, BaselineError> {
     let rows = sample(matrix, options.sample, options.seed);
     if rows.is_empty() {
-        return Err(RivalError::Dark);
+        return Err(BaselineError::Dark);
     }
     if rows.len() < options.clusters {
-        return Err(RivalError::Sample { clusters: options.clusters, found: rows.len() });
+        return Err(BaselineError::Sample { clusters: options.clusters, found: rows.len() });
     }
     let columns = matrix.columns();
     let mut values = vec![0.0; rows.len() * columns];
@@ -179,7 +179,7 @@ fn first(matrix: &SparseMatrix, options: &RowClusterOptions) -> Result<Vec<RowSu
             into[entry.index as usize] = matrix.value(entry.value) as f32;
         }
     }
-    let signal = Signal::new(columns, values).map_err(|_| RivalError::Dark)?;
+    let signal = Signal::new(columns, values).map_err(|_| BaselineError::Dark)?;
     let of_sample = CpcaOptions {
         clusters: options.clusters,
         vectors: options.vectors,

@@ -2,9 +2,9 @@
 //! stored.
 
 use approx::assert_relative_eq;
+use crossbar::bi_scale::baselines::reference::dense_row;
+use crossbar::bi_scale::baselines::{BaselineError, RowClusterOptions, RowClusters, StoredTransfer};
 use crossbar::bi_scale::matrix::{MatrixEntry, SparseMatrix};
-use crossbar::bi_scale::rivals::reference::dense_row;
-use crossbar::bi_scale::rivals::{RivalError, RowClusterOptions, RowClusters, StoredTransfer};
 use crossbar::linalg::dot;
 use crossbar::transfer::Signal;
 use crossbar::transfer::clustering::{CpcaError, CpcaForm, CpcaMethod, CpcaOptions, StartPoints, compress};
@@ -141,10 +141,10 @@ fn what_cannot_be_clustered_is_refused() {
     };
     let mut dark = SparseMatrix::new(6144, 0).unwrap();
     dark.push_row(&[]).unwrap();
-    assert_eq!(refused(&dark, &RowClusterOptions::default()), RivalError::Dark);
+    assert_eq!(refused(&dark, &RowClusterOptions::default()), BaselineError::Dark);
     let matrix = transfer().1;
     let few = RowClusterOptions { sample: 3, ..options(CpcaForm::Affine) };
-    assert_eq!(refused(&matrix, &few), RivalError::Sample { clusters: 5, found: 3 });
+    assert_eq!(refused(&matrix, &few), BaselineError::Sample { clusters: 5, found: 3 });
     let none = RowClusterOptions { vectors: 0, ..options(CpcaForm::Linear) };
-    assert_eq!(refused(&matrix, &none), RivalError::Clusters(CpcaError::NothingLinear));
+    assert_eq!(refused(&matrix, &none), BaselineError::Clusters(CpcaError::NothingLinear));
 }

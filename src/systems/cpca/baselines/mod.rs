@@ -12,6 +12,6 @@ mod error;
 mod uncompressed;
 mod view_map;
 
-pub use error::RivalError;
+pub use error::BaselineError;
 pub use uncompressed::{ExitCoefficients, UncompressedTransfer};
 pub use view_map::ViewMap;

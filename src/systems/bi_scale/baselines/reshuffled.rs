@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use super::local_transfer::{LocalTransfer, cell_integrals};
 use super::stored::{StoredSize, StoredTransfer};
 use crate::sphere::CubeMap;
@@ -31,10 +31,10 @@ impl ReshuffledVisibility {
     /// about as many over the hemisphere as there are local directions of 8 x 8.
     ///
     /// # Errors
-    /// [`RivalError::CoarseSide`].
-    pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, RivalError> {
+    /// [`BaselineError::CoarseSide`].
+    pub fn new(transfer: &LocalTransfer<'_>, side: usize) -> Result<Self, BaselineError> {
         if !side.is_power_of_two() || side > LIGHT_SIDE {
-            return Err(RivalError::CoarseSide { found: side });
+            return Err(BaselineError::CoarseSide { found: side });
         }
         let cube = CubeMap::new(side);
         let share = 1.0 / (LIGHT_SIDE / side).pow(2) as f64;

@@ -6,7 +6,7 @@ use thiserror::Error;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[expect(missing_docs, reason = "the messages say what the fields are")]
-pub enum RivalError {
+pub enum BaselineError {
     /// A number of values per point that makes no matrix with this many rows.
     #[error("expected {rows} rows of 1, 4, 9, ... or 100 numbers per point, found {found} numbers per point")]
     Shape { rows: usize, found: usize },

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::error::RivalError;
+use super::error::BaselineError;
 use super::local_transfer::{LocalTransfer, cell_integrals};
 use super::stored::{StoredSize, StoredTransfer};
 use crate::bi_scale::matrix::SparseMatrix;
@@ -37,10 +37,10 @@ impl HarmonicRows {
     /// Rows whose light is of an order. Nothing is to be known of vertices.
     ///
     /// # Errors
-    /// [`RivalError::Columns`], [`RivalError::Order`].
-    pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, RivalError> {
+    /// [`BaselineError::Columns`], [`BaselineError::Order`].
+    pub fn of_light(matrix: &SparseMatrix, order: usize) -> Result<Self, BaselineError> {
         if matrix.columns() != LIGHT_TEXELS {
-            return Err(RivalError::Columns { found: matrix.columns() });
+            return Err(BaselineError::Columns { found: matrix.columns() });
         }
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);
@@ -61,8 +61,8 @@ impl HarmonicRows {
     /// over light texels, at their centers, of visibility and both.
     ///
     /// # Errors
-    /// [`RivalError::Order`].
-    pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, RivalError> {
+    /// [`BaselineError::Order`].
+    pub fn of_both(transfer: &LocalTransfer<'_>, order: usize) -> Result<Self, BaselineError> {
         let functions = TexelHarmonics::new(order)?;
         let count = function_count(order);
         let mut values = vec![0.0; transfer.frames().len() * count * count];
@@ -124,9 +124,9 @@ struct TexelHarmonics {
 }
 
 impl TexelHarmonics {
-    fn new(order: usize) -> Result<Self, RivalError> {
+    fn new(order: usize) -> Result<Self, BaselineError> {
         if !(1..=MAX_ORDER).contains(&order) {
-            return Err(RivalError::Order { found: order });
+            return Err(BaselineError::Order { found: order });
         }
         let count = function_count(order);
         let mut functions = vec![0.0; LIGHT_TEXELS * count];
