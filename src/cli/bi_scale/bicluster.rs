@@ -29,8 +29,8 @@ Examples:
   crossbar bi-scale bicluster docs/examples/quarters.mtx --drop 0.25
       with loss: what is off by a quarter stays so
 
-The sum of the biclusters equals the matrix bit for bit, whatever its numbers are. Products in single precision, on the
-host and on cards, and in double precision round the values that they do not hold; it is said how many there are.";
+The sum of the biclusters equals the matrix bit for bit, whatever its numbers are. Products in single precision, on \
+host and cards, and in double precision round values that they do not hold; the summary counts these.";
 
 /// Values that a table has room for.
 const VALUES: usize = 17;

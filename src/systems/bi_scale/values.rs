@@ -189,8 +189,8 @@ impl std::fmt::Display for EntryValues {
         match (self.table_len(), self.fraction_bits) {
             (None, Some(0)) => f.write_str("whole numbers"),
             (None, bits) => write!(f, "whole numbers of 2^-{}", bits.unwrap_or(0)),
-            (Some(1), _) => f.write_str("a table of 1 number"),
-            (Some(count), _) => write!(f, "a table of {count} numbers"),
+            (Some(1), _) => f.write_str("1 number in a table"),
+            (Some(count), _) => write!(f, "{count} numbers in a table"),
         }
     }
 }
