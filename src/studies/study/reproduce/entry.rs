@@ -1,7 +1,7 @@
 //! Entries of the reproduction, and their findings.
 
 use super::shared::Shared;
-use super::{PaperRow, Prose, ReproduceError};
+use super::{PaperRow, Prose, StudyError};
 use crate::report::{Chart, NamedPicture, Table};
 
 /// Chart with its file name and caption.
@@ -39,7 +39,7 @@ pub struct ReproduceEntry {
     pub id: &'static str,
     /// Title, with the place where it is printed.
     pub title: &'static str,
-    pub(super) work: fn(&Shared) -> Result<EntryFindings, ReproduceError>,
+    pub(super) work: fn(&Shared) -> Result<EntryFindings, StudyError>,
 }
 
 /// Entries with their findings.

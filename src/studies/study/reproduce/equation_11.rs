@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 
 use super::pipeline::model;
-use super::{EntryFindings, Method, Prose, ReproduceError, Standing, figure, number, paper_row, pipeline, printed};
+use super::{EntryFindings, Method, Prose, Standing, StudyError, figure, number, paper_row, pipeline, printed};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Table};
 
@@ -19,7 +19,7 @@ pub(super) const TEN_TRIANGLES: [&str; 2] = ["ray-engine/ten-triangles-geforce3"
 pub(super) const MEGA: f64 = 1e6;
 
 /// Rates of equation 11 on a card, with the fill rate measured in the paper, or implied by it.
-pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
+pub(super) fn rates(device: &str) -> Result<CostRates, StudyError> {
     let profile = Profile::named(device)?;
     let (rates, bus) = (&profile.rates, &profile.bus);
     Ok(CostRates {
@@ -30,7 +30,7 @@ pub(super) fn rates(device: &str) -> Result<CostRates, ReproduceError> {
 
 const READ_BACK: &str = "250 MB/s (read-back)";
 
-pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, StudyError> {
     let mut worked = Table::of("Worked numbers, M/s", "figure device printed equation pipeline");
     let mut rows = Vec::new();
     for (id, gamma) in ["ray-engine/results-4", "ray-engine/results-16"].into_iter().zip(GAMMAS) {
@@ -75,7 +75,7 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
 }
 
 /// Line of a printed figure with the values of equation and pipeline.
-fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], ReproduceError> {
+fn line(id: &str, device: &str, ours: [f64; 2]) -> Result<[Cell; 5], StudyError> {
     let figure = printed(id)?;
     let [equation, pipeline] = ours.map(|value| figure.beside(value));
     Ok([figure.what.as_str().into(), device.into(), figure.cell(), equation, pipeline])

@@ -6,36 +6,33 @@ use refsim::timing::TimingError;
 use crate::names::did_you_mean;
 use crate::study::StudyError;
 
-/// Error of computing an entry.
-pub(super) type ReproduceError = StudyError;
-
 /// Help of errors that no input causes.
 const BUG: &str = "this is a bug: please report it with the command line";
 
 /// Error of a name that no entry has.
-pub(super) fn unknown(found: &str, known: &[&str]) -> ReproduceError {
+pub(super) fn unknown(found: &str, known: &[&str]) -> StudyError {
     let help = format!("{}`crossbar reproduce --list` says what each is", did_you_mean(found, known.iter().copied()));
     let what = format!("expected the name of an entry ({}), found `{found}`", known.join(", "));
     StudyError::new("reproduce::unknown", what).with_help(help)
 }
 
 /// Error of the data of the papers' printed figures: malformed, or without a figure.
-pub(super) fn papers_error(reason: &str) -> ReproduceError {
+pub(super) fn papers_error(reason: &str) -> StudyError {
     StudyError::new("reproduce::papers", format!("printed figures of the papers: {reason}")).with_help(BUG)
 }
 
 /// Error of a run: a machine refuses a draw of an entry, or a program of an entry does not assemble.
-pub(super) fn run_error(device: &str, reason: &str) -> ReproduceError {
+pub(super) fn run_error(device: &str, reason: &str) -> StudyError {
     StudyError::new("reproduce::run", format!("a run of this entry failed on `{device}`: {reason}")).with_help(BUG)
 }
 
 /// Error of a timing model that lacks a value.
-pub(super) fn no_time(error: TimingError) -> ReproduceError {
+pub(super) fn no_time(error: TimingError) -> StudyError {
     StudyError::coded("reproduce::timing", error)
 }
 
 /// Converts a value required by an entry, or returns the error for its absence from a profile.
-pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, ReproduceError> {
+pub(super) fn figure(profile: &Profile, name: &'static str, value: Option<u64>) -> Result<f64, StudyError> {
     let missing = || {
         let what = format!("device `{}` has no figure `{name}`, which this entry needs", profile.name);
         StudyError::new("reproduce::no_figure", what)

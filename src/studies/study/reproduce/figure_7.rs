@@ -2,7 +2,7 @@
 //! host.
 
 use super::equation_11::{CARDS, GAMMAS, MEGA, TEN, TEN_TRIANGLES, rates};
-use super::{EntryChart, EntryFindings, Prose, ReproduceError, pipeline, printed_value};
+use super::{EntryChart, EntryFindings, Prose, StudyError, pipeline, printed_value};
 use crate::ray_engine::model::CostRates;
 use crate::report::{Cell, Chart, Series, Table};
 
@@ -13,7 +13,7 @@ const TRIANGLES: [u32; 12] = [1, 2, 4, 6, 8, 10, 16, 25, 32, 50, 100, 1000];
 /// Maximum number of triangles in the plot.
 const PLOTTED: u32 = 50;
 
-pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, StudyError> {
     let mut tests = Table::of("Millions of ray-triangle tests a second", "device gamma_B triangles rates pipeline");
     let mut limits = Table::of(
         "Where a card pays: T_min by the host's tests a second",
@@ -56,7 +56,7 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
 }
 
 /// Equation 11 with the pipeline model's own fill and read-back rates.
-fn pipeline_rates(device: &str) -> Result<CostRates, ReproduceError> {
+fn pipeline_rates(device: &str) -> Result<CostRates, StudyError> {
     Ok(CostRates {
         fill_pixels_per_s: pipeline::dual_textured(device)?.pixels_per_s(),
         readback_bytes_per_s: pipeline::results_per_s(device, 1.0)?,
@@ -68,10 +68,10 @@ fn line(label: String, card: &CostRates, gamma: f64) -> Series {
     Series { label, points: std::iter::once((0.0, 0.0)).chain((1..=PLOTTED).map(point)).collect() }
 }
 
-fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, ReproduceError> {
+fn chart(gamma: f64, lines: Vec<Series>) -> Result<EntryChart, StudyError> {
     // The text gives the points for the id alone.
     let shown = if gamma == GAMMAS[0] { &TEN_TRIANGLES[..] } else { &[] };
-    let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, ReproduceError>>()?;
+    let printed = shown.iter().map(|id| Ok((TEN, printed_value(id)?))).collect::<Result<_, StudyError>>()?;
     Ok(EntryChart {
         name: if gamma == GAMMAS[0] { "figure-7-gamma-4" } else { "figure-7-gamma-16" },
         chart: Chart {

@@ -34,8 +34,9 @@ mod vertex_variant;
 use crate::report::{Findings, Provenance};
 use crate::study::{ProgressFn, Study};
 
+use crate::study::StudyError;
 pub use entry::{EntryChart, EntryFindings, ReproduceEntry, Reproduced};
-use error::{ReproduceError, figure};
+use error::figure;
 pub use model_size::ModelSize;
 pub use paper::{Paper, papers, printed};
 use paper::{row as paper_row, value as printed_value};
@@ -54,7 +55,7 @@ pub fn reproduce(
     entries: &[ReproduceEntry],
     models: ModelSize,
     progress: &mut ProgressFn<'_>,
-) -> Result<Reproduced, ReproduceError> {
+) -> Result<Reproduced, StudyError> {
     let shared = Shared::new(models);
     let work = |(done, entry): (u64, &ReproduceEntry)| {
         progress(entry.id, done, entries.len() as u64);
@@ -73,7 +74,7 @@ pub struct Parameters {
 }
 
 impl Study for Parameters {
-    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, ReproduceError> {
+    fn findings(&self, progress: &mut ProgressFn<'_>) -> Result<Findings, StudyError> {
         Ok(report::findings(&reproduce(&self.entries, self.models, progress)?))
     }
 
@@ -277,7 +278,7 @@ pub fn names() -> Vec<&'static str> {
 ///
 /// # Errors
 /// If no entry has a name.
-pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, ReproduceError> {
+pub fn choose(wanted: &[String]) -> Result<Vec<ReproduceEntry>, StudyError> {
     if let Some(found) = wanted.iter().find(|name| !names().contains(&name.as_str())) {
         return Err(error::unknown(found, &names()));
     }

@@ -13,8 +13,9 @@ use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{Image, SamplerState, TexelFormat};
 use refsim::timing::{DrawCost, Level, Model};
 
-use super::error::{ReproduceError, no_time, run_error};
+use super::error::{no_time, run_error};
 use crate::report::{Cell, Table};
+use crate::study::StudyError;
 
 /// Side of the screen and of its textures, in pixels. The paper does not state it; the rate hardly depends on it.
 const SIDE: u32 = 256;
@@ -38,17 +39,17 @@ impl TimedDraw {
 }
 
 /// Returns a function that converts a failure to an entry's error.
-pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> ReproduceError + '_ {
+pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> StudyError + '_ {
     move |reason| run_error(device, &reason.to_string())
 }
 
 /// Pipeline model of a card.
-pub(super) fn model(device: &str) -> Result<Model, ReproduceError> {
+pub(super) fn model(device: &str) -> Result<Model, StudyError> {
     Ok(Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)?)
 }
 
 /// Times the most expensive draw of a log.
-pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, ReproduceError> {
+pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, StudyError> {
     let model = model(device)?;
     let draws = log.into_iter().filter_map(|event| match event {
         Event::Draw(record) => Some(TimedDraw { cost: model.draw(&record), record: *record }),
@@ -58,19 +59,19 @@ pub(super) fn timed(device: &str, log: Vec<Event>) -> Result<TimedDraw, Reproduc
 }
 
 /// Times screen-filling quads with two textures of the screen's size, with depth test and write.
-pub(super) fn dual_textured(device: &str) -> Result<TimedDraw, ReproduceError> {
+pub(super) fn dual_textured(device: &str) -> Result<TimedDraw, StudyError> {
     timed(device, screen_quads(device, QUADS)?)
 }
 
 /// Results per second allowed by read-back alone, `gamma` bytes each, a screen at a time.
-pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, ReproduceError> {
+pub(super) fn results_per_s(device: &str, gamma: f64) -> Result<f64, StudyError> {
     let rays = f64::from(SIDE * SIDE);
     Ok(rays / model(device)?.read_back((rays * gamma) as u64).seconds())
 }
 
 /// Tests per second as in equation 11, measured: quads for `triangles` triangles over a screen of rays, followed by
 /// read-back.
-pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, ReproduceError> {
+pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f64, StudyError> {
     let drawn = timed(device, screen_quads(device, triangles as usize)?)?;
     let rays = f64::from(SIDE * SIDE);
     let back = model(device)?.read_back((rays * gamma) as u64);
@@ -78,7 +79,7 @@ pub(super) fn tests_per_s(device: &str, triangles: f64, gamma: f64) -> Result<f6
 }
 
 /// Table of the cost of a dual-textured pixel in each unit of some cards.
-pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
+pub(super) fn cost_table(devices: &[&str]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "A dual-textured pixel in the pipeline model",
         "device texture_B depth_B color_B arithmetic_clocks texture_clocks output_clocks memory_clocks bound_by",
@@ -104,7 +105,7 @@ pub(super) fn cost_table(devices: &[&str]) -> Result<Table, ReproduceError> {
 }
 
 /// Records the log of one draw of `quads` quads over the screen.
-fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, ReproduceError> {
+fn screen_quads(device: &str, quads: usize) -> Result<Vec<Event>, StudyError> {
     let fail = failed(device);
     let profile = Profile::named(device)?;
     let program = assemble(DUAL_TEXTURED).map_err(|e| fail(&e))?;

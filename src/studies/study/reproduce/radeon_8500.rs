@@ -5,9 +5,7 @@ use refsim::machine::ExecutorKind;
 
 use super::equation_11::MEGA;
 use super::pipeline::{TimedDraw, failed, model, timed};
-use super::{
-    EntryFindings, Method, PaperRow, Prose, ReproduceError, Standing, figure, number, paper_row, printed_value,
-};
+use super::{EntryFindings, Method, PaperRow, Prose, Standing, StudyError, figure, number, paper_row, printed_value};
 use crate::geom::exact::Sides;
 use crate::geom::teapot::teapot;
 use crate::geom::{Mesh, Ray};
@@ -29,7 +27,7 @@ const PAIRS: &str = "Thousands of triangles against {} x {} rays: read-back and 
     figure. So this row is a calibration, by a whole number; it has our program for rays of any origin, and the one for rays of one origin as \
     another reading. The printed figure is {} clocks of a pipeline a test.";
 
-pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(super) fn findings() -> Result<EntryFindings, StudyError> {
     let (row, slots) = kernels()?;
     let profile = Profile::named(DEVICE)?;
     let rates = &profile.rates;
@@ -49,7 +47,7 @@ pub(super) fn findings() -> Result<EntryFindings, ReproduceError> {
     })
 }
 
-fn kernels() -> Result<(PaperRow, Table), ReproduceError> {
+fn kernels() -> Result<(PaperRow, Table), StudyError> {
     let mesh = mesh()?;
     let camera = Camera::teapot(SIDE, SIDE).map_err(|e| failed(DEVICE)(&e))?;
     let eye = camera.rays();
@@ -85,7 +83,7 @@ fn kernels() -> Result<(PaperRow, Table), ReproduceError> {
     Ok((row, slots))
 }
 
-fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), ReproduceError> {
+fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), StudyError> {
     let rays = RayBatch::new(SIDE, SIDE, rays).map_err(|e| failed(DEVICE)(&e))?;
     let card = Crossbar::new(Profile::named(DEVICE)?, ExecutorKind::Batch).all_pairs(true);
     let answer = card.intersect_recorded(mesh, &rays, Sides::Front)?;
@@ -93,13 +91,13 @@ fn run(mesh: &Mesh, rays: Vec<Ray>) -> Result<(&'static str, TimedDraw), Reprodu
 }
 
 /// Builds a part of the teapot.
-fn mesh() -> Result<Mesh, ReproduceError> {
+fn mesh() -> Result<Mesh, StudyError> {
     let whole = teapot(8).map_err(|e| failed(DEVICE)(&e))?;
     let triangles = whole.triangles().iter().take(TRIANGLES).copied().collect();
     Mesh::new(whole.positions().to_vec(), triangles).map_err(|e| failed(DEVICE)(&e))
 }
 
-fn moved(ray: &Ray, by: f32) -> Result<Ray, ReproduceError> {
+fn moved(ray: &Ray, by: f32) -> Result<Ray, StudyError> {
     let (o, d) = (ray.origin(), ray.direction());
     Ray::new([o[0] + by * d[0], o[1] + by * d[1], o[2] + by * d[2]], d).map_err(|e| failed(DEVICE)(&e))
 }

@@ -5,7 +5,7 @@ use strum::VariantArray as _;
 
 use super::overview::{overview, overview_chart, tally as counts};
 use super::summary::summary_lines;
-use super::{EntryChart, Judgement, Paper, PaperRow, ReproduceError, Reproduced, RowVerdict, papers};
+use super::{EntryChart, Judgement, Paper, PaperRow, Reproduced, RowVerdict, StudyError, papers};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
 const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% standing \
@@ -145,7 +145,7 @@ pub fn notes(found: &Reproduced) -> Table {
 }
 
 /// Table of the printed figures that no row judges, with the reasons, of the papers that have a row among these.
-fn unjudged(found: &Reproduced) -> Result<Table, ReproduceError> {
+fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     let mut table = Table::of("Printed figures without a row", "figure what place value unit reason");
     let has_row = |paper: &&Paper| all(found).any(|(_, row)| row.target.id.starts_with(&format!("{}/", paper.id)));
     for figure in papers()?.iter().filter(has_row).flat_map(|paper| &paper.figures) {

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::cell::OnceCell;
 
-use super::{ModelSize, ReproduceError};
+use super::{ModelSize, StudyError};
 
 /// Result that entries share: of each type one per key, made where the type is.
 pub(super) trait SharedResult: Sized + 'static {
@@ -11,7 +11,7 @@ pub(super) trait SharedResult: Sized + 'static {
     type Key: PartialEq + 'static;
 
     /// Computes the result, from others if it needs them.
-    fn compute(key: &Self::Key, shared: &Shared) -> Result<Self, ReproduceError>;
+    fn compute(key: &Self::Key, shared: &Shared) -> Result<Self, StudyError>;
 }
 
 /// The size of models that was asked for, and the results so far.
@@ -36,7 +36,7 @@ impl Shared {
     }
 
     /// Returns a result; computes it on first use, and again if that failed.
-    pub(super) fn get<T: SharedResult>(&self, key: T::Key) -> Result<&T, ReproduceError> {
+    pub(super) fn get<T: SharedResult>(&self, key: T::Key) -> Result<&T, StudyError> {
         if let Some(found) = self.nodes().find_map(|node| node.get::<T>(&key)) {
             return Ok(found);
         }
@@ -74,7 +74,7 @@ mod tests {
     impl SharedResult for Sum {
         type Key = u32;
 
-        fn compute(key: &u32, shared: &Shared) -> Result<Self, ReproduceError> {
+        fn compute(key: &u32, shared: &Shared) -> Result<Self, StudyError> {
             COMPUTED.set(COMPUTED.get() + 1);
             match key {
                 0 => Ok(Self(0)),
@@ -90,7 +90,7 @@ mod tests {
     impl SharedResult for Double {
         type Key = u32;
 
-        fn compute(key: &u32, _: &Shared) -> Result<Self, ReproduceError> {
+        fn compute(key: &u32, _: &Shared) -> Result<Self, StudyError> {
             Ok(Self(2 * key))
         }
     }

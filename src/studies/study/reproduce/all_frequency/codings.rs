@@ -1,6 +1,6 @@
 //! Codings of Table 1's representatives: the readings of "16 bits", and fewer bits.
 
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::all_frequency::code::{CodeOptions, CodedSegment, ScaleOf};
 use crate::all_frequency::compressed::CompressedSegment;
 use crate::elementary::pow;
@@ -53,7 +53,7 @@ impl Coding {
     }
 
     /// Codes a compressed segment.
-    pub(super) fn code(&self, part: &CompressedSegment) -> Result<CodedSegment, ReproduceError> {
+    pub(super) fn code(&self, part: &CompressedSegment) -> Result<CodedSegment, StudyError> {
         let options = CodeOptions { representative_bits: self.bits, ..CodeOptions::default() };
         let coded = match self.steps {
             CodingSteps::Filled(scale) => CodedSegment::code(part, CodeOptions { scale, ..options }),

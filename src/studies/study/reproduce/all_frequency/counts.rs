@@ -1,7 +1,7 @@
 //! Sections 1, 4, 5 and 6, and the columns of Table 1: values that follow from sizes and from the geometry of the cube.
 
 use super::{
-    EntryFindings, HOST, Method, PaperRow, Prose, ReproduceError, Standing, number, paper_row, printed, printed_value,
+    EntryFindings, HOST, Method, PaperRow, Prose, Standing, StudyError, number, paper_row, printed, printed_value,
 };
 use crate::elementary::log10;
 use crate::linalg::dot;
@@ -40,7 +40,7 @@ struct Column {
 }
 
 impl Column {
-    fn all() -> Result<Vec<Self>, ReproduceError> {
+    fn all() -> Result<Vec<Self>, StudyError> {
         let column = |&(model, id, rows): &(&str, &'static str, usize)| {
             Ok(Self {
                 id,
@@ -94,7 +94,7 @@ const HOW: &str = "Nothing is run: sizes as printed, by equation 12. Segments be
 const QUESTION: &str = "why fewer multiplications a second fit diffuse models and Buddha: sparse representatives, memory, or the host's share of the loop.";
 const RATE: &str = "6.2 fps of the bunny, which chose the constant; printed vertices, omega and clusters";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let glossy = (M * LIGHT_TEXELS) as f64;
     let segment = (M * Segmentation::Quarters.len()) as f64;
     let (least, mean) = below_horizon();

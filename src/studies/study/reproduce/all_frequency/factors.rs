@@ -1,7 +1,7 @@
 //! Section 3: errors of ten terms and of spherical harmonics for two reflectances, and Figure 3.
 
 use super::forms::{Form, FormErrors, ORDERS, TERMS, at_equal_angles, cook_torrance, schlick};
-use super::{EntryFindings, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, number, roughness, solved};
+use super::{EntryFindings, PaperRow, Prose, Setting, Shared, StudyError, Sweep, number, roughness, solved};
 use crate::all_frequency::factor::ProductErrors;
 
 /// PrintedReflectance in the names of its figures, with its forms.
@@ -31,7 +31,7 @@ const HOW: &str = "PrintedReflectance times cosine on parabolic maps of {} x {} 
 const QUESTION: &str = "which denominators, Fresnel and shadowing terms the paper's two reflectances have, where on the hemisphere its errors are \
     taken, and whether the harmonics expand view, light or both.";
 
-pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings, StudyError> {
     let (mut rows, mut tables, mut functions) = (Vec::new(), Vec::new(), Vec::new());
     for reflectance in &REFLECTANCES {
         let mut settings = Vec::new();
@@ -80,7 +80,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
 
 impl PrintedReflectance {
     /// Rows for the values of [`FormErrors::values`], but for the last.
-    fn rows(&self, values: &[f64]) -> Result<Vec<PaperRow>, ReproduceError> {
+    fn rows(&self, values: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
         let bases = std::iter::once("terms".to_owned()).chain(ORDERS.map(|order| format!("order-{order}")));
         let errors = bases.flat_map(|basis| ["rms", "largest"].map(|kind| format!("{basis}-{kind}")));
         let orders = ["order-6-over-terms", "terms-over-order-7"].map(str::to_owned);

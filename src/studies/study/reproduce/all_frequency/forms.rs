@@ -1,6 +1,6 @@
 //! Interpretations of the paper's two reflectances, and their errors.
 
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::all_frequency::factor::{
     Denominators, DiscSamples, FacetDistribution, FactorSampling, Factorization, FresnelForm, HarmonicFit,
     HarmonicSides, HemisphereSamples, Lobe, ProductErrors, Shadowing, Supersamples, TangentCosine, harmonic_errors,
@@ -86,7 +86,7 @@ pub(super) fn at_equal_angles(forms: &[Form]) -> Vec<(String, Lobe)> {
 
 impl FormErrors {
     /// Computes the errors of an interpretation.
-    pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, ReproduceError> {
+    pub(super) fn new((_, lobe, sampling): &Form) -> Result<Self, StudyError> {
         let table = sampling.table(lobe, &mut |_, _| ()).map_err(|error| failed(HOST)(&error))?;
         let found = Factorization::new(&table, TERMS).map_err(|error| failed(HOST)(&error))?;
         let disc = DiscSamples::new(&table);
@@ -94,13 +94,13 @@ impl FormErrors {
     }
 
     /// Computes the errors of a lobe at directions with equal solid angles, clamped as texels are.
-    pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, ReproduceError> {
+    pub(super) fn at_equal_angles(lobe: &Lobe) -> Result<Self, StudyError> {
         let samples = HemisphereSamples::of_equal_angles(lobe, FactorSampling::default().clamp.limit());
         let terms = samples.term_errors(TERMS).map_err(|error| failed(HOST)(&error))?;
         Self::of(terms, &samples)
     }
 
-    fn of(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, ReproduceError> {
+    fn of(terms: ProductErrors, samples: &HemisphereSamples) -> Result<Self, StudyError> {
         let of = |order: usize| {
             harmonic_errors(samples, order, HarmonicFit::ZeroHemisphere, HarmonicSides::Both)
                 .map_err(|error| failed(HOST)(&error))

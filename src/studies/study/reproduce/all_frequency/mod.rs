@@ -17,7 +17,7 @@ pub(super) use table_1::findings as table_1;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    EntryFindings, Method, PaperRow, Prose, ReproduceError, Setting, Standing, Sweep, number, paper_row, printed,
+    EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row, printed,
     printed_value,
 };
 
@@ -25,6 +25,6 @@ use super::{
 const HOST: &str = "host";
 
 /// Row of a value that is computed in f64 and uses no printed one.
-fn solved(id: &str, ours: f64) -> Result<PaperRow, ReproduceError> {
+fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("all-frequency/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::codings::CODINGS;
 use super::forms::{Form, TERMS, cook_torrance, schlick};
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodedSegment, CodedTransfer};
 use crate::all_frequency::compressed::{CompressedSegment, SegmentOptions};
@@ -48,7 +48,7 @@ pub(super) enum TableMaterial {
 
 impl TableModel {
     /// Builds the mesh; a reduced one has some 500 to 800 vertices.
-    fn mesh(self, size: ModelSize) -> Result<Mesh, ReproduceError> {
+    fn mesh(self, size: ModelSize) -> Result<Mesh, StudyError> {
         let built =
             |model: TransferModel, coarser: u32| model.mesh(if size == ModelSize::Printed { 1 } else { coarser });
         Ok(match self {
@@ -65,7 +65,7 @@ impl TableModel {
 
 impl TableMaterial {
     /// Returns the reflectance in the textbooks' form of the model, with ten terms.
-    pub(super) fn reflectance(self) -> Result<Reflectance, ReproduceError> {
+    pub(super) fn reflectance(self) -> Result<Reflectance, StudyError> {
         let (_, lobe, sampling): Form = match self {
             Self::Diffuse => return Ok(Reflectance::Diffuse),
             Self::Cook => cook_torrance()[0],
@@ -127,7 +127,7 @@ pub(super) struct CodedModel {
 
 impl ModelVisibility {
     /// Computes visibility by ray casting, of a model by itself.
-    pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, ReproduceError> {
+    pub(super) fn alone(model: TableModel, size: ModelSize) -> Result<Self, StudyError> {
         let fail = failed(HOST);
         let mesh = model.mesh(size)?;
         let vertices = Vertices::new(&mesh, Tangents::default()).map_err(|e| fail(&e))?;
@@ -138,7 +138,7 @@ impl ModelVisibility {
     }
 
     /// Computes visibility of a model on a ground, and of that ground.
-    pub(super) fn on_ground(model: TableModel, size: ModelSize) -> Result<[Self; 2], ReproduceError> {
+    pub(super) fn on_ground(model: TableModel, size: ModelSize) -> Result<[Self; 2], StudyError> {
         let fail = failed(HOST);
         let (mesh, materials) = on_ground(&model.mesh(size)?, ground_side(size)).map_err(|e| fail(&e))?;
         let vertices = Vertices::with_materials(&mesh, &materials, Tangents::default()).map_err(|e| fail(&e))?;
@@ -158,11 +158,7 @@ impl ModelVisibility {
     }
 
     /// Compresses and encodes the transfer: of some segments for reduced models, unless all are wanted.
-    pub(super) fn compressed(
-        &self,
-        reflectance: &Reflectance,
-        wants_all: bool,
-    ) -> Result<CompressedModel, ReproduceError> {
+    pub(super) fn compressed(&self, reflectance: &Reflectance, wants_all: bool) -> Result<CompressedModel, StudyError> {
         let fail = failed(HOST);
         let transfer = transfer_of(&self.vertices, &self.maps, &self.hats, reflectance);
         let reduced = self.size == ModelSize::Reduced;
@@ -218,7 +214,7 @@ impl SegmentSums {
         vertices: Vec<u32>,
         signal: &Signal,
         iterations: usize,
-    ) -> Result<(), ReproduceError> {
+    ) -> Result<(), StudyError> {
         let fail = failed(HOST);
         let options = SegmentOptions { iterations, ..SegmentOptions::default() };
         let mut steps: Vec<CpcaStep> = Vec::new();

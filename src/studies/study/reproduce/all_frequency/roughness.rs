@@ -1,7 +1,7 @@
 //! Figure 3: ten terms of Cook and Torrance's model by roughness.
 
 use super::forms::{TERMS, bare};
-use super::{HOST, PaperRow, ReproduceError, failed, solved};
+use super::{HOST, PaperRow, StudyError, failed, solved};
 use crate::all_frequency::factor::{DiscSamples, FactorSampling, Lobe, Supersamples};
 use crate::report::{NamedPicture, Table};
 use crate::study::prt::{BrdfFactors, FactorSubject, SweptRoughness, roughness_table};
@@ -20,7 +20,7 @@ pub(super) struct Figure3 {
     pub(super) inside: usize,
 }
 
-pub(super) fn sweep() -> Result<Figure3, ReproduceError> {
+pub(super) fn sweep() -> Result<Figure3, StudyError> {
     let lobe = Lobe::cook_torrance(0.4, 0.5);
     let textbook = swept("normalised", lobe)?;
     let bare = swept("distribution alone", bare(lobe))?;
@@ -32,7 +32,7 @@ pub(super) fn sweep() -> Result<Figure3, ReproduceError> {
     Ok(Figure3 { row, tables: vec![textbook.0, bare.0], pictures, inside })
 }
 
-fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), ReproduceError> {
+fn swept(form: &str, lobe: Lobe) -> Result<(Table, Vec<SweptRoughness>), StudyError> {
     let study = BrdfFactors {
         name: form.to_owned(),
         subject: FactorSubject::Lobe(lobe),

@@ -2,7 +2,7 @@
 
 use super::codings::{CODINGS, Coding};
 use super::models::{CompressedModel, HAAR_BITS, ModelVisibility, TableMaterial, TableModel, ground_side};
-use super::{EntryFindings, HOST, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, failed, number, solved};
+use super::{EntryFindings, HOST, PaperRow, Prose, Setting, Shared, StudyError, Sweep, failed, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodeOptions;
 use crate::all_frequency::compressed::SegmentOptions;
@@ -49,7 +49,7 @@ struct TableRun {
     columns: Vec<CompressedModel>,
 }
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let ComputedTable { runs, ground } = ComputedTable::new(shared.models)?;
     let figures = figures();
     let stated = values(&runs[0].columns, 0, false);
@@ -105,7 +105,7 @@ struct ComputedTable {
 }
 
 impl ComputedTable {
-    fn new(size: ModelSize) -> Result<Self, ReproduceError> {
+    fn new(size: ModelSize) -> Result<Self, StudyError> {
         let (diffuse, cook, schlick) = (Diffuse.reflectance()?, Cook.reflectance()?, Schlick.reflectance()?);
         let (mut alone, mut grounded, mut ground) = (Vec::new(), Vec::new(), None);
         let mut seen: Option<(TableModel, [ModelVisibility; 2])> = None;
@@ -148,7 +148,7 @@ struct CompressedGround {
 }
 
 impl CompressedGround {
-    fn new(ground: &ModelVisibility, diffuse: &Reflectance) -> Result<Self, ReproduceError> {
+    fn new(ground: &ModelVisibility, diffuse: &Reflectance) -> Result<Self, StudyError> {
         let found = ground.compressed(diffuse, true)?;
         let open = CODINGS.iter().zip(&found.coded).filter(|(how, _)| how.bits == PRINTED_BITS);
         Ok(Self { omega: ground.omega(), left: open.map(|(_, coded)| coded.numbers / found.raw).collect() })
@@ -156,7 +156,7 @@ impl CompressedGround {
 
     /// Rows on raw and coded data of the printed vertices: all segments as in Table 1, decimal; or only those that hold
     /// transfer, and in units of 2^20.
-    fn rows(&self) -> Result<[PaperRow; 2], ReproduceError> {
+    fn rows(&self) -> Result<[PaperRow; 2], StudyError> {
         let raw = 4.0 * f64::from(GROUND_SIDE * GROUND_SIDE) * LIGHT_TEXELS as f64;
         let units = |bytes: f64| [1e-6 * bytes, bytes / f64::from(1 << 20)];
         let [all, held] = [units(raw), units(raw * self.omega)];
@@ -221,7 +221,7 @@ fn figures() -> Vec<(usize, String)> {
 }
 
 /// Row of "roughly a factor of 10" without clusters, explained by the number of bits, which is not printed.
-fn haar(found: &[CompressedModel]) -> Result<(PaperRow, Table), ReproduceError> {
+fn haar(found: &[CompressedModel]) -> Result<(PaperRow, Table), StudyError> {
     let raw: f64 = found.iter().map(|model| model.raw).sum();
     let factor = |at: usize| raw / found.iter().map(|model| model.haar[at]).sum::<f64>();
     let mut rows = [solved("ratio-haar", factor(0))?];

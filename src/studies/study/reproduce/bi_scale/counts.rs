@@ -1,7 +1,7 @@
 //! Values of sections III and IV and of both tables that follow from sizes.
 
 use super::scenes::{PrintedScene, SCENES};
-use super::{Contradiction, EntryFindings, HOST, Method, PaperRow, Prose, ReproduceError, Standing, number, paper_row};
+use super::{Contradiction, EntryFindings, HOST, Method, PaperRow, Prose, Standing, StudyError, number, paper_row};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
@@ -25,7 +25,7 @@ const NONZEROS: &str = "printed non-zeros";
 const OPERATIONS: &str = "printed operations";
 const BYTES: &str = "these megabytes, which chose the bytes per value";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let example = (15_000 * 64 * LIGHT_TEXELS) as f64;
     let mut rows = vec![equation("bi-scale/example", (1e-9 * example, Standing::Counted))?];
     let mut table = Table::of(
@@ -65,12 +65,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     })
 }
 
-fn equation(id: &str, ours: (f64, Standing)) -> Result<PaperRow, ReproduceError> {
+fn equation(id: &str, ours: (f64, Standing)) -> Result<PaperRow, StudyError> {
     paper_row(id, (HOST, Method::Equation), ours)
 }
 
 /// Rows on the remaining computation, from minimum to maximum: the conclusion's range, which the tables contradict.
-fn range_rows() -> Result<[PaperRow; 2], ReproduceError> {
+fn range_rows() -> Result<[PaperRow; 2], StudyError> {
     let left: Vec<f64> = SCENES.iter().map(PrintedScene::operations_left).collect::<Result<_, _>>()?;
     let row = |id: &str, found: f64| {
         let row = equation(id, (found, Standing::Predicted { from: OPERATIONS }))?;
@@ -79,7 +79,7 @@ fn range_rows() -> Result<[PaperRow; 2], ReproduceError> {
             found,
             "operations of biclusters over those of the matrix, tables 1 and 2",
         );
-        Ok::<_, ReproduceError>(row.contradicted(contradiction))
+        Ok::<_, StudyError>(row.contradicted(contradiction))
     };
     Ok([
         row("bi-scale/left-least", left.iter().copied().fold(f64::INFINITY, f64::min))?,
@@ -89,23 +89,23 @@ fn range_rows() -> Result<[PaperRow; 2], ReproduceError> {
 
 impl PrintedScene {
     /// Percentage of the operations that biclusters leave, from the printed operations.
-    fn operations_left(&self) -> Result<f64, ReproduceError> {
+    fn operations_left(&self) -> Result<f64, StudyError> {
         Ok(100.0 * self.printed("operations-after")?.value / self.printed("operations")?.value)
     }
 
     /// Megabytes of storage by rows with `bytes` bytes per entry, and four per row.
-    fn sparse_megabytes(&self, bytes: f64) -> Result<f64, ReproduceError> {
+    fn sparse_megabytes(&self, bytes: f64) -> Result<f64, StudyError> {
         Ok(bytes * self.printed("nonzeros")?.value + 4e-6 * self.rows()? as f64)
     }
 
-    fn dense_megabytes(&self) -> Result<f64, ReproduceError> {
+    fn dense_megabytes(&self) -> Result<f64, StudyError> {
         Ok(1e-6 * DENSE * (self.rows()? * LIGHT_TEXELS) as f64)
     }
 }
 
 /// Row on the size of bidirectional textures; the text states the sizes of patches for the temple alone. The formula
 /// gives three of the four sizes to the digit, and contradicts the other one.
-fn texture_row(scene: &PrintedScene) -> Result<Option<PaperRow>, ReproduceError> {
+fn texture_row(scene: &PrintedScene) -> Result<Option<PaperRow>, StudyError> {
     let Some(counts) = scene.textures else { return Ok(None) };
     let texels: usize = counts.into_iter().zip(PATCHES).map(|(count, side)| count * side * side).sum();
     let megabytes = 1e-6 * (TEXEL_BYTES * texels * VIEWS * VIEWS * scene.side * scene.side) as f64;
@@ -116,7 +116,7 @@ fn texture_row(scene: &PrintedScene) -> Result<Option<PaperRow>, ReproduceError>
 }
 
 /// Rows of a scene. Operations left and the biclusters' megabytes have rows where a model of ours is computed.
-fn scene_rows(scene: &PrintedScene) -> Result<Vec<PaperRow>, ReproduceError> {
+fn scene_rows(scene: &PrintedScene) -> Result<Vec<PaperRow>, StudyError> {
     let row = |what: &str, ours| equation(&scene.figure(what), ours);
     let predicted = |value: f64, from: &'static str| (value, Standing::Predicted { from });
     let calibrated = |value: f64| (value, Standing::Calibrated { on: BYTES });

@@ -5,7 +5,7 @@ use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::all_frequency::on_card::time::host_of_table_1;
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::on_card::{BiScaleCard, DisplayCounts, DisplayOptions, TexturedMesh, corner_coordinates};
@@ -35,7 +35,7 @@ pub(super) fn display(
     (mesh, vertices): (&Mesh, &Vertices),
     side: usize,
     [width, height]: [u32; 2],
-) -> Result<DisplayRun, ReproduceError> {
+) -> Result<DisplayRun, StudyError> {
     let fail = failed(CARD);
     let directions = |side| LocalDirections::new(side).map_err(|error| fail(&error));
     let (view, light) = (directions(VIEWS)?, directions(side)?);
@@ -59,7 +59,7 @@ pub(super) fn display(
 }
 
 /// Time of a log on the card. The host only submits draws.
-fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, ReproduceError> {
+fn time_of(profile: &Profile, log: &[Event]) -> Result<FrameTime, StudyError> {
     let host = host_of_table_1().map_err(|error| failed(HOST)(&error))?;
     frame_time(profile, log, &host).map_err(|error| failed(CARD)(&error))
 }

@@ -3,7 +3,7 @@
 use super::display::{CARD, display};
 use super::models::ModelVisibility;
 use super::scenes::SCENES;
-use super::{EntryFindings, Method, ModelSize, Prose, ReproduceError, Shared, Standing, number, paper_row, solved};
+use super::{EntryFindings, Method, ModelSize, Prose, Shared, Standing, StudyError, number, paper_row, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
@@ -17,7 +17,7 @@ const SIDES: [usize; 4] = [8, 12, 16, 32];
 /// Size of the picture: large enough to distinguish costs.
 const PICTURE: [u32; 2] = [160, 120];
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let coarser = if shared.models == ModelSize::Reduced { 3 } else { 1 };
     let model = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Geometry)?;
     let (vertices, of_paper) = (model.vertices.len() as f64, SCENES[0].vertices()? as f64);

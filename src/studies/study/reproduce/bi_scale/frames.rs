@@ -4,7 +4,7 @@ use super::display::{CARD, DisplayRun, display};
 use super::models::{BUNNY, ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, Prose, ReproduceError, Shared, Standing, number, paper_row,
+    Contradiction, EntryFindings, Method, PaperRow, Prose, Shared, Standing, StudyError, number, paper_row,
     printed_value, solved,
 };
 use crate::report::{Cell, Table};
@@ -42,7 +42,7 @@ const FRAMES: [(&PrintedScene, &str, &str); 7] = [
 const IN_TABLE_1: usize = 4;
 
 impl PrintedFrames {
-    fn all() -> Result<Vec<Self>, ReproduceError> {
+    fn all() -> Result<Vec<Self>, StudyError> {
         let frames = |&(scene, place, ending): &(&'static PrintedScene, &'static str, &str)| {
             let ids = ["view", "light"].map(|what| format!("{}{ending}", scene.figure(what)));
             let rates = [printed_value(&ids[0])?, printed_value(&ids[1])?];
@@ -68,7 +68,7 @@ fn constant(printed: &[PrintedFrames]) -> f64 {
     all.iter().map(|frames| frames.operations).sum::<f64>() / all.iter().map(PrintedFrames::transfer).sum::<f64>()
 }
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let printed = PrintedFrames::all()?;
     let constant = constant(&printed);
     let bunny = shared.get::<ModelVisibility>(BUNNY)?;
@@ -93,7 +93,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, ReproduceError> {
+fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Result<PaperRow, StudyError> {
     let standing = if is_of_table_1 {
         Standing::Calibrated { on: "rates of table I" }
     } else {
@@ -104,7 +104,7 @@ fn light_row(frames: &PrintedFrames, is_of_table_1: bool, constant: f64) -> Resu
 }
 
 /// Rows on the views of the small bunny, whose rates in the two tables contradict each other.
-fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, ReproduceError> {
+fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, StudyError> {
     let [one, two] = [&all[0], &all[IN_TABLE_1]];
     let row = |(frames, other): (&PrintedFrames, &PrintedFrames)| {
         let ours = (run.time.per_second(), Standing::Predicted { from: "" });
@@ -117,7 +117,7 @@ fn view_rows(all: &[PrintedFrames], run: &DisplayRun) -> Result<Vec<PaperRow>, R
 }
 
 /// Rows on "roughly comparable", and on the dominant cost.
-fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], ReproduceError> {
+fn sentences(shared: &Shared, run: &DisplayRun, transfer: f64) -> Result<[PaperRow; 2], StudyError> {
     let from = Standing::Predicted { from: "rates of table I, operations" };
     let comparable = (transfer / run.time.frame.seconds(), from);
     let biclusters = &shared.get::<ClusteredModel>(BUNNY)?.biclusters;

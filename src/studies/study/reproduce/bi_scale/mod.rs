@@ -22,12 +22,12 @@ pub(super) use table_2::findings as table_2;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Contradiction, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, Prose, ReproduceError, Standing, number,
+    Contradiction, EntryFindings, Method, ModelSize, PaperFigure, PaperRow, Prose, Standing, StudyError, number,
     paper_row, printed, printed_value,
 };
 use scenes::HOST;
 
 /// Row of a value that is computed in f64 and uses no printed one.
-fn solved(id: &str, ours: f64) -> Result<PaperRow, ReproduceError> {
+fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("bi-scale/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
 }

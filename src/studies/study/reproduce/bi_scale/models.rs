@@ -1,7 +1,7 @@
 //! Stand-ins for the paper's models: visibility at their vertices, transfer to local directions, biclusters.
 
 use super::scenes::SCENES;
-use super::{HOST, ReproduceError, Shared, failed};
+use super::{HOST, Shared, StudyError, failed};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -37,7 +37,7 @@ pub(super) struct ClusteredModel {
 impl SharedResult for ModelVisibility {
     type Key = TransferModel;
 
-    fn compute(model: &TransferModel, _: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(model: &TransferModel, _: &Shared) -> Result<Self, StudyError> {
         Self::new(&model.mesh(1), Horizon::Geometry)
     }
 }
@@ -46,13 +46,13 @@ impl SharedResult for ModelVisibility {
 impl SharedResult for ClusteredModel {
     type Key = TransferModel;
 
-    fn compute(&model: &TransferModel, shared: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&model: &TransferModel, shared: &Shared) -> Result<Self, StudyError> {
         shared.get::<ModelVisibility>(model)?.clustered(SCENES[0].side)
     }
 }
 
 impl ModelVisibility {
-    pub(super) fn new(mesh: &Mesh, horizon: Horizon) -> Result<Self, ReproduceError> {
+    pub(super) fn new(mesh: &Mesh, horizon: Horizon) -> Result<Self, StudyError> {
         let vertices = Vertices::new(mesh, Tangents::Texture).map_err(|error| failed(HOST)(&error))?;
         let all: Vec<u32> = (0..vertices.len() as u32).collect();
         let sampling = VisibilitySampling { log2_samples: LOG2_SAMPLES, horizon };
@@ -63,12 +63,12 @@ impl ModelVisibility {
     }
 
     /// Transfer matrix T with `side` local directions along an edge.
-    pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, ReproduceError> {
+    pub(super) fn matrix(&self, side: usize) -> Result<SparseMatrix, StudyError> {
         let directions = LocalDirections::new(side).map_err(|error| failed(HOST)(&error))?;
         transfer_matrix(&self.vertices, &self.maps, &directions).map_err(|error| failed(HOST)(&error))
     }
 
-    pub(super) fn clustered(&self, side: usize) -> Result<ClusteredModel, ReproduceError> {
+    pub(super) fn clustered(&self, side: usize) -> Result<ClusteredModel, StudyError> {
         let matrix = self.matrix(side)?;
         let biclusters =
             bicluster(&matrix, BiclusterOptions::default(), &mut |_| ()).map_err(|error| failed(HOST)(&error))?;

@@ -1,6 +1,6 @@
 //! Scenes of Tables I and II.
 
-use super::{PaperFigure, ReproduceError, printed};
+use super::{PaperFigure, StudyError, printed};
 
 /// Name of the host on which biclusters are computed.
 pub(super) const HOST: &str = "host";
@@ -27,17 +27,17 @@ impl PrintedScene {
     }
 
     /// One of the scene's printed figures.
-    pub(super) fn printed(&self, what: &str) -> Result<&'static PaperFigure, ReproduceError> {
+    pub(super) fn printed(&self, what: &str) -> Result<&'static PaperFigure, StudyError> {
         printed(&self.figure(what))
     }
 
     /// Number of vertices.
-    pub(super) fn vertices(&self) -> Result<usize, ReproduceError> {
+    pub(super) fn vertices(&self) -> Result<usize, StudyError> {
         Ok(self.printed("vertices")?.value as usize)
     }
 
     /// Number of rows of the matrix.
-    pub(super) fn rows(&self) -> Result<usize, ReproduceError> {
+    pub(super) fn rows(&self) -> Result<usize, StudyError> {
         Ok(self.vertices()? * self.side * self.side)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::models::{ClusteredModel, ModelVisibility};
 use super::scenes::{PrintedScene, SCENES};
-use super::{EntryFindings, ModelSize, PaperRow, Prose, ReproduceError, Shared, number, solved};
+use super::{EntryFindings, ModelSize, PaperRow, Prose, Shared, StudyError, number, solved};
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
 use crate::scene::built::flat_models::FlatModel;
@@ -17,7 +17,7 @@ const QUESTION: &str =
 /// Edge length of reduced models, relative to full ones.
 const COARSER: u32 = 4;
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let coarser = if shared.models == ModelSize::Reduced { COARSER } else { 1 };
     let models: [(&PrintedScene, Mesh); 3] = [
         (&SCENES[1], TransferModel::BiScaleArmor.mesh(coarser)),
@@ -62,7 +62,7 @@ fn per_vertex(found: &ClusteredModel, vertices: usize) -> f64 {
     1e-3 * found.nonzeros as f64 / vertices as f64
 }
 
-fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> Result<[PaperRow; 2], ReproduceError> {
+fn scene_rows(scene: &PrintedScene, vertices: usize, found: &ClusteredModel) -> Result<[PaperRow; 2], StudyError> {
     let row = |what: &str, ours| solved(&format!("{what}-{}", scene.id), ours);
     Ok([row("per-vertex", per_vertex(found, vertices))?, row("left", found.operations_left())?])
 }

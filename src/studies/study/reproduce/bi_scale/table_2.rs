@@ -2,7 +2,7 @@
 
 use super::models::{BUNNY, ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{BUNNIES, PrintedScene};
-use super::{EntryFindings, ModelSize, PaperRow, Prose, ReproduceError, Shared, number, solved};
+use super::{EntryFindings, ModelSize, PaperRow, Prose, Shared, StudyError, number, solved};
 use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::visibility::Horizon;
@@ -14,7 +14,7 @@ const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed b
 const QUESTION: &str = "the models; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
 const MODELS: [TransferModel; 3] = [BUNNY, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
         "Biclusters of the stand-ins",
         "scene vertices nonzeros_M_printed nonzeros_M biclusters rows_of_biclusters columns_of_biclusters \
@@ -48,7 +48,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Rows of the small bunny. The rows of the larger ones are those of sizes; what full size gives stands in the table.
-fn rows(found: &ClusteredModel) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rows(found: &ClusteredModel) -> Result<Vec<PaperRow>, StudyError> {
     Ok(vec![
         solved("nonzeros-bunny", 1e-6 * found.nonzeros as f64)?,
         solved("left-bunny", found.operations_left())?,
@@ -56,8 +56,8 @@ fn rows(found: &ClusteredModel) -> Result<Vec<PaperRow>, ReproduceError> {
     ])
 }
 
-fn line(scene: &PrintedScene, found: &ClusteredModel) -> Result<Vec<Cell>, ReproduceError> {
-    let printed = |what: &str| Ok::<_, ReproduceError>(scene.printed(what)?.cell());
+fn line(scene: &PrintedScene, found: &ClusteredModel) -> Result<Vec<Cell>, StudyError> {
+    let printed = |what: &str| Ok::<_, StudyError>(scene.printed(what)?.cell());
     Ok(vec![
         scene.name.into(),
         scene.vertices()?.into(),

@@ -1,6 +1,6 @@
 //! Section 9 and the related part of section 3.2: hemispherical projections.
 
-use super::{EntryFindings, HOST, PaperRow, ReproduceError, failed, solved};
+use super::{EntryFindings, HOST, PaperRow, StudyError, failed, solved};
 use crate::report::{Cell, Table};
 use crate::sphere::{Hemisphere, HemisphereProjection, ProjectionErrors, function_count, function_index};
 
@@ -27,7 +27,7 @@ const HOW: &str = "The Gram matrix of the harmonics over the hemisphere, its spe
     taken by their formulas: the words in the paper's parentheses are exchanged. Errors are squared, over the hemisphere, of functions whose square \
     integrates to one over the sphere; section 3.2 prints the roots of two of them.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let hemisphere = Hemisphere::new(ORDER);
     let values = &hemisphere.spectrum().values;
     let [largest, second, least] = [values[0], values[values.len() - 2], values[values.len() - 1]];
@@ -44,11 +44,11 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
     Ok(EntryFindings { text: vec![HOW.into()], rows, tables: vec![orders()?], ..EntryFindings::default() })
 }
 
-fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Result<ProjectionErrors, ReproduceError> {
+fn error(projection: HemisphereProjection, [signal, order]: [usize; 2]) -> Result<ProjectionErrors, StudyError> {
     projection.error(signal, order).map_err(|e| failed(HOST)(&e))
 }
 
-fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<Vec<PaperRow>, ReproduceError> {
+fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<Vec<PaperRow>, StudyError> {
     let ProjectionErrors { worst, average } = error(projection, [ORDER, order])?;
     let row = |what: &str, ours: f64| solved(&format!("{id}-{what}"), ours);
     let mut rows = vec![row("worst", worst)?, row("average", average)?];
@@ -63,7 +63,7 @@ fn projection_rows(&Projected { id, projection, order }: &Projected) -> Result<V
 }
 
 /// Table for other orders, with functions of an order projected to the same order.
-fn orders() -> Result<Table, ReproduceError> {
+fn orders() -> Result<Table, StudyError> {
     let mut table = Table::of(
         "Projections of functions of an order onto the same order, and what the cheapest function to drop costs",
         "order functions zero_worst zero_average odd_worst odd_average even_worst even_average drop_cost",

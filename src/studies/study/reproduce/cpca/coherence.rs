@@ -7,7 +7,7 @@ use super::rates::{INPUTS, rate_row, rates};
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::ModelView;
 use super::{
-    Contradiction, EntryFindings, PaperRow, Prose, REGISTERS, ReproduceError, Shared, number, printed, printed_value,
+    Contradiction, EntryFindings, PaperRow, Prose, REGISTERS, Shared, StudyError, number, printed, printed_value,
     solved,
 };
 use crate::report::{Cell, Table};
@@ -24,7 +24,7 @@ const TIMES: &str = "Frames are timed on the {} from sizes, the printed overdraw
 const ORDER: &str = "the order of the authors' triangles: a good one runs half as many vertices as ours does.";
 const QUESTION: &str = "the models and their clusters: a smoother signal has smoother borders.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
         "Triangles drawn per triangle of the mesh",
         "model original_printed original rec_printed rec sc_printed sc sc+rec_printed sc+rec added_error_% superclusters",
@@ -71,7 +71,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 
 /// Rows on "a 15-20% increase in rendering speed": the rates with both optimisations over those with none. The paper's
 /// own rates of the Buddha rise by more.
-fn by_coherence(timed: &[PaperRow]) -> Result<[PaperRow; 2], ReproduceError> {
+fn by_coherence(timed: &[PaperRow]) -> Result<[PaperRow; 2], StudyError> {
     let ids = MODELS.map(|(_, _, id)| ["both", "original"].map(|how| format!("cpca/rate-{id}-{how}")));
     let gain = |rates: [f64; 2]| 100.0 * (rates[0] / rates[1] - 1.0);
     let ours = |id: &String| timed.iter().find(|row| row.target.id == *id).map_or(f64::NAN, |row| row.ours);
@@ -83,7 +83,7 @@ fn by_coherence(timed: &[PaperRow]) -> Result<[PaperRow; 2], ReproduceError> {
         let row = rate_row(id, ours, INPUTS)?;
         let how = "the rates of the table below the sentence, both optimisations over none";
         let contradiction = Contradiction::between(&row.target, of_print, how);
-        Ok::<_, ReproduceError>(row.contradicted(contradiction))
+        Ok::<_, StudyError>(row.contradicted(contradiction))
     };
     Ok([
         row("coherence-least", (ours[0].min(ours[1]), of_print[0].min(of_print[1])))?,

@@ -2,7 +2,7 @@
 
 use super::mesh_cost::REGISTERS;
 use super::signals::ComputedSignal;
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::cpca::coherence::{ConstantRegisters, Superclusters, overdraw, reclassify};
 use crate::transfer::clustering::Clustering;
 
@@ -27,14 +27,14 @@ pub(super) struct DrawnClusters {
 
 impl DrawnClusters {
     /// Applies both optimisations, alone and together.
-    pub(super) fn new(computed: &ComputedSignal, clustering: &Clustering) -> Result<Self, ReproduceError> {
+    pub(super) fn new(computed: &ComputedSignal, clustering: &Clustering) -> Result<Self, StudyError> {
         let triangles = computed.vertices.triangles();
         let rows = computed.paper.size.rows;
         let registers =
             if rows == 1 { ConstantRegisters::diffuse(REGISTERS) } else { ConstantRegisters::glossy(REGISTERS, rows) };
         let fail = failed(HOST);
         let moved = reclassify(&computed.signal, clustering, triangles, BUDGET).map_err(|e| fail(&e))?;
-        let superclusters = |clustering: &Clustering| -> Result<(Vec<u32>, usize), ReproduceError> {
+        let superclusters = |clustering: &Clustering| -> Result<(Vec<u32>, usize), StudyError> {
             let made = Superclusters::new(clustering, triangles, registers).map_err(|e| fail(&e))?;
             let of_vertex = clustering.of_point().iter().map(|&cluster| made.of_cluster()[cluster as usize]);
             Ok((of_vertex.collect(), made.count()))

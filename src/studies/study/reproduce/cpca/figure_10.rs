@@ -9,7 +9,7 @@ use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row};
 use super::shared::iterative;
 use super::signals::BIRD;
 use super::views::{ModelView, RED_AND_BLUE};
-use super::{EntryFindings, Prose, ReproduceError, Shared, number, printed, solved};
+use super::{EntryFindings, Prose, Shared, StudyError, number, printed, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 use crate::sphere::HarmonicLight;
@@ -27,7 +27,7 @@ const HOW: &str = "The figure matches frame rates, not storage: by section 4.1's
     The rows of section 8 give vector quantization and principal components as much storage as both together. All on {} points of {} numbers.";
 const QUESTION: &str = "the model, its BRDF and the scale of the squared error.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (computed, both) = iterative(shared, BIRD)?;
     let still = CpcaMethod::Static;
     let components = computed.compressed_to(1, ENCODINGS[0].2, still)?;
@@ -86,7 +86,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Result<Table, ReproduceError> {
+fn encodings(clusterings: &[&Clustering; 3], errors: [f64; 3], rates: [f64; 3]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "Encodings",
         "encoding clusters_printed clusters vectors stored_numbers squared_error_printed squared_error Hz_printed Hz",

@@ -9,7 +9,7 @@ use super::rates::{OWN_INPUTS, modelled_from_clusters, rate_row, uncompressed};
 use super::shared::iterative;
 use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::{ModelView, RED_AND_BLUE};
-use super::{Contradiction, EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, printed, solved};
+use super::{Contradiction, EntryFindings, PaperRow, Prose, Shared, StudyError, number, printed, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, NamedPicture, Table};
 use crate::sphere::HarmonicLight;
@@ -25,7 +25,7 @@ const HOW: &str = "Iterative compression of glossy anisotropic transfer to {} cl
     its Buddha slowly. Pictures are exposed as the one without compression.";
 const QUESTION: &str = "the models, the BRDF and the scale of the squared error.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of("Squared errors", "model vectors printed ours share_of_squares_% Hz_printed Hz");
     let (mut rows, mut timed, mut pictures, mut all) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let light = HarmonicLight::red_and_blue(5);
@@ -89,7 +89,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Row on "more than a factor of 10", of both models, which the paper's own rates of the Buddha contradict.
-fn by_compression(ours: &[f64]) -> Result<PaperRow, ReproduceError> {
+fn by_compression(ours: &[f64]) -> Result<PaperRow, StudyError> {
     let row = rate_row("faster-by-compression", ours[0], OWN_INPUTS)?.with_readings(ours[1..].iter().copied());
     let [with, without] =
         ["cpca/rate-buddha-gloss-anis", "cpca/rate-buddha-uncompressed"].map(|id| printed(id).map(|rate| rate.value));
@@ -106,7 +106,7 @@ fn with(
     view: &ModelView<'_>,
     (vectors, eight): (usize, &Clustering),
     name: &str,
-) -> Result<(f64, NamedPicture, DrawnClusters), ReproduceError> {
+) -> Result<(f64, NamedPicture, DrawnClusters), StudyError> {
     let size = computed.paper.size;
     let made;
     let clustering = if vectors == size.vectors {

@@ -1,7 +1,7 @@
 //! Figure 2: squared error of static principal components by storage, a curve per number of vectors.
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
-use super::{EntryChart, EntryFindings, Prose, ReproduceError, Shared, number, solved};
+use super::{EntryChart, EntryFindings, Prose, Shared, StudyError, number, solved};
 use crate::cpca::on_card::model::TransferSize;
 use crate::elementary::ln;
 use crate::report::{Cell, Chart, Scale, Series, Table};
@@ -19,7 +19,7 @@ const CAPTION: &str = "Squared error of all points by numbers stored.";
 /// Storage and squared error for increasing numbers of clusters.
 type Curve = Vec<(f64, f64)>;
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let computed = shared.get::<ComputedSignal>(DIFFUSE_BIRD)?;
     let points = computed.signal.points();
     let counts: Vec<usize> = std::iter::successors(Some(1), |&count| Some(2 * count))

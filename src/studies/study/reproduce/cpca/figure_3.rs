@@ -2,7 +2,7 @@
 
 use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::views::{ModelView, RED_AND_BLUE};
-use super::{EntryChart, EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, solved};
+use super::{EntryChart, EntryFindings, PaperRow, Prose, Shared, StudyError, number, solved};
 use crate::elementary::ln;
 use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
 use crate::sphere::HarmonicLight;
@@ -26,7 +26,7 @@ const HOW: &str = "{} points of diffuse transfer of order {} in {} clusters. Vec
 const QUESTION: &str =
     "the paper's model: iteration and redistribution gain more where clusters differ more, and on more clusters.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let computed = shared.get::<ComputedSignal>(DIFFUSE_BIRD)?;
     let clusters = computed.clusters(CLUSTERS);
     let still = computed.static_errors(clusters, VECTORS + MORE)?;
@@ -69,12 +69,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Row on a sentence that holds for several numbers of vectors or clusters: the first is ours, the others are readings.
-pub(super) fn over_readings(id: &str, values: &[f64]) -> Result<PaperRow, ReproduceError> {
+pub(super) fn over_readings(id: &str, values: &[f64]) -> Result<PaperRow, StudyError> {
     let [first, others @ ..] = values else { return solved(id, f64::NAN) };
     Ok(solved(id, *first)?.with_readings(others.iter().copied()))
 }
 
-fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64>, ReproduceError> {
+fn adaptive_errors(computed: &ComputedSignal, clusters: usize) -> Result<Vec<f64>, StudyError> {
     let method = CpcaMethod::Adaptive { rounds: ROUNDS };
     let error = |vectors| Ok(computed.error(&computed.compressed_to(clusters, vectors, method)?));
     (0..=VECTORS).map(error).collect()
@@ -108,7 +108,7 @@ fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
 
 /// Figure 4: the error of each vertex, relative to the largest of the static clustering, and in a second row the
 /// pictures.
-fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, ReproduceError> {
+fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, StudyError> {
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;
     let plain = view.colors(None)?;

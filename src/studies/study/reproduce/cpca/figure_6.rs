@@ -3,7 +3,7 @@
 use super::figure_3::over_readings;
 use super::signals::{ComputedSignal, POLYGONS};
 use super::views::ModelView;
-use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
+use super::{EntryFindings, HOST, Prose, Shared, StudyError, failed, number};
 use crate::report::{Cell, Table};
 use crate::sphere::{HarmonicLight, function_count};
 use crate::transfer::clustering::CpcaMethod;
@@ -19,7 +19,7 @@ const EYE: ([f32; 3], f32) = ([0.8, -3.4, 3.2], 0.42);
 const HOW: &str = "A ground and a blocker of {} vertices together, light of order {}. The caption has {} clusters, Table 1's row for the figure {}: \
     both are compressed, each by its share for a model of our size, and the row has all of them. Pictures are under a small disk, exposed alike.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let computed = shared.get::<ComputedSignal>(POLYGONS)?;
     let light = disk()?;
     let view = ModelView::new(computed, &light, EYE)?;
@@ -61,12 +61,12 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-fn disk() -> Result<HarmonicLight, ReproduceError> {
+fn disk() -> Result<HarmonicLight, StudyError> {
     HarmonicLight::disk(ORDERS[0], LIGHT.0, LIGHT.1, [40.0, 38.0, 34.0]).map_err(|e| failed(HOST)(&e))
 }
 
 /// Removes the higher bands of a light: transfer of order 10 then gives the result of order 5.
-fn low_order(light: &HarmonicLight) -> Result<HarmonicLight, ReproduceError> {
+fn low_order(light: &HarmonicLight) -> Result<HarmonicLight, StudyError> {
     let mut channels = light.channels().clone();
     channels.iter_mut().for_each(|channel| channel[function_count(ORDERS[1])..].fill(0.0));
     HarmonicLight::new(channels).map_err(|e| failed(HOST)(&e))

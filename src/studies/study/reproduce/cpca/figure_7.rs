@@ -7,7 +7,7 @@ use super::figure_3::EYE;
 use super::signals::{BIRD, ComputedSignal, SIGNALS, anisotropic};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
 use super::{
-    EntryFindings, HOST, ModelSize, PaperRow, Prose, ReproduceError, Setting, Shared, Sweep, failed, number, solved,
+    EntryFindings, HOST, ModelSize, PaperRow, Prose, Setting, Shared, StudyError, Sweep, failed, number, solved,
 };
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
@@ -41,11 +41,11 @@ const FRESNEL: &str = "The BRDF is lost, and with it the reflectance at normal i
     it is swept from {} to {}. Rows have the value of all other figures, which was chosen before.";
 const QUESTION: &str = "the model, its BRDF and the lights of Figure 7.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let paper = &SIGNALS[BIRD];
     let stated = ProjectedPictures::new(paper.material.brdf(), shared.models, true)?;
     let mut rows = stated.rows()?;
-    let setting = |&at: &f64| -> Result<Setting, ReproduceError> {
+    let setting = |&at: &f64| -> Result<Setting, StudyError> {
         let found = ProjectedPictures::new(anisotropic(at), shared.models, false)?;
         Ok(Setting { at: number(at, 2), values: found.ratios().to_vec() })
     };
@@ -77,7 +77,7 @@ struct ProjectedPictures {
 }
 
 impl ProjectedPictures {
-    fn new(brdf: Brdf, models: ModelSize, draws: bool) -> Result<Self, ReproduceError> {
+    fn new(brdf: Brdf, models: ModelSize, draws: bool) -> Result<Self, StudyError> {
         let light = HarmonicLight::red_and_blue(5);
         let glossy = |order: usize, least_squares: bool, incident: Incident| ExitRadiance::Glossy {
             basis: ExitBasis::of_order(order),
@@ -126,7 +126,7 @@ impl ProjectedPictures {
         [zero[0] / least[0], zero[1] / least[1], zero[1] / least[1] * least[0] / zero[0], zero_25[0] / least[0]]
     }
 
-    fn rows(&self) -> Result<Vec<PaperRow>, ReproduceError> {
+    fn rows(&self) -> Result<Vec<PaperRow>, StudyError> {
         let ids = ["figure-7-16", "figure-7-silhouettes", "figure-7-especially", "figure-7-25"];
         ids.into_iter().zip(self.ratios()).map(|(id, ours)| solved(id, ours)).collect()
     }
@@ -138,7 +138,7 @@ fn exit_radiance(
     computed: &ComputedSignal,
     brdf: Brdf,
     (light, eye): (&HarmonicLight, DVec3),
-) -> Result<Vec<[f64; 3]>, ReproduceError> {
+) -> Result<Vec<[f64; 3]>, StudyError> {
     let vertices = &computed.vertices;
     let mut tracer = HostTracer::new(&computed.mesh, Sides::Both);
     let rays = TracedRays::trace(vertices, DirectionRule::hemisphere(DEGREE), &mut tracer, false);

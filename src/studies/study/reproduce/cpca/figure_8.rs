@@ -10,8 +10,8 @@ use super::shared::iterative;
 use super::signals::{GLOSSY_BUDDHA, HEAD, SIGNALS};
 use super::views::{ModelView, RED_AND_BLUE, RIM};
 use super::{
-    EntryFindings, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, number, paper_row,
-    printed, printed_value,
+    EntryFindings, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, number, paper_row, printed,
+    printed_value,
 };
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
@@ -41,7 +41,7 @@ const NEWER_CARD: &str = "\"Runs {} % faster\" stands in the paragraph on these 
     core and memory are swept. The host is the same: where it is the slower of the two, a faster card gains nothing.";
 const QUESTION: &str = "which models of the two Radeons were compared, and with what processor: from Pro to Pro the core's clock rises by less than is printed.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let light = HarmonicLight::red_and_blue(5);
     let mut table = Table::of(
         "Compressed and uncompressed",
@@ -78,7 +78,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows.push(rate_row(&format!("faster-{id}"), faster, OWN_INPUTS)?);
         // Without compression the host's products and the card's drawing overlap, as they do with it.
         let host = 1.0 / uncompressed(of_rows(size, 25))?;
-        let plain = |card: Result<Profile, ReproduceError>| -> Result<f64, ReproduceError> {
+        let plain = |card: Result<Profile, StudyError>| -> Result<f64, StudyError> {
             Ok(1.0 / host.max(on(&card?)?.draws.seconds()))
         };
         let [[old, new], ..] = CLOCKS.map(|(_, clocks)| [clocked(CARD, clocks[0]), clocked(NEWER, clocks[1])]);
@@ -119,14 +119,14 @@ fn of_rows(size: TransferSize, rows: usize) -> TransferSize {
 }
 
 /// Profile of a card with other clocks, in MHz.
-fn clocked(card: &str, [core, memory]: [u64; 2]) -> Result<Profile, ReproduceError> {
+fn clocked(card: &str, [core, memory]: [u64; 2]) -> Result<Profile, StudyError> {
     let mut profile = Profile::named(card)?;
     (profile.rates.core_clock_hz, profile.rates.memory_clock_hz) = (Some(core * 1_000_000), Some(memory * 1_000_000));
     Ok(profile)
 }
 
 /// Rows on rates without compression, of which one calibrated the host's rate.
-fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, ReproduceError> {
+fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, StudyError> {
     let mut found = Vec::new();
     for rows in ROWS {
         let mut row = rate_row(&format!("uncompressed-{id}-{rows}"), uncompressed(of_rows(size, rows))?, OWN_INPUTS)?;
@@ -139,7 +139,7 @@ fn without_compression(id: &str, size: TransferSize) -> Result<Vec<PaperRow>, Re
 }
 
 /// Row on the gain of the newer card by the clocks of the profiles, of both models, and a table of other clocks.
-fn newer_card(gains: &[Vec<f64>]) -> Result<(PaperRow, Table), ReproduceError> {
+fn newer_card(gains: &[Vec<f64>]) -> Result<(PaperRow, Table), StudyError> {
     let ours = (gains[0][0], Standing::Predicted { from: OWN_INPUTS });
     let row = paper_row("cpca/newer-card", (NEWER, Method::Pipeline), ours)?;
     let mut rows = [row.with_readings(gains[1..].iter().map(|by_clocks| by_clocks[0]))];

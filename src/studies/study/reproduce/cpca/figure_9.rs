@@ -6,7 +6,7 @@ use super::figure_3::EYE;
 use super::shared::iterative;
 use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
 use super::views::ModelView;
-use super::{EntryFindings, HOST, Prose, ReproduceError, Shared, failed, number};
+use super::{EntryFindings, HOST, Prose, Shared, StudyError, failed, number};
 use crate::report::{Cell, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
@@ -23,7 +23,7 @@ const HOW: &str = "The bumpy model of {} vertices: isotropic gloss over a scatte
     the sum has beyond the glossy part; the error is that of the picture, root mean square over that of the picture without compression.";
 const QUESTION: &str = "the model, its scale and its medium, and both environments.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (computed, clustering) = iterative(shared, TRANSLUCENT_BUDDHA)?;
     let gloss = ComputedSignal::new(&GLOSS_OF_FIGURE_9, shared.models)?;
     let mut table = Table::of("The sum and its parts", "light share_below_the_surface_% error_of_picture_%");
@@ -51,6 +51,6 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Two environments: colored disks, and a sky with the sun to the side.
-fn lights() -> Result<[(&'static str, HarmonicLight); 2], ReproduceError> {
+fn lights() -> Result<[(&'static str, HarmonicLight); 2], StudyError> {
     Ok([("red and blue", HarmonicLight::red_and_blue(5)), ("sky", SKY.light(5).map_err(|e| failed(HOST)(&e))?)])
 }

@@ -3,7 +3,7 @@
 use refsim::device::Profile;
 use refsim::event::vertex_cache_misses;
 
-use super::ReproduceError;
+use super::StudyError;
 use crate::scene::built::transfer_models::TransferModel;
 
 /// "a Radeon 9700".
@@ -21,7 +21,7 @@ pub(super) struct MeshCost {
 
 impl MeshCost {
     /// Measures our model of the printed size, with its triangles in the order of construction.
-    pub(super) fn new(model: TransferModel) -> Result<Self, ReproduceError> {
+    pub(super) fn new(model: TransferModel) -> Result<Self, StudyError> {
         let (profile, mesh) = (Profile::named(CARD)?, model.mesh(1));
         let entries = profile.rates.vertex_cache_entries.unwrap_or(0);
         let run = vertex_cache_misses(mesh.triangles().as_flattened(), mesh.positions().len(), entries);

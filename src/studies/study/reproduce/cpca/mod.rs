@@ -42,11 +42,11 @@ use signals::HOST;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Contradiction, EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, ReproduceError, Setting, Standing,
-    Sweep, number, paper_row, printed, printed_value,
+    Contradiction, EntryChart, EntryFindings, Method, ModelSize, PaperRow, Prose, Setting, Standing, StudyError, Sweep,
+    number, paper_row, printed, printed_value,
 };
 
 /// Row of a value that is computed in f64 and uses no printed one.
-fn solved(id: &str, ours: f64) -> Result<PaperRow, ReproduceError> {
+fn solved(id: &str, ours: f64) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (HOST, Method::Solver), (ours, Standing::Counted))
 }

@@ -7,7 +7,7 @@ use super::drawn::{COLUMN_IDS, COLUMNS, DrawnClusters};
 use super::mesh_cost::{CARD, MeshCost};
 use super::signals::SIGNALS;
 use super::{
-    Contradiction, HOST, Method, PaperRow, REGISTERS, ReproduceError, Shared, Standing, failed, paper_row, printed,
+    Contradiction, HOST, Method, PaperRow, REGISTERS, Shared, Standing, StudyError, failed, paper_row, printed,
     printed_value,
 };
 use crate::card::frame_time::{FrameTime, frame_time};
@@ -30,7 +30,7 @@ pub(super) fn modelled(
     mesh: MeshCost,
     size: TransferSize,
     (overdraw, groups): (f64, usize),
-) -> Result<FrameTime, ReproduceError> {
+) -> Result<FrameTime, StudyError> {
     let counts = FrameCounts {
         size,
         triangles: mesh.triangles,
@@ -48,19 +48,19 @@ pub(super) fn modelled_from_clusters(
     shared: &Shared,
     (model, size): (TransferModel, TransferSize),
     drawn: &DrawnClusters,
-) -> Result<FrameTime, ReproduceError> {
+) -> Result<FrameTime, StudyError> {
     let groups = size.clusters.div_ceil(size.clusters_per_batch(REGISTERS).max(1));
     modelled(card, *shared.get(model)?, size, (drawn.overdraw[BOTH], groups))
 }
 
 /// Frames per second without compression, where the host multiplies every matrix by the light.
-pub(super) fn uncompressed(size: TransferSize) -> Result<f64, ReproduceError> {
+pub(super) fn uncompressed(size: TransferSize) -> Result<f64, StudyError> {
     let host = host_of_section_7().map_err(|e| failed(HOST)(&e))?;
     Ok(1.0 / host.time_of(HostOperation::MultiplyAdd, size.uncompressed_multiply_adds() as u64).seconds())
 }
 
 /// Row on a frame rate, or a ratio of two.
-pub(super) fn rate_row(id: &str, ours: f64, from: &'static str) -> Result<PaperRow, ReproduceError> {
+pub(super) fn rate_row(id: &str, ours: f64, from: &'static str) -> Result<PaperRow, StudyError> {
     paper_row(&format!("cpca/{id}"), (CARD, Method::Pipeline), (ours, Standing::Predicted { from }))
 }
 
@@ -69,7 +69,7 @@ pub(super) fn rate_row(id: &str, ours: f64, from: &'static str) -> Result<PaperR
 pub(super) const CONTRADICTORY: [&str; 2] = ["rate-buddha-gloss-anis", "rate-buddha-both"];
 
 /// Contradiction of one of these rates by the other one: signal, clusters, vectors, card and host are the same.
-pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, ReproduceError> {
+pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, StudyError> {
     let [table_1, section_7] = CONTRADICTORY;
     let other = if id == table_1 { section_7 } else { table_1 };
     let other = printed(&format!("cpca/{other}"))?;
@@ -83,7 +83,7 @@ pub(super) fn same_signal(id: &str) -> Result<Option<Contradiction>, ReproduceEr
 pub(super) fn rates(
     models: &[(usize, &'static str, &'static str)],
     shared: &Shared,
-) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
+) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let mut table = Table::of(
         "Frames per second, modelled from the printed overdraw",
         "model how overdraw_printed printed ours host_ms constants_ms draws_ms vertices_run run_per_triangle",

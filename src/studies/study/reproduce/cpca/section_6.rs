@@ -1,7 +1,7 @@
 //! Sections 4.1, 6 and 6.2: numbers, registers and host work, which follow from sizes.
 
 use super::signals::SIGNALS;
-use super::{EntryFindings, HOST, Method, Prose, REGISTERS, ReproduceError, Standing, number, paper_row};
+use super::{EntryFindings, HOST, Method, Prose, REGISTERS, Standing, StudyError, number, paper_row};
 use crate::cpca::on_card::model::TransferSize;
 use crate::report::{Cell, Table};
 
@@ -9,7 +9,7 @@ const HOW: &str = "Nothing is run: sizes as printed, by the formulas of section 
     ones, where the paper divides. The host multiplies every mean and vector by the light of three channels in each frame; \
     without compression, every vertex's matrix.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let square = TransferSize { vertices: 1, rows: 25, columns: 25, clusters: 1, vectors: 5 };
     let per_vertex = (square.vectors + 1) * square.rows;
     let factor = (square.rows * square.columns) as f64 / per_vertex as f64;

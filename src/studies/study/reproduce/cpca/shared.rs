@@ -3,7 +3,7 @@
 use super::drawn::DrawnClusters;
 use super::mesh_cost::MeshCost;
 use super::signals::{ComputedSignal, SIGNALS};
-use super::{ReproduceError, Shared};
+use super::{Shared, StudyError};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::study::reproduce::shared::SharedResult;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
@@ -11,7 +11,7 @@ use crate::transfer::clustering::{Clustering, CpcaMethod};
 impl SharedResult for ComputedSignal {
     type Key = usize;
 
-    fn compute(&at: &usize, shared: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
         Self::new(&SIGNALS[at], shared.models)
     }
 }
@@ -22,7 +22,7 @@ struct IterativeClustering(Clustering);
 impl SharedResult for IterativeClustering {
     type Key = usize;
 
-    fn compute(&at: &usize, shared: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
         let size = SIGNALS[at].size;
         let signal = shared.get::<ComputedSignal>(at)?;
         signal.compressed(size.clusters, size.vectors, CpcaMethod::Iterative).map(Self)
@@ -30,7 +30,7 @@ impl SharedResult for IterativeClustering {
 }
 
 /// Returns a signal with its iterative clustering.
-pub(super) fn iterative(shared: &Shared, at: usize) -> Result<(&ComputedSignal, &Clustering), ReproduceError> {
+pub(super) fn iterative(shared: &Shared, at: usize) -> Result<(&ComputedSignal, &Clustering), StudyError> {
     Ok((shared.get(at)?, &shared.get::<IterativeClustering>(at)?.0))
 }
 
@@ -38,7 +38,7 @@ pub(super) fn iterative(shared: &Shared, at: usize) -> Result<(&ComputedSignal, 
 impl SharedResult for DrawnClusters {
     type Key = usize;
 
-    fn compute(&at: &usize, shared: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&at: &usize, shared: &Shared) -> Result<Self, StudyError> {
         let (signal, clustering) = iterative(shared, at)?;
         Self::new(signal, clustering)
     }
@@ -47,7 +47,7 @@ impl SharedResult for DrawnClusters {
 impl SharedResult for MeshCost {
     type Key = TransferModel;
 
-    fn compute(&model: &TransferModel, _: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&model: &TransferModel, _: &Shared) -> Result<Self, StudyError> {
         Self::new(model)
     }
 }

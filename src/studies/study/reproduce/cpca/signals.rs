@@ -1,6 +1,6 @@
 //! The signals of Table 1 and of Figures 2 to 4, on models of ours.
 
-use super::{ModelSize, ReproduceError, failed};
+use super::{ModelSize, StudyError, failed};
 use crate::cpca::on_card::model::TransferSize;
 use crate::cpca::transfer::{Bounces, Incident, ScatteringOptions};
 use crate::geom::Mesh;
@@ -131,7 +131,7 @@ pub(super) struct ComputedSignal {
 
 impl ComputedSignal {
     /// Computes a signal as in Table 1: projected by least squares.
-    pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, ReproduceError> {
+    pub(super) fn new(paper: &'static PaperSignal, models: ModelSize) -> Result<Self, StudyError> {
         Self::projected(paper, exit_radiance(paper)?, models)
     }
 
@@ -140,7 +140,7 @@ impl ComputedSignal {
         paper: &'static PaperSignal,
         exit: ExitRadiance,
         models: ModelSize,
-    ) -> Result<Self, ReproduceError> {
+    ) -> Result<Self, StudyError> {
         Self::with_brdf(paper, paper.material.brdf(), exit, models)
     }
 
@@ -150,7 +150,7 @@ impl ComputedSignal {
         brdf: Brdf,
         exit: ExitRadiance,
         models: ModelSize,
-    ) -> Result<Self, ReproduceError> {
+    ) -> Result<Self, StudyError> {
         let fail = failed(HOST);
         let mesh = paper.model.mesh(paper.coarser(models));
         let vertices = Vertices::new(&mesh, Tangents::Texture).map_err(|e| fail(&e))?;
@@ -185,7 +185,7 @@ impl ComputedSignal {
         clusters: usize,
         vectors: usize,
         method: CpcaMethod,
-    ) -> Result<Clustering, ReproduceError> {
+    ) -> Result<Clustering, StudyError> {
         self.compressed_to(self.clusters(clusters), vectors, method)
     }
 
@@ -195,7 +195,7 @@ impl ComputedSignal {
         clusters: usize,
         vectors: usize,
         method: CpcaMethod,
-    ) -> Result<Clustering, ReproduceError> {
+    ) -> Result<Clustering, StudyError> {
         let options = options(clusters, vectors, (method, self.iterations()));
         Ok(compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering)
     }
@@ -203,7 +203,7 @@ impl ComputedSignal {
     /// Squared error with 0 to `most` vectors; static clusters do not depend on the number of vectors.
     ///
     /// By section 4.1's formula: dropping a vector adds its D_i^2.
-    pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
+    pub(super) fn static_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, StudyError> {
         let options = options(clusters, most, (CpcaMethod::Static, VQ_ITERATIONS));
         let clustering = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?.clustering;
         let gained = |vector: usize| -> f64 {
@@ -218,7 +218,7 @@ impl ComputedSignal {
     }
 
     /// Squared error with 0 to `most` vectors, added one by one (section 4.2).
-    pub(super) fn iterative_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, ReproduceError> {
+    pub(super) fn iterative_errors(&self, clusters: usize, most: usize) -> Result<Vec<f64>, StudyError> {
         let options = options(clusters, most, (CpcaMethod::Iterative, self.iterations()));
         let compression = compress(&self.signal, &options, |_| ()).map_err(|e| failed(HOST)(&e))?;
         let last = |vectors: usize| compression.steps.iter().rev().find(|step| step.vectors == vectors);
@@ -258,7 +258,7 @@ impl SignalMaterial {
     }
 }
 
-fn exit_radiance(paper: &PaperSignal) -> Result<ExitRadiance, ReproduceError> {
+fn exit_radiance(paper: &PaperSignal) -> Result<ExitRadiance, StudyError> {
     let basis = match paper.size.rows {
         1 => return Ok(ExitRadiance::Diffuse),
         24 => ExitBasis::without_1_0(5).map_err(|e| failed(HOST)(&e))?,
@@ -267,7 +267,7 @@ fn exit_radiance(paper: &PaperSignal) -> Result<ExitRadiance, ReproduceError> {
     Ok(ExitRadiance::Glossy { basis, least_squares: true, incident: Incident::Harmonics { order: 5, inverse: true } })
 }
 
-fn scatterer() -> Result<Scatterer, ReproduceError> {
+fn scatterer() -> Result<Scatterer, StudyError> {
     let missing = || failed(HOST)(&"the medium is not known");
     let medium = materials::named(MEDIUM).ok_or_else(missing)?.material();
     let [red, green, blue] = medium.channels.map(|channel| Dipole::new(channel, medium.eta));

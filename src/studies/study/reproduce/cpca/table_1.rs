@@ -7,7 +7,7 @@ use super::mesh_cost::CARD;
 use super::rates::{CONTRADICTORY, OWN_INPUTS, modelled_from_clusters, rate_row, same_signal};
 use super::shared::iterative;
 use super::signals::SIGNALS;
-use super::{EntryFindings, PaperRow, Prose, ReproduceError, Shared, number, printed, solved};
+use super::{EntryFindings, PaperRow, Prose, Shared, StudyError, number, printed, solved};
 use crate::report::{Cell, Table};
 use crate::study::reproduce::PaperFigure;
 use crate::transfer::clustering::CpcaMethod;
@@ -25,7 +25,7 @@ const IDS: [&str; 7] = [
 
 /// Returns the printed squared errors of a signal, static and iterative. Figure 11 has the iterative ones of two
 /// signals with more digits.
-fn errors(id: &str) -> Result<[&'static PaperFigure; 2], ReproduceError> {
+fn errors(id: &str) -> Result<[&'static PaperFigure; 2], StudyError> {
     let iterative = match id {
         "buddha-gloss-anis" => "cpca/error-buddha-8".to_owned(),
         "bird-gloss-anis" => "cpca/error-bird-8".to_owned(),
@@ -40,7 +40,7 @@ const TIMES: &str = "Frames are timed on the {} from printed sizes, the order of
     optimisations of section 5. Models of reduced size have few superclusters and so less of a border than the paper's: they flatter.";
 const QUESTION: &str = "the models, the BRDFs and the scale of the squared error.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
         "Squared errors",
         "signal vertices_printed vertices clusters vectors static_printed static iterative_printed iterative \
@@ -85,7 +85,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Rows on frame rates.
-fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
+fn rates(shared: &Shared) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let mut table = Table::of(
         "Frames per second, modelled from our overdraw",
         "signal overdraw_original overdraw printed ours host_ms constants_ms draws_ms vertices_run",

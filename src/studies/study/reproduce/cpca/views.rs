@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::signals::ComputedSignal;
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::geom::vector::wide;
 use crate::picture::rgb8;
 use crate::report::{NamedPicture, false_color};
@@ -38,7 +38,7 @@ impl<'a> ModelView<'a> {
         computed: &'a ComputedSignal,
         light: &'a HarmonicLight,
         (eye, tan_half_height): ([f32; 3], f32),
-    ) -> Result<Self, ReproduceError> {
+    ) -> Result<Self, StudyError> {
         let camera = Camera::new(eye, [0.0; 3], [0.0, 0.0, 1.0], tan_half_height, SIDE, SIDE);
         let camera = camera.map_err(|e| failed(HOST)(&e))?;
         let seen = SeenSurface::new(&computed.mesh, &computed.vertices, &camera);
@@ -56,12 +56,12 @@ impl<'a> ModelView<'a> {
         clustering: Option<&Clustering>,
         name: String,
         caption: String,
-    ) -> Result<NamedPicture, ReproduceError> {
+    ) -> Result<NamedPicture, StudyError> {
         self.shown(&self.radiance(clustering)?, name, caption)
     }
 
     /// Picture of the light, named for a figure.
-    pub(super) fn light(&self, figure: &str, caption: &str) -> Result<NamedPicture, ReproduceError> {
+    pub(super) fn light(&self, figure: &str, caption: &str) -> Result<NamedPicture, StudyError> {
         let radiance = |direction| self.light.radiance(direction);
         light_picture(format!("{figure}-light"), caption, radiance).map_err(|e| failed(HOST)(&e))
     }
@@ -72,7 +72,7 @@ impl<'a> ModelView<'a> {
         radiance: &[[f64; 3]],
         name: String,
         caption: String,
-    ) -> Result<NamedPicture, ReproduceError> {
+    ) -> Result<NamedPicture, StudyError> {
         let image = self.fine.picture(radiance).display(self.exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(name, image, caption))
     }
@@ -112,7 +112,7 @@ impl<'a> ModelView<'a> {
         clustering: Option<&Clustering>,
         other: &[[f64; 3]],
         wanted: impl Fn(f64) -> bool,
-    ) -> Result<f64, ReproduceError> {
+    ) -> Result<f64, StudyError> {
         let (mut apart, mut whole) = (0.0, 0.0);
         for ((vertex, ours), theirs) in self.seen.nearest().zip(self.colors(clustering)?).zip(other) {
             if vertex.is_some_and(|vertex| wanted(self.cosine(vertex as usize))) {
@@ -125,7 +125,7 @@ impl<'a> ModelView<'a> {
     }
 
     /// Fraction of another picture's light that this one lacks, over all pixels and channels.
-    pub(super) fn missing(&self, other: &Self) -> Result<f64, ReproduceError> {
+    pub(super) fn missing(&self, other: &Self) -> Result<f64, StudyError> {
         let sum = |colors: Vec<[f64; 3]>| colors.iter().flatten().sum::<f64>();
         let (ours, theirs) = (sum(self.colors(None)?), sum(other.colors(None)?));
         Ok(if theirs > 0.0 { 1.0 - ours / theirs } else { 0.0 })
@@ -150,12 +150,12 @@ impl<'a> ModelView<'a> {
     }
 
     /// Colors of pixels by a clustering, or by the transfer itself.
-    pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    pub(super) fn colors(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
         Ok(self.of_vertices(&self.radiance(clustering)?))
     }
 
     /// Radiance of vertices towards the eye, by a clustering or by the transfer itself.
-    fn radiance(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    fn radiance(&self, clustering: Option<&Clustering>) -> Result<Vec<[f64; 3]>, StudyError> {
         let missing = || failed(HOST)(&"the signal is no transfer");
         let lit = Lit::new(&self.computed.meaning, self.light).ok_or_else(missing)?;
         let exit = clustering.map_or_else(|| lit.of_signal(&self.computed.signal), |c| lit.of_clusters(c));

@@ -8,8 +8,9 @@ mod statement;
 
 use std::sync::LazyLock;
 
-use super::error::{ReproduceError, papers_error};
+use super::error::papers_error;
 use super::row::{Method, PaperFigure, PaperRow, Standing};
+use crate::study::StudyError;
 
 /// Names and contents of the files.
 const FILES: [(&str, &str); 6] = [
@@ -45,7 +46,7 @@ static PAPERS: LazyLock<Result<Vec<Paper>, String>> = LazyLock::new(|| {
 ///
 /// # Errors
 /// If a file is malformed, or states other bounds than it did.
-pub fn papers() -> Result<&'static [Paper], ReproduceError> {
+pub fn papers() -> Result<&'static [Paper], StudyError> {
     PAPERS.as_deref().map_err(|reason| papers_error(reason))
 }
 
@@ -53,7 +54,7 @@ pub fn papers() -> Result<&'static [Paper], ReproduceError> {
 ///
 /// # Errors
 /// If there is none.
-pub fn printed(id: &str) -> Result<&'static PaperFigure, ReproduceError> {
+pub fn printed(id: &str) -> Result<&'static PaperFigure, StudyError> {
     let found = papers()?.iter().flat_map(|paper| &paper.figures).find(|figure| figure.id == id);
     found.ok_or_else(|| papers_error(&format!("no figure is named `{id}`")))
 }
@@ -62,7 +63,7 @@ pub fn printed(id: &str) -> Result<&'static PaperFigure, ReproduceError> {
 ///
 /// # Errors
 /// As [`printed`].
-pub(super) fn value(id: &str) -> Result<f64, ReproduceError> {
+pub(super) fn value(id: &str) -> Result<f64, StudyError> {
     Ok(printed(id)?.value)
 }
 
@@ -70,7 +71,7 @@ pub(super) fn value(id: &str) -> Result<f64, ReproduceError> {
 ///
 /// # Errors
 /// If there is no such figure, or if the data has a reason not to judge it.
-pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Standing)) -> Result<PaperRow, ReproduceError> {
+pub(super) fn row(id: &str, by: (&'static str, Method), ours: (f64, Standing)) -> Result<PaperRow, StudyError> {
     let unjudged = || papers_error(&format!("the figure `{id}` is listed as not judged"));
     PaperRow::new(by, printed(id)?, ours).ok_or_else(unjudged)
 }

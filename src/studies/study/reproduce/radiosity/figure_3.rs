@@ -1,6 +1,6 @@
 //! Figure 3: the residual of Jacobi and of Gauss-Seidel, iteration by iteration.
 
-use super::{EntryFindings, ReproduceError, failed};
+use super::{EntryFindings, StudyError, failed};
 use crate::elementary::ln;
 use crate::radiosity::rooms::{CornellBox, cornell};
 use crate::radiosity::solve::{Options, Solution, Solver};
@@ -26,7 +26,7 @@ const HOW: &str = "A closed Cornell box without blocks, its form factors in clos
     by the iterations down to {} of what the residual was, and late, by the slopes of the plot's lines over its last half. The row has \
     both, for each channel. Figure 2 of the paper is a picture of a solution: `crossbar radiosity` draws one.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let system = closed_box()?;
     let mut table = Table::of(
         "Iterations until the residual is so small a share of what it was",
@@ -72,7 +72,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 
 /// Row on the ratio of iterations down to a residual in the first channel, with the other channels and the late slopes
 /// as readings. The sweep over the residual may explain it where all channels lie within the bound.
-fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, ReproduceError> {
+fn row(channels: &[(Solution, Solution)], late: Vec<f64>) -> Result<PaperRow, StudyError> {
     let ratios = |share: f64| channels.iter().map(move |(jacobi, seidel)| ratio(jacobi, seidel, share));
     let first = ratios(CONVERGED).next().unwrap_or(f64::NAN);
     let row = paper_row("radiosity/jacobi-over-gauss-seidel", ("-", Method::Solver), (first, Standing::Counted))?;
@@ -94,14 +94,14 @@ fn ratio(jacobi: &Solution, seidel: &Solution, share: f64) -> f64 {
     needed(jacobi, share) as f64 / needed(seidel, share).max(1) as f64
 }
 
-fn closed_box() -> Result<System, ReproduceError> {
+fn closed_box() -> Result<System, StudyError> {
     let scene = cornell(CornellBox { blocks: false, open: false });
     let patches = Patches::new(&scene, Subdivision::AtMost(CUT)).map_err(|e| failed("the host")(&e))?;
     let factors = FormFactors::unoccluded(&patches).map_err(|e| failed("the host")(&e))?;
     System::new(factors, patches.reflectances(), patches.emittances()).map_err(|e| failed("the host")(&e))
 }
 
-fn solve(system: &System, channel: usize, solver: Solver) -> Result<Solution, ReproduceError> {
+fn solve(system: &System, channel: usize, solver: Solver) -> Result<Solution, StudyError> {
     let options = Options { tolerance: TOLERANCE, most_iterations: 1000 };
     system.solve_channel(channel, solver, &options, None).map_err(|e| failed("the host")(&e))
 }

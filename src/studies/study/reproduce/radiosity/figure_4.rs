@@ -1,6 +1,6 @@
 //! Figure 4: the time of an iteration by the size of the matrix, on the card and on the host.
 
-use super::{CARD, EntryFindings, PATCHES, PrintedRates, ReproduceError, Storage, host, iteration, printed_value};
+use super::{CARD, EntryFindings, PATCHES, PrintedRates, Storage, StudyError, host, iteration, printed_value};
 use crate::elementary::ln;
 use crate::radiosity::packing::Packing;
 use crate::report::{Cell, Chart, Scale, Series, Table};
@@ -18,8 +18,8 @@ struct Point {
 }
 
 impl Point {
-    fn at(patches: u32) -> Result<Self, ReproduceError> {
-        let card = |packing| Ok::<f64, ReproduceError>(1e3 / iteration(patches, packing, Storage::Fp32)?.per_s);
+    fn at(patches: u32) -> Result<Self, StudyError> {
+        let card = |packing| Ok::<f64, StudyError>(1e3 / iteration(patches, packing, Storage::Fp32)?.per_s);
         Ok(Self {
             patches,
             rgb: card(Packing::Rgb)?,
@@ -38,7 +38,7 @@ impl Point {
     }
 }
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let points = SIZES.into_iter().map(Point::at).collect::<Result<Vec<_>, _>>()?;
     let line = |label: &str, of: fn(&Point) -> f64| Series {
         label: label.to_owned(),
@@ -78,7 +78,7 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 }
 
 /// "We believe the GPU curve overtakes the CPU curve for matrices larger than 2000 elements".
-fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, ReproduceError> {
+fn overtakes(points: &[Point]) -> Result<Option<PaperRow>, StudyError> {
     let Some(largest) = points.last() else { return Ok(None) };
     let ours = (largest.host / largest.rgb, Standing::Predicted { from: "40 iterations/s of the host" });
     paper_row("radiosity/host-over-card", (CARD, Method::Pipeline), ours).map(Some)
@@ -121,7 +121,7 @@ const BELIEF: &str = "In this model the card overtakes the host {} with one texe
     above {} patches, if it does; from their printed rates the host's time would have to grow with the power {} of the number of patches between {} and \
     there, faster than the bytes that it reads.";
 
-fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<Prose>, ReproduceError> {
+fn text(points: &[Point], [card, host]: &[PrintedRates; 2]) -> Result<Vec<Prose>, StudyError> {
     let believed = printed_value("radiosity/crossing")?;
     let largest = points.last().map_or(0, |point| point.patches);
     let said = |card: fn(&Point) -> f64| match crossing(points, card) {

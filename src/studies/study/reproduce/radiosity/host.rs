@@ -4,7 +4,7 @@
 //! part of a cache line from memory. The matrix is read sequentially again and again, so that of W bytes a cache of C
 //! bytes still holds at most a fraction C / W at the next read.
 
-use super::{PATCHES, PrintedRates, ReproduceError};
+use super::{PATCHES, PrintedRates, StudyError};
 
 /// Clock in Hz: Athlon XP 2800+ with Barton core, as reviewed (Tom's Hardware).
 const CLOCK_HZ: f64 = 2.083e9;
@@ -26,13 +26,13 @@ fn cached() -> f64 {
 }
 
 /// Additional seconds per element from memory: the remainder of the printed rate, the one printed value of the host.
-fn from_memory() -> Result<f64, ReproduceError> {
+fn from_memory() -> Result<f64, StudyError> {
     let n = f64::from(PATCHES);
     Ok((1.0 / (PrintedRates::host()?.per_s * n * n) - cached()) / missed(n))
 }
 
 /// Seconds of a Gauss-Seidel iteration over `patches` patches.
-pub(super) fn iteration(patches: u32) -> Result<f64, ReproduceError> {
+pub(super) fn iteration(patches: u32) -> Result<f64, StudyError> {
     let n = f64::from(patches);
     Ok(n * n * (cached() + from_memory()? * missed(n)))
 }

@@ -7,7 +7,7 @@ mod rates;
 
 use refsim::device::Profile;
 
-use super::{EntryFindings, ReproduceError, pipeline::failed, printed_value};
+use super::{EntryFindings, StudyError, pipeline::failed, printed_value};
 use crate::radiosity::on_card::Storage;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::{TimedIteration, Timing, timed_iteration};
@@ -31,22 +31,22 @@ struct PrintedRates {
 
 impl PrintedRates {
     /// Jacobi's iteration on the card.
-    fn card() -> Result<Self, ReproduceError> {
+    fn card() -> Result<Self, StudyError> {
         Self::named("radiosity/jacobi-rate", "radiosity/jacobi-operations")
     }
 
     /// Gauss and Seidel's iteration on the host.
-    fn host() -> Result<Self, ReproduceError> {
+    fn host() -> Result<Self, StudyError> {
         Self::named("radiosity/gauss-seidel-rate", "radiosity/gauss-seidel-operations")
     }
 
-    fn named(rate: &str, operations: &str) -> Result<Self, ReproduceError> {
+    fn named(rate: &str, operations: &str) -> Result<Self, StudyError> {
         Ok(Self { per_s: printed_value(rate)?, mflops: printed_value(operations)? })
     }
 }
 
 /// Times an iteration of `patches` patches on the paper's card, by the pipeline model.
-fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, ReproduceError> {
+fn iteration(patches: u32, packing: Packing, storage: Storage) -> Result<TimedIteration, StudyError> {
     let timing = Timing { patches: patches as usize, packing, storage, cache: false };
     timed_iteration(&Profile::named(CARD)?, &timing).map_err(|e| failed(CARD)(&e))
 }

@@ -1,7 +1,7 @@
 //! The printed rates: 29.7 iterations and 141 MFLOP per second on the card, 40 and 190 on the host. And their
 //! dependence on the number of patches.
 
-use super::{CARD, EntryFindings, PATCHES, PrintedRates, ReproduceError, Storage, host, iteration};
+use super::{CARD, EntryFindings, PATCHES, PrintedRates, Storage, StudyError, host, iteration};
 use crate::radiosity::model;
 use crate::radiosity::packing::Packing;
 use crate::radiosity::rate::TimedIteration;
@@ -23,7 +23,7 @@ const WHERE: &str = "Where the time goes: each of a texel's two reads is of {} b
     takes {} clocks for; and of each quad of fragments only {} % lie in the one row of the target. The unit's width and how registers slow the card \
     are guesses or measurements of others, as `crossbar devices` says.";
 
-pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, StudyError> {
     let paper = iteration(PATCHES, Packing::Rgb, Storage::Fp32)?;
     let printed = [PrintedRates::card()?, PrintedRates::host()?];
     let fits: Vec<u32> = (1..=2 * PATCHES).filter(|n| fits(*n, &printed)).collect();
@@ -59,12 +59,12 @@ pub(in crate::study::reproduce) fn findings() -> Result<EntryFindings, Reproduce
 }
 
 /// Bytes of a texel that a texture unit of the card fetches per clock.
-fn profile_width() -> Result<f64, ReproduceError> {
+fn profile_width() -> Result<f64, StudyError> {
     let profile = refsim::device::Profile::named(CARD)?;
     crate::study::reproduce::figure(&profile, "rates.texel_bytes_per_clock", profile.rates.texel_bytes_per_clock)
 }
 
-fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rows(paper: &TimedIteration, [card, host]: &[PrintedRates; 2]) -> Result<Vec<PaperRow>, StudyError> {
     let calibrated = Standing::Calibrated { on: CHOSE_N };
     let predicted = Standing::Predicted { from: CHOSE_N };
     let of_host =
@@ -89,7 +89,7 @@ fn fits(patches: u32, printed: &[PrintedRates; 2]) -> bool {
 }
 
 /// Table of the dependence on the number of patches.
-fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, ReproduceError> {
+fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "What the number of patches decides",
         "patches passes iterations_per_s difference_% MFLOP/s_of_Jacobi reads_141 MFLOP/s_of_Gauss-Seidel \
@@ -113,7 +113,7 @@ fn sizes(printed: &[PrintedRates; 2]) -> Result<Table, ReproduceError> {
 }
 
 /// Table of the cost of an iteration in each packing and precision.
-fn costs() -> Result<Table, ReproduceError> {
+fn costs() -> Result<Table, StudyError> {
     let mut table = Table::of(
         format!("An iteration of {PATCHES} patches; four elements a texel are one channel, the others three"),
         "packing storage passes draws texture_clocks arithmetic_clocks memory_clocks filled_% bandwidth_% \

@@ -2,8 +2,8 @@
 
 use super::gather::{EIGHT, GatherCost, VARIANTS, Variant};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, failed,
-    number, paper_row,
+    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number,
+    paper_row,
 };
 use crate::atlas::Atlas;
 use crate::report::{Cell, Table};
@@ -20,7 +20,7 @@ const HOW: &str = "Lookups are counted as our programs are drawn, per texel: {} 
     single pass. The paper does not say how its card held the links. The clustering is our own, for the paper's is in \
     another one; what it must give, a binary tree with a leaf per face, is counted on stand-ins of as many faces.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let of = |fixed: bool| VARIANTS.iter().zip(costs).find(|(variant, _)| variant.fixed == fixed);
     let (Some((_, fixed)), Some((_, adaptive))) = (of(true), of(false)) else { return Ok(EntryFindings::default()) };
@@ -51,7 +51,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Row on the number of nodes of the clustering: 2 T - 1.
-fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, ReproduceError> {
+fn nodes(model: &str, stand_in: &'static str) -> Result<PaperRow, StudyError> {
     let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     let mesh = meshes::build(stand_in).ok_or_else(missing)?;
     let atlas = Atlas::new(&mesh, 512).map_err(|e| failed(CARD)(&e))?;

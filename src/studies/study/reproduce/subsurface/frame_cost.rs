@@ -5,7 +5,7 @@ use refsim::machine::ExecutorKind;
 use refsim::texture::TexelFormat;
 
 use super::gather::{LINKS, Variant};
-use super::{ReproduceError, failed, no_time};
+use super::{StudyError, failed, no_time};
 use crate::atlas::Atlas;
 use crate::card::{MeshView, Texels};
 use crate::geom::Mesh;
@@ -42,12 +42,7 @@ impl FrameCost {
 }
 
 /// Cost of a model's frame on a card: pass 1 and levels of each variant, in their order, and pass 3.
-pub(super) fn cost(
-    card: &'static str,
-    mesh: &Mesh,
-    side: u32,
-    variants: &[Variant],
-) -> Result<FrameCost, ReproduceError> {
+pub(super) fn cost(card: &'static str, mesh: &Mesh, side: u32, variants: &[Variant]) -> Result<FrameCost, StudyError> {
     let profile = Profile::named(card)?;
     let atlas = Atlas::new(mesh, side).map_err(|e| failed(card)(&e))?;
     let model = CardModel::new(&atlas);

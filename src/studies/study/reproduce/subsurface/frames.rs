@@ -9,8 +9,8 @@ use super::frame_cost::{FrameCost, MapCost, WINDOW, cost};
 use super::gather::{GatherCost, VARIANTS, Variant, all_costs, left_open};
 use super::table_1::{DISPLAY, PrintedFrame, SIDES, display_lock};
 use super::{
-    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing, Sweep, failed,
-    number, paper_row,
+    CARD, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep, failed, number,
+    paper_row,
 };
 use crate::geom::Mesh;
 use crate::report::{Cell, Table};
@@ -46,7 +46,7 @@ fn locked(seconds: f64) -> f64 {
     DISPLAY / (seconds * DISPLAY).ceil().max(1.0)
 }
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let printed = PrintedFrame::all()?;
     let (mut rows, mut frames) = (Vec::new(), Vec::new());
@@ -97,7 +97,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     })
 }
 
-fn mesh(stand_in: &'static str) -> Result<Mesh, ReproduceError> {
+fn mesh(stand_in: &'static str) -> Result<Mesh, StudyError> {
     let missing = || failed(CARD)(&format!("no stand-in `{stand_in}`"));
     meshes::build(stand_in).ok_or_else(missing)
 }
@@ -106,7 +106,7 @@ fn mesh(stand_in: &'static str) -> Result<Mesh, ReproduceError> {
 const PREDICTED: Standing = Standing::Predicted { from: "" };
 
 /// Rows on the times of the passes of one frame: 1 and 3 always; 2 where Table 1's own entry does not judge it.
-fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, ReproduceError> {
+fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<Vec<PaperRow>, StudyError> {
     let MapCost { light, levels } = cost.maps[OURS];
     let gather = (printed.side == SIDES[0]).then_some(gather);
     let ours = [Some(light + levels), gather, Some(cost.view)];
@@ -119,14 +119,14 @@ fn passes(printed: &PrintedFrame, (cost, gather): (&FrameCost, f64)) -> Result<V
 /// Inputs of the inferred refresh rate.
 const DISPLAYED: &str = "the six frame rates, of which the display's was read off";
 
-fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, ReproduceError> {
+fn rate((printed, cost): &(PrintedFrame, FrameCost), gather: &GatherCost) -> Result<PaperRow, StudyError> {
     let ours = (locked(cost.frame(OURS, gather.seconds(printed.side))), Standing::Predicted { from: DISPLAYED });
     paper_row(&format!("subsurface/rate-{}-{}", printed.model, printed.side), (CARD, Method::Pipeline), ours)
 }
 
 /// Row on Figure 7: 40 frames per second are no integer fraction of the display's rate, so that the frame counts
 /// without synchronisation, for the bunny at the smaller size.
-fn figure_7() -> Result<PaperRow, ReproduceError> {
+fn figure_7() -> Result<PaperRow, StudyError> {
     let costs = all_costs(OTHER_CARD)?;
     let cost = cost(OTHER_CARD, &mesh(MODELS[2].2)?, SIDES[0] as u32, &VARIANTS[..=OURS])?;
     let ours = (1.0 / cost.frame(OURS, costs[OURS].seconds(SIDES[0])), PREDICTED);

@@ -8,7 +8,7 @@ use refsim::device::Profile;
 use refsim::event::Event;
 use refsim::machine::ExecutorKind;
 
-use super::{ReproduceError, Shared, failed, no_time};
+use super::{Shared, StudyError, failed, no_time};
 use crate::atlas::Atlas;
 use crate::card::Texels;
 use crate::geom::Mesh;
@@ -96,18 +96,18 @@ impl GatherCost {
 impl SharedResult for Vec<GatherCost> {
     type Key = &'static str;
 
-    fn compute(&card: &&'static str, _: &Shared) -> Result<Self, ReproduceError> {
+    fn compute(&card: &&'static str, _: &Shared) -> Result<Self, StudyError> {
         all_costs(card)
     }
 }
 
 /// Cost of all variants on a card, in the order of [`VARIANTS`].
-pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, ReproduceError> {
+pub(super) fn all_costs(card: &'static str) -> Result<Vec<GatherCost>, StudyError> {
     VARIANTS.iter().map(|variant| cost(card, *variant)).collect()
 }
 
 /// Measures a variant on a card.
-fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, ReproduceError> {
+fn cost(card: &'static str, variant: Variant) -> Result<GatherCost, StudyError> {
     let mut found = GatherCost { programs: 0, instructions: 0, samplers: 0, lookups: 0.0, seconds: [0.0; 3] };
     for (seconds, side) in found.seconds.iter_mut().zip(SIDES) {
         let profile = Profile::named(card)?;

@@ -16,6 +16,6 @@ use super::error::no_time;
 use super::pipeline::failed;
 use super::shared::Shared;
 use super::{
-    Contradiction, EntryFindings, Method, PaperRow, Prose, ReproduceError, Setting, Standing, Sweep, number, paper_row,
+    Contradiction, EntryFindings, Method, PaperRow, Prose, Setting, Standing, StudyError, Sweep, number, paper_row,
     printed_value,
 };

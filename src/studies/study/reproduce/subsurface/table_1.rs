@@ -6,8 +6,8 @@
 use super::counts::MODELS;
 use super::gather::{GatherCost, VARIANTS, all_costs, left_open};
 use super::{
-    CARD, Contradiction, EntryFindings, LINKS, Method, PaperRow, Prose, ReproduceError, Setting, Shared, Standing,
-    Sweep, number, paper_row, printed_value,
+    CARD, Contradiction, EntryFindings, LINKS, Method, PaperRow, Prose, Setting, Shared, Standing, StudyError, Sweep,
+    number, paper_row, printed_value,
 };
 use crate::report::{Cell, Table};
 
@@ -25,12 +25,12 @@ pub(super) struct PrintedFrame {
 
 impl PrintedFrame {
     /// All rows, model by model.
-    pub(super) fn all() -> Result<Vec<Self>, ReproduceError> {
+    pub(super) fn all() -> Result<Vec<Self>, StudyError> {
         let all = MODELS.iter().flat_map(|(model, ..)| SIDES.map(|side| (*model, side)));
         all.map(|(model, side)| Self::of(model, side)).collect()
     }
 
-    fn of(model: &'static str, side: f64) -> Result<Self, ReproduceError> {
+    fn of(model: &'static str, side: f64) -> Result<Self, StudyError> {
         let share = |pass: usize| printed_value(&format!("subsurface/share-{model}-{side}-{pass}"));
         let rate = printed_value(&format!("subsurface/rate-{model}-{side}"))?;
         Ok(Self { model, side, rate, shares: [share(1)?, share(2)?, share(3)?] })
@@ -66,7 +66,7 @@ const LOCKED: &str = "The six frame rates times {} are {} to {}: whole fractions
 const OPEN: &str = "Neither the format of the radiosity map nor which links were timed is printed. The rows are those of fixed links and an 8-bit map, \
     which automatic mipmaps (section 4.2.2) need on this card; the table has every variant, for every card of the time. They spread by a factor of {}.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let costs = shared.get::<Vec<GatherCost>>(CARD)?;
     let ms = |cost: &GatherCost| 1e3 * cost.seconds(SIDES[1]);
     let printed = PrintedFrame::all()?;
@@ -150,7 +150,7 @@ fn locked(printed: &[PrintedFrame]) -> [String; 3] {
 }
 
 /// Table of pass 2 at 1024 x 1024 for each variant on each card.
-fn variants(costs: &[GatherCost]) -> Result<Table, ReproduceError> {
+fn variants(costs: &[GatherCost]) -> Result<Table, StudyError> {
     let mut table = Table::of(
         "Pass 2 of 16 links at 1024 x 1024 in ms, by the pipeline model; the paper's are 55.2 to 56.4",
         "variant fx5900 nv35 fx5800 nv30 ns_per_link",

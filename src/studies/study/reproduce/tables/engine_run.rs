@@ -8,11 +8,12 @@ use refsim::timing::queue::QueueFigures;
 use refsim::timing::replay::{Costs, Options, replay};
 use refsim::timing::{DrawCost, Level, Model, Picoseconds};
 
-use super::super::error::{ReproduceError, no_time};
+use super::super::error::no_time;
 use super::super::pipeline::failed;
 use super::workload::{OCTREE, TIMES, Workload};
 use crate::geom::exact::Sides;
 use crate::ray_engine::engine::{EngineCounts, EngineParameters, RayEngine};
+use crate::study::StudyError;
 
 /// Computing card: fp32, as the simulator of section 5.4.
 const COMPUTES: &str = "ideal-fp32";
@@ -26,7 +27,7 @@ pub(super) struct Run {
 impl Run {
     /// Submits the bundles to an engine, one after the other, and finishes once at the end: secondary rays enter the
     /// cache while others still wait in it, as with a renderer that continues with any available results.
-    pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, ReproduceError> {
+    pub(super) fn of(work: &Workload, parameters: EngineParameters) -> Result<Self, StudyError> {
         let parameters = EngineParameters { octree: OCTREE, record: true, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
         for bundle in &work.bundles {
@@ -38,7 +39,7 @@ impl Run {
 
     /// Mean fill of the buckets of the ray tree that hold rays, after each bundle of a workload, of an engine without a
     /// card: fractions of a full bucket.
-    pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, ReproduceError> {
+    pub(super) fn fill_of(work: &Workload, parameters: EngineParameters) -> Result<Vec<f64>, StudyError> {
         let parameters = EngineParameters { octree: OCTREE, card: false, sides: Sides::Both, ..parameters };
         let mut engine = RayEngine::new(&work.mesh, Profile::named(COMPUTES)?, ExecutorKind::Batch, parameters)?;
         let mut means = Vec::new();
@@ -101,7 +102,7 @@ impl Costs for GeForce4 {
 }
 
 /// Rays per second of a run.
-pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Result<f64, ReproduceError> {
+pub(super) fn rays_per_s(run: &Run, host: &HostModel, commands: Commands) -> Result<f64, StudyError> {
     let free = commands == Commands::Free;
     let card = GeForce4 { rates: Model::new(Level::Rates, &Profile::named(TIMES)?).map_err(no_time)?, free };
     let queue = match commands {

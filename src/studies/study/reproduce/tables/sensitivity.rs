@@ -5,7 +5,7 @@ use std::rc::Rc;
 use refsim::timing::host::{HostOperation, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::super::ReproduceError;
+use super::super::StudyError;
 use super::engine_run::{Commands, Run};
 use super::speed_up;
 use super::speed_ups::SpeedUpRun;
@@ -22,7 +22,7 @@ fn keys() -> Vec<String> {
 
 /// Table of the speed-ups of the lines with each guess doubled; guesses that change nothing are omitted. The host is
 /// calibrated anew each time, so that its time alone is unchanged.
-pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, ReproduceError> {
+pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, StudyError> {
     let headings: Vec<String> = std::iter::once("guess".to_owned())
         .chain(lines.iter().map(|line| format!("{}_%", line.name.replace(' ', "_"))))
         .collect();
@@ -36,7 +36,7 @@ pub(super) fn table(alone: &HostOnly, lines: &[&SpeedUpRun]) -> Result<Table, Re
         }
         speed_ups(alone, lines, weights, queue).map(|found| (key, found))
     };
-    let found: Vec<_> = keys().into_iter().map(doubled).collect::<Result<_, ReproduceError>>()?;
+    let found: Vec<_> = keys().into_iter().map(doubled).collect::<Result<_, StudyError>>()?;
     for (key, found) in found.into_iter().filter(|(_, found)| *found != stated) {
         push(&mut table, &format!("{key} doubled"), &found);
     }
@@ -48,7 +48,7 @@ fn speed_ups(
     lines: &[&SpeedUpRun],
     weights: HostWeights,
     queue: QueueFigures,
-) -> Result<Vec<f64>, ReproduceError> {
+) -> Result<Vec<f64>, StudyError> {
     let host = alone.calibrate(weights)?;
     let runs: Vec<Rc<Run>> = lines.iter().map(|line| Rc::clone(&line.run)).collect();
     Ok(rates(&runs, &host, Commands::Cost(queue))?.into_iter().map(speed_up).collect())

@@ -1,6 +1,6 @@
 //! "% GPU Rays" of Tables 2 and 4, which the text defines as "rays sent to the GPU": two interpretations.
 
-use super::super::{Method, PaperRow, ReproduceError, Setting, Standing, Sweep, paper_row, printed};
+use super::super::{Method, PaperRow, Setting, Standing, StudyError, Sweep, paper_row, printed};
 use super::workload::TIMES;
 use crate::ray_engine::engine::EngineCounts;
 use crate::report::{Chart, Series, Table};
@@ -20,7 +20,7 @@ const READINGS: [(&str, Reading); 2] = [
 pub(super) type Share<'a> = (&'static str, &'a EngineCounts);
 
 /// Rows by the first interpretation, explained by the second where that reaches them, and a table of both.
-pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), ReproduceError> {
+pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, Table), StudyError> {
     let row = |&(id, counts): &Share<'_>| {
         paper_row(id, (TIMES, Method::Engine), (100.0 * READINGS[0].1(counts), Standing::Counted))
     };
@@ -40,11 +40,10 @@ pub(super) fn rows(shares: &[Share<'_>], place: &str) -> Result<(Vec<PaperRow>, 
 }
 
 /// Chart of the printed fractions and both interpretations.
-pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, ReproduceError> {
+pub(super) fn chart(shares: &[Share<'_>], ticks: &[&str], title: &str) -> Result<Chart, StudyError> {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value)).collect();
     let [rays, visits] = READINGS.map(|(_, of)| points(shares.iter().map(|(_, counts)| 100.0 * of(counts)).collect()));
-    let values: Vec<f64> =
-        shares.iter().map(|(id, _)| Ok(printed(id)?.value)).collect::<Result<_, ReproduceError>>()?;
+    let values: Vec<f64> = shares.iter().map(|(id, _)| Ok(printed(id)?.value)).collect::<Result<_, StudyError>>()?;
     Ok(Chart {
         title: title.to_owned(),
         y: "%".to_owned(),

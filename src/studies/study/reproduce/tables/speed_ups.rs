@@ -4,7 +4,7 @@
 use std::rc::Rc;
 
 use super::super::shared::{Shared, SharedResult};
-use super::super::{Method, PaperRow, ReproduceError, Standing, Sweep, paper_row};
+use super::super::{Method, PaperRow, Standing, StudyError, Sweep, paper_row};
 use super::engine_run::{Commands, Run};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::TIMES;
@@ -98,13 +98,13 @@ fn lines() -> Vec<(&'static str, &'static str, &'static str, Variant)> {
 impl SharedResult for SpeedUps {
     type Key = ();
 
-    fn compute((): &(), shared: &Shared) -> Result<Self, ReproduceError> {
+    fn compute((): &(), shared: &Shared) -> Result<Self, StudyError> {
         work_out(shared.get::<TeapotRoom>(())?)
     }
 }
 
 /// Computes runs, times and sweeps.
-fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
+fn work_out(room: &TeapotRoom) -> Result<SpeedUps, StudyError> {
     let stated = lines();
     let variants: Vec<Variant> = stated.iter().map(|(.., variant)| variant.clone()).collect();
     let runs = room.runs(&variants)?;
@@ -122,7 +122,7 @@ fn work_out(room: &TeapotRoom) -> Result<SpeedUps, ReproduceError> {
 }
 
 /// First row of Tables 3 to 5, which calibrates the host's scale.
-pub(super) fn host_alone(room: &TeapotRoom) -> Result<PaperRow, ReproduceError> {
+pub(super) fn host_alone(room: &TeapotRoom) -> Result<PaperRow, StudyError> {
     let standing = Standing::Calibrated { on: "this figure" };
     paper_row("ray-engine/host-alone", (TIMES, Method::Engine), (room.work.alone.rays_per_s(&room.host), standing))
 }
@@ -132,7 +132,7 @@ const COLUMNS: &str = "run printed_rays_per_s ours_rays_per_s printed_% ours_% p
      forced_per_ray";
 
 /// Table of the speed-ups of some lines over the host alone, with the counters of their engines.
-pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, ReproduceError> {
+pub(super) fn table(room: &TeapotRoom, lines: &[&SpeedUpRun], place: &str) -> Result<Table, StudyError> {
     let mut table = Table::of(format!("Speed-ups over the host alone, {place}"), COLUMNS);
     for line in lines {
         let free = speed_up(room.rays_per_s(&line.run, Commands::Free)?);

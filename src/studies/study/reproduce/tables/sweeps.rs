@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 use refsim::timing::queue::QueueFigures;
 
-use super::super::{ReproduceError, Setting, Sweep};
+use super::super::{Setting, StudyError, Sweep};
 use super::commands as stated;
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::teapot::TeapotRoom;
@@ -19,7 +19,7 @@ const HALVES: [u64; 4] = [2, 3, 4, 6];
 const LEAVES: [usize; 8] = [4, 6, 8, 9, 10, 11, 12, 16];
 
 /// Rays per second of runs; each distinct run is replayed once.
-pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, ReproduceError> {
+pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> Result<Vec<f64>, StudyError> {
     let mut distinct: Vec<&Rc<Run>> = Vec::new();
     for run in runs {
         if !distinct.iter().any(|known| Rc::ptr_eq(known, run)) {
@@ -34,12 +34,12 @@ pub(super) fn rates(runs: &[Rc<Run>], host: &HostModel, commands: Commands) -> R
 }
 
 /// Sweep of all costs of commands by a common factor. The bus and the card are unchanged.
-pub(super) fn commands(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
+pub(super) fn commands(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, StudyError> {
     let setting = |halves: u64| {
         let values = rates(runs, &room.host, Commands::Cost(scaled(halves)))?;
         Ok(Setting { at: (halves as f64 / 2.0).to_string(), values })
     };
-    let settings = HALVES.into_iter().map(setting).collect::<Result<_, ReproduceError>>()?;
+    let settings = HALVES.into_iter().map(setting).collect::<Result<_, StudyError>>()?;
     Ok(Sweep { name: "command costs", parameter: "factor", settings })
 }
 
@@ -55,12 +55,12 @@ fn scaled(halves: u64) -> QueueFigures {
 
 /// Sweep of the octree of the host alone by the triangles of its leaves; the engine keeps its own. The host is
 /// calibrated anew each time, so that its time for the new counts is the printed one.
-pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, ReproduceError> {
+pub(super) fn host_leaf(room: &TeapotRoom, runs: &[Rc<Run>]) -> Result<Sweep, StudyError> {
     let setting = |most_triangles: usize| {
         let alone = room.work.alone_with(OctreeParameters { most_triangles, ..OCTREE });
         let values = rates(runs, &alone.calibrate(HostWeights::default())?, stated())?;
         Ok(Setting { at: most_triangles.to_string(), values })
     };
-    let settings = LEAVES.into_iter().map(setting).collect::<Result<_, ReproduceError>>()?;
+    let settings = LEAVES.into_iter().map(setting).collect::<Result<_, StudyError>>()?;
     Ok(Sweep { name: "leaves of the host's octree", parameter: "triangles", settings })
 }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::super::shared::Shared;
 use super::super::{
-    EntryChart, EntryFindings, Method, ModelSize, PaperRow, ReproduceError, paper_row, printed, printed_value,
+    EntryChart, EntryFindings, Method, ModelSize, PaperRow, StudyError, paper_row, printed, printed_value,
 };
 use super::engine_run::{Run, rays_per_s};
 use super::shares::{self, Share};
@@ -90,7 +90,7 @@ struct SceneRun {
     alone_rays_per_s: f64,
 }
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let first = room.runs(&[Variant { rays: SCENES[0].rays, ..Variant::PLUS_CARD }])?;
     let others = SCENES.par_iter().filter_map(|scene| Some((scene, scene.job?)));
@@ -99,7 +99,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
         let run = Run::of(&work, Variant { rays: scene.rays, ..Variant::PLUS_CARD }.parameters())?;
         Ok((run, work.mesh.len(), work.alone))
     });
-    let others: Vec<_> = others.collect::<Result<_, ReproduceError>>()?;
+    let others: Vec<_> = others.collect::<Result<_, StudyError>>()?;
     let first = first.into_iter().map(|run| (run, room.work.mesh.len(), room.work.alone));
     let ran = first.chain(others.into_iter().map(|(run, triangles, alone)| (Rc::new(run), triangles, alone)));
     let ran = ran.map(|(run, triangles, alone)| {
@@ -110,7 +110,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
             triangles,
         })
     });
-    let ran: Vec<SceneRun> = ran.collect::<Result<_, ReproduceError>>()?;
+    let ran: Vec<SceneRun> = ran.collect::<Result<_, StudyError>>()?;
     let mut rows = rates(&ran)?;
     let shares: Vec<Share<'_>> = SCENES.iter().zip(&ran).map(|(scene, ran)| (scene.share, &ran.run.counts)).collect();
     let (share_rows, readings) = shares::rows(&shares, "Table 2")?;
@@ -140,19 +140,19 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
 }
 
 /// Picture of a row's scene, by its renderer.
-fn picture(row: usize, scene: &PrintedScene, models: ModelSize) -> Result<NamedPicture, ReproduceError> {
+fn picture(row: usize, scene: &PrintedScene, models: ModelSize) -> Result<NamedPicture, StudyError> {
     let image = scene.job.unwrap_or(CLASSICAL_TEAPOT).picture(models.picture_side(), SAMPLES)?;
     Ok(NamedPicture::new(format!("ray-engine-table-1-scene-{row}"), image, scene.tick))
 }
 
-fn rates(ran: &[SceneRun]) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rates(ran: &[SceneRun]) -> Result<Vec<PaperRow>, StudyError> {
     let row = |(scene, ran): (&PrintedScene, &SceneRun)| {
         paper_row(scene.rate, (TIMES, Method::Engine), (ran.rays_per_s, RATE))
     };
     SCENES.iter().zip(ran).map(row).collect()
 }
 
-fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Result<Chart, ReproduceError> {
+fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Result<Chart, StudyError> {
     let points = |values: Vec<f64>| (1..).zip(values).map(|(x, value)| (f64::from(x), value / 1000.0)).collect();
     let dots = |label: &str, values: Vec<f64>| Series { label: label.to_owned(), points: points(values) };
     let stated = SCENES.iter().map(|scene| printed_value(scene.rate)).collect::<Result<_, _>>()?;
@@ -169,7 +169,7 @@ fn rates_chart(ran: &[SceneRun], ticks: &[&str]) -> Result<Chart, ReproduceError
     })
 }
 
-fn table(ran: &[SceneRun]) -> Result<Table, ReproduceError> {
+fn table(ran: &[SceneRun]) -> Result<Table, StudyError> {
     let columns =
         "scene polygons_printed triangles rays_traced printed_rays_per_s ours_rays_per_s host_alone_rays_per_s";
     let mut table = Table::of("Five scenes", columns);

@@ -3,7 +3,7 @@
 
 use super::super::prose::{Prose, number};
 use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Method, PaperRow, ReproduceError, paper_row};
+use super::super::{EntryChart, EntryFindings, Method, PaperRow, StudyError, paper_row};
 use super::speed_ups::{SpeedUpRun, SpeedUps, host_alone, table};
 use super::teapot::TeapotRoom;
 use super::workload::TIMES;
@@ -17,7 +17,7 @@ const OCTREE: &str = "The octree of the host alone decides more than anything el
     triangles the infinitely fast card's speed-up goes from {} to {} %, the largest step of the sweep: the rays of our room fall either side of \
     a knife-edge of our mesh. Rows take {}, which was chosen before any of them was worked out, for host and engine alike.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
@@ -47,7 +47,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
 }
 
 /// Row on the points of speed-up that synchronous read-back costs: asynchronous read-back less plus card.
-fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, ReproduceError> {
+fn readback(lines: &[&SpeedUpRun]) -> Result<PaperRow, StudyError> {
     let ours = |name: &str| lines.iter().find(|line| line.name == name).map_or(f64::NAN, |line| line.ours());
     let lost = ours("asynchronous read-back") - ours("plus card");
     paper_row("ray-engine/readback-points", (TIMES, Method::Engine), (lost, RATE))

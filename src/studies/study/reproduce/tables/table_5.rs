@@ -1,7 +1,7 @@
 //! Table 5: the teapot room by the number of rays in a pass. And the costs of commands.
 
 use super::super::shared::Shared;
-use super::super::{EntryChart, EntryFindings, Method, PaperRow, Prose, ReproduceError, Standing, number, paper_row};
+use super::super::{EntryChart, EntryFindings, Method, PaperRow, Prose, Standing, StudyError, number, paper_row};
 use super::engine_run::Run;
 use super::speed_ups::{SpeedUpRun, SpeedUps, table};
 use super::teapot::{TeapotRoom, Variant};
@@ -15,7 +15,7 @@ const SIZE: &str = "Larger passes cost less a ray, but more caches never fill, a
 const FILL: &str = "Section 5.3 says how full the buckets of the ray tree typically are: the rows have the mean of those with rays after each bundle of the room's rays, \
     while none leaves for want of others. Figure 4 and figure 6 of the paper are pictures: `crossbar leaky-teapot` and `crossbar render` draw them.";
 
-pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let room = shared.get::<TeapotRoom>(())?;
     let found = shared.get::<SpeedUps>(())?;
     let lines = found.of(PLACE);
@@ -40,7 +40,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Repro
 }
 
 /// Rows on the fill of the ray tree's buckets.
-fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], ReproduceError> {
+fn fill(room: &TeapotRoom) -> Result<[PaperRow; 2], StudyError> {
     let means = Run::fill_of(&room.work, Variant::PLUS_CARD.parameters())?;
     let filled = 100.0 * means.iter().sum::<f64>() / means.len().max(1) as f64;
     let row = |id: &str, ours: f64| paper_row(id, ("host", Method::Engine), (ours, Standing::Counted));

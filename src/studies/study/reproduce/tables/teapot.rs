@@ -7,7 +7,7 @@ use std::rc::Rc;
 use rayon::prelude::*;
 use refsim::timing::host::{HostModel, HostWeights};
 
-use super::super::ReproduceError;
+use super::super::StudyError;
 use super::super::shared::{Shared, SharedResult};
 use super::engine_run::{Commands, Run, rays_per_s};
 use super::workload::{CLASSICAL_TEAPOT, Workload};
@@ -53,13 +53,13 @@ pub(crate) struct TeapotRoom {
 impl SharedResult for TeapotRoom {
     type Key = ();
 
-    fn compute((): &(), _: &Shared) -> Result<Self, ReproduceError> {
+    fn compute((): &(), _: &Shared) -> Result<Self, StudyError> {
         Self::new()
     }
 }
 
 impl TeapotRoom {
-    fn new() -> Result<Self, ReproduceError> {
+    fn new() -> Result<Self, StudyError> {
         let work = CLASSICAL_TEAPOT.workload()?;
         let host = work.alone.calibrate(HostWeights::default())?;
         let side = CLASSICAL_TEAPOT.side;
@@ -67,7 +67,7 @@ impl TeapotRoom {
     }
 
     /// Returns the runs of some variants, in their order.
-    pub(super) fn runs(&self, wanted: &[Variant]) -> Result<Vec<Rc<Run>>, ReproduceError> {
+    pub(super) fn runs(&self, wanted: &[Variant]) -> Result<Vec<Rc<Run>>, StudyError> {
         let mut missing: Vec<Variant> = Vec::new();
         for variant in wanted {
             if !missing.contains(variant) && self.known(variant).is_none() {
@@ -77,7 +77,7 @@ impl TeapotRoom {
         // One thread per engine; the runs are independent.
         let work = &self.work;
         let run = |variant: Variant| Ok((Run::of(work, variant.parameters())?, variant));
-        let made: Vec<(Run, Variant)> = missing.into_par_iter().map(run).collect::<Result<_, ReproduceError>>()?;
+        let made: Vec<(Run, Variant)> = missing.into_par_iter().map(run).collect::<Result<_, StudyError>>()?;
         self.runs.borrow_mut().extend(made.into_iter().map(|(run, variant)| (variant, Rc::new(run))));
         Ok(wanted.iter().filter_map(|variant| self.known(variant)).collect())
     }
@@ -87,7 +87,7 @@ impl TeapotRoom {
     }
 
     /// Rays per second of a run on the calibrated host.
-    pub(super) fn rays_per_s(&self, run: &Run, commands: Commands) -> Result<f64, ReproduceError> {
+    pub(super) fn rays_per_s(&self, run: &Run, commands: Commands) -> Result<f64, StudyError> {
         rays_per_s(run, &self.host, commands)
     }
 }

@@ -2,7 +2,7 @@
 
 use refsim::timing::host::{CPU_ONLY_RAYS_PER_SECOND, HostCounts, HostModel, HostOperation, HostWeights};
 
-use super::super::ReproduceError;
+use super::super::StudyError;
 use super::super::pipeline::failed;
 use crate::geom::exact::Sides;
 use crate::geom::{Hit, Mesh, Ray};
@@ -84,7 +84,7 @@ impl Caster for Recording {
 
 impl Job {
     /// Runs the renderer and records its workload.
-    pub(super) fn workload(&self) -> Result<Workload, ReproduceError> {
+    pub(super) fn workload(&self) -> Result<Workload, StudyError> {
         let (scene, camera) = self.scene_and_camera(self.side)?;
         let tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
         let mut recording = Recording { tracer, bundles: Vec::new(), cost: tracer::HostCounts::default() };
@@ -93,7 +93,7 @@ impl Job {
     }
 
     /// Renders a picture to look at by rays of the host, with `samples` times the job's samples per pixel.
-    pub(super) fn picture(&self, side: u32, samples: u32) -> Result<RgbImage, ReproduceError> {
+    pub(super) fn picture(&self, side: u32, samples: u32) -> Result<RgbImage, StudyError> {
         let (scene, camera) = self.scene_and_camera(side)?;
         let mut tracer = HostTracer::with_octree(scene.mesh(), OCTREE, Sides::Both);
         let rendered = self.render(&scene, &camera, &mut tracer, samples).map_err(|e| failed(TIMES)(&e))?;
@@ -101,7 +101,7 @@ impl Job {
         linear_picture(&camera, &rendered.color).display(exposure).map_err(|e| failed(TIMES)(&e))
     }
 
-    fn scene_and_camera(&self, side: u32) -> Result<(Scene, Camera), ReproduceError> {
+    fn scene_and_camera(&self, side: u32) -> Result<(Scene, Camera), StudyError> {
         let fail = failed(TIMES);
         let scene = built::build(self.scene).ok_or_else(|| fail(&format!("no scene `{}`", self.scene)))?;
         let view = match self.view {
@@ -150,7 +150,7 @@ impl HostOnly {
     }
 
     /// Calibrates the host so that this work takes the time of Table 3's first row: the only calibrated constant.
-    pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, ReproduceError> {
+    pub(super) fn calibrate(&self, weights: HostWeights) -> Result<HostModel, StudyError> {
         let model = HostModel::calibrate_with(weights, &self.counts, self.rays, CPU_ONLY_RAYS_PER_SECOND);
         model.map_err(|e| failed(TIMES)(&e))
     }

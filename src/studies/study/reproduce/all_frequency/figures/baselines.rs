@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::lit::Surface;
 use super::scene::{FigureScene, PictureDifference, stand_in};
-use super::{FigureParts, HOST, ModelSize, Prose, ReproduceError, failed, models, number, solved};
+use super::{FigureParts, HOST, ModelSize, Prose, StudyError, failed, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -37,7 +37,7 @@ struct MethodColors {
     others: Vec<(String, Vec<[f64; 3]>)>,
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let scene = FigureScene::new(&models::tweety(size), models::ground(size), DVec3::new(1.3, -2.6, 1.3), size)?;
     let methods = Methods::new(&scene, models::options(size, VECTORS))?;
     let lambert = Brdf::Lambert { albedo: 1.0 };
@@ -86,11 +86,11 @@ struct Methods<'a> {
 }
 
 impl<'a> Methods<'a> {
-    fn new(scene: &'a FigureScene, options: SegmentOptions) -> Result<Self, ReproduceError> {
+    fn new(scene: &'a FigureScene, options: SegmentOptions) -> Result<Self, StudyError> {
         let light = stand_in()?;
         let faces = HaarLight::new(&light, Segmentation::Faces);
         let kept = |keep: usize| faces.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e));
-        let cut = KEPT.iter().map(|&keep| Ok(kept(keep)?.light.radiances())).collect::<Result<_, ReproduceError>>()?;
+        let cut = KEPT.iter().map(|&keep| Ok(kept(keep)?.light.radiances())).collect::<Result<_, StudyError>>()?;
         Ok(Self { scene, light, cut, options })
     }
 
@@ -99,7 +99,7 @@ impl<'a> Methods<'a> {
         &self,
         (maps, product, reflectance): (&VisibilityMaps, &dyn ProductFunction, &Reflectance),
         color: [f64; 3],
-    ) -> Result<Vec<Vec<[f64; 3]>>, ReproduceError> {
+    ) -> Result<Vec<Vec<[f64; 3]>>, StudyError> {
         let scene = self.scene;
         let lights: Vec<&[[f64; 3]]> =
             [self.light.texels()].into_iter().chain(self.cut.iter().map(Vec::as_slice)).collect();

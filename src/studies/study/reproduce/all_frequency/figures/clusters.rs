@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::baselines::COLORS;
 use super::lit::Surface;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, ModelSize, Prose, ReproduceError, models, number, solved};
+use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::picture::rgb8;
@@ -22,7 +22,7 @@ const SEGMENTS: usize = 3;
 const HOW: &str = "Figure 4 and figure 5 have a diffuse Buddha of {} vertices, {} clusters in all {} segments that are not empty, {} \
     vertices each on average.";
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
     let light = HaarLight::new(&stand_in()?, Segmentation::Quarters);
     let surface =

@@ -1,7 +1,7 @@
 //! Radiance of vertices by factored transfer, compressed or not.
 
 use super::scene::FigureScene;
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::{CodeOptions, CodedTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
@@ -21,7 +21,7 @@ pub(super) struct Surface<'a> {
 
 impl Surface<'_> {
     /// Compresses and encodes the transfer.
-    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), ReproduceError> {
+    pub(super) fn coded(&self, options: SegmentOptions) -> Result<(CodedTransfer, CompressionTally), StudyError> {
         let compression = SegmentedCompression {
             vertices: &self.scene.vertices,
             maps: self.maps,
@@ -35,14 +35,14 @@ impl Surface<'_> {
     }
 
     /// Radiance of the maps' vertices towards the scene's eye, from encoded transfer.
-    pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    pub(super) fn of_code(&self, coded: &CodedTransfer, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let shader = Shader::new(coded, Representatives::Sparse);
         let transferred = shader.transferred(&light.singles()).map_err(|e| failed(HOST)(&e))?;
         Ok(self.exit(&|vertex, row| transferred.of(vertex)[row].map(f64::from)))
     }
 
     /// Radiance of the vertices from raw matrices: per vertex of the mesh the rows of T_p.
-    pub(super) fn raw(&self, light: &HaarLight) -> Result<Vec<[f64; 3]>, ReproduceError> {
+    pub(super) fn raw(&self, light: &HaarLight) -> Result<Vec<[f64; 3]>, StudyError> {
         let scene = self.scene;
         let at = (&scene.vertices, self.maps);
         raw_radiance(at, scene.hats.width(), self.reflectance, light).map_err(|e| failed(HOST)(&e))

@@ -11,7 +11,7 @@ mod terms;
 mod truncation;
 
 use super::{
-    EntryFindings, HOST, Method, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number, paper_row, solved,
+    EntryFindings, HOST, Method, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row, solved,
 };
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::ModelSize;
@@ -20,7 +20,7 @@ use parts::FigureParts;
 const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
     it, which the scan has lost.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };
     for parts in [
         baselines::figure(shared.models)?,

@@ -1,6 +1,6 @@
 //! Models of the figures, in printed or reduced size.
 
-use super::{ModelSize, ReproduceError, failed};
+use super::{ModelSize, StudyError, failed};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::{FactorSampling, Factorization, Lobe, ProductTable};
 use crate::geom::Mesh;
@@ -19,7 +19,7 @@ pub(super) fn buddha(models: ModelSize) -> Mesh {
     TransferModel::Buddha.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }
 
-pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, ReproduceError> {
+pub(super) fn teapot_of(models: ModelSize) -> Result<Mesh, StudyError> {
     teapot(if models == ModelSize::Printed { 40 } else { 4 }).map_err(|e| failed(super::HOST)(&e))
 }
 
@@ -62,7 +62,7 @@ pub(super) fn ending(form: &str) -> String {
 }
 
 /// Factors a reflectance by its singular vectors into `terms` terms.
-pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, ReproduceError> {
+pub(super) fn factorization(lobe: &Lobe, terms: usize) -> Result<Factorization, StudyError> {
     let table: ProductTable =
         FactorSampling::default().table(lobe, &mut |_, _| ()).map_err(|e| failed(super::HOST)(&e))?;
     Factorization::new(&table, terms).map_err(|e| failed(super::HOST)(&e))

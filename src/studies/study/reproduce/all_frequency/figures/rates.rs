@@ -8,7 +8,7 @@ use super::baselines::COLORS;
 use super::lit::Surface;
 use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, Method, ModelSize, Prose, ReproduceError, Standing, failed, models, number, paper_row};
+use super::{FigureParts, Method, ModelSize, Prose, Standing, StudyError, failed, models, number, paper_row};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::factor::Lobe;
 use crate::all_frequency::on_card::time::{FactoredFrame, PrintedModel, TABLE_1, host_of_table_1};
@@ -79,14 +79,14 @@ pub(super) fn buddha_without_drawing(share: f64) -> Multiplies {
 }
 
 /// Seconds on the host of Table 1.
-pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, ReproduceError> {
+pub(super) fn seconds_of(steps: Multiplies) -> Result<f64, StudyError> {
     let host = host_of_table_1().map_err(|e| failed(super::HOST)(&e))?;
     Ok(host.time_of(HostOperation::MultiplyAdd, steps.per_cluster + steps.per_vertex).seconds())
 }
 
 /// Frames per second including drawing, on a ground with a fraction `omega` of non-empty segments; or without one, as
 /// section 7 says of Table 1.
-fn rate(model: &PrintedModel, ground: Option<f64>) -> Result<f64, ReproduceError> {
+fn rate(model: &PrintedModel, ground: Option<f64>) -> Result<f64, StudyError> {
     let place = ProductPlace::Vertices(VertexColors::Bytes);
     let vertices = 100 * model.vertex_hundreds;
     let frame = |vertices: u64, terms: u64, host| FactoredFrame {
@@ -117,7 +117,7 @@ fn pictures(
     mesh: &Mesh,
     size: ModelSize,
     all: &[GroundedModel],
-) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), ReproduceError> {
+) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), StudyError> {
     let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
     let mut found = Vec::new();
     for GroundedModel { name, caption, lobe, light } in all {
@@ -137,7 +137,7 @@ fn pictures(
     Ok((scene, found))
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let sky = stand_in()?;
     let whole = HaarLight::new(&sky, Segmentation::Quarters);
     let smooth = HaarLight::new(&super::scene::of_low_frequency(&sky, ORDER)?, Segmentation::Quarters);
@@ -178,7 +178,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
         let ours = (rate(model, None)?, Standing::Predicted { from: CALIBRATED });
         paper_row(&format!("all-frequency/fps-{id}"), (CARD, Method::Pipeline), ours)
     });
-    rows.extend(without.collect::<Result<Vec<_>, ReproduceError>>()?);
+    rows.extend(without.collect::<Result<Vec<_>, StudyError>>()?);
     let figures = [
         number(f64::from(GROUND_SIDE * GROUND_SIDE), 0),
         number(100.0 * omega, 0),

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{HOST, ModelSize, ReproduceError, failed};
+use super::{HOST, ModelSize, StudyError, failed};
 use crate::geom::Mesh;
 use crate::geom::exact::Sides;
 use crate::picture::metrics::{ScreenPicture, flip};
@@ -50,7 +50,7 @@ pub(super) struct PictureDifference {
 impl FigureScene {
     /// Creates the scene, seen from an eye in units of the model's size, relative to its center. The model fills the
     /// pictures that are shown, of the size that goes with that of the models.
-    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3, models: ModelSize) -> Result<Self, ReproduceError> {
+    pub(super) fn new(model: &Mesh, ground: u32, eye: DVec3, models: ModelSize) -> Result<Self, StudyError> {
         let problem = |reason: &dyn std::fmt::Display| failed(HOST)(reason);
         let (mesh, materials) = on_ground(model, ground).map_err(|e| problem(&e))?;
         let vertices =
@@ -97,7 +97,7 @@ impl FigureScene {
         of_vertex: &[[f64; 3]],
         exposure: f64,
         (name, caption): (String, String),
-    ) -> Result<NamedPicture, ReproduceError> {
+    ) -> Result<NamedPicture, StudyError> {
         let image = self.fine.picture(of_vertex).display(exposure).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(name, image, caption))
     }
@@ -107,7 +107,7 @@ impl FigureScene {
         found: &[[f64; 3]],
         exact: &[[f64; 3]],
         exposure: f64,
-    ) -> Result<PictureDifference, ReproduceError> {
+    ) -> Result<PictureDifference, StudyError> {
         let [found, exact] = [found, exact].map(|colors| self.pixels(colors));
         let pairs = || found.iter().flatten().zip(exact.iter().flatten());
         let apart: f64 = pairs().map(|(a, b)| (a - b) * (a - b)).sum();
@@ -121,13 +121,13 @@ impl FigureScene {
 }
 
 /// Stand-in for the light of St. Peter's: [`HARD_SUN`].
-pub(super) fn stand_in() -> Result<CubeLight, ReproduceError> {
+pub(super) fn stand_in() -> Result<CubeLight, StudyError> {
     let cube = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     cube.map_err(|e| failed(HOST)(&e))
 }
 
 /// Projects the light to harmonics of an order, as radiances of texels; negative ringing is clipped to 0.
-pub(super) fn of_low_frequency(light: &CubeLight, order: usize) -> Result<CubeLight, ReproduceError> {
+pub(super) fn of_low_frequency(light: &CubeLight, order: usize) -> Result<CubeLight, StudyError> {
     let mut coefficients = vec![[0.0; 3]; function_count(order)];
     let mut y = vec![0.0; coefficients.len()];
     let at = |texel: usize| {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::lit::Surface;
 use super::models::NamedLobe;
 use super::scene::{FigureScene, stand_in};
-use super::{FigureParts, ModelSize, Prose, ReproduceError, models, number, solved};
+use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView};
 use crate::report::{Cell, NamedPicture, Table};
@@ -25,7 +25,7 @@ fn surface<'a>(scene: &'a FigureScene, reflectance: &'a Reflectance) -> Surface<
     Surface { scene, maps: &scene.of_model, reflectance, color: COLOR }
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
     let light = stand_in()?;
     let mut parts = FigureParts::default();
@@ -49,7 +49,7 @@ fn of_form(
     light: &CubeLight,
     (form, lobe): NamedLobe,
     table: &mut Table,
-) -> Result<(Vec<f64>, Vec<NamedPicture>), ReproduceError> {
+) -> Result<(Vec<f64>, Vec<NamedPicture>), StudyError> {
     let most = TERMS[TERMS.len() - 1];
     let factorization = models::factorization(&lobe, most)?;
     let of_most = Reflectance::Factored(factorization.factors(most));

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::rates::{buddha_without_drawing, seconds_of};
 use super::scene::FigureScene;
-use super::{FigureParts, HOST, ModelSize, PaperRow, Prose, ReproduceError, failed, models, number, solved};
+use super::{FigureParts, HOST, ModelSize, PaperRow, Prose, StudyError, failed, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
@@ -46,12 +46,12 @@ fn sources(degrees: f64) -> Vec<DiskSource> {
 }
 
 /// Projects the sources to coefficients on six faces.
-fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, ReproduceError> {
+fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, StudyError> {
     let cube = CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle);
     Ok(HaarLight::new(&cube.map_err(|e| failed(HOST)(&e))?, Segmentation::Faces))
 }
 
-fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, ReproduceError> {
+fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, StudyError> {
     let cut = light.truncated(keep, TruncationPriority::Area).map_err(|e| failed(HOST)(&e))?;
     Ok(cut.light.reprojected(Segmentation::Quarters))
 }
@@ -82,7 +82,7 @@ struct FlickerFrames {
 }
 
 impl FlickerFrames {
-    fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, ReproduceError> {
+    fn new(segments: &[TransferSegment], vertices: usize) -> Result<Self, StudyError> {
         let mut found = Self { whole: Vec::new(), lost: vec![Vec::new(); KEPT.len()] };
         for frame in 0..FRAMES {
             let faces = on_faces(RADII[RADIUS], &turn_around_z(f64::from(frame) / 720.0))?;
@@ -110,7 +110,7 @@ impl FlickerFrames {
     }
 }
 
-pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
+pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let scene = FigureScene::new(&models::buddha(size), 2, DVec3::new(1.0, -2.0, 0.6), size)?;
     let hats: &LinearBasis = &scene.hats;
     let transfer = transfer_of(&scene.vertices, &scene.of_model, hats, &Reflectance::Diffuse);
@@ -156,9 +156,9 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, ReproduceError> {
     Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures })
 }
 
-fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, StudyError> {
     let mut counted = [solved("coefficients-of-faces", nonzero as f64)?];
-    let setting = |degrees: &f64| -> Result<Setting, ReproduceError> {
+    let setting = |degrees: &f64| -> Result<Setting, StudyError> {
         let values = vec![on_faces(*degrees, &DMat3::IDENTITY)?.nonzero() as f64];
         Ok(Setting { at: number(*degrees, 1), values })
     };

@@ -1,7 +1,7 @@
 //! Model of Figure 6.
 
 use super::super::models::ModelVisibility;
-use super::{HOST, ReproduceError, SCENES, failed};
+use super::{HOST, SCENES, StudyError, failed};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::geom::Mesh;
@@ -15,7 +15,7 @@ pub(super) struct ChairModel {
 }
 
 impl ChairModel {
-    pub(super) fn new(mesh: &Mesh) -> Result<Self, ReproduceError> {
+    pub(super) fn new(mesh: &Mesh) -> Result<Self, StudyError> {
         let seen = ModelVisibility::new(mesh, Horizon::Normal)?;
         let directions = LocalDirections::new(SCENES[2].side).map_err(|error| failed(HOST)(&error))?;
         let matrix = seen.matrix(SCENES[2].side)?;

@@ -9,8 +9,8 @@ use glam::DMat3;
 
 use super::scenes::SCENES;
 use super::{
-    EntryFindings, HOST, Method, ModelSize, PaperRow, Prose, ReproduceError, Shared, Standing, failed, number,
-    paper_row, printed_value, solved,
+    EntryFindings, HOST, Method, ModelSize, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row,
+    printed_value, solved,
 };
 use crate::bi_scale::baselines::{HaarRowOptions, LocalTransfer, RowClusterOptions, StoredTransfer};
 use crate::bi_scale::bicluster::{BiclusterOptions, Biclustering, bicluster};
@@ -37,7 +37,7 @@ const CAPTIONS: &str = "The text calls (c) the picture of biclusters and (d) the
 const QUESTION: &str = "the chair, its light and camera; whether clusters had means, from how many rows they were found, and their size, which the scan has lost; \
     what area a wavelet is weighed by.";
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (mesh, sample) = match shared.models {
         ModelSize::Reduced => (TransferModel::BiScaleBunny.mesh(2), 1024),
         ModelSize::Printed => (FlatModel::Chair.model(1).mesh, 8192),
@@ -81,8 +81,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Two lights: a clear sky with a small sun, and two disks in dim light.
-fn lights() -> Result<[LightChannels; 2], ReproduceError> {
-    let of = |light: DistantLight| -> Result<LightChannels, ReproduceError> {
+fn lights() -> Result<[LightChannels; 2], StudyError> {
+    let of = |light: DistantLight| -> Result<LightChannels, StudyError> {
         let cube: CubeLight =
             light.cube(&DMat3::IDENTITY, Decimation::SolidAngle).map_err(|error| failed(HOST)(&error))?;
         Ok(light_vectors(&cube).to_vec())
@@ -92,7 +92,7 @@ fn lights() -> Result<[LightChannels; 2], ReproduceError> {
 
 /// Rows on sizes and on what is lost. That the artifacts of the other ways are severe is no figure: their errors stand
 /// in the table.
-fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow>, ReproduceError> {
+fn rows(matrix: &SparseMatrix, biclusters: &Biclustering) -> Result<Vec<PaperRow>, StudyError> {
     let sum = biclusters.sum().map_err(|error| failed(HOST)(&error))?;
     let given_back = (0..matrix.rows()).filter(|&row| matrix.row(row) == sum.row(row)).count();
     let share = 100.0 * given_back as f64 / matrix.rows() as f64;

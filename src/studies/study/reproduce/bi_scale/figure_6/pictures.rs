@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::chair::ChairModel;
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::bi_scale::product::by_rows;
 use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
@@ -41,7 +41,7 @@ pub(super) struct VertexPictures<'a> {
 
 impl<'a> VertexPictures<'a> {
     /// Creates the builder of pictures of `side` x `side` pixels.
-    pub(super) fn new(scene: &'a ChairModel, light: &'a LightChannels, side: u32) -> Result<Self, ReproduceError> {
+    pub(super) fn new(scene: &'a ChairModel, light: &'a LightChannels, side: u32) -> Result<Self, StudyError> {
         let [low, high] = scene.seen.mesh.bounds().unwrap_or_default().map(wide);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
         let eye = (middle + size * EYE).as_vec3().to_array();
@@ -96,7 +96,7 @@ impl<'a> VertexPictures<'a> {
     }
 
     /// Returns all pictures with the same exposure, and a table of their differences from that of the matrix.
-    pub(super) fn finish(self) -> Result<(Vec<NamedPicture>, Table), ReproduceError> {
+    pub(super) fn finish(self) -> Result<(Vec<NamedPicture>, Table), StudyError> {
         let pixels = |of_vertex: &[[f64; 3]]| self.seen.colors(of_vertex, [0.0; 3]);
         let exact = pixels(&self.found[1].1);
         let exposure = auto_exposure(&exact);

@@ -1,7 +1,7 @@
 //! Bytes of the chair by each method, from printed numbers alone.
 
 use super::super::scenes::SCENES;
-use super::{HOST, Method, PaperRow, ReproduceError, Standing, paper_row, printed_value};
+use super::{HOST, Method, PaperRow, Standing, StudyError, paper_row, printed_value};
 use crate::report::{Cell, Table};
 use crate::transfer::grid::LIGHT_TEXELS;
 
@@ -14,20 +14,20 @@ const PRINTED_WAVELETS: &str = "bi-scale/wavelets-chair";
 /// Bytes of a wavelet: two for its index, one for its value.
 const WAVELET_BYTES: usize = 3;
 
-fn wavelets(bytes: usize) -> Result<f64, ReproduceError> {
+fn wavelets(bytes: usize) -> Result<f64, StudyError> {
     Ok(1e-6 * (SCENES[2].rows()? * WAVELETS * bytes) as f64)
 }
 
 /// Row on the size of wavelets, with a guessed number of bytes that reproduces it.
-pub(super) fn wavelet_row() -> Result<PaperRow, ReproduceError> {
+pub(super) fn wavelet_row() -> Result<PaperRow, StudyError> {
     let standing = Standing::Calibrated { on: "this figure, which chose three bytes per wavelet" };
     paper_row(PRINTED_WAVELETS, (HOST, Method::Equation), (wavelets(WAVELET_BYTES)?, standing))
 }
 
 /// Table of every method with its layouts, beside the printed values; the size of clusters is illegible in the scan.
-pub(super) fn chair_sizes() -> Result<Table, ReproduceError> {
+pub(super) fn chair_sizes() -> Result<Table, StudyError> {
     let mut table = Table::of("The chair by printed numbers", "way layout MB MiB MB_printed");
-    let of_print = |what: &str| Ok::<_, ReproduceError>(SCENES[2].printed(what)?.value);
+    let of_print = |what: &str| Ok::<_, StudyError>(SCENES[2].printed(what)?.value);
     let nonzeros = 1e6 * of_print("nonzeros")?;
     let (rows, vectors) = (SCENES[2].rows()? as f64, (CLUSTERS * VECTORS * LIGHT_TEXELS) as f64);
     let (weights, means) = (rows * VECTORS as f64, (CLUSTERS * LIGHT_TEXELS) as f64);

@@ -3,7 +3,7 @@
 use glam::DMat3;
 
 use super::scene::{FigureSize, SAMPLES, TexturedModel};
-use super::{HOST, ReproduceError, failed};
+use super::{HOST, StudyError, failed};
 use crate::bi_scale::baselines::{HarmonicRows, LocalTransfer, StoredTransfer};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
@@ -33,7 +33,7 @@ impl DrawnFigure {
         side: usize,
         size: FigureSize,
         has_smooth: bool,
-    ) -> Result<Self, ReproduceError> {
+    ) -> Result<Self, StudyError> {
         let fail = failed(HOST);
         let rendering = model.rendering(side, size)?;
         let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
@@ -61,7 +61,7 @@ impl DrawnFigure {
     }
 
     /// Returns the pictures with the same exposure; `name` is the prefix of their file names.
-    pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, ReproduceError> {
+    pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, StudyError> {
         let model = &self.rendering.view.model;
         let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
         let fine = self.fine.display(auto_exposure(exact)).map_err(|e| failed(HOST)(&e))?;
@@ -78,12 +78,7 @@ impl DrawnFigure {
     }
 
     /// Creates a picture with the exposure of that by rays.
-    pub(super) fn picture(
-        &self,
-        name: &str,
-        colors: &[[f64; 3]],
-        caption: String,
-    ) -> Result<NamedPicture, ReproduceError> {
+    pub(super) fn picture(&self, name: &str, colors: &[[f64; 3]], caption: String) -> Result<NamedPicture, StudyError> {
         let exposure = auto_exposure(self.causes.exact());
         let image =
             linear_picture(&self.rendering.view.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
@@ -92,11 +87,7 @@ impl DrawnFigure {
 }
 
 /// Renders a model by biclusters alone.
-pub(super) fn by_transfer(
-    model: &TexturedModel,
-    side: usize,
-    size: FigureSize,
-) -> Result<Vec<[f64; 3]>, ReproduceError> {
+pub(super) fn by_transfer(model: &TexturedModel, side: usize, size: FigureSize) -> Result<Vec<[f64; 3]>, StudyError> {
     let fail = failed(HOST);
     let rendering = model.rendering(side, size)?;
     let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
@@ -110,7 +101,7 @@ fn low_frequency(
     matrix: &SparseMatrix,
     side: usize,
     channels: &[Vec<f64>; 3],
-) -> Result<Vec<[f64; 3]>, ReproduceError> {
+) -> Result<Vec<[f64; 3]>, StudyError> {
     let fail = failed(HOST);
     let directions = LocalDirections::new(side).map_err(|e| fail(&e))?;
     let transfer =

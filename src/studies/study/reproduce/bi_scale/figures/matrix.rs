@@ -1,7 +1,7 @@
 //! Figure 3: light directions of a local direction, and the matrix of its vertex.
 
 use super::super::models::ModelVisibility;
-use super::{PaperRow, Prose, ReproduceError, number, solved};
+use super::{PaperRow, Prose, StudyError, number, solved};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::picture::rgb8;
 use crate::report::NamedPicture;
@@ -23,7 +23,7 @@ pub(super) struct MatrixFigure {
     pub(super) pictures: Vec<NamedPicture>,
 }
 
-pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, ReproduceError> {
+pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, StudyError> {
     let seen = ModelVisibility::new(&TransferModel::BiScaleBunny.mesh(coarser), Horizon::Normal)?;
     let matrix = seen.matrix(side)?;
     let lights = side * side;

@@ -5,7 +5,7 @@ mod matrix;
 mod models;
 mod scene;
 
-use super::{EntryFindings, HOST, ModelSize, PaperRow, Prose, ReproduceError, Shared, failed, number, solved};
+use super::{EntryFindings, HOST, ModelSize, PaperRow, Prose, Shared, StudyError, failed, number, solved};
 use crate::report::{Cell, NamedPicture, Table};
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::sky::HARD_SUN;
@@ -25,7 +25,7 @@ const ARMOR_SIDE: usize = 12;
 /// Local directions along an edge in Figure 8.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
 
-pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, ReproduceError> {
+pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let size = FigureSize::of(shared.models);
     let ([width, height], [fine, coarse]) = (size.picture, size.texels);
     let sizes = [width as usize, height as usize, fine, fine, coarse, coarse, size.views, size.views, ORDER];
@@ -71,7 +71,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
 }
 
 /// Figure 8: effect of more local directions on the picture.
-fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Vec<NamedPicture>), ReproduceError> {
+fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Vec<NamedPicture>), StudyError> {
     let mut table =
         Table::of("Figure 8: off the picture by rays, and off that of most directions", "along_an_edge rays_% most_%");
     // Textures of many directions are large.

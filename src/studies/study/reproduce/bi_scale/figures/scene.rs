@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::super::models::ModelVisibility;
-use super::{HOST, ModelSize, ReproduceError, failed};
+use super::{HOST, ModelSize, StudyError, failed};
 use crate::bi_scale::bicluster::{BiclusterOptions, bicluster};
 use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::file::{BiScaleFile, BiScaleMeaning};
@@ -64,7 +64,7 @@ pub(super) struct TexturedModel {
 impl TexturedModel {
     /// Computes the transfer to `side` local directions along an edge as biclusters, textures and a camera, under a
     /// clear sky with a sun.
-    pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, ReproduceError> {
+    pub(super) fn rendering(&self, side: usize, size: FigureSize) -> Result<BiScaleRendering, StudyError> {
         let fail = failed(HOST);
         let MaterialMesh { mesh, material_of, .. } = &self.model;
         let seen = ModelVisibility::new(mesh, Horizon::Normal)?;
@@ -92,7 +92,7 @@ impl TexturedModel {
         })
     }
 
-    fn textures(&self, side: usize, size: FigureSize) -> Result<Vec<SurfaceTexture>, ReproduceError> {
+    fn textures(&self, side: usize, size: FigureSize) -> Result<Vec<SurfaceTexture>, StudyError> {
         let fail = failed(HOST);
         let directions = |side| LocalDirections::new(side).map_err(|e| fail(&e));
         let texture = |&(kind, texels): &(PatchKind, usize)| {
@@ -106,7 +106,7 @@ impl TexturedModel {
     }
 
     /// Camera of the samples of a picture by transfer alone, which the model fills.
-    pub(super) fn fine_camera(&self, size: FigureSize) -> Result<Camera, ReproduceError> {
+    pub(super) fn fine_camera(&self, size: FigureSize) -> Result<Camera, StudyError> {
         let [_, eye] = self.middle_and_eye();
         let points: Vec<DVec3> = self.model.mesh.positions().iter().map(|&at| wide(at)).collect();
         let [width, height] = size.shown.map(|side| side * SAMPLES);
@@ -121,7 +121,7 @@ impl TexturedModel {
         [middle, middle + size * self.eye]
     }
 
-    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, ReproduceError> {
+    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
         let [middle, eye] = self.middle_and_eye();
         let eye = eye.as_vec3().to_array();
         Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.17, width, height)
