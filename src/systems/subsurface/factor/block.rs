@@ -35,9 +35,9 @@ struct Node<const N: usize> {
     parent: u32,
     /// Where its four children stand.
     children: u32,
-    /// What the present texel gathers by itself.
+    /// Part that the present texel gathers by itself.
     own: Part<[f64; N]>,
-    /// What each square around the present texel gathers as a whole, by level, from 1.
+    /// Part that each square around the present texel gathers as a whole, by level, from 1.
     shared: [Part<Expansion<N>>; BLOCK_LEVEL as usize],
 }
 
@@ -157,8 +157,8 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         first..first + 4
     }
 
-    /// What a square gathers of a node as a whole. Of what is too near, larger nodes are divided, and smaller ones are
-    /// appended to `near`: the square is divided first.
+    /// Adds the part of a node that a square gathers as a whole. Where it is too near, larger nodes are divided, and
+    /// smaller ones are appended to `near`: the square is divided first.
     fn gather_to_square(&mut self, level: u32, place: usize, at: u32, near: &mut Vec<u32>) -> Expansion<N> {
         let surface = self.receiver.surface();
         let node = &self.nodes[at as usize];
@@ -181,7 +181,7 @@ impl<'a, const N: usize> BlockReceiver<'a, N> {
         sum
     }
 
-    /// What a texel gathers of a node by itself.
+    /// Returns the part of a node that a texel gathers by itself.
     fn gather_to_texel(&mut self, texel: usize, at: u32) -> [f64; N] {
         let Node { level, place, .. } = self.nodes[at as usize];
         let sum = match self.receiver.undivided(texel, level, place as usize) {

@@ -1,4 +1,4 @@
-//! What near receivers get of far clusters, to second order in the place of the receiver.
+//! Expansion of the light that near receivers get of far clusters, to second order in the receiver's place.
 
 use glam::DVec3;
 

@@ -26,7 +26,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Whether the diagonal, where the map bends, passes through the inside.
+    /// Returns `true` if the diagonal, where the map bends, passes through the inside.
     pub(super) fn is_bent(&self) -> bool {
         self.s[0] < self.t[1] && self.t[0] < self.s[1]
     }

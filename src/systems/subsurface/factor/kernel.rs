@@ -46,7 +46,7 @@ pub(super) struct DistanceTable<const N: usize> {
     shift: u32,
     intervals: Vec<Interval<N>>,
     interpolation_error: f64,
-    /// What pieces that are not divided any more may exceed their reach by: up to that of a tolerance of 1 %.
+    /// Excess over their reach that pieces may have that are not divided any more: up to that of a tolerance of 1 %.
     slack: f64,
 }
 
@@ -208,7 +208,7 @@ impl<const N: usize> DistanceTable<N> {
         (size_squared <= interval.negligible).then(|| self.at(squared))
     }
 
-    /// What receivers in a group, whose moments are given, get of a cluster: R_d times its area, by their offset from
+    /// Light that receivers in a group of given moments get of a cluster: R_d times its area, by their offset from
     /// the group's mean point. `None` if the two are too near.
     pub(super) fn expansion(&self, receivers: &Moments, cluster: &Moments) -> Option<Expansion<N>> {
         let apart = cluster.point - receivers.point;
@@ -242,8 +242,8 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// Whether texels whose squared sizes have this sum exceed the mean free path so far that nearly all light stays in
-    /// its texel.
+    /// Returns `true` if texels whose squared sizes have this sum exceed the mean free path so far that nearly all light
+    /// stays in its texel.
     pub(super) fn is_hopeless(&self, size_squared: f64) -> bool {
         size_squared > HOPELESS * self.unit
     }
