@@ -8,7 +8,7 @@ const BANNED_BEGINNINGS: [&str; 5] = ["What", "Whether", "Who", "Of what", "So m
 /// Names that say nothing of a type's role.
 const BANNED_NAMES: [&str; 22] = [
     "Asked", "Asks", "Hands", "Hats", "Keyed", "Kept", "Manner", "Ran", "Rivals", "Seen", "Somebody", "Stuff",
-    "Subject", "Told", "AllPairs", "Wanted", "Way", "Ways", "Whoever", "Whole", "Wish", "Wishes",
+    "Subject", "Told", "Truth", "Wanted", "Way", "Ways", "Whoever", "Whole", "Wish", "Wishes",
 ];
 
 /// Returns the lines, from 1, on which a block of documentation begins with banned words.

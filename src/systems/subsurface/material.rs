@@ -19,7 +19,7 @@ pub enum MaterialError {
     #[error("expected a finite number for the {what}, found {found}")]
     NotFinite { what: &'static str, found: f64 },
     /// A coefficient below 0.
-    #[error("expected at least 0 for the {what}, found {found}")]
+    #[error("expected at least 0 for the {what}, found {found:?}")]
     Negative { what: &'static str, found: f64 },
     /// Nothing is scattered, so that no light comes back.
     #[error("expected a reduced scattering coefficient above 0: without scattering no light comes back")]
@@ -28,7 +28,7 @@ pub enum MaterialError {
     #[error("expected {MIN_SCATTERING:e} to {MAX_COEFFICIENT:e} per mm for the {what}, found {found:e}")]
     OutOfRange { what: &'static str, found: f64 },
     /// The index of refraction relative to the outside is below 1 or above [`MAX_ETA`].
-    #[error("expected an index of refraction from 1 to {MAX_ETA}, found {found}")]
+    #[error("expected an index of refraction from 1 to {MAX_ETA}, found {found:?}")]
     Eta { found: f64 },
     /// One channel of a material is wrong.
     #[error("{channel} channel: {problem}")]

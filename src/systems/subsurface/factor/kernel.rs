@@ -242,8 +242,8 @@ impl<const N: usize> DistanceTable<N> {
         })
     }
 
-    /// Returns `true` if texels whose squared sizes have this sum exceed the mean free path so far that nearly all light
-    /// stays in its texel.
+    /// Returns `true` if texels whose squared sizes have this sum exceed the mean free path so far that nearly all
+    /// light stays in its texel.
     pub(super) fn is_hopeless(&self, size_squared: f64) -> bool {
         size_squared > HOPELESS * self.unit
     }
