@@ -84,7 +84,8 @@ impl VertexErrors {
 fn by_vertex(local: usize, rows: usize, value: impl Fn(usize, usize) -> f64) -> Vec<f64> {
     let of_vertex = |vertex: usize| {
         let rows = vertex * local..(vertex + 1) * local;
-        rows.flat_map(|row| [0, 1, 2].map(|channel| value(channel, row).powi(2))).sum()
+        let errors = rows.flat_map(|row| [0, 1, 2].map(|channel| value(channel, row)));
+        errors.map(|error| error * error).sum()
     };
     (0..rows / local).map(of_vertex).collect()
 }

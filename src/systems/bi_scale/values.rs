@@ -86,7 +86,7 @@ impl EntryValues {
     /// hold all, else in a table. Returns also the integer of an entry for each.
     pub(super) fn of_numbers(fraction_bits: Option<u32>, numbers: &[ExactNumber]) -> (Self, Vec<i32>) {
         if let Some(bits) = fraction_bits {
-            let units = |number: &ExactNumber| i32::try_from(number.in_units(-(bits as i32))?).ok();
+            let units = |number: &ExactNumber| i32::try_from(number.in_units(-bits.cast_signed())?).ok();
             if let Some(entries) = numbers.iter().map(units).collect() {
                 return (Self::units(bits), entries);
             }
@@ -109,7 +109,7 @@ impl EntryValues {
     /// The exponent of a power of two of which all numbers are multiples.
     pub(super) fn least_exponent(&self) -> i32 {
         match self.numbers() {
-            None => -(self.fraction_bits.unwrap_or(0) as i32),
+            None => -self.fraction_bits.unwrap_or(0).cast_signed(),
             Some(numbers) => numbers.iter().map(|(_, number)| number.exponent()).min().unwrap_or(0),
         }
     }

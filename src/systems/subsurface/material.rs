@@ -19,7 +19,7 @@ pub enum MaterialError {
     #[error("expected a finite number for the {what}, found {found}")]
     NotFinite { what: &'static str, found: f64 },
     /// A coefficient below 0.
-    #[error("expected at least 0 for the {what}, found {found:?}")]
+    #[error("expected at least 0 for the {what}, found {found}")]
     Negative { what: &'static str, found: f64 },
     /// Nothing is scattered, so that no light comes back.
     #[error("expected a reduced scattering coefficient above 0: without scattering no light comes back")]

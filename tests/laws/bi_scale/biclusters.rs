@@ -4,6 +4,7 @@ use crossbar::bi_scale::bicluster::{BiclusterOptions, bicluster, reference};
 use crossbar::bi_scale::matrix::MatrixEntry;
 use crossbar::bi_scale::product::{Gather, by_rows, reference as algorithm_2};
 use proptest::prelude::*;
+use refsim::num::power_of_two;
 
 use super::{bits, blocks, finite, matrix, numbers_of, quietly, real_blocks, real_matrix};
 
@@ -183,7 +184,7 @@ proptest! {
         choice in prop::collection::vec(any::<prop::sample::Index>(), 10..30),
         seed: u64,
     ) {
-        let column = |(at, value): (usize, &f64)| value * 2.0_f64.powi(powers[at]);
+        let column = |(at, value): (usize, &f64)| value * power_of_two(powers[at]);
         let row: Vec<f64> = row.iter().enumerate().map(column).collect();
         let of_row: Vec<usize> = choice.iter().map(|choice| choice.index(factors.len())).collect();
         let rows: Vec<Vec<f64>> =
@@ -203,7 +204,7 @@ proptest! {
     #[test]
     fn the_scale_of_numbers_decides_nothing(rows in blocks(), seed: u64, deletion: bool) {
         let options = BiclusterOptions { seed, deletion, drop: 0.0 };
-        let small = |value: &i32| f64::from(*value) * 2.0_f64.powi(-42);
+        let small = |value: &i32| f64::from(*value) * power_of_two(-42);
         let tabled: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(small).collect()).collect();
         let (in_units, in_table) = (quietly(&matrix(&rows, 2), options), quietly(&real_matrix(&tabled), options));
         prop_assert_eq!(in_units.len(), in_table.len());
@@ -211,7 +212,7 @@ proptest! {
             prop_assert_eq!(in_units.rows_of(number), in_table.rows_of(number));
             let columns = in_units.columns_of(number).iter().map(|at| (at.index, in_units.value(at.value)));
             let tabled = in_table.columns_of(number).iter().map(|at| (at.index, in_table.value(at.value)));
-            prop_assert!(columns.eq(tabled.map(|(index, value)| (index, value * 2.0_f64.powi(40)))));
+            prop_assert!(columns.eq(tabled.map(|(index, value)| (index, value * power_of_two(40)))));
         }
     }
 

@@ -268,5 +268,5 @@ fn timeline(parameters: &Parameters, outcome: &RadiosityOutcome) -> Result<Optio
         return Ok(None);
     };
     let what = format!("{}: new emittance, 4 iterations, the room shown", row.label);
-    Ok(timeline_trace::file(&parameters.profile, &facts.log, &what)?)
+    timeline_trace::file(&parameters.profile, &facts.log, &what)
 }

@@ -45,7 +45,7 @@ pub(super) fn failed(device: &str) -> impl Fn(&dyn Display) -> StudyError + '_ {
 
 /// Pipeline model of a card.
 pub(super) fn model(device: &str) -> Result<Model, StudyError> {
-    Ok(Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)?)
+    Model::new(Level::Pipeline, &Profile::named(device)?).map_err(no_time)
 }
 
 /// Times the most expensive draw of a log.

@@ -1,7 +1,7 @@
 //! The numbers that the search computes with, as integers that are equal where their numbers are.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use num_bigint::{BigInt, BigUint};
 
@@ -58,7 +58,7 @@ pub(super) struct KnownNumbers {
     /// All numbers are multiples of 2^this, and are kept as such.
     exponent: i32,
     numbers: Vec<BigInt>,
-    known: HashMap<BigInt, i32>,
+    known: BTreeMap<BigInt, i32>,
     drop: BigUint,
 }
 
@@ -73,7 +73,7 @@ impl KnownNumbers {
         let exponent = exact.iter().map(ExactNumber::exponent).min().unwrap_or(0);
         let units = |number: &ExactNumber| number.in_units(exponent).expect("a multiple of the finest number");
         let mut known =
-            Self { exponent, numbers: Vec::new(), known: HashMap::new(), drop: units_below(drop, exponent) };
+            Self { exponent, numbers: Vec::new(), known: BTreeMap::new(), drop: units_below(drop, exponent) };
         known.integer(BigInt::ZERO);
         let integers: Vec<Option<i32>> = exact.iter().map(|number| known.integer(units(number))).collect();
         for entry in &mut entries {

@@ -68,8 +68,9 @@ impl Submatrix {
         self.rows.sort_unstable();
         self.columns.sort_unstable();
         let entry = |(column, t): (usize, BigInt)| {
+            let value = i32::try_from(numbers.len()).expect("fewer numbers than 2^31");
             numbers.push(t);
-            MatrixEntry { index: column as u32, value: (numbers.len() - 1) as i32 }
+            MatrixEntry { index: column as u32, value }
         };
         Bicluster {
             rows: self.rows.iter().map(|&row| row as u32).collect(),

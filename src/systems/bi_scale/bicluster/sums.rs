@@ -66,7 +66,7 @@ impl Biclustering {
                 push(row, sums.into_iter().map(|(column, sum)| (column, i32::try_from(sum).ok())).collect())
             })?;
         } else {
-            let units = |sum: &ExactNumber| i32::try_from(sum.in_units(-(bits as i32))?).ok();
+            let units = |sum: &ExactNumber| i32::try_from(sum.in_units(-bits.cast_signed())?).ok();
             self.exact_rows(None, |row, sums| {
                 push(row, sums.into_iter().map(|(column, sum)| (column, units(&sum))).collect())
             })?;

@@ -14,7 +14,7 @@ use glam::{DVec3, Vec3Swizzles};
 use refsim::device::{Rules, TexdepthDenominator};
 use refsim::num::FormatKind;
 
-use super::power_of_two;
+use refsim::num::power_of_two;
 
 /// Relative error of a vertex program: a few operations in single precision.
 const SINGLE: f64 = 1.0 / (1 << 20) as f64;

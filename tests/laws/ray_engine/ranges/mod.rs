@@ -22,6 +22,7 @@ use crossbar::tracer::octree::OctreeParameters;
 use rayon::prelude::*;
 use refsim::device::Profile;
 use refsim::machine::ExecutorKind;
+use refsim::num::power_of_two;
 use scene::Scene;
 
 /// Cards and ideal formats, some with other switches: an overflow that wraps breaks what one that saturates may hide.
@@ -122,11 +123,6 @@ fn floats_keep_their_range_in_the_programs_for_fixed_point() {
         }
         assert!(hits * 9 < right * 10, "{format}: {right} of {hits} hits");
     }
-}
-
-/// 2^`exponent`, for exponents of normal numbers.
-pub(crate) fn power_of_two(exponent: i32) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
 /// The same scene in units of 2^-`power`.

@@ -5,7 +5,7 @@ use crossbar::geom::random::CounterRng;
 use crossbar::geom::{Mesh, Ray};
 use crossbar::ray_engine::RayBatch;
 
-use super::power_of_two;
+use refsim::num::power_of_two;
 
 /// Rays of a scene: a square of this side.
 pub(crate) const SIDE: u32 = 16;

@@ -89,7 +89,7 @@ impl Study for AllFrequencyRendering {
 
 /// Steps 2 and 3 of all parts.
 fn transferred(parts: &[Part<'_>], light: &HaarLight, times: &mut FrameTimes) -> Result<Vec<Transferred>, StudyError> {
-    parts.iter().map(|part| Ok(part.transferred(light, times)?)).collect()
+    parts.iter().map(|part| part.transferred(light, times)).collect()
 }
 
 /// Step 4 of all parts, vertices after one another.
