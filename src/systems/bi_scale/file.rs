@@ -1,5 +1,5 @@
 //! The `.prt` file of bi-scale transfer, which is kind 3. docs/prt-format.md specifies it. A file without tables of
-//! values has version 1, like the other kinds; one with tables, [`file_table`](super::file_table), version 2.
+//! values has version 1, like the other kinds; one with tables, `file_table.rs`, version 2.
 
 use std::io::{self, Write};
 use std::path::Path;

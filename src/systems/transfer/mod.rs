@@ -7,7 +7,7 @@
 //!
 //! - [`Vertices`]: unique positions, normals and tangents of a mesh, with a [`LocalFrame`] each;
 //! - [`brdf`]: reflectance functions, and their matrices of harmonics;
-//! - [`grid`], [`haar`], [`hats`]: the cube of light texels, its segments and their bases;
+//! - [`grid`], [`haar`], [`linear_basis`]: the cube of light texels, its segments and their bases;
 //! - [`light`]: light as coefficients over the cube; [`visibility`]: the directions that each vertex sees;
 //! - [`Signal`]: points of n numbers each, such as a transfer matrix per vertex;
 //! - [`clustering`]: clustered principal components of any signal;
