@@ -198,10 +198,11 @@ impl Summary<'_> {
     fn findings(&self) -> Findings {
         let value = |(key, count)| json!({ "value": self.matrix.value(key), "count": count });
         let values: Vec<Value> = self.values().into_iter().map(value).collect();
-        let [singles, beyond_singles, doubles] = self.rounded();
+        let rounded = self.rounded();
+        let [singles, beyond_singles, doubles] = rounded;
         let bytes: BTreeMap<&str, u64> = self.bytes().into_iter().map(|(key, _, bytes)| (key, bytes)).collect();
         let mut found = Findings::new("Biclusters");
-        found.table(self.table());
+        found.table(self.table(rounded));
         found.table(self.histogram());
         found.fields(json!({
             "rows": self.matrix.rows(), "columns": self.matrix.columns(), "nonzeros": self.matrix.nonzeros(),
@@ -216,7 +217,7 @@ impl Summary<'_> {
         found
     }
 
-    fn table(&self) -> Table {
+    fn table(&self, counts: [usize; 3]) -> Table {
         let (before, after) = (self.flops_before(), self.biclusters.cost());
         let mut table = Table::new("Biclusters", &["figure", "value"]);
         table.push(["rows".into(), self.matrix.rows().into()]);
@@ -239,7 +240,7 @@ impl Summary<'_> {
             "columns whose value is beyond single precision",
             "columns whose value double precision rounds",
         ];
-        for (what, count) in rounded.into_iter().zip(self.rounded()).filter(|(_, count)| *count > 0) {
+        for (what, count) in rounded.into_iter().zip(counts).filter(|(_, count)| *count > 0) {
             table.push([what.into(), count.into()]);
         }
         table.push(["places where the sum differs".into(), self.residual.count.into()]);

@@ -96,12 +96,6 @@ fn rows(file: &BiScaleFile) -> usize {
     file.matrix.as_ref().map_or_else(of_biclusters, SparseMatrix::rows)
 }
 
-/// The numbers of the matrix, else of its biclusters.
-fn values_of(file: &BiScaleFile) -> Option<&EntryValues> {
-    let of_biclusters = || file.biclusters.as_ref().map(Biclustering::values);
-    file.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
-}
-
 /// How often each value stands in a matrix, or in the columns of biclusters times their rows.
 fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
     let mut counts: BTreeMap<i32, u64> = BTreeMap::new();
@@ -120,7 +114,7 @@ fn values(file: &BiScaleFile) -> Vec<(f64, u64)> {
         }
         (None, None) => {}
     }
-    let Some(values) = values_of(file) else { return Vec::new() };
+    let Some(values) = file.values() else { return Vec::new() };
     counts.into_iter().map(|(value, count)| (values.value(value), count)).collect()
 }
 
@@ -152,7 +146,7 @@ fn all(file: &BiScaleFile, rows: usize, local: usize, found: &mut Findings) {
     }
     let parts = [file.matrix.is_some().then_some("matrix"), file.biclusters.is_some().then_some("biclusters")];
     found.introduce(format!("holds     {}", parts.into_iter().flatten().collect::<Vec<_>>().join(" and ")));
-    if let Some(values) = values_of(file) {
+    if let Some(values) = file.values() {
         found.introduce(format!("values    {values}"));
     }
     let mut table = Table::new("Values", &["value", "count"]);
@@ -191,7 +185,7 @@ fn document(file: &BiScaleFile, rows: usize, local: usize) -> Value {
             .collect();
         json!({ "count": biclusters.len(), "operations": biclusters.cost(), "sizes": sizes })
     });
-    let stored = values_of(file);
+    let stored = file.values();
     json!({ "rows": rows, "mesh": mesh, "unit_bits": stored.and_then(EntryValues::fraction_bits),
             "distinct_values": stored.and_then(EntryValues::table_len),
             "nonzeros": file.matrix.as_ref().map(SparseMatrix::nonzeros), "values": values, "biclusters": biclusters })

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use num_bigint::{BigInt, Sign};
+use refsim::num::power_of_two;
 
 /// A real number without rounding: an odd integer times a power of two, or 0. Every finite f64 is one, and so is every
 /// sum of them.
@@ -130,16 +131,15 @@ impl fmt::Display for ExactNumber {
 
 /// `value` of at least 1 times 2^`exponent`, rounded at most once.
 fn scaled(mut value: f64, mut exponent: i32) -> f64 {
-    let power = |exponent: i32| f64::from_bits(((exponent + 1023) as u64) << 52);
     while exponent > 1023 {
-        value *= power(1023);
+        value *= power_of_two(1023);
         exponent -= 1023;
     }
     while exponent < -1022 {
-        value *= power(-1022);
+        value *= power_of_two(-1022);
         exponent += 1022;
     }
-    value * power(exponent)
+    value * power_of_two(exponent)
 }
 
 #[cfg(test)]

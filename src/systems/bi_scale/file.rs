@@ -129,6 +129,12 @@ struct Shape {
 }
 
 impl BiScaleFile {
+    /// The numbers behind entries of the matrix, else of its biclusters.
+    pub fn values(&self) -> Option<&EntryValues> {
+        let of_biclusters = || self.biclusters.as_ref().map(Biclustering::values);
+        self.matrix.as_ref().map(SparseMatrix::values).or_else(of_biclusters)
+    }
+
     fn shapes(&self) -> impl Iterator<Item = Shape> {
         let of_matrix = self.matrix.as_ref().map(|matrix| Shape {
             rows: matrix.rows(),

@@ -17,7 +17,7 @@
 
 use glam::DVec3;
 use refsim::device::Rules;
-use refsim::num::{Format, FormatKind};
+use refsim::num::{Format, FormatKind, power_of_two};
 
 use super::RayBatch;
 use super::reach::mixed;
@@ -61,24 +61,19 @@ impl Errors {
     fn of_format(format: &Format) -> Self {
         match format.kind {
             FormatKind::Fixed { int_bits, frac_bits } => {
-                let step = power(-i32::from(frac_bits));
+                let step = power_of_two(-i32::from(frac_bits));
                 // Ray textures of fixed-point cards have 16 bits.
-                let texel = 2.0 * step + power(-14);
-                Self { share: 0.0, step, texel, largest: power(i32::from(int_bits)), fixed: true }
+                let texel = 2.0 * step + power_of_two(-14);
+                Self { share: 0.0, step, texel, largest: power_of_two(i32::from(int_bits)), fixed: true }
             }
             FormatKind::Float { exp_bits, man_bits } => {
-                let bias = power(i32::from(exp_bits) - 1) as i32 - 1;
-                let share = 64.0 * power(-i32::from(man_bits) - 1);
-                let step = power(18 - bias);
-                Self { share, step, texel: 0.0, largest: power(bias / 3 - 2), fixed: false }
+                let bias = power_of_two(i32::from(exp_bits) - 1) as i32 - 1;
+                let share = 64.0 * power_of_two(-i32::from(man_bits) - 1);
+                let step = power_of_two(18 - bias);
+                Self { share, step, texel: 0.0, largest: power_of_two(bias / 3 - 2), fixed: false }
             }
         }
     }
-}
-
-/// Returns 2^`exponent`, for exponents from -1022 to 1023.
-fn power(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
 /// Constants that cull nothing: no triangle satisfies |ab| + |ac| <= -1.

@@ -116,8 +116,8 @@ impl Biclustering {
         less: Option<&SparseMatrix>,
         take: impl FnMut(usize, Vec<(u32, ExactNumber)>) -> Result<(), BiclusterError>,
     ) -> Result<(), BiclusterError> {
-        let finest = |values: &EntryValues| values.least_exponent();
-        let exponent = less.map_or(i32::MAX, |matrix| finest(matrix.values())).min(finest(self.values()));
+        let of_matrix = less.map_or(i32::MAX, |matrix| matrix.values().least_exponent());
+        let exponent = of_matrix.min(self.values().least_exponent());
         let units = |values: &EntryValues, entry| -> BigInt {
             values.exact(entry).in_units(exponent).expect("a multiple of the finest number")
         };

@@ -36,11 +36,7 @@ pub(super) struct Causes<'a> {
 
 impl<'a> Causes<'a> {
     pub(super) fn new(rendering: &'a BiScaleRendering, meaning: &BiScaleMeaning) -> Result<Self, StudyError> {
-        let values = match (&rendering.file.matrix, &rendering.file.biclusters) {
-            (Some(matrix), _) => matrix.values(),
-            (None, Some(biclusters)) => biclusters.values(),
-            (None, None) => return Err(no_mesh_transfer()),
-        };
+        let values = rendering.file.values().ok_or_else(no_mesh_transfer)?;
         // Values without a unit are means of any number of samples.
         let log2_samples = values.fraction_bits().map_or(2, |bits| (bits / 2).min(2));
         let sampling = VisibilitySampling { log2_samples, horizon: meaning.horizon };
