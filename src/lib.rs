@@ -40,12 +40,23 @@
 //! # }
 //! ```
 //!
+//! # Where next
+//!
+//! - [`oracle`]: every hit of an intersector of yours that is wrong, and rays on which intersectors differ
+//! - [`ray_engine`], [`radiosity`], [`subsurface`], [`cpca`], [`all_frequency`], [`bi_scale`]: the six systems; each has
+//!   its paper's equations on the host, the programs of the card, and a `reference` to be read beside the paper
+//! - [`scene`], [`geom`], [`tracer`], [`renderer`]: models and scenes, meshes and rays, a fast caster and pictures
+//! - [`study`]: what the program's commands compute, as parameters that answer with findings
+//! - `refsim`: programs, cards, number formats, durations
+//!
 //! # Features
 //!
 //! Without features there are [`geom`], [`elementary`], [`compare::f32_ulps`] and [`oracle`], which need neither the
 //! emulator nor anything that reads files. `systems` adds the emulated cards' systems, the host renderers, scenes and
 //! their files; `cli`, the default, the studies, their reports and the program. `wgpu` lets cards run on a GPU of the
 //! host.
+// The pages with all features have these modules; without, their names are plain text.
+#![cfg_attr(not(feature = "cli"), allow(rustdoc::broken_intra_doc_links))]
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -1,17 +1,30 @@
 //! `refsim`: a bit-exact emulator of the first programmable graphics cards.
 //!
-//! [`asm`] parses the assembly languages of the period into an [`isa::Program`]. [`check`](mod@check) validates it
-//! against a [`device::Profile`], which holds a card's limits and arithmetic, and returns a [`check::Checked`] program
-//! or all rules that it violates. A [`machine::Machine`] owns textures and render targets and executes draw calls:
-//! vertices through a vertex program, [`raster`] from triangles to fragments, [`exec`] for the pixel program,
-//! [`output`] for tests and blending. [`texture`] defines texels and sampling, [`num`] number formats and arithmetic;
-//! [`event`] counts the work of a draw, and [`timing`] derives durations from it. The crate is independent of what is
-//! drawn: ray casting, radiosity and transfer are implemented in the crate above.
+//! Program text of the period goes in, with textures, constants and triangles; pictures come out with the bits that the
+//! card's arithmetic gives, and with counts from which a model says how long the card takes:
+//!
+//! ```text
+//!   program text                        vertices
+//!        | asm                             | vertex program
+//!   isa::Program                        raster: triangles to fragments
+//!        | check, against a                |
+//!        | device::Profile              exec: pixel program <--- texture
+//!   Checked<Program> ------ machine ------>|
+//!                                       output: tests, blending
+//!   event: counts <------------------------+----> targets, depth buffer
+//!        | timing
+//!   durations, a timeline
+//! ```
+//!
+//! [`num`] defines number formats and their arithmetic; everything above computes with it. The crate is independent of
+//! what is drawn: ray casting, radiosity and transfer are implemented in the crate above.
 //!
 //! The same input and the same profile give the same bits, on every CPU, thread count, executor and build profile. The
 //! executors compute them by different means: the scalar one in integers, one value at a time, following the
 //! specifications; the batch one with the host's SIMD instructions; a third, with the feature `wgpu`, in WGSL. Tests
 //! compare them.
+//!
+//! # A draw
 //!
 //! A full-screen quad on a Radeon 8500 that doubles a colour, in 16-bit fixed point:
 //!
@@ -41,6 +54,43 @@
 //! # Ok(())
 //! # }
 //! ```
+//!
+//! The example `textured` of this crate binds a texture and a constant, and draws on three cards.
+//!
+//! # An operation
+//!
+//! Any number format, without a card: see [`num`].
+//!
+//! ```
+//! use refsim::num::{Format, ops};
+//!
+//! let half: Format = "fp16".parse()?;
+//! assert_eq!(ops::add(&half, 0x3c00, 0x4000).bits, 0x4200); // 1 + 2 = 3
+//! let card: Format = "s3.12:rdn".parse()?;
+//! assert_eq!(ops::mul(&card, 0x0001, 0x0800).bits, 0); // half of the smallest number is lost
+//! # Ok::<(), refsim::num::FormatError>(())
+//! ```
+//!
+//! # A mistake
+//!
+//! Errors of a program quote its line, also where `main` returns them:
+//!
+//! ```
+//! let errors = refsim::asm::assemble("ps_1_4\nmov r0, r1\nmull r0, r0, r0\n").expect_err("a wrong name");
+//! assert_eq!(errors.to_string(), "\
+//! the program has a syntax error
+//! line 3, column 1: unknown instruction: expected an instruction, found `mull`
+//!     mull r0, r0, r0
+//!     ^^^^
+//!     help: did you mean `mul`?");
+//! ```
+//!
+//! # Where next
+//!
+//! - [`machine`]: textures, targets, draws, read-back, traces of single pixels
+//! - [`device`]: the cards, their figures with sources, switches where no source decides
+//! - [`num`]: formats as strings, operations, flags
+//! - [`timing`]: from a machine's log to clocks and a timeline; the crate `refsim-criterion` benchmarks in them
 
 pub mod asm;
 pub mod check;

@@ -111,19 +111,28 @@ fn error_messages() {
 }
 
 #[test]
-fn errors_are_miette_diagnostics_with_related_errors() {
+fn each_error_is_a_diagnostic_with_a_label() {
     let text = "ps_1_4\nmov r0.zz, r1\nad r0, r1, r2\n";
-    let errors = bad(text);
-    let related: Vec<_> = errors.related().expect("the single errors").collect();
-    assert_eq!(related.len(), 2);
-    let label = related[0].labels().and_then(|mut l| l.next()).expect("a label");
+    let [first, second] = <[_; 2]>::try_from(bad(text).errors).expect("two errors");
+    let label = first.labels().and_then(|mut l| l.next()).expect("a label");
     assert_eq!(&text[label.offset()..label.offset() + label.len()], "zz");
-    assert_eq!(related[1].code().map(|c| c.to_string()).as_deref(), Some("asm::unknown_instruction"));
-    assert_eq!(related[1].help().map(|h| h.to_string()).as_deref(), Some("did you mean `add`?"));
-    let report = miette::Report::new(errors).with_source_code(miette::NamedSource::new("x.psa", text));
+    assert_eq!(second.code().map(|c| c.to_string()).as_deref(), Some("asm::unknown_instruction"));
+    assert_eq!(second.help().map(|h| h.to_string()).as_deref(), Some("did you mean `add`?"));
+    let report = miette::Report::new(first).with_source_code(miette::NamedSource::new("x.psa", text));
     let mut out = String::new();
     miette::NarratableReportHandler::new().render_report(&mut out, report.as_ref()).expect("a string takes all");
     assert!(out.contains("malformed write mask") && out.contains("x.psa"), "{out}");
+}
+
+#[test]
+fn displayed_errors_quote_their_lines() {
+    let errors = bad("ps_1_4\n\tmov r0.zz, r1 // \u{7}\nad r0, r1, r2\n");
+    assert_eq!(format!("{errors}"), format!("{errors:?}"), "a `main` that returns them prints them so");
+    let many = bad(&format!("ps_1_4\n{}", "mull r0, r1\n".repeat(22)));
+    let long = bad(&format!("ps_1_4\nmov r0, {}\n", "-".repeat(200)));
+    let unknown = bad("!!FP9.0\nEND");
+    let huge = bad(&" ".repeat((1 << 20) + 1));
+    insta::assert_snapshot!([errors, many, long, unknown, huge].map(|errors| errors.to_string()).join("\n\n"));
 }
 
 // ---- chosen texts ----

@@ -30,7 +30,8 @@ fn load(name: &str) -> (String, Program, Profile) {
 /// Renders a violation with all its fields.
 fn render(text: &str, report: &CheckReport) -> String {
     use miette::Diagnostic;
-    let mut out = format!("{report}\n");
+    let shown = report.to_string();
+    let mut out = format!("{}\n", shown.lines().next().unwrap());
     for v in &report.violations {
         let code = v.code().unwrap();
         let help = v.help().unwrap();

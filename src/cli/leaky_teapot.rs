@@ -102,6 +102,7 @@ pub(super) struct Args {
 impl StudyArgs for Args {
     type Study = Parameters;
     const COMMAND: &'static str = "leaky-teapot";
+    const QUICKER: &'static str = "a smaller `--size` or `--tessellation`";
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)

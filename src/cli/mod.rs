@@ -65,6 +65,19 @@ pub use out::Out;
 pub use progress::ProgressBar;
 pub use size::{BadSize, Size};
 
+/// The answer to nothing.
+const WELCOME: &str = "\
+Crossbar: global illumination on the first programmable graphics cards, emulated to the bit.
+
+Three things to try:
+  crossbar leaky-teapot                  trace the teapot in the number formats of seven cards: which rays leak, where
+  crossbar render office --renderer path --samples 4
+                                         a picture of an office; `--caster engine` has the Ray Engine cast its rays
+  crossbar reproduce equation-11         what a paper printed, beside what comes out here
+
+All commands: `crossbar --help`. One of them, with examples: `crossbar leaky-teapot --help`.
+";
+
 /// Exit code for a failed check.
 const CHECK_FAILED: u8 = 1;
 /// Exit code for bad input or usage.
@@ -74,7 +87,7 @@ const BAD_INPUT: u8 = 2;
 ///
 /// Exit codes: 0 done, 1 the check failed, 2 bad input or usage.
 #[derive(Debug, Parser)]
-#[command(name = "crossbar", version = version::VERSION.as_str(), arg_required_else_help = true, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "crossbar", version = version::VERSION.as_str(), max_term_width = 100, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -154,7 +167,15 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
+    if let Some(code) = completions::answer() {
+        return code;
+    }
     let arguments: Vec<_> = std::env::args_os().collect();
+    if arguments.len() < 2 {
+        // Nothing is to be done if nobody reads this.
+        std::io::stderr().write_all(WELCOME.as_bytes()).ok();
+        return ExitCode::from(BAD_INPUT);
+    }
     let (cli, command_line, fits) = match parse(&arguments) {
         Ok(parsed) => parsed,
         Err(error) => {
@@ -206,7 +227,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::BiScale(args) => bi_scale::run(&args, command_line, out),
         Command::Check(args) => check::run(&args, out),
         Command::Compare(args) => compare::run(&args, out),
-        Command::Completions(args) => completions::run(&args, program(), out),
+        Command::Completions(args) => completions::run(&args, out),
         Command::Cpca(args) => cpca::run(&args, command_line, out),
         Command::Devices(args) => devices::run(&args, out),
         Command::Diff(args) => diff::run(&args, command_line, out),

@@ -1,8 +1,9 @@
-//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else.
+//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Work that will
+//! take long says so once, with what makes it quicker.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressStyle;
@@ -14,6 +15,8 @@ use crate::report::visible::visible_line;
 const FIRST: Duration = Duration::from_secs(2);
 /// From one plain line to the next.
 const EVERY: Duration = Duration::from_secs(10);
+/// Work that will take longer than this from now says so.
+const LONG: Duration = Duration::from_secs(45);
 
 /// True if errors are JSON for machines, which plain lines would disturb.
 static SILENT: AtomicBool = AtomicBool::new(false);
@@ -30,6 +33,9 @@ pub struct ProgressBar {
     bar: indicatif::ProgressBar,
     /// Set where standard error is no terminal.
     lines: Option<Mutex<PlainLines>>,
+    pace: Mutex<Pace>,
+    /// Options that make the work quicker; empty if there are none.
+    quicker: &'static str,
 }
 
 impl ProgressBar {
@@ -41,14 +47,22 @@ impl ProgressBar {
         }
         bar.enable_steady_tick(Duration::from_millis(200));
         let plain = !io::stderr().is_terminal() && !SILENT.load(Ordering::Relaxed);
-        Self { bar, lines: plain.then(|| Mutex::new(PlainLines::new(Instant::now()))) }
+        let lines = plain.then(|| Mutex::new(PlainLines::new(Instant::now())));
+        Self { bar, lines, pace: Mutex::new(Pace::new(Instant::now(), total)), quicker: "" }
+    }
+
+    /// Says what makes the work quicker, if it will take long: options, as in "a smaller `--size`".
+    #[must_use]
+    pub fn quicker(mut self, quicker: &'static str) -> Self {
+        self.quicker = quicker;
+        self
     }
 
     /// A spinner beside `what`.
     pub fn unending(what: &str) -> Self {
         let bar = indicatif::ProgressBar::new_spinner().with_message(what.to_owned());
         bar.enable_steady_tick(Duration::from_millis(200));
-        Self { bar, lines: None }
+        Self { bar, lines: None, pace: Mutex::new(Pace::new(Instant::now(), 0)), quicker: "" }
     }
 
     /// `done` of `total` steps of `what` are done.
@@ -65,14 +79,26 @@ impl ProgressBar {
         self.say();
     }
 
-    /// Writes a plain line if one is due.
+    /// Writes what is due: that the work will take long, and where there is no bar, a plain line.
     fn say(&self) {
+        let (now, done, total) = (Instant::now(), self.bar.position(), self.bar.length().unwrap_or(0));
+        let (left, is_news) = lock(&self.pace).left(now, done, total);
+        let what = self.bar.message();
+        if let Some(left) = left.filter(|_| is_news) {
+            self.announce(&long_work(&what, left, self.quicker));
+        }
         let Some(lines) = &self.lines else { return };
-        let due = lines.lock().unwrap_or_else(PoisonError::into_inner).due(Instant::now());
-        if due {
-            let (done, total) = (self.bar.position(), self.bar.length().unwrap_or(0));
+        if lock(lines).due(now) {
             // Nothing is to be done if nobody reads this.
-            writeln!(io::stderr().lock(), "{}", plain_line(&self.bar.message(), done, total)).ok();
+            writeln!(io::stderr().lock(), "{}", plain_line(&what, done, total, left)).ok();
+        }
+    }
+
+    /// Writes a line above the bar, or where there is none, a plain one.
+    fn announce(&self, line: &str) {
+        match &self.lines {
+            None => self.bar.println(line),
+            Some(_) => drop(writeln!(io::stderr().lock(), "progress: {line}")),
         }
     }
 }
@@ -81,6 +107,62 @@ impl Drop for ProgressBar {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
+}
+
+/// A panic elsewhere leaves nothing here that is wrong.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// How fast steps are done: work in several stages counts anew from stage to stage.
+#[derive(Debug)]
+struct Pace {
+    start: Instant,
+    /// When this stage began, steps done then, and steps of the stage.
+    stage: (Instant, u64, u64),
+    done: u64,
+    is_announced: bool,
+}
+
+impl Pace {
+    fn new(start: Instant, total: u64) -> Self {
+        Self { start, stage: (start, 0, total), done: 0, is_announced: false }
+    }
+
+    /// The time that the rest of a stage takes at its pace, once there is one; and whether it is long for the first time.
+    fn left(&mut self, now: Instant, done: u64, total: u64) -> (Option<Duration>, bool) {
+        if total != self.stage.2 || done < self.done {
+            self.stage = (now, done, total);
+        }
+        self.done = done;
+        let (began, first, _) = self.stage;
+        let steps = done.saturating_sub(first);
+        if steps == 0 || now.duration_since(self.start) < FIRST {
+            return (None, false);
+        }
+        let rest = total.saturating_sub(done) as f64 / steps as f64;
+        let left = Duration::try_from_secs_f64(now.duration_since(began).as_secs_f64() * rest).unwrap_or(Duration::MAX);
+        let is_news = left > LONG && !self.is_announced;
+        self.is_announced |= is_news;
+        (Some(left), is_news)
+    }
+}
+
+/// A duration to about two digits.
+fn about(duration: Duration) -> String {
+    match duration.as_secs() {
+        seconds @ 0..90 => format!("about {} s", seconds.max(1)),
+        seconds @ 90..5400 => format!("about {} min", (seconds + 30) / 60),
+        seconds => format!("about {} h", count((seconds + 1800) / 3600)),
+    }
+}
+
+/// The line on work that will take long.
+fn long_work(what: &str, left: Duration, quicker: &str) -> String {
+    let what = visible_line(what);
+    let what = if what.is_empty() { "this" } else { &what };
+    let quicker = if quicker.is_empty() { String::new() } else { format!("; quicker with {quicker}") };
+    format!("{what} will take {} at this pace{quicker}", about(left))
 }
 
 /// When the next plain line is due.
@@ -104,11 +186,12 @@ impl PlainLines {
     }
 }
 
-/// A line of progress: steps done, of all.
-fn plain_line(what: &str, done: u64, total: u64) -> String {
+/// A line of progress: steps done, of all, and the time left.
+fn plain_line(what: &str, done: u64, total: u64, left: Option<Duration>) -> String {
     let what = visible_line(what);
     let what = if what.is_empty() { "working" } else { &what };
-    format!("progress: {what}, {} of {} done", count(done.min(total)), count(total))
+    let left = left.map(|left| format!(", {} left", about(left))).unwrap_or_default();
+    format!("progress: {what}, {} of {} done{left}", count(done.min(total)), count(total))
 }
 
 #[cfg(test)]
@@ -125,7 +208,34 @@ mod tests {
 
     #[test]
     fn a_plain_line_is_plain() {
-        assert_eq!(plain_line("fp16", 3, 24), "progress: fp16, 3 of 24 done");
-        assert_eq!(plain_line("a\x1b[2J\n", 1_000, 65_536), "progress: a\\u{1b}[2J\\n, 1,000 of 65,536 done");
+        assert_eq!(plain_line("fp16", 3, 24, None), "progress: fp16, 3 of 24 done");
+        let left = Some(Duration::from_secs(100));
+        let line = plain_line("a\x1b[2J\n", 1_000, 65_536, left);
+        assert_eq!(line, "progress: a\\u{1b}[2J\\n, 1,000 of 65,536 done, about 2 min left");
+    }
+
+    #[test]
+    fn long_work_is_announced_once() {
+        let start = Instant::now();
+        let at = |seconds: f64| start + Duration::from_secs_f64(seconds);
+        let mut pace = Pace::new(start, 100);
+        assert_eq!(pace.left(at(1.0), 1, 100), (None, false), "too early to tell");
+        let (left, is_news) = pace.left(at(3.0), 3, 100);
+        assert_eq!((left, is_news), (Some(Duration::from_secs(97)), true));
+        assert!(!pace.left(at(4.0), 4, 100).1, "said already");
+        // Another stage counts from its own start.
+        assert_eq!(pace.left(at(10.0), 0, 50), (None, false));
+        assert_eq!(pace.left(at(20.0), 40, 50), (Some(Duration::from_secs_f64(2.5)), false));
+
+        let mut quick = Pace::new(start, 10);
+        assert!(!quick.left(at(3.0), 5, 10).1);
+    }
+
+    #[test]
+    fn long_work_says_what_is_quicker() {
+        let line = long_work("visibility", Duration::from_secs(400), "fewer `--samples`");
+        assert_eq!(line, "visibility will take about 7 min at this pace; quicker with fewer `--samples`");
+        assert_eq!(long_work("", Duration::from_secs(8000), ""), "this will take about 2 h at this pace");
+        assert_eq!(about(Duration::ZERO), "about 1 s");
     }
 }

@@ -76,6 +76,7 @@ pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Res
 impl StudyArgs for Args {
     type Study = Parameters;
     const COMMAND: &'static str = "reproduce";
+    const QUICKER: &'static str = "the names of single entries (`crossbar reproduce --list`)";
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)

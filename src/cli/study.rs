@@ -22,6 +22,9 @@ pub(super) trait StudyArgs {
     /// The command, in whose name the folder is written.
     const COMMAND: &'static str;
 
+    /// Options that make it quicker, said if it will take long; empty if there are none.
+    const QUICKER: &'static str = "";
+
     /// Where its files go; `None` if there are to be none.
     fn folder(&self) -> Option<&Path>;
 
@@ -51,7 +54,7 @@ pub(super) fn run<A: StudyArgs>(args: &A, command_line: &str, out: &mut Out) -> 
     }
     // Before the long work, so that a folder that cannot be written is found out at once.
     let folder = args.folder().map(|folder| FileSet::by(A::COMMAND, folder)).transpose().map_err(Problem::from)?;
-    let bar = ProgressBar::new("", 1);
+    let bar = ProgressBar::new("", 1).quicker(A::QUICKER);
     let mut found = study.findings(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let provenance = study.provenance(with_inputs(Provenance::new(command_line), &args.inputs()));

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use glam::DVec3;
 use miette::IntoDiagnostic as _;
 use refsim::num::FormatError;
 
@@ -36,8 +37,8 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 /// Where a camera stands, what it looks at, and what is up.
 pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
-/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh, without a target, at
-/// its middle.
+/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh. Without a target too,
+/// the mesh fills the picture.
 pub(super) fn framing(
     mesh: &Mesh,
     size: Size,
@@ -52,18 +53,67 @@ pub(super) fn framing(
         .into());
     };
     let middle = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
+    let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
+    let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
+    let tangent = f64::from(tan_half_height);
+    let camera = |eye, target| Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic();
+    if eye.is_none() && target.is_none() {
+        let aspect = f64::from(size.width) / f64::from(size.height);
+        if let Some(frame) = Frame::filled(mesh, up.map(f64::from), [tangent * aspect, tangent], radius) {
+            let (eye, target) = frame.line_of_sight(middle.map(f64::from));
+            return camera(eye, target);
+        }
+    }
     let target = target.unwrap_or(middle);
     let eye = eye.unwrap_or_else(|| {
-        let half = [0, 1, 2].map(|i| f64::from(high[i]) / 2.0 - f64::from(low[i]) / 2.0);
-        let radius = (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]).sqrt();
         // The sphere around the mesh touches the edges of the picture where the sine of half the view is radius /
         // distance.
-        let tangent = f64::from(tan_half_height);
         let distance = 1.05 * radius * (1.0 + 1.0 / (tangent * tangent)).sqrt();
-        let way = [0.3, -0.8, 0.52];
-        [0, 1, 2].map(|i| (f64::from(target[i]) + distance * way[i]) as f32)
+        [0, 1, 2].map(|i| (f64::from(target[i]) + distance * FRONT[i]) as f32)
     });
-    Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic()
+    camera(eye, target)
+}
+
+/// The direction from what is seen to the eye, where nobody says another: from the front, and a little from above.
+const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
+
+/// The part of half a picture's width or height that a model fills.
+const FILLED: f64 = 0.92;
+
+/// An eye that looks along [`FRONT`]: its coordinates along the picture's right, along its up, and towards the eye.
+struct Frame {
+    axes: [DVec3; 3],
+    eye: [f64; 3],
+}
+
+impl Frame {
+    /// The nearest eye that sees every vertex; `None` without such a picture, where up is along the line of sight.
+    ///
+    /// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at (e, d).
+    /// So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
+    fn filled(mesh: &Mesh, up: [f64; 3], tangents: [f64; 2], radius: f64) -> Option<Self> {
+        let toward = DVec3::from(FRONT).normalize();
+        let right = DVec3::from(up).cross(toward).try_normalize()?;
+        let axes = [right, toward.cross(right), toward];
+        let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(DVec3::from(v.map(f64::from)))));
+        let mut eye = [0.0, 0.0, points().map(|[.., w]| w).fold(f64::NEG_INFINITY, f64::max) + 0.1 * radius];
+        for (side, tangent) in tangents.into_iter().enumerate() {
+            let t = FILLED * tangent;
+            let most = points().map(|at| at[side] + t * at[2]).fold(f64::NEG_INFINITY, f64::max);
+            let least = points().map(|at| at[side] - t * at[2]).fold(f64::INFINITY, f64::min);
+            eye[side] = f64::midpoint(most, least);
+            eye[2] = eye[2].max((most - least) / (2.0 * t));
+        }
+        Some(Self { axes, eye })
+    }
+
+    /// The eye, and a target beside `middle`.
+    fn line_of_sight(&self, middle: [f64; 3]) -> ([f32; 3], [f32; 3]) {
+        let [right, up, toward] = self.axes;
+        let [x, y, w] = self.eye;
+        let point = |w: f64| (right * x + up * y + toward * w).to_array().map(|c| c as f32);
+        (point(w), point(toward.dot(DVec3::from(middle)).min(w - w.abs() * 1e-3)))
+    }
 }
 
 /// First hits by exact arithmetic, triangle and t; the exact numbers behind them are dropped some rays at a time.
@@ -128,4 +178,39 @@ pub(super) fn write_folder(mut set: FileSet, files: &[(String, Vec<u8>)]) -> Res
         set.write(Path::new(name), |out| out.write_all(bytes))?;
     }
     Ok(set.commit()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A long box far from the origin, wide, high or deep.
+    fn long_box(axis: usize) -> Mesh {
+        let mut side = [1.0_f32; 3];
+        side[axis] = 6.0;
+        let corners: Vec<[f32; 3]> =
+            (0..8).map(|c| [0, 1, 2].map(|i| 40.0 + if c >> i & 1 == 1 { side[i] } else { 0.0 })).collect();
+        let faces = vec![[0, 1, 2], [1, 3, 2], [4, 5, 6], [5, 7, 6], [0, 1, 4], [2, 3, 6]];
+        Mesh::new(corners, faces).expect("a box")
+    }
+
+    #[test]
+    fn a_model_fills_the_picture() {
+        for (axis, width, height) in [(0, 64, 64), (1, 64, 64), (2, 64, 64), (0, 30, 90), (2, 120, 40)] {
+            let mesh = long_box(axis);
+            let size = Size { width, height };
+            let camera = framing(&mesh, size, 0.375, (None, None, [0.0, 0.0, 1.0])).expect("a camera");
+            let places: Vec<[f64; 2]> = mesh.positions().iter().map(|&v| place(&camera, v)).collect();
+            let reach = |side: usize| places.iter().map(|at| at[side].abs()).fold(0.0, f64::max);
+            assert!(reach(0) < 0.93 && reach(1) < 0.93, "nothing is cut off: {places:?}");
+            assert!(reach(0).max(reach(1)) > 0.91, "one side is filled: {places:?}");
+        }
+    }
+
+    /// Where a point is seen, from -1 to 1 on either side.
+    fn place(camera: &Camera, point: [f32; 3]) -> [f64; 2] {
+        let to = DVec3::from(point.map(f64::from)) - DVec3::from(camera.eye().map(f64::from));
+        // Both reach from the middle of the picture to its edge, at distance 1.
+        [camera.right(), camera.up()].map(|side| to.dot(side) / (side.length_squared() * to.dot(camera.forward())))
+    }
 }

@@ -11,6 +11,7 @@ mod check;
 mod claims;
 mod commands;
 mod compare;
+mod completions;
 mod cpca;
 mod devices;
 mod diff;

@@ -1,5 +1,6 @@
 //! A strict reader of the trace event format in its JSON object form, as far as Crossbar writes it: complete events,
-//! metadata and flows. Anything unknown to the format, or silently dropped by viewers, is an error.
+//! metadata and flows. Anything unknown to the format, or dropped by viewers, is an error. As Perfetto does, it rounds
+//! starts and durations to nanoseconds, each for itself, and wants slices that still do not overlap.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -64,13 +65,19 @@ pub(crate) enum BindingPoint {
     Enclosing,
 }
 
-/// A slice on a thread.
+/// A slice on a thread, in nanoseconds, and its exact end in picoseconds.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Slice {
     pub(crate) name: String,
     pub(crate) category: String,
-    pub(crate) start: f64,
-    pub(crate) end: f64,
+    pub(crate) start: u64,
+    pub(crate) end: u64,
+    pub(crate) end_ps: u64,
+}
+
+/// Microseconds as a viewer rounds them.
+fn nanoseconds(microseconds: f64) -> u64 {
+    (microseconds * 1e3).round() as u64
 }
 
 /// The trace as a viewer shows it: threads by name, in their order, with their slices.
@@ -88,7 +95,7 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
     let file: TraceFile = serde_json::from_str(text).map_err(|error| error.to_string())?;
     let (mut processes, mut names, mut places) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
     let mut slices: BTreeMap<u32, Vec<Slice>> = BTreeMap::new();
-    let (mut starts, mut ends, mut latest) = (BTreeMap::new(), BTreeMap::new(), 0.0);
+    let (mut starts, mut ends, mut latest) = (BTreeMap::new(), BTreeMap::new(), 0);
     let mut pids = BTreeSet::new();
     for event in file.trace_events {
         match event {
@@ -107,21 +114,29 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
             }
             Event::Complete { name, cat, ts, dur, pid, tid, args } => {
                 pids.insert(pid);
-                if ts < latest || dur <= 0.0 || name.is_empty() || !args.contains_key("command") {
+                let exact =
+                    |key: &str| args.get(key).and_then(Value::as_u64).ok_or(format!("`{name}` without `{key}`"));
+                let (start_ps, duration_ps) = (exact("start_ps")?, exact("duration_ps")?);
+                let (start, duration) = (nanoseconds(ts), nanoseconds(dur));
+                if start < latest || dur < 0.0 || duration_ps == 0 || name.is_empty() || !args.contains_key("command") {
                     return Err(format!("slice `{name}` at {ts} for {dur} after {latest}"));
                 }
-                latest = ts;
-                slices.entry(tid).or_default().push(Slice { name, category: cat, start: ts, end: ts + dur });
+                let (end, end_ps) = (start + duration, start_ps + duration_ps);
+                if (start, end) != (start_ps / 1000, end_ps / 1000) {
+                    return Err(format!("slice `{name}` at {ts} for {dur}, exactly {start_ps} to {end_ps}"));
+                }
+                latest = start;
+                slices.entry(tid).or_default().push(Slice { name, category: cat, start, end, end_ps });
             }
             Event::FlowStart { name, cat, id, ts, pid, tid } => {
                 pids.insert(pid);
-                if starts.insert(id, (name, cat, ts, tid)).is_some() {
+                if starts.insert(id, (name, cat, nanoseconds(ts), tid)).is_some() {
                     return Err(format!("flow {id} starts twice"));
                 }
             }
             Event::FlowEnd { name, cat, id, ts, pid, tid, bp: BindingPoint::Enclosing } => {
                 pids.insert(pid);
-                ends.insert(id, (name, cat, ts, tid));
+                ends.insert(id, (name, cat, nanoseconds(ts), tid));
             }
         }
     }
@@ -134,7 +149,7 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
     for (id, (name, cat, ts, tid)) in &starts {
         let end = ends.get(id).ok_or_else(|| format!("flow {id} has no end"))?;
         let lies =
-            |tid: &u32, at: f64| slices.get(tid).is_some_and(|all| all.iter().any(|s| s.start <= at && at <= s.end));
+            |tid: &u32, at: u64| slices.get(tid).is_some_and(|all| all.iter().any(|s| s.start <= at && at <= s.end));
         if (name, cat) != (&end.0, &end.1) || end.2 < *ts || !lies(tid, *ts) || !lies(&end.3, end.2) {
             return Err(format!("flow {id} from {ts} to {end:?}"));
         }
@@ -143,8 +158,7 @@ pub(crate) fn read(text: &str) -> Result<Shown, String> {
         return Err("a flow ends that did not start".to_owned());
     }
     for slices in slices.values() {
-        // Times are exact in picoseconds; in microseconds sums are off in the last bit.
-        if let Some(pair) = slices.windows(2).find(|pair| pair[1].start < pair[0].end - 1e-7) {
+        if let Some(pair) = slices.windows(2).find(|pair| pair[1].start < pair[0].end) {
             return Err(format!("two at a time: {pair:?}"));
         }
     }
@@ -165,18 +179,21 @@ fn what_is_no_trace_is_refused() {
             {{"ph":"M","name":"process_name","pid":1,"tid":0,"args":{{"name":"p"}}}},
             {{"ph":"M","name":"thread_name","pid":1,"tid":1,"args":{{"name":"t"}}}},
             {{"ph":"M","name":"thread_sort_index","pid":1,"tid":1,"args":{{"sort_index":1}}}},
-            {{"ph":"X","name":"a","cat":"c","ts":1.0,"dur":2.0,"pid":1,"tid":1,"args":{{"command":0}}}}{event}]}}"#
+            {{"ph":"X","name":"a","cat":"c","ts":1.0,"dur":2.0,"pid":1,"tid":1,
+              "args":{{"command":0,"start_ps":1000000,"duration_ps":2000000}}}}{event}]}}"#
         )
     };
     read(&trace("")).expect("a good trace");
     for bad in [
         r#",{"ph":"Z","name":"unknown phase"}"#,
         r#",{"ph":"X","name":"no duration","cat":"c","ts":4.0,"pid":1,"tid":1}"#,
-        r#",{"ph":"X","name":"too early","cat":"c","ts":0.5,"dur":0.1,"pid":1,"tid":1,"args":{"command":1}}"#,
-        r#",{"ph":"X","name":"overlaps","cat":"c","ts":2.0,"dur":2.0,"pid":1,"tid":1,"args":{"command":1}}"#,
-        r#",{"ph":"X","name":"other process","cat":"c","ts":4.0,"dur":2.0,"pid":2,"tid":1,"args":{"command":1}}"#,
-        r#",{"ph":"X","name":"unnamed thread","cat":"c","ts":4.0,"dur":2.0,"pid":1,"tid":2,"args":{"command":1}}"#,
-        r#",{"ph":"X","name":"text for time","cat":"c","ts":"4","dur":2.0,"pid":1,"tid":1,"args":{"command":1}}"#,
+        r#",{"ph":"X","name":"too early","cat":"c","ts":0.5,"dur":0.1,"pid":1,"tid":1,"args":{"command":1,"start_ps":500000,"duration_ps":100000}}"#,
+        r#",{"ph":"X","name":"overlaps","cat":"c","ts":2.0,"dur":2.0,"pid":1,"tid":1,"args":{"command":1,"start_ps":2000000,"duration_ps":2000000}}"#,
+        r#",{"ph":"X","name":"not in whole nanoseconds","cat":"c","ts":3.0004,"dur":2.0,"pid":1,"tid":1,
+            "args":{"command":1,"start_ps":3000600,"duration_ps":2000000}}"#,
+        r#",{"ph":"X","name":"other process","cat":"c","ts":4.0,"dur":2.0,"pid":2,"tid":1,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
+        r#",{"ph":"X","name":"unnamed thread","cat":"c","ts":4.0,"dur":2.0,"pid":1,"tid":2,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
+        r#",{"ph":"X","name":"text for time","cat":"c","ts":"4","dur":2.0,"pid":1,"tid":1,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
         r#",{"ph":"s","name":"no end","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1}"#,
         r#",{"ph":"f","name":"no start","cat":"c","id":0,"ts":1.5,"pid":1,"tid":1,"bp":"e"}"#,
         r#",{"ph":"M","name":"thread_colour","pid":1,"tid":1,"args":{}}"#,

@@ -109,6 +109,6 @@ impl<'a> Cursor<'a> {
     pub(super) fn finish(&mut self) -> Option<AssembleErrors> {
         let mut errors = std::mem::take(&mut self.errors);
         errors.sort_by_key(|error| error.span.start);
-        (!errors.is_empty()).then_some(AssembleErrors { errors })
+        (!errors.is_empty()).then(|| AssembleErrors::new(errors))
     }
 }

@@ -1,6 +1,6 @@
 //! Syntax errors of program texts.
 
-use crate::isa::Span;
+use crate::isa::{PlacedMessage, ProgramText, Span};
 use miette::{Diagnostic, LabeledSpan};
 use std::fmt;
 
@@ -164,21 +164,39 @@ impl Diagnostic for SyntaxError {
 
 /// All syntax errors of a text; never empty.
 ///
-/// Carries no source text. To render the text, attach its name and contents
-/// (`miette::Report::new(errors).with_source_code(NamedSource::new(name, text))`).
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
-#[error("{}", summary(.errors))]
+/// Displayed, and returned from `main`, it quotes the line of each error and gives advice. For colours and labels, render
+/// the single errors with the text (`miette::Report::new(error).with_source_code(NamedSource::new(name, text))`).
+#[derive(Clone, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[diagnostic(code("asm::syntax"))]
 pub struct AssembleErrors {
     /// The errors in the order of the text.
-    #[related]
     pub errors: Vec<SyntaxError>,
+    /// The text; empty if it is too long to be one of a program.
+    pub text: ProgramText,
 }
 
-fn summary(errors: &[SyntaxError]) -> String {
-    match errors.len() {
-        1 => "the program has a syntax error".to_owned(),
-        n => format!("the program has {n} syntax errors"),
+impl AssembleErrors {
+    /// Errors of a text that is still to be added.
+    pub(super) fn new(errors: Vec<SyntaxError>) -> Self {
+        Self { errors, text: ProgramText::default() }
+    }
+}
+
+impl fmt::Display for AssembleErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.errors.len() {
+            1 => f.write_str("the program has a syntax error")?,
+            n => write!(f, "the program has {n} syntax errors")?,
+        }
+        let placed = |e: &SyntaxError| PlacedMessage { span: e.span, message: e.to_string(), help: e.help.clone() };
+        self.text.write_messages(f, self.errors.iter().map(placed))
+    }
+}
+
+/// As displayed: this is what the program prints whose `main` returns the errors.
+impl fmt::Debug for AssembleErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

@@ -30,7 +30,7 @@ mod word;
 pub use error::{AssembleErrors, ErrorKind, SyntaxError};
 pub use limits::{MAX_ERRORS, MAX_NUMBER, MAX_OPERANDS, MAX_REGISTER, MAX_STATEMENTS, MAX_TEXT};
 
-use crate::isa::{Program, Register, Span};
+use crate::isa::{Program, ProgramText, Register, Span};
 
 /// Parses a program.
 ///
@@ -40,26 +40,27 @@ use crate::isa::{Program, Register, Span};
 ///
 /// let errors = refsim::asm::assemble("ps_1_1\nmull r0, t0\nadd r0\n").expect_err("two lines are wrong");
 /// assert_eq!(errors.errors.len(), 2);
+/// assert!(errors.to_string().contains("line 2, column 1: unknown instruction"), "{errors}");
 /// ```
 ///
 /// # Errors
 /// All syntax errors of the text, in order, up to [`MAX_ERRORS`].
 pub fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     if text.len() > MAX_TEXT {
-        return Err(AssembleErrors {
-            errors: vec![SyntaxError::new(
-                ErrorKind::TextTooLong,
-                Span::new(0, 0),
-                format!("at most {MAX_TEXT} bytes of program text"),
-                format!("{} bytes", text.len()),
-                "split the text: no card of the period takes a program of this length",
-            )],
-        });
+        return Err(AssembleErrors::new(vec![SyntaxError::new(
+            ErrorKind::TextTooLong,
+            Span::new(0, 0),
+            format!("at most {MAX_TEXT} bytes of program text"),
+            format!("{} bytes", text.len()),
+            "split the text: no card of the period takes a program of this length",
+        )]));
     }
-    if gl::is_program(text) {
-        return gl::assemble(text);
+    let parsed = if gl::is_program(text) { gl::assemble(text) } else { parser::Parser::new(text).run() };
+    let source = ProgramText::new(text);
+    match parsed {
+        Ok(program) => Ok(Program { text: source, ..program }),
+        Err(errors) => Err(AssembleErrors { text: source, ..errors }),
     }
-    parser::Parser::new(text).run()
 }
 
 /// Prints a program in canonical form, which [`assemble`] parses back to an equal one: in lower case for Direct3D's

@@ -9,7 +9,7 @@ use super::limits::MAX_OPERANDS;
 use super::word;
 use crate::isa::{
     ConstantDef, Declaration, Destination, DestinationRule, FragmentPart, Instruction, OpInfo, Predicate, Program,
-    Source, Span, Version,
+    ProgramText, Source, Span, Version,
 };
 
 /// Parser of one text. A part that fails to parse returns its error; the statement records it, skips to a token where
@@ -66,7 +66,7 @@ impl<'a> Parser<'a> {
             self.statement();
             self.skip_newlines();
         }
-        let errors = self.finish().unwrap_or(AssembleErrors { errors: Vec::new() });
+        let errors = self.finish().unwrap_or_else(|| AssembleErrors::new(Vec::new()));
         match self.version {
             Some((version, version_span)) if errors.errors.is_empty() => Ok(Program {
                 version,
@@ -76,6 +76,7 @@ impl<'a> Parser<'a> {
                 instructions: self.instructions,
                 parameters: Vec::new(),
                 fog: None,
+                text: ProgramText::default(),
             }),
             _ => Err(errors),
         }

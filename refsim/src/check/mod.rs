@@ -70,7 +70,8 @@ pub fn check(program: Program, profile: &Profile) -> Result<Checked<Program>, Ch
         Some(facts) => Ok(Checked::new(program, facts, profile.name.clone(), warnings)),
         None => {
             violations.sort_by_key(|v| (v.span.start, v.rule));
-            Err(CheckReport { version: program.version, device: profile.name.clone(), violations, warnings })
+            let (version, device, text) = (program.version, profile.name.clone(), program.text);
+            Err(CheckReport { version, device, violations, warnings, text })
         }
     }
 }

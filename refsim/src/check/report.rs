@@ -6,7 +6,7 @@ use miette::{Diagnostic, LabeledSpan};
 
 use super::allowed::Allowed;
 use super::{RuleId, WarningId};
-use crate::isa::{Span, Version};
+use crate::isa::{PlacedMessage, ProgramText, Span, Version};
 
 /// A violation of a rule.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -97,12 +97,9 @@ pub struct Warning {
 
 /// All violations of a program for a device; never empty.
 ///
-/// The report holds locations, not the text; attach the text with [`miette::Report::with_source_code`] to render them.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error, Diagnostic)]
-#[error(
-    "the {version} program is not legal on `{device}`: {} violation{}",
-    violations.len(), if violations.len() == 1 { "" } else { "s" }
-)]
+/// Displayed, and returned from `main`, it quotes the line of each violation and gives advice. For colours and labels,
+/// render the single violations with the text ([`miette::Report::with_source_code`]).
+#[derive(Clone, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[diagnostic(code("check"))]
 pub struct CheckReport {
     /// The program's version.
@@ -110,8 +107,25 @@ pub struct CheckReport {
     /// The device.
     pub device: String,
     /// The violations in the order of the text.
-    #[related]
     pub violations: Vec<Violation>,
     /// The warnings in the order of the text.
     pub warnings: Vec<Warning>,
+    /// The program's text; empty if it was built without one.
+    pub text: ProgramText,
+}
+
+impl fmt::Display for CheckReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (count, plural) = (self.violations.len(), if self.violations.len() == 1 { "" } else { "s" });
+        write!(f, "the {} program is not legal on `{}`: {count} violation{plural}", self.version, self.device)?;
+        let placed = |v: &Violation| PlacedMessage { span: v.span, message: v.to_string(), help: v.help.clone() };
+        self.text.write_messages(f, self.violations.iter().map(placed))
+    }
+}
+
+/// As displayed: this is what the program prints whose `main` returns the report.
+impl fmt::Debug for CheckReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }

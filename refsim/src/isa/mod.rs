@@ -11,6 +11,7 @@ mod reads;
 mod register;
 mod span;
 mod state;
+mod text;
 mod version;
 
 pub use fragment::{
@@ -26,4 +27,6 @@ pub use state::{
     FogMode, FogOption, LightingColor, MAX_LIGHTS, MAX_PROGRAM_MATRICES, MAX_TEXTURE_UNITS, MaterialFace, MatrixForm,
     StateBinding, StateMatrix,
 };
+pub(crate) use text::PlacedMessage;
+pub use text::ProgramText;
 pub use version::{Stage, Version};

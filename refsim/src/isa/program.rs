@@ -1,8 +1,8 @@
 //! Programs: instructions, declarations, constants and parameters.
 
 use super::{
-    Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, Register, RegisterFile, Source,
-    Span, StateBinding, Version,
+    Comparison, Destination, FogOption, FragmentPart, Opcode, Precision, Predicate, ProgramText, Register,
+    RegisterFile, Source, Span, StateBinding, Version,
 };
 
 /// The value of a `def`, `defi` or `defb`.
@@ -126,6 +126,8 @@ pub struct Program {
     pub parameters: Vec<Parameter>,
     /// The OpenGL fog option that is applied at the end of the program, if any.
     pub fog: Option<FogOption>,
+    /// The text that it was assembled from.
+    pub text: ProgramText,
 }
 
 /// A host-set constant of an OpenGL program: identified by name, or bound to a piece of pipeline state.

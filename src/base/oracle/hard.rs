@@ -101,8 +101,9 @@ impl<R: JudgedRay> JudgedRay for &R {
     }
 }
 
-/// Generates at most `each` rays of each [`Aim`] for a mesh of any size, spread over it. The same seed gives the same
-/// rays; an empty mesh gives none.
+/// Generates at most `each` rays of each of the six [`Aim`]s for a mesh of any size, spread over it: at most 6 times
+/// `each` in all, fewer where the mesh does not have as many edges, vertices or triangles to aim at. The same seed gives
+/// the same rays; an empty mesh gives none.
 ///
 /// ```
 /// # extern crate crossbar_base as crossbar;
@@ -111,6 +112,7 @@ impl<R: JudgedRay> JudgedRay for &R {
 ///
 /// let mesh = teapot(2).expect("a rate in range");
 /// let rays = hard_rays(&mesh, 100, 7);
+/// assert!(rays.len() > 500 && rays.len() <= 6 * 100);
 /// assert_eq!(rays, hard_rays(&mesh, 100, 7));
 /// assert!(rays.iter().filter(|hard| hard.aim == Aim::Axis).all(|hard| hard.ray.direction().contains(&0.0)));
 /// ```

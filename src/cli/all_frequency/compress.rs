@@ -113,7 +113,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         code,
         kept: kept.transpose()?,
     };
-    let bar = ProgressBar::new("", 1);
+    let bar = ProgressBar::new("", 1).quicker("more `--points-per-cluster` or fewer `--iterations`");
     let (coded, tally) = compression.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     drop(bar);
     let census = SegmentCensus::new(&vertices, maps, &LinearBasis::new(file.hats));

@@ -214,6 +214,7 @@ fn refused(error: &crate::transfer::brdf::BrdfError) -> Problem {
 impl StudyArgs for Args {
     type Study = BrdfFactors;
     const COMMAND: &'static str = "all-frequency factor";
+    const QUICKER: &'static str = "fewer `--terms`";
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)

@@ -88,7 +88,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let help = "name a model of fewer vertices, or a smaller ground";
     memory::require(what, (VISIBILITY_BYTES + 200) as u64 * count + RAYS + 100 * model.mesh.len() as u64, help)?;
     let ground = args.ground.map(|side| Ground::new(&model.mesh, side)).transpose()?;
-    let bar = ProgressBar::new("", 1);
+    let bar = ProgressBar::new("", 1).quicker("a model of fewer vertices");
     let sight = SightOfModel {
         scene: ground.as_ref().map_or(&model.mesh, |ground| &ground.scene),
         vertices: &vertices,

@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let bytes = (8 * LIGHT_TEXELS / 2 + sampling.directions().directions().len() / 8 + 400) as u64;
     let what = format_args!("transfer of {} vertices, about {bytes} bytes each", vertices.len());
     memory::require(what, bytes * vertices.len() as u64, "name a model of fewer vertices")?;
-    let bar = ProgressBar::new("visibility", 1);
+    let bar = ProgressBar::new("visibility", 1).quicker("fewer `--samples` or `--directions`");
     let all: Vec<u32> = (0..vertices.len() as u32).collect();
     let mut caster = HostTracer::new(&model.mesh, Sides::Both);
     let mut show = |done: usize, of: usize| bar.show("visibility".to_owned(), done as u64, of as u64);

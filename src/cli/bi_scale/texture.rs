@@ -87,7 +87,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let what = format!("{views} x {lights} patches of {size} x {size} texels");
     memory::require(what, bytes + points, "ask for fewer texels or directions")?;
     let patch = args.patch.patch(&args.source)?;
-    let bar = ProgressBar::new("views", 1);
+    let bar = ProgressBar::new("views", 1).quicker("fewer `--samples`, `--views` or a smaller `--size`");
     let start = Instant::now();
     let sampling = TextureSampling { size, view, light, samples };
     let texture = patch

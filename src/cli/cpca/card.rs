@@ -87,6 +87,7 @@ impl Args {
 impl StudyArgs for Args {
     type Study = OnCard;
     const COMMAND: &'static str = "cpca card";
+    const QUICKER: &'static str = "a smaller `--size`";
 
     fn folder(&self) -> Option<&Path> {
         Some(&self.out)

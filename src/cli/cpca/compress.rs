@@ -106,7 +106,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
     let (meaning, mesh, signal) = load_signal_and_meaning(&args.signal)?;
     let vertices = args.coherence.vertices(&args.signal, mesh)?;
     let options = args.options(&signal, start)?;
-    let bar = ProgressBar::new("vectors", options.vectors as u64 + 1);
+    let bar = ProgressBar::new("vectors", options.vectors as u64 + 1).quicker("fewer `--clusters` or `--iterations`");
     let observe = |step: &CpcaStep| bar.show("vectors".to_owned(), step.vectors as u64, options.vectors as u64 + 1);
     let Compression { clustering, steps } = match args.max_error {
         None => compress(&signal, &options, observe),

@@ -144,7 +144,7 @@ pub(super) fn run(args: &Args) -> miette::Result<Findings> {
         scatterer,
     };
     require_memory(args, &precomputation)?;
-    let bar = ProgressBar::new("", 1);
+    let bar = ProgressBar::new("", 1).quicker("a lower `--degree` or `--order`, fewer `--bounces`");
     let found = precomputation.run(&mut |what, done, of| bar.show(what.to_owned(), done, of))?;
     save_prt(&found.file, &args.out).map_err(Problem::from)?;
     drop(bar);

@@ -135,7 +135,8 @@ fn trace(
     photons.global = light.photons.unwrap_or(photons.global);
     photons.caustic = light.photons.unwrap_or(photons.caustic);
     photons.gather = light.gather.unwrap_or(photons.gather);
-    let (start, bar) = (Instant::now(), ProgressBar::new("rendering", 1));
+    let (start, bar) =
+        (Instant::now(), ProgressBar::new("rendering", 1).quicker("fewer `--samples` or a smaller `--size`"));
     let mut watch = |progress: crate::renderer::RenderProgress| {
         let rate = progress.rays as f64 / start.elapsed().as_secs_f64().max(1e-3) / 1e6;
         bar.show(format!("{}, {rate:.2} M rays/s", progress.what), progress.done, progress.total);

@@ -1,8 +1,9 @@
 //! Traces for the viewers of Chrome and Perfetto: the JSON object form of the trace event format.
 //!
 //! One process, a thread for each lane. Slices are complete events (`X`), names and order of the lanes are metadata
-//! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds and written in microseconds, as the format
-//! requires.
+//! (`M`), arrows are flows (`s` to `f`). Times are given in picoseconds. The format wants microseconds, and Perfetto rounds
+//! starts and durations to nanoseconds, each for itself: two slices that meet at half a nanosecond would overlap, and it
+//! drops one. So the ends of slices are moved to whole nanoseconds before; the picoseconds stand among the details.
 
 use std::io::{self, Write};
 
@@ -58,16 +59,7 @@ pub struct Trace {
 #[serde(tag = "ph")]
 enum Event<'a> {
     #[serde(rename = "X")]
-    Complete {
-        name: &'a str,
-        cat: &'a str,
-        ts: f64,
-        dur: f64,
-        pid: u32,
-        tid: u32,
-        #[serde(skip_serializing_if = "Map::is_empty")]
-        args: &'a Map<String, Value>,
-    },
+    Complete { name: &'a str, cat: &'a str, ts: f64, dur: f64, pid: u32, tid: u32, args: Map<String, Value> },
     #[serde(rename = "M")]
     Metadata { name: &'a str, pid: u32, tid: u32, args: Value },
     #[serde(rename = "s")]
@@ -103,15 +95,19 @@ impl Trace {
         // At equal starts, the longest slice comes first, since it contains the others.
         slices.sort_by_key(|slice| (slice.start, slice.lane, std::cmp::Reverse(slice.duration)));
         for Slice { lane, name, category, start, duration, details } in slices {
-            let (ts, dur) = (microseconds(*start), microseconds(*duration));
-            write(Event::Complete { name, cat: category, ts, dur, pid: PROCESS, tid: tid(*lane), args: details })?;
+            let (from, to) = (nanosecond(*start), nanosecond(start.saturating_add(*duration)));
+            let (ts, dur) = (microseconds(from), microseconds(to - from));
+            let mut args = details.clone();
+            args.insert("start_ps".to_owned(), (*start).into());
+            args.insert("duration_ps".to_owned(), (*duration).into());
+            write(Event::Complete { name, cat: category, ts, dur, pid: PROCESS, tid: tid(*lane), args })?;
         }
         for (id, arrow) in self.arrows.iter().enumerate() {
             let (name, cat, pid) = ("critical path", "path", PROCESS);
             let (lane, at) = arrow.from;
-            write(Event::FlowStart { name, cat, id, ts: microseconds(at), pid, tid: tid(lane) })?;
+            write(Event::FlowStart { name, cat, id, ts: microseconds(nanosecond(at)), pid, tid: tid(lane) })?;
             let (lane, at) = arrow.to;
-            write(Event::FlowEnd { name, cat, id, ts: microseconds(at), pid, tid: tid(lane), bp: "e" })?;
+            write(Event::FlowEnd { name, cat, id, ts: microseconds(nanosecond(at)), pid, tid: tid(lane), bp: "e" })?;
         }
         Ok(())
     }
@@ -122,9 +118,14 @@ fn tid(lane: usize) -> u32 {
     u32::try_from(lane).unwrap_or(u32::MAX - 1).saturating_add(1)
 }
 
-/// Exact up to 9007 s: a double has 53 bits.
-fn microseconds(picoseconds: u64) -> f64 {
-    picoseconds as f64 / 1e6
+/// The nanosecond that a picosecond lies in.
+fn nanosecond(picosecond: u64) -> u64 {
+    picosecond / 1000
+}
+
+/// The nearest double has three digits behind the point, up to 9007199 s.
+fn microseconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 / 1e3
 }
 
 #[cfg(test)]
@@ -144,8 +145,8 @@ mod tests {
         let trace = Trace {
             title: "two \"units\"".to_owned(),
             lanes: vec!["host".to_owned(), "card".to_owned()],
-            slices: vec![slice(1, "b", 2_500_000, 1), slice(0, "a", 0, 2_500_000)],
-            arrows: vec![Arrow { from: (0, 2_500_000), to: (1, 2_500_000) }],
+            slices: vec![slice(1, "b", 2_500_900, 1_200), slice(0, "a", 0, 2_500_900)],
+            arrows: vec![Arrow { from: (0, 2_500_900), to: (1, 2_500_900) }],
             about: Map::new(),
         };
         let mut text = Vec::new();
@@ -157,8 +158,8 @@ mod tests {
 {"ph":"M","name":"thread_sort_index","pid":1,"tid":1,"args":{"sort_index":1}},
 {"ph":"M","name":"thread_name","pid":1,"tid":2,"args":{"name":"card"}},
 {"ph":"M","name":"thread_sort_index","pid":1,"tid":2,"args":{"sort_index":2}},
-{"ph":"X","name":"a","cat":"work","ts":0.0,"dur":2.5,"pid":1,"tid":1},
-{"ph":"X","name":"b","cat":"work","ts":2.5,"dur":1e-6,"pid":1,"tid":2},
+{"ph":"X","name":"a","cat":"work","ts":0.0,"dur":2.5,"pid":1,"tid":1,"args":{"duration_ps":2500900,"start_ps":0}},
+{"ph":"X","name":"b","cat":"work","ts":2.5,"dur":0.002,"pid":1,"tid":2,"args":{"duration_ps":1200,"start_ps":2500900}},
 {"ph":"s","name":"critical path","cat":"path","id":0,"ts":2.5,"pid":1,"tid":1},
 {"ph":"f","name":"critical path","cat":"path","id":0,"ts":2.5,"pid":1,"tid":2,"bp":"e"}
 ]}

@@ -6,7 +6,7 @@ use super::super::error::{ErrorKind, Parsed, SyntaxError, quote};
 use crate::asm::lexer::Token;
 use crate::isa::{
     ConstantDef, ConstantValue, FIRST_LITERAL, FIRST_NAMED, FogOption, Instruction, Parameter, ParameterSource,
-    Program, Register, RegisterFile, Span, StateBinding, Version,
+    Program, ProgramText, Register, RegisterFile, Span, StateBinding, Version,
 };
 
 /// Maximum numbers of literals and of parameters. The last two parameters are reserved for a fog option.
@@ -86,6 +86,7 @@ impl Build {
             instructions: self.instructions,
             parameters: self.parameters,
             fog: self.fog,
+            text: ProgramText::default(),
         }
     }
 }

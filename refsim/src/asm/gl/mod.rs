@@ -40,14 +40,12 @@ pub(super) fn assemble(text: &str) -> Result<Program, AssembleErrors> {
     match rest[..end].parse() {
         Ok(Version::Fp1_0) => nv::assemble(text, span),
         Ok(Version::ArbFp1_0) => arb::assemble(text, span),
-        _ => Err(AssembleErrors {
-            errors: vec![SyntaxError::new(
-                ErrorKind::UnknownVersion,
-                span,
-                "`!!FP1.0` or `!!ARBfp1.0`",
-                quote(&rest[..end]),
-                "these two of OpenGL's program languages are known",
-            )],
-        }),
+        _ => Err(AssembleErrors::new(vec![SyntaxError::new(
+            ErrorKind::UnknownVersion,
+            span,
+            "`!!FP1.0` or `!!ARBfp1.0`",
+            quote(&rest[..end]),
+            "these two of OpenGL's program languages are known",
+        )])),
     }
 }

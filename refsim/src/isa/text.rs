@@ -1,0 +1,119 @@
+//! The text that a program was assembled from, for messages that quote it.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::Span;
+
+/// Longest part of a line that is quoted, in characters.
+const MAX_QUOTED: usize = 100;
+/// Largest number of problems that are quoted in one message.
+const MAX_PROBLEMS: usize = 20;
+
+/// The text that a program was assembled from; empty if it was built otherwise.
+///
+/// All texts compare equal, as all [`Span`]s do, so that two programs are equal if they differ in layout only.
+#[derive(Clone, Default)]
+pub struct ProgramText(Arc<str>);
+
+/// A message about a place in a program text.
+pub(crate) struct PlacedMessage {
+    pub(crate) span: Span,
+    pub(crate) message: String,
+    pub(crate) help: String,
+}
+
+impl ProgramText {
+    /// Wraps a text.
+    pub fn new(text: &str) -> Self {
+        Self(text.into())
+    }
+
+    /// The text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// Line and column of a byte of the text, both from 1, columns in characters; `None` outside the text.
+    pub fn position(&self, byte: u32) -> Option<(usize, usize)> {
+        let before = self.0.get(..byte as usize)?;
+        let (line, start) = match before.rfind('\n') {
+            Some(end) => (before.matches('\n').count() + 1, end + 1),
+            None => (1, 0),
+        };
+        Some((line, before[start..].trim_start_matches('\u{feff}').chars().count() + 1))
+    }
+
+    /// Writes messages: for each its place, the line with the place marked, and the help. The rest after
+    /// [`MAX_PROBLEMS`] is counted.
+    pub(crate) fn write_messages(
+        &self,
+        f: &mut fmt::Formatter<'_>,
+        messages: impl ExactSizeIterator<Item = PlacedMessage>,
+    ) -> fmt::Result {
+        let rest = messages.len().saturating_sub(MAX_PROBLEMS);
+        for PlacedMessage { span, message, help } in messages.take(MAX_PROBLEMS) {
+            match self.position(span.start).filter(|_| !self.0.is_empty()) {
+                Some((line, column)) => {
+                    write!(f, "\nline {line}, column {column}: {message}")?;
+                    self.write_line(f, span, column)?;
+                }
+                None => write!(f, "\n{message}")?,
+            }
+            write!(f, "\n    help: {help}")?;
+        }
+        if rest > 0 {
+            write!(f, "\nand {rest} more")?;
+        }
+        Ok(())
+    }
+
+    /// Writes the line of a span, and marks below the part of it that the span covers.
+    fn write_line(&self, f: &mut fmt::Formatter<'_>, span: Span, column: usize) -> fmt::Result {
+        let text = &self.0;
+        let start = text[..span.start as usize].rfind('\n').map_or(0, |end| end + 1);
+        let line = text[start..].lines().next().unwrap_or_default().trim_start_matches('\u{feff}');
+        let plain = |c: char| if c.is_control() { ' ' } else { c };
+        let quoted: String = line.chars().take(MAX_QUOTED).map(plain).collect();
+        // A statement may go on in the next lines.
+        let covered = text.get(span.start as usize..span.end as usize).and_then(|part| part.lines().next());
+        let marks = covered.unwrap_or_default().chars().count().max(1);
+        if quoted.trim().is_empty() || column > MAX_QUOTED {
+            return Ok(());
+        }
+        let marks = "^".repeat(marks.min(MAX_QUOTED + 1 - column));
+        write!(f, "\n    {}\n    {:space$}{marks}", quoted.trim_end(), "", space = column - 1)
+    }
+}
+
+impl fmt::Debug for ProgramText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "ProgramText({} bytes)", self.0.len())
+    }
+}
+
+impl PartialEq for ProgramText {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+impl Eq for ProgramText {}
+impl std::hash::Hash for ProgramText {
+    fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_lines_and_characters() {
+        let text = ProgramText::new("\u{feff}ps_1_4\r\nmov r0, µ\n");
+        assert_eq!(text.position(3), Some((1, 1)));
+        assert_eq!(text.position(11), Some((2, 1)));
+        let end = text.as_str().len() as u32;
+        assert_eq!(text.position(end - 1), Some((2, 10)));
+        assert_eq!(text.position(end), Some((3, 1)));
+        assert_eq!(text.position(end + 1), None);
+    }
+}
