@@ -1,4 +1,4 @@
-//! Figure 11: the number of vectors per cluster, on a bumpy and a smooth model.
+//! Figure 11: the number of vectors per cluster, on a Buddha and a bird.
 
 use refsim::device::Profile;
 

@@ -33,7 +33,7 @@ const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
 /// Fresnel reflectances at normal incidence of the sweep, from that of glass to that of metals.
 const NORMAL_INCIDENCES: [f64; 5] = [0.04, 0.1, 0.2, 0.4, 0.8];
 
-const HOW: &str = "{} vertices of the smooth model, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
+const HOW: &str = "{} vertices of our bird, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
     hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are those of pictures, root mean square over that of exit radiance \
     without any projection: the integral of BRDF and light over {} directions per vertex, shadows and all. Pixels count as silhouette below a cosine of {} \
     between view and normal.";

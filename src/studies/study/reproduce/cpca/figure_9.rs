@@ -18,7 +18,7 @@ const SKY: ClearSky = ClearSky {
     ground: [0.2; 3],
 };
 
-const HOW: &str = "The bumpy model of {} vertices: isotropic gloss over a scattering medium, whose light goes into the first function of exit radiance alone. \
+const HOW: &str = "A Buddha of {} vertices: isotropic gloss over a scattering medium, whose light goes into the first function of exit radiance alone. \
     Pictures are of the glossy part, of the sum, and of the sum from {} clusters of {} vectors, exposed alike. The share below the surface is what \
     the sum has beyond the glossy part; the error is that of the picture, root mean square over that of the picture without compression.";
 const QUESTION: &str = "the model, its scale and its medium, and both environments.";

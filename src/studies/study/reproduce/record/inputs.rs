@@ -22,22 +22,22 @@ pub(super) enum FullModel {
 }
 
 use FullModel::{Flat, Teapot, Transfer};
-use TransferModel::{BiScaleArmor, BiScaleBunny, Buddha, Bumpy, Bunny, Head, Polygons, Smooth, Tweety};
+use TransferModel::{BiScaleArmor, BiScaleBunny, Bird, Buddha, Bunny, FoldedBuddha, Head, Polygons, Tweety};
 
 /// Entry whose rows depend on the size of models: its name, its models, and the parameters of runs at full size.
 type SizedEntry = (&'static str, &'static [FullModel], fn() -> String);
 
 const SIZED: &[SizedEntry] = &[
-    ("cpca-figure-2", &[Transfer(Smooth)], cpca::full_size),
-    ("cpca-figures-3-4", &[Transfer(Smooth)], cpca::full_size),
+    ("cpca-figure-2", &[Transfer(Bird)], cpca::full_size),
+    ("cpca-figures-3-4", &[Transfer(Bird)], cpca::full_size),
     ("cpca-figure-6", &[Transfer(Polygons)], cpca::full_size),
-    ("cpca-figure-7", &[Transfer(Smooth)], cpca::full_size),
-    ("cpca-figure-8", &[Transfer(Head), Transfer(Bumpy)], cpca::full_size),
-    ("cpca-figure-9", &[Transfer(Bumpy)], cpca::full_size),
-    ("cpca-figure-10", &[Transfer(Bumpy)], cpca::full_size),
-    ("cpca-figure-11", &[Transfer(Bumpy), Transfer(Smooth)], cpca::full_size),
-    ("cpca-table-1", &[Transfer(Bumpy), Transfer(Smooth), Transfer(Head), Transfer(Polygons)], cpca::full_size),
-    ("cpca-coherence", &[Transfer(Bumpy), Transfer(Smooth)], cpca::full_size),
+    ("cpca-figure-7", &[Transfer(Bird)], cpca::full_size),
+    ("cpca-figure-8", &[Transfer(Head), Transfer(FoldedBuddha)], cpca::full_size),
+    ("cpca-figure-9", &[Transfer(FoldedBuddha)], cpca::full_size),
+    ("cpca-figure-10", &[Transfer(FoldedBuddha)], cpca::full_size),
+    ("cpca-figure-11", &[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
+    ("cpca-table-1", &[Transfer(FoldedBuddha), Transfer(Bird), Transfer(Head), Transfer(Polygons)], cpca::full_size),
+    ("cpca-coherence", &[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
     ("all-frequency-figures", &[Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
     ("all-frequency-table-1", &[Transfer(Bunny), Transfer(Tweety), Transfer(Buddha), Teapot], all_frequency::full_size),
     ("bi-scale-figure-8", &[Transfer(BiScaleBunny)], bi_scale::full_size),
