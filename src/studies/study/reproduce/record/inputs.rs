@@ -34,7 +34,7 @@ const SIZED: &[SizedEntry] = &[
     ("cpca-figure-7", &[Transfer(Bird)], cpca::full_size),
     ("cpca-figure-8", &[Transfer(Head), Transfer(FoldedBuddha)], cpca::full_size),
     ("cpca-figure-9", &[Transfer(FoldedBuddha)], cpca::full_size),
-    ("cpca-figure-10", &[Transfer(FoldedBuddha)], cpca::full_size),
+    ("cpca-figure-10", &[Transfer(Bird)], cpca::full_size),
     ("cpca-figure-11", &[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
     ("cpca-table-1", &[Transfer(FoldedBuddha), Transfer(Bird), Transfer(Head), Transfer(Polygons)], cpca::full_size),
     ("cpca-coherence", &[Transfer(FoldedBuddha), Transfer(Bird)], cpca::full_size),
