@@ -30,7 +30,7 @@ fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("transfer");
     group.sample_size(10).warm_up_time(Duration::from_millis(100));
-    for (name, mesh) in [("smooth", TransferModel::Smooth.mesh(1)), ("bumpy", TransferModel::Bumpy.mesh(1))] {
+    for (name, mesh) in [("bird", TransferModel::Bird.mesh(1)), ("buddha", TransferModel::FoldedBuddha.mesh(1))] {
         let vertices = Vertices::new(&mesh, Tangents::Any).expect("vertices");
         let rays = trace(&mesh, &vertices);
         group.throughput(Throughput::Elements(rays.counts.rays));

@@ -27,7 +27,7 @@ Examples:
       diffuse transfer with shadows, light of order 5, the materials of the file
   crossbar cpca precompute docs/examples/step.obj --kind glossy --rows 24 --brdf phong:0.2,0.6,20 --bounces 2 --out step.prt
       matrices of 24 x 25 with two bounces, one glossy material
-  crossbar cpca precompute transfer-smooth --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out smooth.prt
+  crossbar cpca precompute transfer-bird --kind glossy --brdf ward:0.1,0.3,0.1,0.4 --tangents texture --out bird.prt
       an anisotropic material along the texture; the stand-in for the paper's bird, about a minute
   crossbar cpca precompute docs/examples/step.obj --brdf lambert:0 --material marble --mm-per-unit 10 --channels rgb --out step.prt
       light that scatters below the surface, in three channels

@@ -50,7 +50,7 @@ const NOT_RUN: &[(&str, &str)] = &[
         "all-frequency factor --merl",
         "reads a measurement of 35 MB, which is not part of the repository; tests/laws makes one",
     ),
-    ("cpca precompute transfer-smooth", "takes minutes; the other examples compute the same of a small model"),
+    ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
     ("reproduce cpca-table-1 --full-size", "takes hours; tests/papers runs the entry on reduced models"),
 ];

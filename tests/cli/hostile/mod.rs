@@ -205,7 +205,7 @@ fn what_is_wrong_is_said() {
         ("radiosity white-box --paint red=1,2", "expected three numbers R,G,B, found `1,2`"),
         ("radiosity white-box --tolerance -1", "expected a number not below 0, found `-1`"),
         ("radiosity white-box --frames -1,2", "-1 is not in 1..=100000"),
-        ("cpca precompute transfer-smoth --out x.prt", "did you mean `transfer-smooth`?"),
+        ("cpca precompute transfer-brd --out x.prt", "did you mean `transfer-bird`?"),
         ("cpca precompute white-box --rows 24 --out x.prt", "`--rows` is for glossy transfer"),
         ("cpca precompute white-box --kind glossy --rows 10 --out x.prt", "expected a square from 1 to 100"),
         ("cpca precompute white-box --brdf mirror:1 --out x.prt", "phong:ALBEDO,SPECULAR,EXPONENT"),

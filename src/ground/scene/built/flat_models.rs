@@ -1,22 +1,26 @@
-//! Models of flat parts with the vertex counts of the models with several textures in the paper on bi-scale transfer
-//! (its Table I): a chair and a temple. The original models are not available.
+//! Models of parts with the vertex counts of the models with several textures in the paper on bi-scale transfer (its
+//! Table I): a chair and a temple. The original models are not available. Of the temple, only what can be seen from
+//! outside is there, since the paper's has many non-zero values per vertex: ours, which follow from that, are no
+//! evidence.
 //!
-//! Parts are blocks, walls and roofs, of which every face is a grid of triangles with its own normal. Texture
-//! coordinates are lengths, 1 per unit, along the edges of a face. Units are those of the models: the chair is 1 high,
-//! the temple 2.4 wide.
+//! Parts are flat or curved faces and tubes, of which every one is a grid of triangles with its own normals. Texture
+//! coordinates are lengths, 1 per unit, along the edges of a face. Where a tube closes, vertices are repeated, which
+//! have the same position, normal and tangent and count once. Units are those of the models: the chair is 1 high, the
+//! temple 2.4 wide.
 
 use glam::DVec3;
 
 use super::super::Material;
+use crate::elementary::on_circle;
 use crate::geom::Mesh;
-use crate::geom::vector::{narrow, unit};
+use crate::geom::vector::{least_axis, narrow, unit};
 
-/// Model of flat parts.
+/// Model of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FlatModel {
-    /// A chair with arms: 16,101 vertices; frame, seat, back.
+    /// A chair with round legs, arms and cushions: 16,101 vertices; frame, seat, back.
     Chair,
-    /// A temple on steps, with pillars around a chamber: 32,409 vertices; steps, pillars, walls, eaves, roof.
+    /// A temple on steps, with round pillars around a chamber: 32,409 vertices; steps, pillars, walls, eaves, roof.
     Temple,
 }
 
@@ -54,7 +58,7 @@ impl FlatModel {
         };
         let wanted = (vertices / (coarser * coarser)) as usize;
         let mut parts = FlatParts::finest(wanted, build);
-        parts.divide_largest(wanted.saturating_sub(parts.positions.len()));
+        parts.divide_largest(wanted.saturating_sub(parts.vertices()));
         let FlatParts { positions, normals, texture, triangles, material_of, .. } = parts;
         let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
         let mesh = mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices");
@@ -76,21 +80,30 @@ struct FlatParts {
     texture: Vec<[f32; 2]>,
     triangles: Vec<[u32; 3]>,
     material_of: Vec<u32>,
+    /// Number of vertices that repeat others.
+    repeated: usize,
 }
 
 impl FlatParts {
+    fn vertices(&self) -> usize {
+        self.positions.len() - self.repeated
+    }
+
     /// Builds the parts with the shortest edges that give at most this many vertices; edge lengths are tried in steps
-    /// of a hundredth.
+    /// of a hundredth, from the longest.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
-        let mut edge = 0.005;
-        loop {
+        let of = |edge: f64| {
             let mut parts = Self { edge, ..Self::default() };
             build(&mut parts);
-            // The coarsest model has one quad per face.
-            if parts.positions.len() <= vertices || edge > 10.0 {
-                return parts;
+            parts
+        };
+        let mut best = of(1.0);
+        loop {
+            let next = of(best.edge / 1.01);
+            if next.vertices() > vertices {
+                return best;
             }
-            edge *= 1.01;
+            best = next;
         }
     }
 
@@ -127,21 +140,62 @@ impl FlatParts {
 
     /// Like [`Self::face`], with another upper side, as long or shorter, whose middle stands above the lower one's.
     fn trapezoid(&mut self, corner: DVec3, [lower, upper]: [DVec3; 2], along: DVec3, material: u32) {
-        let parts = |side: DVec3| ((side.length() / self.edge).round() as u32).max(1);
-        let (columns, rows) = (parts(lower), parts(along));
-        let normal = narrow(unit(lower.cross(along)).unwrap_or(DVec3::Z));
-        let first = self.positions.len() as u32;
-        for row in 0..=rows {
-            let up = f64::from(row) / f64::from(rows);
+        let normal = unit(lower.cross(along)).unwrap_or(DVec3::Z);
+        let counts = [self.parts(lower.length(), 1), self.parts(along.length(), 1)];
+        self.grid(counts, material, &|right, up| {
             let side = lower + up * (upper - lower);
-            for column in 0..=columns {
-                let right = f64::from(column) / f64::from(columns);
-                let at = corner + up * (along + 0.5 * (lower - upper)) + right * side;
-                self.positions.push(narrow(at));
-                self.normals.push(normal);
-                let u = 0.5 * lower.length() + (right - 0.5) * side.length();
-                self.texture.push([u as f32, (up * along.length()) as f32]);
-            }
+            let u = 0.5 * lower.length() + (right - 0.5) * side.length();
+            (corner + up * (along + 0.5 * (lower - upper)) + right * side, normal, [u, up * along.length()])
+        });
+    }
+
+    /// Like [`Self::face`], bent out of its plane: `bend` is the distance by the fractions along both sides.
+    fn bent(&mut self, corner: DVec3, [across, along]: [DVec3; 2], material: u32, bend: &dyn Fn(f64, f64) -> f64) {
+        const STEP: f64 = 1e-3;
+        let out = unit(across.cross(along)).unwrap_or(DVec3::Z);
+        let counts = [self.parts(across.length(), 2), self.parts(along.length(), 2)];
+        self.grid(counts, material, &|right, up| {
+            let slope = |[x, y]: [f64; 2]| (bend(right + x, up + y) - bend(right - x, up - y)) / (2.0 * STEP);
+            let normal = (across + slope([STEP, 0.0]) * out).cross(along + slope([0.0, STEP]) * out);
+            let at = corner + right * across + up * along + bend(right, up) * out;
+            (at, unit(normal).unwrap_or(out), [right * across.length(), up * along.length()])
+        });
+    }
+
+    /// Adds the side of a round tube, without its ends, with a radius at each.
+    fn tube(&mut self, from: DVec3, to: DVec3, radii: [f64; 2], material: u32) {
+        let axis = unit(to - from).unwrap_or(DVec3::Z);
+        let x = unit(least_axis(axis).cross(axis)).unwrap_or(DVec3::X);
+        let (y, length, round) = (axis.cross(x), from.distance(to), std::f64::consts::TAU * radii[0].max(radii[1]));
+        let counts = [self.parts(round, 6), self.parts(length, 1)];
+        self.repeated += counts[1] as usize + 1;
+        self.grid(counts, material, &|around, up| {
+            let [cos, sin] = on_circle(around.fract());
+            let (out, radius) = (cos * x + sin * y, radii[0] + up * (radii[1] - radii[0]));
+            let normal = length * out + (radii[0] - radii[1]) * axis;
+            (from + up * length * axis + radius * out, unit(normal).unwrap_or(out), [around * round, up * length])
+        });
+    }
+
+    /// Number of edges along a length, at least so many.
+    fn parts(&self, length: f64, least: u32) -> u32 {
+        ((length / self.edge).round() as u32).max(least)
+    }
+
+    /// Adds a grid of triangles: position, normal and texture coordinates by the fractions along its columns and rows.
+    fn grid(
+        &mut self,
+        [columns, rows]: [u32; 2],
+        material: u32,
+        vertex: &dyn Fn(f64, f64) -> (DVec3, DVec3, [f64; 2]),
+    ) {
+        let first = self.positions.len() as u32;
+        for (row, column) in (0..=rows).flat_map(|row| (0..=columns).map(move |column| (row, column))) {
+            let (at, normal, texture) =
+                vertex(f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
+            self.positions.push(narrow(at));
+            self.normals.push(narrow(normal));
+            self.texture.push(texture.map(|length| length as f32));
         }
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
             let a = first + row * (columns + 1) + column;
@@ -153,47 +207,93 @@ impl FlatParts {
         }
     }
 
-    /// Adds a block between two corners.
-    fn block(&mut self, [x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], material: u32) {
+    /// Adds the four upright faces of a block between two corners.
+    fn sides(&mut self, [x0, y0, z0]: [f64; 3], [x1, y1, z1]: [f64; 3], material: u32) {
         let at = DVec3::new;
         let (x, y, z) = (at(x1 - x0, 0.0, 0.0), at(0.0, y1 - y0, 0.0), at(0.0, 0.0, z1 - z0));
         self.face(at(x0, y1, z0), -y, z, material);
         self.face(at(x1, y0, z0), y, z, material);
         self.face(at(x0, y0, z0), x, z, material);
         self.face(at(x1, y1, z0), -x, z, material);
-        self.face(at(x0, y1, z0), x, -y, material);
-        self.face(at(x0, y0, z1), x, y, material);
+    }
+
+    /// Adds a level frame around the origin between two rectangles, given by half their sides and their heights; it
+    /// looks up if the first is the outer one, else down.
+    fn frame(&mut self, [from, to]: [[f64; 2]; 2], [low, high]: [f64; 2], material: u32) {
+        let at = DVec3::new;
+        for (turn, [near, side]) in [(0, [1, 0]), (1, [0, 1]), (2, [1, 0]), (3, [0, 1])] {
+            let toward = |right: f64, back: f64| match turn {
+                0 => at(right, -back, 0.0),
+                1 => at(back, right, 0.0),
+                2 => at(-right, back, 0.0),
+                _ => at(-back, -right, 0.0),
+            };
+            let up = at(0.0, 0.0, high - low);
+            let (lower, upper) = (toward(2.0 * from[side], 0.0), toward(2.0 * to[side], 0.0));
+            let corner = toward(-from[side], from[near]) + at(0.0, 0.0, low);
+            self.trapezoid(corner, [lower, upper], toward(0.0, to[near] - from[near]) + up, material);
+        }
+    }
+
+    /// Adds a block between two corners.
+    fn block(&mut self, low: [f64; 3], high: [f64; 3], material: u32) {
+        self.sides(low, high, material);
+        let ([x0, y0, z0], at) = (low, DVec3::new);
+        let (x, y) = (at(high[0] - x0, 0.0, 0.0), at(0.0, high[1] - y0, 0.0));
+        self.face(at(x0, high[1], z0), x, -y, material);
+        self.face(at(x0, y0, high[2]), x, y, material);
     }
 }
 
 /// Overlap of adjoining parts, so that no two faces share an edge.
 const SUNK: f64 = 0.001;
 
-/// Adds a chair of 0.5 x 0.5, 1 high, that faces -y.
-fn chair(parts: &mut FlatParts) {
-    let [frame, seat, back] = [0, 1, 2];
-    for x in [-0.25, 0.2] {
-        parts.block([x, -0.25, 0.0], [x + 0.05, -0.2, 0.65], frame);
-        parts.block([x, 0.2, 0.0], [x + 0.05, 0.25, 1.0], frame);
-        parts.block([x + SUNK, -0.2 - SUNK, 0.36], [x + 0.05 - SUNK, 0.2 + SUNK, 0.4], frame);
-        // Arms.
-        parts.block([x - 0.01, -0.27, 0.65 - SUNK], [x + 0.06, 0.2 + SUNK, 0.68], frame);
-    }
-    parts.block([-0.2 - SUNK, -0.24, 0.36], [0.2 + SUNK, -0.21, 0.4], frame);
-    parts.block([-0.2 - SUNK, 0.21, 0.36], [0.2 + SUNK, 0.24, 0.4], frame);
-    parts.block([-0.245, -0.245, 0.4 - SUNK], [0.245, 0.195, 0.47], seat);
-    parts.block([-0.2 - SUNK, 0.21, 0.55], [0.2 + SUNK, 0.245, 0.95], back);
-    // The cushion of the back.
-    parts.block([-0.17, 0.17, 0.58], [0.17, 0.21 + SUNK, 0.92], back);
+/// Bend of a cushion by the fractions along its sides: up to `height` in the middle.
+fn cushion(height: f64) -> impl Fn(f64, f64) -> f64 {
+    move |right, up| 16.0 * height * right * (1.0 - right) * up * (1.0 - up)
 }
 
-/// Adds a temple with six pillars along its front and eight along each side.
+/// Adds a chair of 0.5 x 0.5, 1 high, that faces -y: round legs, arms and rails, a seat and a bent back with cushions.
+fn chair(parts: &mut FlatParts) {
+    let [frame, seat, back] = [0, 1, 2];
+    let at = DVec3::new;
+    for x in [-0.225, 0.225] {
+        parts.tube(at(x, -0.225, 0.0), at(x, -0.225, 0.64), [0.02, 0.028], frame);
+        parts.tube(at(1.1 * x, 0.25, 0.0), at(x, 0.215, 0.4), [0.02, 0.028], frame);
+        parts.tube(at(x, 0.215, 0.4), at(x, 0.26, 1.0), [0.028, 0.02], frame);
+        parts.tube(at(x, -0.2, 0.2), at(x, 0.2, 0.2), [0.015, 0.015], frame);
+        // Arms, of which the upper side is bent.
+        parts.sides([x - 0.04, -0.27, 0.64], [x + 0.04, 0.2, 0.66], frame);
+        parts.face(at(x - 0.04, 0.2, 0.64), at(0.08, 0.0, 0.0), at(0.0, -0.47, 0.0), frame);
+        let sides = [at(0.08, 0.0, 0.0), at(0.0, 0.47, 0.0)];
+        parts.bent(at(x - 0.04, -0.27, 0.66), sides, frame, &|right, _| 0.06 * right * (1.0 - right));
+    }
+    parts.tube(at(-0.22, -0.225, 0.3), at(0.22, -0.225, 0.3), [0.015, 0.015], frame);
+    parts.tube(at(-0.225, 0.26, 0.98), at(0.225, 0.26, 0.98), [0.022, 0.022], frame);
+    parts.block([-0.25, -0.25, 0.38], [0.25, 0.2, 0.42], frame);
+    parts.sides([-0.23, -0.24, 0.42 + SUNK], [0.23, 0.19, 0.45], seat);
+    parts.bent(at(-0.23, -0.24, 0.45), [at(0.46, 0.0, 0.0), at(0.0, 0.43, 0.0)], seat, &cushion(0.05));
+    // The back: a bent sheet, its rear, and a cushion before it.
+    let (right, up) = (at(0.4, 0.0, 0.0), at(0.0, 0.035, 0.44));
+    let hollow = |right: f64, _: f64| -0.16 * right * (1.0 - right);
+    parts.bent(at(-0.2, 0.22, 0.52), [right, up], back, &hollow);
+    parts.bent(at(0.2, 0.235, 0.52), [-right, up], back, &|right, up| -hollow(right, up));
+    let pad = cushion(0.07);
+    parts.bent(at(-0.17, 0.2, 0.55), [0.85 * right, 0.85 * up], back, &|x, y| pad(x, y) + hollow(x, y));
+}
+
+/// Adds a temple with six pillars along its front and eight along each side, as it is seen from outside.
 fn temple(parts: &mut FlatParts) {
     let [steps, pillars, walls, eaves, roof] = [0, 1, 2, 3, 4];
+    let at = DVec3::new;
+    let chamber = [0.6, 0.95];
+    parts.face(at(-1.28, 1.68, 0.0), at(2.56, 0.0, 0.0), at(0.0, -3.36, 0.0), steps);
     for step in 0..3 {
-        let inset = 0.06 * f64::from(step);
-        let (width, depth, height) = (1.2 - inset, 1.6 - inset, 0.06 * f64::from(step));
-        parts.block([-width, -depth, height - SUNK], [width, depth, height + 0.06], steps);
+        let (inset, height) = (0.08 * f64::from(step), 0.06 * f64::from(step));
+        let [width, depth] = [1.28 - inset, 1.68 - inset];
+        parts.sides([-width, -depth, height], [width, depth, height + 0.06], steps);
+        let inner = if step < 2 { [width - 0.08 + SUNK, depth - 0.08 + SUNK] } else { chamber };
+        parts.frame([[width, depth], inner], [height + 0.06 - SUNK * SUNK; 2], steps);
     }
     let (base, top) = (0.18, 0.98);
     for (across, along) in (0..6).flat_map(|across| (0..8).map(move |along| (across, along))) {
@@ -201,31 +301,26 @@ fn temple(parts: &mut FlatParts) {
             continue;
         }
         let (x, y) = (-0.95 + 0.38 * f64::from(across), -1.35 + 2.7 / 7.0 * f64::from(along));
-        let mut drum = |half: f64, low: f64, high: f64| {
-            parts.block([x - half, y - half, low - SUNK], [x + half, y + half, high + SUNK], pillars);
-        };
-        drum(0.09, base, base + 0.05);
-        drum(0.06, base + 0.05, top - 0.05);
-        drum(0.09, top - 0.05, top);
+        let mut drum = |[low, high]: [f64; 2], radii| parts.tube(at(x, y, low), at(x, y, high), radii, pillars);
+        drum([base, base + 0.06], [0.09, 0.07]);
+        drum([base + 0.06 + SUNK, top - 0.06 - SUNK], [0.065, 0.052]);
+        drum([top - 0.06, top], [0.055, 0.09]);
     }
-    // The chamber, open in front.
-    let mut wall = |low: [f64; 2], high: [f64; 2]| {
-        parts.block([low[0], low[1], base - SUNK], [high[0], high[1], top + SUNK], walls);
-    };
-    wall([-0.55, -0.9], [-0.5, 0.9]);
-    wall([0.5, -0.9], [0.55, 0.9]);
-    wall([-0.5 - SUNK, 0.85], [0.5 + SUNK, 0.9 - SUNK]);
-    wall([-0.5 - SUNK, -0.9 + SUNK], [-0.2, -0.85]);
-    wall([0.2, -0.9 + SUNK], [0.5 + SUNK, -0.85]);
-    parts.block([-1.08, -1.48, top], [1.08, 1.48, top + 0.12], eaves);
-    // The roof: two slopes and two gables over the eaves.
-    let (foot, ridge, width, depth) = (top + 0.12 - SUNK, top + 0.55, 1.16, 1.56);
-    let at = DVec3::new;
+    let [width, depth] = chamber;
+    parts.sides([-width, -depth, base + SUNK], [width, depth, top - SUNK], walls);
+    let [width, depth] = [1.12, 1.52];
+    parts.frame([[width - 0.9, depth - 0.9], [width, depth]], [top; 2], eaves);
+    parts.sides([-width, -depth, top], [width, depth, top + 0.12], eaves);
+    // The roof: two bent slopes and two gables over the eaves.
+    let (foot, ridge, width, depth) = (top + 0.12 + SUNK, top + 0.6, 1.26, 1.66);
     let (up, along) = (ridge - foot, at(0.0, 2.0 * depth, 0.0));
-    parts.face(at(width, -depth, foot), along, at(-width, 0.0, up), roof);
-    parts.face(at(-width, depth, foot), -along, at(width, 0.0, up), roof);
-    let across = at(2.0 * width, 0.0, 0.0);
-    parts.trapezoid(at(-width, -depth, foot), [across, 0.001 * across], at(0.0, 0.0, up), eaves);
-    parts.trapezoid(at(width, depth, foot), [-across, -0.001 * across], at(0.0, 0.0, up), eaves);
-    parts.face(at(-width, depth, foot), across, -along, eaves);
+    let sag = |_: f64, up: f64| -0.3 * up * (1.0 - up);
+    parts.bent(at(width, -depth, foot), [along, at(-width, 0.0, up)], roof, &sag);
+    parts.bent(at(-width, depth, foot), [-along, at(width, 0.0, up)], roof, &sag);
+    let under = |right: f64, up: f64| -sag(right, up);
+    parts.bent(at(width, depth, foot - 0.03), [-along, at(-width, 0.0, up)], eaves, &under);
+    parts.bent(at(-width, -depth, foot - 0.03), [along, at(width, 0.0, up)], eaves, &under);
+    let (across, inner) = (at(2.0 * width, 0.0, 0.0), depth - 0.1);
+    parts.trapezoid(at(-width, -inner, foot), [across, 0.001 * across], at(0.0, 0.0, up - 0.02), eaves);
+    parts.trapezoid(at(width, inner, foot), [-across, -0.001 * across], at(0.0, 0.0, up - 0.02), eaves);
 }

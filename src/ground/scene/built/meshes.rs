@@ -19,28 +19,28 @@ const TEMPLE: &str = "bi-scale-temple";
 const MESHES: &[BuiltMesh] = &[
     BuiltMesh {
         name: "all-frequency-buddha",
-        what: "54,100 vertices, closed, with many bumps",
+        what: "54,100 vertices, closed, a standing Buddha",
         build: || TransferModel::Buddha.mesh(1),
     },
     BuiltMesh {
         name: "all-frequency-bunny",
-        what: "11,556 vertices, closed, smooth with a neck",
+        what: "11,556 vertices, closed, the Stanford bunny refined",
         build: || TransferModel::Bunny.mesh(1),
     },
     BuiltMesh { name: "all-frequency-teapot", what: "51,361 vertices, 32 patches of 40 x 40 quads", build: teapot },
     BuiltMesh {
         name: "all-frequency-tweety",
-        what: "32,768 vertices, closed, smooth with a neck",
+        what: "32,768 vertices, closed, a bird",
         build: || TransferModel::Tweety.mesh(1),
     },
     BuiltMesh {
         name: "bi-scale-armor",
-        what: "10,652 vertices, closed, with many bumps",
+        what: "10,652 vertices, closed, a suit of armor",
         build: || TransferModel::BiScaleArmor.mesh(1),
     },
     BuiltMesh {
         name: "bi-scale-bunny",
-        what: "3,286 vertices, closed, smooth with a neck",
+        what: "3,286 vertices, closed, the Stanford bunny refined",
         build: || TransferModel::BiScaleBunny.mesh(1),
     },
     BuiltMesh {
@@ -55,36 +55,32 @@ const MESHES: &[BuiltMesh] = &[
     },
     BuiltMesh {
         name: CHAIR,
-        what: "16,101 vertices, flat parts of three materials",
+        what: "16,101 vertices, curved parts of three materials",
         build: || FlatModel::Chair.model(1).mesh,
     },
     BuiltMesh {
         name: TEMPLE,
-        what: "32,409 vertices, flat parts of five materials",
+        what: "32,409 vertices, parts of five materials",
         build: || FlatModel::Temple.model(1).mesh,
     },
-    BuiltMesh { name: "stand-in-bunny", what: "69,451 faces, open at the bottom", build: stand_ins::bunny },
     BuiltMesh {
-        name: "stand-in-dolphin",
-        what: "21,952 faces, closed, long and thin in places",
-        build: stand_ins::dolphin,
+        name: "stand-in-bunny",
+        what: "69,451 faces, the Stanford bunny refined, one face open at the bottom",
+        build: stand_ins::bunny,
     },
-    BuiltMesh { name: "stand-in-head", what: "7,232 faces, closed", build: stand_ins::head },
+    BuiltMesh { name: "stand-in-dolphin", what: "21,952 faces, closed, a dolphin", build: stand_ins::dolphin },
+    BuiltMesh { name: "stand-in-head", what: "7,232 faces, closed, a head", build: stand_ins::head },
+    BuiltMesh { name: "transfer-bird", what: "48,688 vertices, closed, a bird", build: || TransferModel::Bird.mesh(1) },
     BuiltMesh {
-        name: "transfer-bumpy",
-        what: "49,990 vertices, closed, with many bumps",
-        build: || TransferModel::Bumpy.mesh(1),
+        name: "transfer-buddha",
+        what: "49,990 vertices, closed, a standing Buddha",
+        build: || TransferModel::FoldedBuddha.mesh(1),
     },
     BuiltMesh { name: "transfer-head", what: "50,060 vertices, closed, a head", build: || TransferModel::Head.mesh(1) },
     BuiltMesh {
         name: "transfer-polygons",
         what: "58,624 vertices, a ground and a blocker",
         build: || TransferModel::Polygons.mesh(1),
-    },
-    BuiltMesh {
-        name: "transfer-smooth",
-        what: "48,688 vertices, closed, smooth with a neck",
-        build: || TransferModel::Smooth.mesh(1),
     },
 ];
 

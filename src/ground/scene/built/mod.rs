@@ -7,22 +7,27 @@
 //! - `parts`, `solids`: quads, blocks, surfaces of revolution, put together with their materials;
 //! - one file a scene;
 //! - [`stand_ins`]: meshes with the face counts of models that a paper shows;
-//! - [`transfer_models`]: meshes with the vertex counts of those of another, with normals and texture coordinates;
+//! - [`transfer_models`]: meshes with the vertex counts of those of others, with normals and texture coordinates;
+//! - `bunny`, `bodies`: the surfaces of these; `isosurface` makes bodies of rounded pieces, `resample` gives a closed
+//!   surface any number of vertices;
 //! - [`flat_models`]: models of flat parts with several materials;
 //! - [`meshes`]: all of these by name;
 //! - [`ground`]: a square below a model that receives its shadow.
 
+mod bodies;
+mod bunny;
 mod cornell_box;
 mod desktop;
 pub mod flat_models;
 mod furniture;
-mod geodesic;
 pub mod ground;
+mod isosurface;
 pub mod meshes;
 mod office;
 mod office_floor;
 mod palette;
 mod parts;
+mod resample;
 mod rng;
 pub mod rooms;
 mod solids;

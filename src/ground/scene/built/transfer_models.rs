@@ -1,130 +1,69 @@
-//! Models with the vertex counts of those in the papers on compressed transfer (Table 1 of each), which are not
-//! available: smooth ones, bumpy ones, a head, and two polygons of which one shadows the other.
+//! Models with the vertex counts of those in the papers on compressed transfer (Table 1 of each): the Stanford bunny,
+//! and stand-ins for those that are not available, a Buddha, a bird, a head, an armor, and two polygons of which one
+//! shadows the other.
 //!
-//! All have normals and texture coordinates. The first three are closed; where the texture's two ends meet, the mesh
-//! repeats vertices, which have the same position, normal and tangent and count once.
+//! All have normals and texture coordinates. All but the polygons are closed; where the texture's two ends meet, the
+//! mesh repeats vertices, which have the same position, normal and tangent and count once.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-use super::geodesic::{Lobe, Sphere, bumped};
-use crate::elementary::{acos, atan2, sin_cos};
+use super::bodies;
+use super::bunny::bunny;
+use super::resample::ClosedSurface;
+use crate::elementary::{acos, atan2};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
 
 /// Model with the vertex count of a paper's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransferModel {
-    /// A smooth closed body with a neck that shadows its breast, about 2.5 units high. Stands in for the paper's bird.
-    Smooth,
-    /// A closed body covered with bumps that shadow each other, about 2.5 units high. Stands in for the paper's Buddha.
-    Bumpy,
-    /// A closed head with nose, eye sockets, ears and neck, about 2.5 units high.
+    /// A bird with the 48,688 vertices of that in the paper on clustered principal components.
+    Bird,
+    /// A Buddha in many folds, with the 49,990 vertices of that paper's.
+    FoldedBuddha,
+    /// A head with the 50,060 vertices of that paper's.
     Head,
     /// A ground 4 units wide, and above it a blocker 1 unit wide, both facing up (Figure 6).
     Polygons,
-    /// The smooth body with the 11,556 vertices of the bunny in the paper on all-frequency transfer.
+    /// The Stanford bunny with the 11,556 vertices of that in the paper on all-frequency transfer.
     Bunny,
-    /// The smooth body with the 32,768 vertices of its bird.
+    /// The bird with the 32,768 vertices of that paper's.
     Tweety,
-    /// The bumpy body with the 54,100 vertices of its Buddha.
+    /// The Buddha with the 54,100 vertices of that paper's.
     Buddha,
-    /// The smooth body with the 3,286 vertices of the bunny in the paper on bi-scale transfer (its Tables I and II).
+    /// The Stanford bunny with the 3,286 vertices of that in the paper on bi-scale transfer (its Tables I and II).
     BiScaleBunny,
-    /// The smooth body with 12,380 vertices (Table II).
+    /// The Stanford bunny with 12,380 vertices (Table II).
     BiScaleBunnyMiddle,
-    /// The smooth body with 47,960 vertices (Table II).
+    /// The Stanford bunny with 47,960 vertices (Table II).
     BiScaleBunnyFine,
-    /// The bumpy body with the 10,652 vertices of its armor (Table I).
+    /// An armor with the 10,652 vertices of that paper's (Table I).
     BiScaleArmor,
 }
-
-/// Parts of an icosahedron's edge, which give 10 parts^2 + 2 vertices, and the number of the largest faces that are
-/// divided, which adds a vertex each.
-const SMOOTH: [u32; 2] = [69, 1_076];
-const BUMPY: [u32; 2] = [70, 988];
-const HEAD: [u32; 2] = [70, 1_058];
-const BUNNY: [u32; 2] = [33, 664];
-const TWEETY: [u32; 2] = [57, 276];
-const BUDDHA: [u32; 2] = [73, 808];
-const BI_SCALE_BUNNY: [u32; 2] = [18, 44];
-const BI_SCALE_BUNNY_MIDDLE: [u32; 2] = [35, 128];
-const BI_SCALE_BUNNY_FINE: [u32; 2] = [69, 348];
-const BI_SCALE_ARMOR: [u32; 2] = [32, 410];
 
 impl TransferModel {
     /// Builds the mesh with edges about `coarser` times as long: with 1, as many vertices as the paper's. Values above
     /// 16 count as 16.
     pub fn mesh(self, coarser: u32) -> Mesh {
         let coarser = coarser.clamp(1, 16);
-        match self {
-            Self::Smooth => smooth(SMOOTH, coarser),
-            Self::Bumpy => bumpy(BUMPY, coarser),
-            Self::Head => head(coarser),
-            Self::Polygons => polygons(coarser),
-            Self::Bunny => smooth(BUNNY, coarser),
-            Self::Tweety => smooth(TWEETY, coarser),
-            Self::Buddha => bumpy(BUDDHA, coarser),
-            Self::BiScaleBunny => smooth(BI_SCALE_BUNNY, coarser),
-            Self::BiScaleBunnyMiddle => smooth(BI_SCALE_BUNNY_MIDDLE, coarser),
-            Self::BiScaleBunnyFine => smooth(BI_SCALE_BUNNY_FINE, coarser),
-            Self::BiScaleArmor => bumpy(BI_SCALE_ARMOR, coarser),
-        }
+        let (build, vertices): (fn(usize) -> ClosedSurface, usize) = match self {
+            Self::Polygons => return polygons(coarser),
+            Self::Bird => (bodies::bird, 48_688),
+            Self::FoldedBuddha => (bodies::buddha, 49_990),
+            Self::Head => (bodies::head, 50_060),
+            Self::Bunny => (bunny, 11_556),
+            Self::Tweety => (bodies::bird, 32_768),
+            Self::Buddha => (bodies::buddha, 54_100),
+            Self::BiScaleBunny => (bunny, 3_286),
+            Self::BiScaleBunnyMiddle => (bunny, 12_380),
+            Self::BiScaleBunnyFine => (bunny, 47_960),
+            Self::BiScaleArmor => (bodies::armor, 10_652),
+        };
+        textured(&build(vertices / (coarser * coarser) as usize))
     }
-}
-
-/// Builds a body with a neck.
-fn smooth(size: [u32; 2], coarser: u32) -> Mesh {
-    let lobes = [
-        Lobe { toward: [0.55, 0.0, 0.85], height: 0.9, narrow: 14.0 },
-        Lobe { toward: [1.0, 0.0, 0.75], height: 0.35, narrow: 60.0 },
-        Lobe { toward: [-1.0, 0.0, 0.1], height: 0.6, narrow: 9.0 },
-        Lobe { toward: [0.1, 0.9, 0.2], height: 0.2, narrow: 6.0 },
-        Lobe { toward: [0.1, -0.9, 0.2], height: 0.2, narrow: 6.0 },
-        Lobe { toward: [0.95, 0.0, 0.3], height: -0.15, narrow: 20.0 },
-    ];
-    let shape = |toward: DVec3| {
-        let at = toward * bumped(toward, &lobes) * DVec3::new(1.0, 0.7, 0.85);
-        // Bent, so that the head overhangs the breast.
-        at + DVec3::X * (0.12 * at.z * at.z)
-    };
-    closed(size, coarser, &shape)
-}
-
-/// Builds a body with bumps.
-fn bumpy(size: [u32; 2], coarser: u32) -> Mesh {
-    let lobes = [
-        Lobe { toward: [0.0, 0.0, 1.0], height: 0.45, narrow: 9.0 },
-        Lobe { toward: [0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
-        Lobe { toward: [-0.6, 0.7, 0.2], height: 0.25, narrow: 12.0 },
-        Lobe { toward: [0.0, -1.0, -0.2], height: 0.3, narrow: 5.0 },
-        Lobe { toward: [0.0, 0.3, -1.0], height: 0.35, narrow: 4.0 },
-    ];
-    let shape = |toward: DVec3| {
-        let wave = |at: f64, turns: f64| sin_cos(TAU * turns * at).0;
-        let bumps = wave(toward.x, 3.5) * wave(toward.y, 3.5) + wave(toward.y, 5.0) * wave(toward.z, 5.0);
-        toward * (bumped(toward, &lobes) + 0.06 * bumps) * DVec3::new(0.9, 0.75, 1.1)
-    };
-    closed(size, coarser, &shape)
-}
-
-/// Builds a head of 50,060 vertices.
-fn head(coarser: u32) -> Mesh {
-    let lobes = [
-        Lobe { toward: [0.0, -1.0, -0.1], height: 0.25, narrow: 45.0 },
-        Lobe { toward: [0.35, -1.0, 0.2], height: -0.1, narrow: 40.0 },
-        Lobe { toward: [-0.35, -1.0, 0.2], height: -0.1, narrow: 40.0 },
-        Lobe { toward: [0.0, -1.0, 0.45], height: 0.06, narrow: 30.0 },
-        Lobe { toward: [0.0, -1.0, -0.5], height: -0.06, narrow: 60.0 },
-        Lobe { toward: [0.0, -0.9, -0.75], height: 0.12, narrow: 25.0 },
-        Lobe { toward: [1.0, 0.1, 0.0], height: 0.22, narrow: 60.0 },
-        Lobe { toward: [-1.0, 0.1, 0.0], height: 0.22, narrow: 60.0 },
-        Lobe { toward: [0.0, 0.35, -1.0], height: 0.4, narrow: 7.0 },
-    ];
-    let shape = |toward: DVec3| toward * bumped(toward, &lobes) * DVec3::new(0.78, 0.95, 1.05);
-    closed(HEAD, coarser, &shape)
 }
 
 /// Builds a ground of 240 x 240 vertices and a blocker of 32 x 32: 58,624 vertices.
@@ -149,31 +88,33 @@ fn polygons(coarser: u32) -> Mesh {
     finished(positions, triangles, normals, texture)
 }
 
-/// Builds a deformed geodesic sphere, its faces divided where they are largest after deformation.
-fn closed([parts, divided]: [u32; 2], coarser: u32, shape: &dyn Fn(DVec3) -> DVec3) -> Mesh {
-    let mut sphere = Sphere::new(parts / coarser);
-    sphere.divide_largest((divided / (coarser * coarser)) as usize, shape);
-    let places: Vec<[f32; 3]> = sphere.directions.iter().map(|&toward| narrow(shape(toward))).collect();
-    let plain = Mesh::new(places.clone(), sphere.faces.clone()).expect("shapes are finite");
-    let normals: Vec<[f32; 3]> = plain.vertex_normals().into_iter().map(narrow).collect();
-    let around: Vec<[f64; 2]> = sphere.directions.iter().map(|&toward| longitude_and_latitude(toward)).collect();
-    // Vertices by sphere vertex and texture coordinate.
+/// Mesh of a surface around the origin with texture coordinates by direction: longitude, and latitude, whose sign
+/// changes where the surface looks inwards, so that no texture is mirrored.
+fn textured(surface: &ClosedSurface) -> Mesh {
+    let toward = |at: DVec3| longitude_and_latitude(unit(at).unwrap_or(DVec3::Z));
+    let around: Vec<[f64; 2]> = surface.positions.iter().map(|&at| toward(at)).collect();
+    // Vertices by vertex of the surface and texture coordinate.
     let mut known = BTreeMap::new();
     let (mut of, mut texture) = (Vec::new(), Vec::new());
-    let triangles = sphere.faces.iter().map(|face| {
+    let triangles = surface.triangles.iter().map(|face| {
         let along = unrolled(face.map(|corner| around[corner as usize][0]));
+        let up = face.map(|corner| around[corner as usize][1]);
+        let [a, b, c] =
+            [0, 1, 2].map(|corner| [along[corner], up[corner]].map(|coordinate| f64::from(coordinate as f32)));
+        let is_mirrored = (b[0] - a[0]) * (c[1] - a[1]) < (c[0] - a[0]) * (b[1] - a[1]);
         [0, 1, 2].map(|corner| {
-            let (vertex, u) = (face[corner] as usize, along[corner] as f32);
-            *known.entry((vertex, u.to_bits())).or_insert_with(|| {
+            let vertex = face[corner] as usize;
+            let coordinates = [along[corner], if is_mirrored { -up[corner] } else { up[corner] }].map(|at| at as f32);
+            *known.entry((vertex, coordinates.map(f32::to_bits))).or_insert_with(|| {
                 of.push(vertex);
-                texture.push([u, around[vertex][1] as f32]);
+                texture.push(coordinates);
                 of.len() as u32 - 1
             })
         })
     });
     let triangles = triangles.collect();
-    let of = |values: &[[f32; 3]]| of.iter().map(|&vertex| values[vertex]).collect();
-    finished(of(&places), triangles, of(&normals), texture)
+    let of = |values: &[DVec3]| of.iter().map(|&vertex| narrow(values[vertex])).collect();
+    finished(of(&surface.positions), triangles, of(&surface.normals()), texture)
 }
 
 /// Longitudes of a face's corners, unwrapped to less than half a turn apart; the face around a pole, where that is

@@ -1,5 +1,8 @@
-//! The models built by code: counts of Table 1 of both papers, closed, with tangents everywhere.
+//! The models of the papers on transfer: counts of their tables, closed, with tangents everywhere.
 
+use std::path::Path;
+
+use crossbar::io::load_mesh;
 use crossbar::scene::built::meshes as models;
 use crossbar::transfer::{Tangents, Vertices};
 
@@ -13,12 +16,12 @@ fn they_have_as_many_vertices_as_table_1_prints() {
         ("bi-scale-bunny", 3_286, true),
         ("bi-scale-bunny-fine", 47_960, true),
         ("bi-scale-bunny-middle", 12_380, true),
-        ("bi-scale-chair", 16_101, true),
+        ("bi-scale-chair", 16_101, false),
         ("bi-scale-temple", 32_409, false),
-        ("transfer-bumpy", 49_990, true),
+        ("transfer-bird", 48_688, true),
+        ("transfer-buddha", 49_990, true),
         ("transfer-head", 50_060, true),
         ("transfer-polygons", 58_624, false),
-        ("transfer-smooth", 48_688, true),
     ];
     let names = models::names()
         .filter(|name| ["transfer-", "all-frequency-", "bi-scale-"].iter().any(|paper| name.starts_with(paper)))
@@ -38,10 +41,26 @@ fn they_have_as_many_vertices_as_table_1_prints() {
     }
     let teapot = models::build("all-frequency-teapot").expect("a model");
     assert_eq!(Vertices::new(&teapot, Tangents::Any).expect("vertices").len(), 51_361);
-    assert!(models::build("transfer-bird").is_none());
+    assert!(models::build("transfer-dodo").is_none());
 }
 
-/// The models of several materials use all of them, and no two of their parts share a vertex.
+/// The bunny as it was scanned, moved and scaled, is in the refined ones: all its vertices, but for the rounding.
+#[test]
+fn refined_bunnies_have_all_vertices_of_the_scanned_one() {
+    let scanned = load_mesh(Path::new("src/ground/scene/built/bunny.ply")).expect("a model");
+    assert_eq!((scanned.positions().len(), scanned.len()), (1_839, 3_674));
+    let found = models::build("bi-scale-bunny").expect("a model");
+    let [of_scan, of_found] = [&scanned, &found].map(|mesh| mesh.bounds().expect("a box"));
+    let scale = (of_found[1][0] - of_found[0][0]) / (of_scan[1][0] - of_scan[0][0]);
+    let known: Vec<[f32; 3]> = found.positions().to_vec();
+    let near = |a: &[f32; 3], b: &[f32; 3]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < 0.02);
+    for place in scanned.positions() {
+        let place = [0, 1, 2].map(|axis| scale * (place[axis] - of_scan[0][axis]) + of_found[0][axis]);
+        assert!(known.iter().any(|other| near(other, &place)), "{place:?}");
+    }
+}
+
+/// The models of several materials use all of them.
 #[test]
 fn flat_models_have_their_materials() {
     for (name, expected) in [
@@ -55,7 +74,8 @@ fn flat_models_have_their_materials() {
         }
         assert_eq!(model.material_of.len(), model.mesh.len());
         let vertices = Vertices::with_materials(&model.mesh, &model.material_of, Tangents::Texture).expect("vertices");
-        assert_eq!(vertices.len(), models::build(name).expect("a mesh").positions().len(), "{name}");
+        // Of the vertices that the file repeats, those where tubes close count once.
+        assert!(vertices.len() <= models::build(name).expect("a mesh").positions().len(), "{name}");
     }
     let plain = models::build_with_materials("bi-scale-bunny").expect("a model");
     assert_eq!((plain.materials.len(), plain.material_of.len()), (1, plain.mesh.len()));

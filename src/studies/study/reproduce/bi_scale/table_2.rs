@@ -1,4 +1,4 @@
-//! Table II on stand-ins: biclusters of models with the printed vertex counts.
+//! Table II on the Stanford bunny, refined to the printed vertex counts.
 
 use super::models::{BUNNY, ClusteredModel, LOG2_SAMPLES, ModelVisibility};
 use super::scenes::{BUNNIES, PrintedScene};
@@ -7,16 +7,16 @@ use crate::report::{Cell, Table};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::visibility::Horizon;
 
-const HOW: &str = "The paper's bunnies are not at hand: ours are smooth closed bodies with as many vertices, and {} x {} local directions of {} x {} visibility \
+const HOW: &str = "The Stanford bunny, closed and refined to the printed numbers, with {} x {} local directions of {} x {} visibility \
     samples per light texel. A vertex sees what triangles leave free; without what lies below the plane of its normal there are fewer values by {} %. \
-    Which share of operations is left depends on how smooth a model is, which is why it is judged and not explained. With printed sizes of models \
+    Which share of operations is left depends on how smooth a model is: the scan that was refined has no finer detail. With printed sizes of models \
     the two larger ones are computed too.";
-const QUESTION: &str = "the models; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
+const QUESTION: &str = "how the paper's bunnies were made of the scan; whether a vertex sees below the plane of its normal; how the paper draws start points and breaks ties.";
 const MODELS: [TransferModel; 3] = [BUNNY, TransferModel::BiScaleBunnyMiddle, TransferModel::BiScaleBunnyFine];
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of(
-        "Biclusters of the stand-ins",
+        "Biclusters of the bunnies",
         "scene vertices nonzeros_M_printed nonzeros_M biclusters rows_of_biclusters columns_of_biclusters \
          operations_left_%_printed operations_left_% MB_printed MB by_rows_3_bytes_MB",
     );

@@ -11,7 +11,7 @@ const VECTORS: [usize; 6] = [0, 1, 2, 4, 8, 16];
 /// Minimum number of points per cluster: 48,668 points have up to 16 k clusters.
 const LEAST_POINTS: usize = 2;
 
-const HOW: &str = "{} points of diffuse transfer of order {} on our smooth model, with shadows; {} to {} clusters. Static principal components, whose \
+const HOW: &str = "{} points of diffuse transfer of order {} on our bird, with shadows; {} to {} clusters. Static principal components, whose \
     clusters do not depend on the number of vectors. The figure's axes are lost; its text says that each number of vectors is worse than the one before with few clusters and \
     becomes better with many. Curves are compared at equal storage, the one before interpolated between its points.";
 const CAPTION: &str = "Squared error of all points by numbers stored.";

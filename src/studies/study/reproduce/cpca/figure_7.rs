@@ -12,7 +12,7 @@ use super::{
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::sphere::{DirectionRule, HarmonicLight};
 use crate::study::prt::ExitRadiance;
 use crate::tracer::HostTracer;
@@ -33,7 +33,7 @@ const PROJECTIONS: [(&str, &str, usize, bool); 4] = [
 /// Fresnel reflectances at normal incidence of the sweep, from that of glass to that of metals.
 const NORMAL_INCIDENCES: [f64; 5] = [0.04, 0.1, 0.2, 0.4, 0.8];
 
-const HOW: &str = "{} vertices of the smooth model, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
+const HOW: &str = "{} vertices of our bird, anisotropic with a Fresnel factor, under a red and a blue light. The figure shows {} rows by zero \
     hemisphere (a), {} rows by least squares (b) and {} by zero hemisphere (c). Errors are those of pictures, root mean square over that of exit radiance \
     without any projection: the integral of BRDF and light over {} directions per vertex, shadows and all. Pixels count as silhouette below a cosine of {} \
     between view and normal.";
@@ -60,8 +60,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)])), Prose::new(FRESNEL, ends)],
         rows,
         questions: vec![QUESTION],
+        pictures: vec![stated.grid()],
         tables: vec![stated.table, swept],
-        pictures: stated.pictures,
         ..EntryFindings::default()
     })
 }
@@ -118,6 +118,17 @@ impl ProjectedPictures {
             found.points = computed.signal.points();
         }
         Ok(found)
+    }
+
+    /// Pictures as in the figure, then what they are held against.
+    fn grid(&self) -> PictureGrid {
+        let found = |name: &str| self.pictures.iter().find(|picture| picture.name.ends_with(name)).cloned();
+        let columns = ["(a) zero hemisphere, 16 rows", "(b) least squares, 16 rows", "(c) zero hemisphere, 25 rows"];
+        let printed = ["zero-hemisphere-16", "least-squares-16", "zero-hemisphere-25"].map(found);
+        let others = ["exact", "least-squares-25", "light"].map(found);
+        PictureGrid::new("Figure 7", columns)
+            .sparse_row("", printed)
+            .sparse_row("no projection; least squares, 25 rows; the light", others)
     }
 
     /// Values of the rows.

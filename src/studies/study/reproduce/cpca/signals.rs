@@ -22,7 +22,7 @@ const ITERATIONS: usize = 10;
 const REDUCED_ITERATIONS: usize = 4;
 /// "20 VQ iterations were used" (Figure 2).
 const VQ_ITERATIONS: usize = 20;
-/// Maximum number of reflections on the bumpy model: "multiple bounce interreflections".
+/// Maximum number of reflections on the Buddha: "multiple bounce interreflections".
 const BOUNCES: u32 = 2;
 /// Isotropic BRDF: the "glossy phong models" of Figure 8.
 const ISOTROPIC: Brdf = Brdf::Phong { albedo: 0.2, specular: 0.5, exponent: 10.0 };
@@ -71,23 +71,23 @@ const fn signal(
 }
 
 use SignalMaterial::{Anisotropic, Diffuse, Isotropic, Translucent};
-use TransferModel::{Bumpy, Head, Polygons, Smooth};
+use TransferModel::{Bird, FoldedBuddha, Head, Polygons};
 
 /// The rows of Table 1, then the signal of Figures 2 to 4.
 pub(super) const SIGNALS: [PaperSignal; 8] = [
-    signal("Buddha gloss-iso", (Bumpy, Isotropic), (49_990, [16, 25]), (256, 6)),
-    signal("Buddha gloss-anis", (Bumpy, Anisotropic), (49_990, [24, 25]), (256, 8)),
-    signal("Buddha subsurf+gloss-iso", (Bumpy, Translucent), (49_990, [25, 25]), (256, 8)),
-    signal("bird gloss-anis", (Smooth, Anisotropic), (48_688, [24, 25]), (256, 8)),
-    signal("bird diffuse", (Smooth, Diffuse), (48_688, [1, 100]), (256, 8)),
+    signal("Buddha gloss-iso", (FoldedBuddha, Isotropic), (49_990, [16, 25]), (256, 6)),
+    signal("Buddha gloss-anis", (FoldedBuddha, Anisotropic), (49_990, [24, 25]), (256, 8)),
+    signal("Buddha subsurf+gloss-iso", (FoldedBuddha, Translucent), (49_990, [25, 25]), (256, 8)),
+    signal("bird gloss-anis", (Bird, Anisotropic), (48_688, [24, 25]), (256, 8)),
+    signal("bird diffuse", (Bird, Diffuse), (48_688, [1, 100]), (256, 8)),
     signal("head gloss-iso", (Head, Isotropic), (50_060, [16, 25]), (256, 6)),
     signal("polys diffuse", (Polygons, Diffuse), (58_624, [1, 100]), (32, 4)),
-    signal("bird diffuse, order 5", (Smooth, Diffuse), (48_688, [1, 25]), (256, 3)),
+    signal("bird diffuse, order 5", (Bird, Diffuse), (48_688, [1, 25]), (256, 3)),
 ];
 
 /// Glossy part of Figure 9, in as many rows as the sum.
 pub(super) const GLOSS_OF_FIGURE_9: PaperSignal =
-    signal("Buddha gloss-iso, 25 rows", (Bumpy, Isotropic), (49_990, [25, 25]), (256, 8));
+    signal("Buddha gloss-iso, 25 rows", (FoldedBuddha, Isotropic), (49_990, [25, 25]), (256, 8));
 
 /// Index in [`SIGNALS`].
 pub(super) const GLOSSY_BUDDHA: usize = 0;
@@ -161,7 +161,7 @@ impl ComputedSignal {
             exit,
             order: paper.size.columns.isqrt(),
             degree: paper.degree(models),
-            bounces: Bounces::Count(if paper.model == Bumpy { BOUNCES } else { 0 }),
+            bounces: Bounces::Count(if paper.model == FoldedBuddha { BOUNCES } else { 0 }),
             scatterer: if paper.material == Translucent { Some(scatterer()?) } else { None },
         };
         let computed = precomputation.run(&mut |_, _, _| ()).map_err(|e| fail(&e))?;

@@ -10,7 +10,7 @@ use crate::study::reproduce::all_frequency::forms::{bare, quarter_of_half_vector
 use crate::study::reproduce::all_frequency::models::REDUCED_ITERATIONS;
 pub(super) use crate::study::reproduce::all_frequency::models::ground_side as ground;
 
-/// Builds a bird as a stand-in for tweety, and the stand-in for the Buddha.
+/// Builds the stand-ins for tweety and for the Buddha.
 pub(super) fn tweety(models: ModelSize) -> Mesh {
     TransferModel::Tweety.mesh(if models == ModelSize::Printed { 1 } else { 9 })
 }

@@ -1,0 +1,60 @@
+//! The Stanford bunny, with as many vertices as a paper prints.
+
+use glam::DVec3;
+
+use super::resample::ClosedSurface;
+
+/// The model in a binary little-endian file: three floats per vertex, and a byte before
+/// the three corners of a triangle in two bytes each.
+const FILE: &[u8] = include_bytes!("bunny.ply");
+/// Its numbers of vertices and triangles.
+const COUNTS: [usize; 2] = [1_839, 3_674];
+/// Bytes of a vertex and of a triangle.
+const BYTES: [usize; 2] = [12, 7];
+/// Longest edge of the box around it.
+const SIZE: f64 = 2.5;
+
+/// The bunny with `vertices` vertices around the origin, closed: refined, or coarsened.
+pub(super) fn bunny(vertices: usize) -> ClosedSurface {
+    let surface = scanned().resampled(vertices);
+    let fold =
+        |start: f64, best: fn(DVec3, DVec3) -> DVec3| surface.positions.iter().copied().fold(DVec3::splat(start), best);
+    let [low, high] = [fold(f64::INFINITY, DVec3::min), fold(f64::NEG_INFINITY, DVec3::max)];
+    let scale = SIZE / (high - low).max_element();
+    let positions = surface.positions.iter().map(|&at| scale * (at - 0.5 * (low + high))).collect();
+    ClosedSurface { positions, ..surface }
+}
+
+/// The model as it is in the file.
+fn scanned() -> ClosedSurface {
+    let body = FILE.len() - COUNTS[0] * BYTES[0] - COUNTS[1] * BYTES[1];
+    let (vertices, triangles) = FILE[body..].split_at(COUNTS[0] * BYTES[0]);
+    let number = |bytes: &[u8], at: usize| f64::from(f32::from_le_bytes([0, 1, 2, 3].map(|byte| bytes[at + byte])));
+    let vertex = |bytes: &[u8]| DVec3::from([0, 4, 8].map(|at| number(bytes, at)));
+    let triangle = |bytes: &[u8]| [1, 3, 5].map(|at| u32::from(u16::from_le_bytes([bytes[at], bytes[at + 1]])));
+    ClosedSurface {
+        positions: vertices.chunks_exact(BYTES[0]).map(vertex).collect(),
+        triangles: triangles.chunks_exact(BYTES[1]).map(triangle).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Mesh;
+    use crate::geom::vector::narrow;
+
+    /// The bunny is closed at any number of vertices, of one part without a handle, and as large as stand-ins are.
+    #[test]
+    fn the_bunny_is_closed_at_every_size() {
+        for vertices in [365, 722, COUNTS[0], 3_286, 12_380] {
+            let found = bunny(vertices);
+            let positions = found.positions.iter().map(|&at| narrow(at)).collect();
+            let mesh = Mesh::new(positions, found.triangles).expect("a mesh");
+            assert_eq!((mesh.positions().len(), mesh.len()), (vertices, 2 * vertices - 4));
+            assert_eq!((mesh.boundary_edge_count(), mesh.orientation_conflicts(), mesh.degenerate_count()), (0, 0, 0));
+            let [low, high] = mesh.bounds().expect("a box");
+            assert!((0..3).all(|axis| (low[axis] + high[axis]).abs() < 1e-5), "{low:?} {high:?}");
+        }
+    }
+}
