@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::palette::Color;
 use super::summary::{SummaryLine, TallyEntry, Tone};
-use super::{Chart, Provenance, Table};
+use super::{Chart, NamedPicture, PictureGrid, PictureRow, Provenance, Table};
 use crate::picture::{Picture, RgbImage};
 
 /// File of an output folder: its name and its contents.
@@ -40,7 +40,16 @@ pub(super) enum Passage {
     Chart(usize),
     /// Side by side.
     Pictures(Range<usize>),
+    Grid(PlacedGrid),
     Legend(Legend),
+}
+
+/// [`PictureGrid`] whose pictures are given by their indices in the findings.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedGrid {
+    pub(super) title: String,
+    pub(super) columns: Vec<String>,
+    pub(super) rows: Vec<(String, Vec<Option<usize>>)>,
 }
 
 /// Colors of a false-color picture with their meanings.
@@ -111,32 +120,6 @@ pub struct NamedChart {
     pub chart: Chart,
     /// Caption.
     pub caption: String,
-}
-
-/// Picture with its file name and caption.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedPicture {
-    /// File name without folder and extension.
-    pub name: String,
-    /// Picture in display encoding.
-    pub image: RgbImage,
-    /// Caption, also the text alternative.
-    pub caption: String,
-    /// Rank of each pixel in downscaling, higher ranks win; missing ranks count as 0.
-    pub(super) ranks: Vec<u8>,
-}
-
-impl NamedPicture {
-    /// Creates a picture with its name and caption.
-    pub fn new(name: impl Into<String>, image: RgbImage, caption: impl Into<String>) -> Self {
-        Self { name: name.into(), image, caption: caption.into(), ranks: Vec::new() }
-    }
-
-    /// Marks pixels that must survive downscaling: a rank per pixel, 0 for those that need not.
-    #[must_use]
-    pub fn marked(self, ranks: Vec<u8>) -> Self {
-        Self { ranks, ..self }
-    }
 }
 
 /// Findings of a study. [`Findings::heading`] and similar methods append to the page, from top to bottom; `keep_*`
@@ -231,6 +214,19 @@ impl Findings {
         let first = self.pictures.len();
         self.pictures.extend(pictures);
         self.text.push(Passage::Pictures(first..self.pictures.len()));
+    }
+
+    /// Appends pictures in rows and columns to the page; they are also written to `NAME.png`.
+    pub fn grid(&mut self, grid: PictureGrid) {
+        let mut place = |picture: NamedPicture| {
+            self.pictures.push(picture);
+            self.pictures.len() - 1
+        };
+        let mut rows = Vec::new();
+        for PictureRow { label, pictures } in grid.rows {
+            rows.push((label, pictures.into_iter().map(|picture| picture.map(&mut place)).collect()));
+        }
+        self.text.push(Passage::Grid(PlacedGrid { title: grid.title, columns: grid.columns, rows }));
     }
 
     /// Appends the legend of a false-color picture to the page.

@@ -1,7 +1,7 @@
 //! Encoding of findings as files: tables, pictures, charts, document and page.
 
-use super::findings::{Findings, NamedFile, NamedPicture};
-use super::{Provenance, ReportError, page};
+use super::findings::{Findings, NamedFile};
+use super::{NamedPicture, Provenance, ReportError, page};
 use crate::picture::{PictureNotes, exr_with_notes, png_with_notes};
 
 impl Findings {

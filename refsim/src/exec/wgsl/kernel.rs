@@ -276,6 +276,7 @@ impl DrawWords {
                 DepthFormat::Float24 => (DEPTH_FLOAT24, 0),
             };
             self.parts.add("HAS_DEPTH_TEST");
+            self.parts.add_if(matches!(place.format, DepthFormat::Float32 | DepthFormat::Float24), "HAS_FLOAT_DEPTH");
             self.set("D_DEPTH", &[orders(function), u32::from(state.output.depth.write)]);
             self.set("D_DEPTH_FORMAT", &[code, scale, place.base, place.width]);
         }

@@ -67,8 +67,10 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
         if (q_suspended) {
             break;
         }
-        if (any(q_covered & q_cut)) {
-            atomicAdd(&counts[COUNT_OVERRUN], 1u);
+        if (HAS_STEP_BUDGET) {
+            if (any(q_covered & q_cut)) {
+                atomicAdd(&counts[COUNT_OVERRUN], 1u);
+            }
         }
         for (var lane = 0u; lane < 4u; lane++) {
             if (q_covered[lane]) {
@@ -89,20 +91,19 @@ fn pixel_main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation
     if (passes != draw[D_PROOF] * draw[D_PROOF + 1u]) {
         atomicAdd(&counts[COUNT_CUT], 1u);
     }
-    // Each pair of words is a number: shaded, none, then the fates, then texture reads by sampler.
-    let shaded = k_fates.x + k_fates.y + k_fates.z + k_fates.w;
-    if (shaded != 0u) {
-        k_count(0u, shaded);
-    }
-    for (var k = 0u; k < 20u; k++) {
+    // Each pair of words is a number: shaded, none, then the fates, then texture reads by sampler. Drivers make long
+    // text of an atomic operation, hence one place for all.
+    for (var k = 0u; k < 22u; k++) {
         var more = 0u;
-        if (k < 4u) {
-            more = k_fates[k];
-        } else {
-            more = q_fetched[k - 4u];
+        if (k == 0u) {
+            more = k_fates.x + k_fates.y + k_fates.z + k_fates.w;
+        } else if (k >= 6u) {
+            more = q_fetched[k - 6u];
+        } else if (k >= 2u) {
+            more = k_fates[k - 2u];
         }
         if (more != 0u) {
-            k_count(2u + k, more);
+            k_count(k, more);
         }
     }
 }

@@ -23,54 +23,44 @@ fn o_main_is_fixed() -> bool {
 // The number behind a raw value of fixed point with `fraction` bits below the point, or of floating point.
 fn o_exact(raw: u32, fixed_point: bool, fraction: u32) -> Exact {
     let negative = (raw >> 31u) == 1u;
-    if (fixed_point) {
-        return Exact(negative, select(raw, 0u - raw, negative), -i32(fraction));
-    }
     let size = raw & 0x7fffffffu;
-    if (size >= 0x7f800000u) {
-        return Exact(negative && size == 0x7f800000u, select(1u, 0u, size > 0x7f800000u), 0);
-    }
+    let ends = size >= 0x7f800000u;
+    let nan = size > 0x7f800000u;
     let field = size >> 23u;
     let significand = (size & 0x7fffffu) | select(0x800000u, 0u, field == 0u);
-    return Exact(negative, significand, i32(max(field, 1u)) - 150);
+    var number = Exact(
+        negative && !nan, select(significand, select(1u, 0u, nan), ends), select(i32(max(field, 1u)) - 150, 0, ends),
+    );
+    if (HAS_FIXED) {
+        if (fixed_point) {
+            number = Exact(negative, select(raw, 0u - raw, negative), -i32(fraction));
+        }
+    }
+    return number;
 }
 
 // The size of a number times `scale` as an integer, at most `scale`: halves away from zero, or cut off.
 fn o_scaled(number: Exact, scale: u32, nearest: bool) -> u32 {
-    if (number.significand == 0u) {
-        return 0u;
-    }
-    if (31 - i32(countLeadingZeros(number.significand)) + number.exponent >= 0) {
-        return scale;
-    }
     let product = k_mul(number.significand, scale);
-    // Below one, so the exponent is below zero.
-    let shift = u32(-number.exponent);
-    let whole = select(0u, k_shr(product, min(shift, 63u)).x, shift < 64u);
-    let half = select(0u, k_shr(product, min(shift - 1u, 63u)).x & 1u, nearest && shift <= 64u);
-    return whole + half;
+    // Below one, the exponent is below zero. In halves: all but the last bit are the whole.
+    let shift = u32(-number.exponent) - 1u;
+    let halves = select(vec2<u32>(0u), k_shr(product, min(shift, 63u)), shift < 64u);
+    let cut = ((halves.x >> 1u) | (halves.y << 31u)) + select(0u, halves.x & 1u, nearest);
+    let above = 31 - i32(countLeadingZeros(number.significand)) + number.exponent >= 0;
+    return select(select(cut, scale, above), 0u, number.significand == 0u);
 }
 
 // A depth as an unsigned float of so many mantissa bits; numbers from 1 on give 1.
 fn o_depth_float(number: Exact, bias: i32, mantissa: u32) -> u32 {
     let one = u32(bias) << mantissa;
-    if (number.significand == 0u) {
-        return 0u;
-    }
     let top = number.exponent + 31 - i32(countLeadingZeros(number.significand));
-    if (top >= 0) {
-        return one;
-    }
     let unit = max(top, 1 - bias) - i32(mantissa);
     let shift = unit - number.exponent;
-    var kept = 0u;
-    if (shift <= 0) {
-        kept = number.significand << u32(min(-shift, 31));
-    } else if (shift <= 63) {
-        kept = k_round_even(vec2<u32>(number.significand, 0u), u32(shift));
-    }
+    let below = k_round_even(vec2<u32>(number.significand, 0u), u32(clamp(shift, 1, 63)));
+    let kept = select(below, number.significand << u32(clamp(-shift, 0, 31)), shift <= 0);
     let base = u32(unit + i32(mantissa) + bias - 1) << mantissa;
-    return min(base + kept, one);
+    let pattern = select(min(base + kept, one), one, top >= 0);
+    return select(pattern, 0u, number.significand == 0u);
 }
 
 // The pattern of a depth in the draw's depth buffer; below zero and NaN give 0.
@@ -79,17 +69,15 @@ fn o_depth(raw: u32, in_main: bool) -> u32 {
     if (number.negative) {
         number.significand = 0u;
     }
-    switch draw[D_DEPTH_FORMAT] {
-        case DEPTH_FLOAT32: {
-            return o_depth_float(number, 127, 23u);
-        }
-        case DEPTH_FLOAT24: {
-            return o_depth_float(number, 15, 20u);
-        }
-        default: {
-            return o_scaled(number, draw[D_DEPTH_SCALE], draw[D_DEPTH_NEAREST] == 1u);
+    var pattern = o_scaled(number, draw[D_DEPTH_SCALE], draw[D_DEPTH_NEAREST] == 1u);
+    if (HAS_FLOAT_DEPTH) {
+        let kind = draw[D_DEPTH_FORMAT];
+        let short = kind == DEPTH_FLOAT24;
+        if (short || kind == DEPTH_FLOAT32) {
+            pattern = o_depth_float(number, select(127, 15, short), select(23u, 20u, short));
         }
     }
+    return pattern;
 }
 
 // Single precision patterns by their order, both zeros alike; no NaN.
@@ -114,13 +102,11 @@ fn o_holds(comparison: u32, below: bool, above: bool) -> bool {
 fn o_alpha_passes(alpha: u32) -> bool {
     let comparison = draw[D_ALPHA];
     let reference = draw[D_ALPHA + 1u];
-    if (o_main_is_fixed()) {
-        return o_holds(comparison, (i32(alpha) < i32(reference)), (i32(alpha) > i32(reference)));
-    }
-    if (o_is_nan(alpha) || o_is_nan(reference)) {
-        return (comparison >> 3u) == 1u;
-    }
-    return o_holds(comparison, (o_key(alpha) < o_key(reference)), (o_key(alpha) > o_key(reference)));
+    let integers = o_main_is_fixed();
+    let value = select(o_key(alpha), i32(alpha), integers);
+    let bound = select(o_key(reference), i32(reference), integers);
+    let unordered = !integers && (o_is_nan(alpha) || o_is_nan(reference));
+    return select(o_holds(comparison, (value < bound), (value > bound)), (comparison >> 3u) == 1u, unordered);
 }
 
 // A stored channel.
@@ -146,19 +132,15 @@ fn o_low_bits(n: u32) -> u32 {
 // The bits of a channel of integers for a raw value of the main format.
 fn o_encode(channel: Channel, raw: u32) -> u32 {
     let number = o_exact(raw, o_main_is_fixed(), draw[8u * MAIN + 2u]);
-    if (number.negative && channel.kind == 0u) {
-        return 0u;
-    }
-    let size = o_scaled(number, o_whole(channel, number.negative), draw[D_NEAREST] == 1u);
+    let scaled = o_scaled(number, o_whole(channel, number.negative), draw[D_NEAREST] == 1u);
+    let size = select(scaled, 0u, number.negative && channel.kind == 0u);
     return select(size, 0u - size, number.negative) & o_low_bits(channel.bits);
 }
 
 // The largest code on one side of zero.
 fn o_whole(channel: Channel, negative: bool) -> u32 {
-    if (channel.kind == 0u) {
-        return o_low_bits(channel.bits);
-    }
-    return (o_low_bits(channel.bits) >> 1u) + select(0u, 1u, channel.kind == 2u && negative);
+    let largest = o_low_bits(channel.bits);
+    return select((largest >> 1u) + select(0u, 1u, channel.kind == 2u && negative), largest, channel.kind == 0u);
 }
 
 // The numerator of a channel's bits over its denominator.
@@ -398,7 +380,7 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
     let rounded_alpha = o_channel(at + 16u + 8u * min(alpha_channel, 4u));
     let raw_alpha = o_given(ROW_COLORS + 4u * t + 3u, lane);
     var held_alpha = select(rounded_alpha.denominator, 0x3f800000u, floats);
-    var made: array<u32, 4>;
+    var made: vec4<u32>;
     // One pass more, the first, for the alpha that the target holds.
     for (var pass_number = 0u; pass_number <= draw[at + 4u]; pass_number++) {
         let of_alpha = pass_number == 0u;
@@ -450,30 +432,29 @@ fn o_write(t: u32, lane: u32, x: u32, y: u32) {
 // Takes one covered lane through the output stage; says what became of it, as `counts` has it: 0 shaded means nothing
 // more, 1 killed, 2 failed alpha, 3 failed depth, 4 passed.
 fn o_merge(lane: u32, x: u32, y: u32) -> u32 {
-    if (o_given(ROW_KILLED, lane) != 0u) {
-        return 1u;
-    }
+    var fate = select(4u, 1u, o_given(ROW_KILLED, lane) != 0u);
     if (HAS_ALPHA_TEST) {
-        if (!o_alpha_passes(o_given(ROW_COLORS + 3u, lane))) {
-            return 2u;
+        if (fate == 4u && !o_alpha_passes(o_given(ROW_COLORS + 3u, lane))) {
+            fate = 2u;
         }
     }
     if (HAS_DEPTH_TEST) {
-        let comparison = draw[D_DEPTH];
-        let at = draw[D_DEPTH_BASE] + y * draw[D_DEPTH_WIDTH] + x;
-        let made = o_depth(o_given(ROW_DEPTH, lane), o_given(ROW_DEPTH_IS_MAIN, lane) != 0u);
-        let old = video[at];
-        if (!o_holds(comparison, (made < old), (made > old))) {
-            return 3u;
-        }
-        if (draw[D_DEPTH + 1u] == 1u) {
-            video[at] = made;
+        if (fate == 4u) {
+            let comparison = draw[D_DEPTH];
+            let at = draw[D_DEPTH_BASE] + y * draw[D_DEPTH_WIDTH] + x;
+            let made = o_depth(o_given(ROW_DEPTH, lane), o_given(ROW_DEPTH_IS_MAIN, lane) != 0u);
+            let old = video[at];
+            if (!o_holds(comparison, (made < old), (made > old))) {
+                fate = 3u;
+            } else if (draw[D_DEPTH + 1u] == 1u) {
+                video[at] = made;
+            }
         }
     }
     for (var t = 0u; t < 4u; t++) {
-        if (draw[D_TARGETS + TARGET_WORDS * t] == 1u) {
+        if (fate == 4u && draw[D_TARGETS + TARGET_WORDS * t] == 1u) {
             o_write(t, lane, x, y);
         }
     }
-    return 4u;
+    return fate;
 }

@@ -10,21 +10,29 @@ use crate::num::NumberOperation;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws besides operations. In the text, each guards blocks with an `if`.
-const FEATURES: [&str; 15] = [
+const FEATURES: [&str; 21] = [
     // Numbers: fixed-point registers; formats other than single precision with default rules.
     "HAS_FIXED",
     "HAS_FORMATS",
+    // Square roots and their reciprocals; sums of products, rounded once.
+    "HAS_ROOTS",
+    "HAS_DOTS",
     // Programs: may exceed one dispatch; steps are counted.
     "HAS_SUSPENSION",
     "HAS_STEP_BUDGET",
-    // Textures: arithmetic before the read; cube maps; fixed-point texels; float texels; filtered float texels.
+    // Textures: arithmetic before the read; cube maps; choice of a level; several texels weighed; images repeated or
+    // mirrored; fixed-point texels; float texels; filtered float texels.
     "HAS_TEXTURE_DETAIL",
     "HAS_CUBES",
+    "HAS_LEVELS",
+    "HAS_FILTERS",
+    "HAS_PERIODS",
     "HAS_RATIO_TEXELS",
     "HAS_FLOAT_TEXELS",
     "HAS_FLOAT_FILTERS",
     "HAS_ALPHA_TEST",
     "HAS_DEPTH_TEST",
+    "HAS_FLOAT_DEPTH",
     "HAS_FLOAT_TARGETS",
     "HAS_INTEGER_TARGETS",
     "HAS_FLOAT_BLENDING",
@@ -89,8 +97,10 @@ impl Parts {
 
     /// Adds a part.
     pub fn add(&mut self, name: &str) {
-        if name == "HAS_CUBES" {
-            self.0.extend(CUBES.iter().map(|&arm| arm.to_owned()));
+        match name {
+            "HAS_CUBES" => self.0.extend(CUBES.iter().map(|&arm| arm.to_owned())),
+            "VM_DOT" => self.add("HAS_DOTS"),
+            _ => {}
         }
         self.0.insert(name.to_owned());
     }
@@ -106,6 +116,7 @@ impl Parts {
     pub fn add_operation(&mut self, operation: NumberOperation) {
         let group = COSTLY.into_iter().find(|group| group.contains(&operation)).unwrap_or_default();
         self.0.extend(group.iter().map(|operation| operation.constant()));
+        self.add_if(matches!(operation, NumberOperation::Sqrt | NumberOperation::Rsq), "HAS_ROOTS");
     }
 
     /// Number of parts.

@@ -31,9 +31,6 @@ fn r_cover(at: u32, x: u32, y: u32) -> vec4<bool> {
     let columns = vec2<bool>(left < width, left + 1u < width);
     let rows = vec2<bool>(top < height, top + 1u < height);
     var covered = vec4<bool>(columns.x && rows.x, columns.y && rows.x, columns.x && rows.y, columns.y && rows.y);
-    if (!any(covered)) {
-        return covered;
-    }
     for (var e = 0u; e < 3u; e++) {
         let start = at + 7u * e;
         let a = vec2<u32>(setups[start], setups[start + 1u]);

@@ -201,6 +201,11 @@ pub fn parts(sampler: &[u32], parts: &mut Parts) {
     let linear = (flag(FLAG_MIN) | flag(FLAG_MAG)) & 1 == 1 || flag(FLAG_MIP) & 3 == MIP_LINEAR as u32;
     parts.add_if(is_cube, "HAS_CUBES");
     parts.add_if(is_cube || flag(FLAG_DETAIL) & 1 == 1, "HAS_TEXTURE_DETAIL");
+    let (min, mag, mip) = (flag(FLAG_MIN) & 1, flag(FLAG_MAG) & 1, flag(FLAG_MIP) & 3);
+    parts.add_if(min != mag || mip != MIP_NONE as u32, "HAS_LEVELS");
+    parts.add_if(linear, "HAS_FILTERS");
+    let periodic = |axis: u32| flag(FLAG_ADDRESS + 2 * axis as usize) & 3 <= ADDRESS_MIRROR as u32;
+    parts.add_if((0..flag(FLAG_AXES) & 3).any(periodic), "HAS_PERIODS");
     parts.add(if floats { "HAS_FLOAT_TEXELS" } else { "HAS_RATIO_TEXELS" });
     parts.add_if(floats && linear, "HAS_FLOAT_FILTERS");
 }

@@ -34,20 +34,17 @@ fn k_scale(a: vec2<u32>, b: u32) -> vec2<u32> {
 
 // a >> n for n below 64, unsigned.
 fn k_shr(a: vec2<u32>, n: u32) -> vec2<u32> {
-    if (n >= 32u) {
-        return vec2<u32>(a.y >> (n - 32u), 0u);
-    }
-    let carried = select(a.y << (32u - n), 0u, n == 0u);
-    return vec2<u32>((a.x >> n) | carried, a.y >> n);
+    let part = n & 31u;
+    // By 32 less the part in two steps, since no shift is by 32.
+    let near = vec2<u32>((a.x >> part) | ((a.y << 1u) << (31u - part)), a.y >> part);
+    return select(near, vec2<u32>(near.y, 0u), n >= 32u);
 }
 
 // a << n for n below 64.
 fn k_shl(a: vec2<u32>, n: u32) -> vec2<u32> {
-    if (n >= 32u) {
-        return vec2<u32>(0u, a.x << (n - 32u));
-    }
-    let carried = select(a.x >> (32u - n), 0u, n == 0u);
-    return vec2<u32>(a.x << n, (a.y << n) | carried);
+    let part = n & 31u;
+    let near = vec2<u32>(a.x << part, (a.y << part) | ((a.x >> 1u) >> (31u - part)));
+    return select(near, vec2<u32>(0u, near.x), n >= 32u);
 }
 
 // value / 2^shift for shift from 1 to 63, to nearest, ties to even; the result has at most 32 bits.
@@ -64,14 +61,12 @@ fn k_round_even(value: vec2<u32>, shift: u32) -> u32 {
 fn k_to_single(value: vec2<u32>) -> u32 {
     let negative = (value.y >> 31u) == 1u;
     let size = select(value, k_neg(value), negative);
-    if ((size.x | size.y) == 0u) {
-        return 0u;
-    }
     let top = select(31u - countLeadingZeros(size.x), 63u - countLeadingZeros(size.y), size.y != 0u);
     var significand = size.x << (23u - min(top, 23u));
     if (top > 23u) {
         significand = k_round_even(size, top - 23u);
     }
     // The leading one of the significand adds one to the exponent, and a carry another.
-    return select(0u, 0x80000000u, negative) | (((top + 126u) << 23u) + significand);
+    let single = select(0u, 0x80000000u, negative) | (((top + 126u) << 23u) + significand);
+    return select(single, 0u, (size.x | size.y) == 0u);
 }

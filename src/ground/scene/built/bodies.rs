@@ -1,14 +1,14 @@
 //! Stand-ins for models of the papers that are not available: a Buddha, a bird, a head, an armor and a dolphin, put
 //! together from rounded pieces.
 //!
-//! Units are those of models about 2.5 high around the origin, fronts towards -y and a little towards +x. The Buddha has
+//! Units are those of models about 2.5 high around the origin, fronts towards -y and a little +x. The Buddha has
 //! his coat because of the small omega that the paper on all-frequency transfer prints for him (its Table 1): what is
 //! measured of that omega is no evidence. The others were shaped by eye.
 
-use super::isosurface::{Body, Folds, Piece};
-use super::resample::Surface;
+use super::isosurface::{Folds, RoundedBody, RoundedPiece};
+use super::resample::ClosedSurface;
 use crate::elementary::on_circle;
-use Piece::{Ball, Drum, Limb, Ring};
+use RoundedPiece::{Ball, Drum, Limb, Ring};
 use glam::DVec3;
 
 /// Half edge of the cube around every body.
@@ -17,7 +17,7 @@ const HALF: f64 = 1.6;
 const TURNED: f64 = 0.09;
 
 /// A body's surface with this many vertices, turned.
-fn turned(body: &Body, vertices: usize) -> Surface {
+fn turned(body: &RoundedBody, vertices: usize) -> ClosedSurface {
     let mut surface = body.surface(HALF, vertices);
     let [cos, sin] = on_circle(TURNED);
     for at in &mut surface.positions {
@@ -27,8 +27,8 @@ fn turned(body: &Body, vertices: usize) -> Surface {
 }
 
 /// A standing Buddha in folds, with both arms above his head, on a pedestal of petals.
-pub(super) fn buddha(vertices: usize) -> Surface {
-    let mut body = Body::default();
+pub(super) fn buddha(vertices: usize) -> ClosedSurface {
+    let mut body = RoundedBody::default();
     // A coat that is open in front, in folds, and the legs in it.
     body.add(Limb([0.0, 0.06, -0.95], [0.0, 0.04, 0.4], [0.54, 0.36]), 0.0);
     body.fold(Folds { count: 17.0, depth: 0.035, twist: 0.0, heights: [-1.4, 0.6] });
@@ -70,8 +70,8 @@ pub(super) fn buddha(vertices: usize) -> Surface {
 }
 
 /// A bird with folded wings, tail, crest, legs and toes.
-pub(super) fn bird(vertices: usize) -> Surface {
-    let mut body = Body::default();
+pub(super) fn bird(vertices: usize) -> ClosedSurface {
+    let mut body = RoundedBody::default();
     body.add(Ball([0.0, 0.1, -0.15], [0.52, 0.66, 0.58]), 0.0);
     body.add(Ball([0.0, -0.12, 0.02], [0.46, 0.5, 0.55]), 0.2);
     body.fold(Folds { count: 26.0, depth: 0.03, twist: 0.0, heights: [-0.8, 0.55] });
@@ -108,8 +108,8 @@ pub(super) fn bird(vertices: usize) -> Surface {
 }
 
 /// A head on its neck and shoulders.
-pub(super) fn head(vertices: usize) -> Surface {
-    let mut body = Body::default();
+pub(super) fn head(vertices: usize) -> ClosedSurface {
+    let mut body = RoundedBody::default();
     body.add(Ball([0.0, 0.12, 0.42], [0.56, 0.68, 0.68]), 0.0);
     body.add(Ball([0.0, -0.14, 0.0], [0.43, 0.5, 0.5]), 0.2);
     body.add(Ball([0.0, -0.32, -0.26], [0.26, 0.26, 0.2]), 0.15);
@@ -132,8 +132,8 @@ pub(super) fn head(vertices: usize) -> Surface {
 }
 
 /// A suit of armor from helmet to skirt.
-pub(super) fn armor(vertices: usize) -> Surface {
-    let mut body = Body::default();
+pub(super) fn armor(vertices: usize) -> ClosedSurface {
+    let mut body = RoundedBody::default();
     body.add(Ball([0.0, 0.0, 0.25], [0.52, 0.36, 0.62]), 0.0);
     body.add(Limb([0.0, 0.0, -0.35], [0.0, 0.0, -1.0], [0.38, 0.56]), 0.08);
     body.fold(Folds { count: 14.0, depth: 0.05, twist: 0.0, heights: [-1.6, -0.2] });
@@ -157,8 +157,8 @@ pub(super) fn armor(vertices: usize) -> Surface {
 }
 
 /// A dolphin along x, its snout towards +x, with fins.
-pub(super) fn dolphin(vertices: usize) -> Surface {
-    let mut body = Body::default();
+pub(super) fn dolphin(vertices: usize) -> ClosedSurface {
+    let mut body = RoundedBody::default();
     let spine = [(-1.15, 0.1, 0.05), (-0.75, 0.03, 0.12), (-0.15, 0.0, 0.27), (0.4, 0.02, 0.28), (0.8, -0.02, 0.2)];
     for ends in spine.windows(2) {
         let [(from, low, thin), (to, high, thick)] = [ends[0], ends[1]];

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::resample::Surface;
+use super::resample::ClosedSurface;
 
 /// The model in a binary little-endian file: three floats per vertex, and a byte before
 /// the three corners of a triangle in two bytes each.
@@ -15,24 +15,24 @@ const BYTES: [usize; 2] = [12, 7];
 const SIZE: f64 = 2.5;
 
 /// The bunny with `vertices` vertices around the origin, closed: refined, or coarsened.
-pub(super) fn bunny(vertices: usize) -> Surface {
+pub(super) fn bunny(vertices: usize) -> ClosedSurface {
     let surface = scanned().resampled(vertices);
     let fold =
         |start: f64, best: fn(DVec3, DVec3) -> DVec3| surface.positions.iter().copied().fold(DVec3::splat(start), best);
     let [low, high] = [fold(f64::INFINITY, DVec3::min), fold(f64::NEG_INFINITY, DVec3::max)];
     let scale = SIZE / (high - low).max_element();
     let positions = surface.positions.iter().map(|&at| scale * (at - 0.5 * (low + high))).collect();
-    Surface { positions, ..surface }
+    ClosedSurface { positions, ..surface }
 }
 
 /// The model as it is in the file.
-fn scanned() -> Surface {
+fn scanned() -> ClosedSurface {
     let body = FILE.len() - COUNTS[0] * BYTES[0] - COUNTS[1] * BYTES[1];
     let (vertices, triangles) = FILE[body..].split_at(COUNTS[0] * BYTES[0]);
     let number = |bytes: &[u8], at: usize| f64::from(f32::from_le_bytes([0, 1, 2, 3].map(|byte| bytes[at + byte])));
     let vertex = |bytes: &[u8]| DVec3::from([0, 4, 8].map(|at| number(bytes, at)));
     let triangle = |bytes: &[u8]| [1, 3, 5].map(|at| u32::from(u16::from_le_bytes([bytes[at], bytes[at + 1]])));
-    Surface {
+    ClosedSurface {
         positions: vertices.chunks_exact(BYTES[0]).map(vertex).collect(),
         triangles: triangles.chunks_exact(BYTES[1]).map(triangle).collect(),
     }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::resample::Surface;
+use super::resample::ClosedSurface;
 use crate::elementary::{atan2, sin_cos};
 
 /// Cells along an edge of the box, at least: they resolve the thinnest pieces, and measure a body's surface.
@@ -22,7 +22,7 @@ const DIFFERENCE: f64 = 1e-4;
 
 /// Rounded piece of a body.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Piece {
+pub(super) enum RoundedPiece {
     /// Ellipsoid: center and radii.
     Ball([f64; 3], [f64; 3]),
     /// Line with a radius at each end.
@@ -33,7 +33,7 @@ pub(super) enum Piece {
     Ring([f64; 3], [f64; 2]),
 }
 
-impl Piece {
+impl RoundedPiece {
     /// Distance from the piece, about: negative inside.
     fn distance(self, at: DVec3) -> f64 {
         match self {
@@ -83,45 +83,45 @@ impl Folds {
 
 /// Step of a body's construction.
 #[derive(Clone, Copy, Debug)]
-enum Step {
+enum BodyStep {
     /// Adds a piece, with the width in which it flows into what is there.
-    Add(Piece, f64),
+    Add(RoundedPiece, f64),
     /// Takes a piece away, likewise.
-    Carve(Piece, f64),
+    Carve(RoundedPiece, f64),
     Fold(Folds),
 }
 
 /// Body under construction; later pieces cover earlier folds and carvings.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Body {
+pub(super) struct RoundedBody {
     /// Steps, and whether they are done to both sides, mirrored at x = 0.
-    steps: Vec<(Step, bool)>,
+    steps: Vec<(BodyStep, bool)>,
 }
 
-impl Body {
+impl RoundedBody {
     /// Adds a piece.
-    pub(super) fn add(&mut self, piece: Piece, width: f64) {
-        self.steps.push((Step::Add(piece, width), false));
+    pub(super) fn add(&mut self, piece: RoundedPiece, width: f64) {
+        self.steps.push((BodyStep::Add(piece, width), false));
     }
 
     /// Adds a piece at positive x, and its mirror image.
-    pub(super) fn add_both(&mut self, piece: Piece, width: f64) {
-        self.steps.push((Step::Add(piece, width), true));
+    pub(super) fn add_both(&mut self, piece: RoundedPiece, width: f64) {
+        self.steps.push((BodyStep::Add(piece, width), true));
     }
 
     /// Takes a piece away.
-    pub(super) fn carve(&mut self, piece: Piece, width: f64) {
-        self.steps.push((Step::Carve(piece, width), false));
+    pub(super) fn carve(&mut self, piece: RoundedPiece, width: f64) {
+        self.steps.push((BodyStep::Carve(piece, width), false));
     }
 
     /// Takes a piece at positive x away, and its mirror image.
-    pub(super) fn carve_both(&mut self, piece: Piece, width: f64) {
-        self.steps.push((Step::Carve(piece, width), true));
+    pub(super) fn carve_both(&mut self, piece: RoundedPiece, width: f64) {
+        self.steps.push((BodyStep::Carve(piece, width), true));
     }
 
     /// Folds what is there.
     pub(super) fn fold(&mut self, folds: Folds) {
-        self.steps.push((Step::Fold(folds), false));
+        self.steps.push((BodyStep::Fold(folds), false));
     }
 
     /// Distance from the body, about: negative inside.
@@ -130,15 +130,15 @@ impl Body {
         self.steps.iter().fold(f64::MAX, |before, (step, both)| {
             let at = if *both { aside } else { at };
             match step {
-                Step::Add(piece, width) => smooth_min(before, piece.distance(at), *width),
-                Step::Carve(piece, width) => -smooth_min(-before, piece.distance(at), *width),
-                Step::Fold(folds) => before + folds.depth_at(at),
+                BodyStep::Add(piece, width) => smooth_min(before, piece.distance(at), *width),
+                BodyStep::Carve(piece, width) => -smooth_min(-before, piece.distance(at), *width),
+                BodyStep::Fold(folds) => before + folds.depth_at(at),
             }
         })
     }
 
     /// The body's surface with `vertices` vertices; the body lies inside a cube of this half edge around the origin.
-    pub(super) fn surface(&self, half: f64, vertices: usize) -> Surface {
+    pub(super) fn surface(&self, half: f64, vertices: usize) -> ClosedSurface {
         let first = 2.0 * half / FIRST_CELLS;
         let found = self.cut(half, first).outermost();
         let cell = first * (found.positions.len() as f64 / (SURPLUS * vertices as f64)).sqrt();
@@ -161,14 +161,14 @@ impl Body {
     }
 
     /// The surface in a grid of cubes.
-    fn cut(&self, half: f64, cell: f64) -> Surface {
+    fn cut(&self, half: f64, cell: f64) -> ClosedSurface {
         let side = (2.0 * half / cell).ceil() as usize + 1;
         let corner = |index: usize| {
             let counts = [index % side, index / side % side, index / side / side];
             DVec3::from(counts.map(|count| count as f64 * cell - half))
         };
         let values: Vec<f64> = (0..side * side * side).into_par_iter().map(|at| self.distance(corner(at))).collect();
-        let mut cut = Cut { values: &values, corner: &corner, found: Surface::default(), known: BTreeMap::new() };
+        let mut cut = Cut { values: &values, corner: &corner, found: ClosedSurface::default(), known: BTreeMap::new() };
         let steps = [1, side, side * side];
         for index in 0..side * side * (side - 1) {
             let [x, y] = [index % side, index / side % side];
@@ -193,7 +193,7 @@ const PATHS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 
 struct Cut<'a> {
     values: &'a [f64],
     corner: &'a dyn Fn(usize) -> DVec3,
-    found: Surface,
+    found: ClosedSurface,
     /// Vertices by the ends of the grid's edges.
     known: BTreeMap<[usize; 2], u32>,
 }
@@ -258,10 +258,10 @@ mod tests {
     /// Two balls joined and carved: closed, as many vertices as wanted, all of them on the surface.
     #[test]
     fn a_body_has_a_closed_surface_of_as_many_vertices_as_wanted() {
-        let mut body = Body::default();
-        body.add(Piece::Ball([0.0; 3], [0.9, 0.7, 0.8]), 0.0);
-        body.add_both(Piece::Limb([0.5, 0.0, 0.4], [0.8, 0.2, 0.9], [0.3, 0.1]), 0.2);
-        body.carve(Piece::Ball([0.0, -0.7, 0.0], [0.3; 3]), 0.05);
+        let mut body = RoundedBody::default();
+        body.add(RoundedPiece::Ball([0.0; 3], [0.9, 0.7, 0.8]), 0.0);
+        body.add_both(RoundedPiece::Limb([0.5, 0.0, 0.4], [0.8, 0.2, 0.9], [0.3, 0.1]), 0.2);
+        body.carve(RoundedPiece::Ball([0.0, -0.7, 0.0], [0.3; 3]), 0.05);
         for vertices in [200, 3_000] {
             let surface = body.surface(1.2, vertices);
             assert_eq!((surface.positions.len(), surface.triangles.len()), (vertices, 2 * vertices - 4));

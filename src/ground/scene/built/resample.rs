@@ -16,12 +16,12 @@ const TURN: f64 = 0.3;
 
 /// Closed triangle mesh in double precision, fronts outwards.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Surface {
+pub(super) struct ClosedSurface {
     pub(super) positions: Vec<DVec3>,
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-impl Surface {
+impl ClosedSurface {
     /// Unit normals of the vertices: those of the triangles around them, by area.
     pub(super) fn normals(&self) -> Vec<DVec3> {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
@@ -132,9 +132,9 @@ struct Refinement {
 }
 
 impl Refinement {
-    fn new(surface: Surface) -> Self {
+    fn new(surface: ClosedSurface) -> Self {
         let normals = surface.normals();
-        let Surface { positions, triangles } = surface;
+        let ClosedSurface { positions, triangles } = surface;
         let next = (1..triangles.len()).chain([triangles.len().saturating_sub(1)]).collect();
         let left = triangles.iter().zip(0..).flat_map(|(&triangle, at)| edges(triangle).map(|edge| (edge, at)));
         let (left, longest) = (left.collect(), BinaryHeap::new());
@@ -149,14 +149,14 @@ impl Refinement {
         self.longest.push((self.vertices.length(edge), Reverse(edge)));
     }
 
-    fn to(mut self, vertices: usize) -> Surface {
+    fn to(mut self, vertices: usize) -> ClosedSurface {
         while self.vertices.positions.len() < vertices {
             let Some((_, Reverse(edge))) = self.longest.pop() else { break };
             self.divide(edge);
         }
         let last = self.triangles.len();
         let order = std::iter::successors(Some(0), |&at| (self.next[at] != at).then_some(self.next[at])).take(last);
-        Surface::renumbered(&self.vertices.positions, order.map(|at| self.triangles[at]))
+        ClosedSurface::renumbered(&self.vertices.positions, order.map(|at| self.triangles[at]))
     }
 
     /// Divides an edge and the two triangles at it.
@@ -197,9 +197,9 @@ struct Coarsening {
 }
 
 impl Coarsening {
-    fn new(surface: Surface) -> Self {
+    fn new(surface: ClosedSurface) -> Self {
         let normals = surface.normals();
-        let Surface { positions, triangles } = surface;
+        let ClosedSurface { positions, triangles } = surface;
         let mut around = vec![Vec::new(); positions.len()];
         for (triangle, at) in triangles.iter().zip(0..) {
             triangle.iter().for_each(|&corner| around[corner as usize].push(at));
@@ -222,7 +222,7 @@ impl Coarsening {
         edge.map(|end| self.changes[end as usize])
     }
 
-    fn to(mut self, vertices: usize) -> Surface {
+    fn to(mut self, vertices: usize) -> ClosedSurface {
         let mut left = self.vertices.positions.len();
         while left > vertices {
             let Some(Reverse((_, edge, changes))) = self.shortest.pop() else { break };
@@ -231,7 +231,7 @@ impl Coarsening {
             }
         }
         let kept = self.triangles.iter().copied().filter(|[a, b, _]| a != b);
-        Surface::renumbered(&self.vertices.positions, kept)
+        ClosedSurface::renumbered(&self.vertices.positions, kept)
     }
 
     fn neighbors(&self, vertex: u32) -> BTreeSet<u32> {
@@ -285,10 +285,10 @@ mod tests {
     use crate::geom::vector::narrow;
 
     /// Sphere of about radius 1 by refining an octahedron.
-    fn sphere(vertices: usize) -> Surface {
+    fn sphere(vertices: usize) -> ClosedSurface {
         let positions = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).collect();
         let faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
-        Surface { positions, triangles: faces.to_vec() }.resampled(vertices)
+        ClosedSurface { positions, triangles: faces.to_vec() }.resampled(vertices)
     }
 
     /// Any number of vertices gives a closed surface with exactly these, as round as before, whose edges are alike.

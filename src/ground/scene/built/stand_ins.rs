@@ -1,7 +1,7 @@
 //! Models with the face counts of those of the subsurface paper: the Stanford bunny, and stand-ins for a head and a
 //! dolphin, which are not available.
 
-use super::resample::Surface;
+use super::resample::ClosedSurface;
 use super::{bodies, bunny};
 use crate::geom::Mesh;
 use crate::geom::vector::narrow;
@@ -29,13 +29,13 @@ pub fn bunny() -> Mesh {
 }
 
 /// Surface with an even number of faces: half as many vertices, and two more, or two fewer per handle of its shape.
-fn of_faces(build: fn(usize) -> Surface, faces: usize) -> Surface {
+fn of_faces(build: fn(usize) -> ClosedSurface, faces: usize) -> ClosedSurface {
     let first = build(faces / 2);
     let faces_of_as_many = first.triangles.len();
     build(faces - faces_of_as_many / 2)
 }
 
-fn plain(surface: Surface) -> Mesh {
+fn plain(surface: ClosedSurface) -> Mesh {
     let positions = surface.positions.into_iter().map(narrow).collect();
     Mesh::new(positions, surface.triangles).expect("indices are those of vertices, and shapes are finite")
 }

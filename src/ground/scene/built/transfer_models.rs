@@ -12,7 +12,7 @@ use glam::DVec3;
 
 use super::bodies;
 use super::bunny::bunny;
-use super::resample::Surface;
+use super::resample::ClosedSurface;
 use crate::elementary::{acos, atan2};
 use crate::geom::Mesh;
 use crate::geom::vector::{narrow, unit};
@@ -49,7 +49,7 @@ impl TransferModel {
     /// 16 count as 16.
     pub fn mesh(self, coarser: u32) -> Mesh {
         let coarser = coarser.clamp(1, 16);
-        let (build, vertices): (fn(usize) -> Surface, usize) = match self {
+        let (build, vertices): (fn(usize) -> ClosedSurface, usize) = match self {
             Self::Polygons => return polygons(coarser),
             Self::Bird => (bodies::bird, 48_688),
             Self::FoldedBuddha => (bodies::buddha, 49_990),
@@ -90,7 +90,7 @@ fn polygons(coarser: u32) -> Mesh {
 
 /// Mesh of a surface around the origin with texture coordinates by direction: longitude, and latitude, whose sign
 /// changes where the surface looks inwards, so that no texture is mirrored.
-fn textured(surface: &Surface) -> Mesh {
+fn textured(surface: &ClosedSurface) -> Mesh {
     let toward = |at: DVec3| longitude_and_latitude(unit(at).unwrap_or(DVec3::Z));
     let around: Vec<[f64; 2]> = surface.positions.iter().map(|&at| toward(at)).collect();
     // Vertices by vertex of the surface and texture coordinate.

@@ -7,7 +7,7 @@ mod table;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use self::figure::{drawing, pictures};
+use self::figure::{drawing, grid, pictures};
 use self::overview::{contents, section, small_counts, summary, summary_lines};
 use self::table::scrolling;
 use super::findings::{Findings, Legend, Passage};
@@ -37,6 +37,7 @@ pub(super) fn html(
             Passage::Table(table) => scrolling(&findings.tables[*table].table, *table, &findings.tally),
             Passage::Chart(chart) => drawing(&drawings[*chart], &findings.charts[*chart].caption),
             Passage::Pictures(places) => pictures(&findings.pictures, pngs, places.clone())?,
+            Passage::Grid(placed) => grid(placed, &findings.pictures, pngs)?,
             Passage::Legend(legend) => render_legend(legend),
         });
     }

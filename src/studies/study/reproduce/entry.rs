@@ -2,7 +2,7 @@
 
 use super::shared::Shared;
 use super::{PaperRow, Prose, RecordStatus, RowVerdict, StudyError};
-use crate::report::{Chart, NamedPicture, Table};
+use crate::report::{Chart, PictureGrid, Table};
 
 /// Chart with its file name and caption.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,8 +28,8 @@ pub struct EntryFindings {
     pub tables: Vec<Table>,
     /// Charts.
     pub charts: Vec<EntryChart>,
-    /// Pictures.
-    pub pictures: Vec<NamedPicture>,
+    /// Pictures, a grid per figure.
+    pub pictures: Vec<PictureGrid>,
     /// Relation to the record, where the size of models decides the rows.
     pub record: Option<RecordStatus>,
 }

@@ -256,9 +256,7 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
             let (name, chart, caption) = ((*name).to_owned(), chart.clone(), caption.to_string());
             all.chart(NamedChart { name, chart, caption });
         }
-        if !found.pictures.is_empty() {
-            all.pictures(found.pictures.clone());
-        }
+        found.pictures.iter().for_each(|grid| all.grid(grid.clone()));
         found.tables.iter().for_each(|table| all.table(FoundTable::from(table.clone()).unprinted()));
         let tables = found.tables.iter().map(|table| json!({ "title": table.title(), "rows": table.json() }));
         entries.push(json!({

@@ -6,8 +6,8 @@ use strum::VariantArray as _;
 
 use super::overview::tally;
 use super::{EntryFindings, PaperRow, ReproduceEntry, Reproduced, RowVerdict};
-use crate::report::SummaryLine;
 use crate::report::words::listed;
+use crate::report::{PictureGrid, SummaryLine};
 
 /// Paper, named as in the titles of entries; in the order of the systems.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display, strum::VariantArray)]
@@ -94,7 +94,7 @@ fn text(parts: &[&Part]) -> String {
 
 /// The paper's picture of [`BEST`], else its first picture, else its first chart.
 fn picture(parts: &[&Part]) -> Option<String> {
-    let pictures = || parts.iter().flat_map(|(_, found)| &found.pictures);
+    let pictures = || parts.iter().flat_map(|(_, found)| found.pictures.iter().flat_map(PictureGrid::pictures));
     let best = pictures().find(|picture| BEST.contains(&picture.name.as_str()));
     let chart = || parts.iter().flat_map(|(_, found)| &found.charts).next();
     let name = best.or_else(|| pictures().next()).map(|picture| picture.name.clone());

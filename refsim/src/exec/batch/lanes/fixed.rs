@@ -41,6 +41,10 @@ impl Shift {
 /// Adding it leaves the nearest integer, ties to even, in the low bits of a double.
 const PIVOT: f64 = 6_755_399_441_055_744.0;
 
+/// The same in a single, for numbers of up to 22 bits, and its bits.
+const SINGLE_PIVOT: f32 = 12_582_912.0;
+const SINGLE_PIVOT_BITS: i32 = SINGLE_PIVOT.to_bits().cast_signed();
+
 /// Rounding of a double to an integer: the nearest integer (ties to even) of the number or of its magnitude, corrected
 /// by one depending on the distance of the number from it.
 #[derive(Clone, Copy, Debug)]
@@ -269,6 +273,45 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
         }
     }
 
+    const FUSED: bool = !WIDE && !WRAP;
+
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        Self::FUSED && self.rounding == EVEN
+    }
+
+    /// The exact product plus the pivot, rounded once, is the product rounded to nearest even, in the low bits of a
+    /// single; what is out of range stays so, since rounding is monotonic. Sums of `k` products are kept with `k` times
+    /// the pivot's bits, which wrap: still far from where the order of integers would break.
+    #[inline(always)]
+    fn fused_sum<const N: usize>(&self, a: [i32; N], b: [i32; N]) -> i32 {
+        let unit = 1.0 / (1u64 << self.frac) as f32;
+        let (low, high) = (SINGLE_PIVOT + self.low as f32, SINGLE_PIVOT + self.high as f32);
+        let (mut sum, mut offset) = (0i32, 0i32);
+        for k in 0..N {
+            let product = (a[k] as f32 * unit).mul_add(b[k] as f32, SINGLE_PIVOT);
+            let above = if product > low { product } else { low };
+            let fitted = if above < high { above } else { high };
+            sum = sum.wrapping_add(fitted.to_bits().cast_signed());
+            offset = offset.wrapping_add(SINGLE_PIVOT_BITS);
+            if k > 0 {
+                sum = sum.max(self.low.wrapping_add(offset)).min(self.high.wrapping_add(offset));
+            }
+        }
+        sum.wrapping_sub(offset)
+    }
+
+    /// The double rounds to nearest even as the quotient does ([`Self::quotient`]); there is nothing to correct.
+    #[inline(always)]
+    fn fused_div(&self, a: i32, b: i32) -> i32 {
+        let exact = f64::from(a << self.frac) / f64::from(b);
+        let (low, high) = (f64::from(self.low), f64::from(self.high));
+        let above = if exact > low { exact } else { low };
+        let fitted = if above < high { above } else { high };
+        let near = (fitted + PIVOT).to_bits() as i32;
+        if b == 0 { self.by_zero(a) } else { near }
+    }
+
     #[inline(always)]
     fn fused_mad(&self, a: i32, b: i32, c: i32) -> i32 {
         if WIDE {
@@ -420,5 +463,46 @@ impl<const WIDE: bool, const WRAP: bool> Lane for FixedLane<WIDE, WRAP> {
     #[inline(always)]
     fn factor(&self, a: i32, _: i32) -> i32 {
         a
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Operands of a short format: all of a narrow one, else both ends, zero, and a spread between.
+    fn operands(f: &Format) -> Vec<i32> {
+        let end = 1i32 << (f.width() - 1);
+        let near = [-end, 0, end - 1].into_iter().flat_map(|x| x - 3..=x + 3);
+        let spread = (-end..end).step_by(if f.width() <= 8 { 1 } else { 397 });
+        near.chain(spread).filter(|x| (-end..end).contains(x)).collect()
+    }
+
+    /// What the conformance tests prove of `sum` and `div` holds for the fused ones.
+    #[test]
+    fn fused_sums_and_quotients_are_those_in_integers() {
+        for text in ["s3.12", "s0.15", "s15.0", "s1.10", "s7.8", "s0.4", "s2.3", "s7.0"] {
+            let f: Format = text.parse().expect("a format");
+            let crate::num::FormatKind::Fixed { int_bits, frac_bits } = f.kind else { panic!("{text}: fixed point") };
+            let lane = FixedLane::<false, false>::new(&f, int_bits, frac_bits);
+            assert!(lane.is_fused(), "{text}");
+            let all = operands(&f);
+            for (i, &a) in all.iter().enumerate() {
+                for (j, &b) in all.iter().enumerate() {
+                    let (c, d) = (all[(i * 7 + j) % all.len()], all[(i + j * 5) % all.len()]);
+                    let (left, right) = ([a, c, d, b], [b, d, a, c]);
+                    assert_eq!(lane.fused_sum([a], [b]), lane.sum([a], [b]), "{text}: {a} {b}");
+                    assert_eq!(lane.fused_sum(left, right), lane.sum(left, right), "{text}: {left:?} {right:?}");
+                    assert_eq!(lane.fused_div(a, b), lane.div(a, b), "{text}: {a} / {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn other_roundings_are_not_fused() {
+        for text in ["s3.12:rna", "s3.12:rtz", "s3.12:rdn"] {
+            assert!(!FixedLane::<false, false>::new(&text.parse().expect("a format"), 3, 12).is_fused(), "{text}");
+        }
     }
 }

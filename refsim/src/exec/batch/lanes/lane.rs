@@ -113,6 +113,24 @@ pub(crate) trait Lane: Copy + Send + Sync {
         }
         sum
     }
+    /// True if [`Lane::is_fused`] can say yes.
+    const FUSED: bool = false;
+    /// Returns `true` if [`Lane::fused_sum`] and [`Lane::fused_div`] are [`Lane::sum`] and [`Lane::div`] in fewer
+    /// instructions on a host with fused multiply-add.
+    #[inline(always)]
+    fn is_fused(&self) -> bool {
+        false
+    }
+    /// [`Lane::sum`], where [`Lane::is_fused`].
+    #[inline(always)]
+    fn fused_sum<const N: usize>(&self, a: [Self::T; N], b: [Self::T; N]) -> Self::T {
+        self.sum(a, b)
+    }
+    /// [`Lane::div`], where [`Lane::is_fused`].
+    #[inline(always)]
+    fn fused_div(&self, a: Self::T, b: Self::T) -> Self::T {
+        self.div(a, b)
+    }
     /// `a b + c`, rounded once.
     fn fused_mad(&self, a: Self::T, b: Self::T, c: Self::T) -> Self::T;
     /// The sum of `N` products, rounded once.

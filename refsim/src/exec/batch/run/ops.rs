@@ -16,14 +16,16 @@ pub(crate) fn run(lane: &AnyLane, simd: SimdLevel, ops: &[LaneOp], slots: &mut S
     with_any_lane!(lane, |lane| {
         simd.run(
             #[inline(always)]
-            || run_lanes(lane, ops, slots),
+            || run_lanes(lane, simd, ops, slots),
         )
     });
 }
 
 /// Forced inlining: out of line, longer lane functions would be compiled for the baseline processor.
 #[inline(always)]
-fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
+fn run_lanes<L: Lane>(lane: &L, simd: SimdLevel, ops: &[LaneOp], slots: &mut Slots) {
+    // Below, a fused multiply-add would be a call of a function.
+    let fused = L::FUSED && lane.is_fused() && simd >= SimdLevel::Avx2;
     for op in ops {
         let largest = match op.code {
             LaneCode::Dot(2) => dot::<L, 2>(
@@ -44,60 +46,25 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
                 #[inline(always)]
                 |a, b| lane.exact_dot(a, b),
             ),
-            LaneCode::Sum(2) => dot::<L, 2>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            LaneCode::Sum(3) => dot::<L, 3>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            LaneCode::Sum(_) => dot::<L, 4>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
+            LaneCode::Sum(2) => sum::<L, 2>(lane, fused, op, slots),
+            LaneCode::Sum(3) => sum::<L, 3>(lane, fused, op, slots),
+            LaneCode::Sum(_) => sum::<L, 4>(lane, fused, op, slots),
             LaneCode::Difference => dot::<L, 2>(
                 op,
                 slots,
                 #[inline(always)]
                 |[a, c], [b, d]| lane.add(lane.mul(a, b), lane.neg(lane.mul(c, d))),
             ),
-            LaneCode::SumBy(1) => dot_by::<L, 1>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            LaneCode::SumBy(2) => dot_by::<L, 2>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            LaneCode::SumBy(3) => dot_by::<L, 3>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
-            LaneCode::SumBy(_) => dot_by::<L, 4>(
-                op,
-                slots,
-                #[inline(always)]
-                |a, b| lane.sum(a, b),
-            ),
+            LaneCode::SumBy(1) => sum_by::<L, 1>(lane, fused, op, slots),
+            LaneCode::SumBy(2) => sum_by::<L, 2>(lane, fused, op, slots),
+            LaneCode::SumBy(3) => sum_by::<L, 3>(lane, fused, op, slots),
+            LaneCode::SumBy(_) => sum_by::<L, 4>(lane, fused, op, slots),
             LaneCode::Widen => {
                 let Slots { rows, wide, .. } = slots;
                 widen(lane, &rows[usize::from(op.args[0])], wide);
                 continue;
             }
-            _ => step(lane, op, slots),
+            _ => step(lane, fused, op, slots),
         };
         if op.zero_wins || lane.is_guarded() && op.code.is_guarded() {
             // Where there is never a guard the loops don't look for the largest.
@@ -110,9 +77,47 @@ fn run_lanes<L: Lane>(lane: &L, ops: &[LaneOp], slots: &mut Slots) {
     }
 }
 
+/// A sum of products of rows.
+#[inline(always)]
+fn sum<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
+    if L::FUSED && fused {
+        return dot::<L, N>(
+            op,
+            slots,
+            #[inline(always)]
+            |a, b| lane.fused_sum(a, b),
+        );
+    }
+    dot::<L, N>(
+        op,
+        slots,
+        #[inline(always)]
+        |a, b| lane.sum(a, b),
+    )
+}
+
+/// A sum of products of uniform values and rows.
+#[inline(always)]
+fn sum_by<L: Lane, const N: usize>(lane: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
+    if L::FUSED && fused {
+        return dot_by::<L, N>(
+            op,
+            slots,
+            #[inline(always)]
+            |a, b| lane.fused_sum(a, b),
+        );
+    }
+    dot_by::<L, N>(
+        op,
+        slots,
+        #[inline(always)]
+        |a, b| lane.sum(a, b),
+    )
+}
+
 /// An operation of the table, or of neighbours. An operation that is never guarded gives 0.
 #[inline(always)]
-fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) -> Largest {
+fn step<L: Lane>(l: &L, fused: bool, op: &LaneOp, slots: &mut Slots) -> Largest {
     let Slots { rows, scratch, values, wide, .. } = slots;
     let (out, wide): (&mut LaneRow, &[f64; LANES]) = (scratch, wide);
     let [a, b, c] = [0, 1, 2].map(|k| &**rows[usize::from(op.args[k])]);
@@ -125,6 +130,7 @@ fn step<L: Lane>(l: &L, op: &LaneOp, slots: &mut Slots) -> Largest {
         LaneCode::SubFrom => one::<L>(b, out, |b| l.sub(uniform, b)),
         LaneCode::SubOff => one::<L>(b, out, |b| l.sub(b, uniform)),
         LaneCode::MadBy => two::<L>(b, c, out, |b, c| l.add(l.mul(uniform, b), c)),
+        LaneCode::Plain(Op::Div) if L::FUSED && fused => two::<L>(a, b, out, |a, b| l.fused_div(a, b)),
         LaneCode::Plain(Op::Div) => two::<L>(a, b, out, |a, b| l.div(a, b)),
         LaneCode::Plain(Op::Mad) => three::<L>(a, b, c, out, |a, b, c| l.add(l.mul(a, b), c)),
         LaneCode::Plain(Op::FusedMad) => three::<L>(a, b, c, out, |a, b, c| l.fused_mad(a, b, c)),

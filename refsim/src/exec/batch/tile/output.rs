@@ -83,30 +83,22 @@ impl OutputStage {
         counts: &mut FragmentCounts,
     ) {
         let simd = shaded.formats.simd();
-        let before = |row: &LaneRow| {
-            simd.run(
-                #[inline(always)]
-                || population(row),
-            )
-        };
         out.alive = *shaded.covered;
-        out.count = before(&out.alive);
+        out.count = simd.run(
+            #[inline(always)]
+            || population(&out.alive),
+        );
         if let Some(killed) = shaded.results.killed {
             let killed = shaded.slots.row(killed);
-            simd.run(
+            let left = simd.run(
                 #[inline(always)]
-                || and(&mut out.alive, killed, u32::MAX),
+                || and_not(&mut out.alive, killed),
             );
-            counts.killed += self.recount(simd, out);
+            counts.killed += out.keep(left);
         }
-        if let Some(test) = &self.state.alpha {
-            let mut passes = [0; LANES];
-            alpha(test, &shaded, &mut passes);
-            simd.run(
-                #[inline(always)]
-                || and(&mut out.alive, &passes, 0),
-            );
-            counts.alpha_failed += self.recount(simd, out);
+        if let Some(test) = self.state.alpha.as_ref().filter(|_| out.count > 0) {
+            let left = alpha(test, &shaded, &mut out.alive);
+            counts.alpha_failed += out.keep(left);
         }
         if let (Some(_), Some(format), true) = (self.state.depth.test, depth, out.count > 0) {
             self.quantised(&shaded, format, out);
@@ -119,9 +111,7 @@ impl OutputStage {
             #[inline(always)]
             || population(&out.alive),
         );
-        let gone = out.count - left;
-        out.count = left;
-        gone.into()
+        out.keep(left)
     }
 
     /// Depth test, blending and writing of the surviving lanes.
@@ -248,16 +238,19 @@ pub(super) fn population(row: &LaneRow) -> u32 {
     row.iter().map(|&m| m & 1).sum()
 }
 
-/// Intersects `alive` with a mask, which `flip` (all ones) inverts.
+/// Takes the lanes of a mask out of `alive`; returns how many are left.
 #[inline(always)]
-fn and(alive: &mut LaneRow, mask: &LaneRow, flip: u32) {
+fn and_not(alive: &mut LaneRow, mask: &LaneRow) -> u32 {
+    let mut left = 0;
     for i in 0..LANES {
-        alive[i] &= mask[i] ^ flip;
+        alive[i] &= !mask[i];
+        left += alive[i] & 1;
     }
+    left
 }
 
-/// Mask of the lanes that pass the alpha test.
-fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut LaneRow) {
+/// Takes the lanes that fail the alpha test out of `alive`; returns how many are left.
+fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, alive: &mut LaneRow) -> u32 {
     let formats = shaded.formats;
     let main = formats.lane(Arith::Main);
     let reference = main.decode(ops::convert(&Format::FP32, formats.format(Arith::Main), test.reference).bits);
@@ -266,30 +259,34 @@ fn alpha(test: &AlphaTest, shaded: &Shaded<'_>, passes: &mut LaneRow) {
     with_any_lane!(main, |lane| {
         formats.simd().run(
             #[inline(always)]
-            || compare(lane, alpha, reference, test.function, passes),
+            || compare(lane, alpha, reference, test.function, alive),
         )
-    });
+    })
 }
 
-/// Mask of the lanes whose value passes a comparison with the reference; NaN is unordered.
+/// Takes the lanes whose value fails a comparison with the reference out of `alive`; returns how many are left. NaN is
+/// unordered.
 #[inline(always)]
-fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, out: &mut LaneRow) {
+fn compare<L: Lane>(lane: &L, row: &LaneRow, reference: u32, function: CompareFunction, alive: &mut LaneRow) -> u32 {
     #[inline(always)]
-    fn rows<L: Lane>(row: &LaneRow, out: &mut LaneRow, holds: impl Fn(L::T) -> bool) {
+    fn rows<L: Lane>(row: &LaneRow, alive: &mut LaneRow, holds: impl Fn(L::T) -> bool) -> u32 {
+        let mut left = 0;
         for i in 0..LANES {
-            out[i] = if holds(L::load(row[i])) { TRUE } else { 0 };
+            alive[i] &= if holds(L::load(row[i])) { TRUE } else { 0 };
+            left += alive[i] & 1;
         }
+        left
     }
     let r = L::load(reference);
     match function {
-        CompareFunction::Never => out.fill(0),
-        CompareFunction::Less => rows::<L>(row, out, |a| lane.lt(a, r)),
-        CompareFunction::Equal => rows::<L>(row, out, |a| lane.eq(a, r)),
-        CompareFunction::LessEqual => rows::<L>(row, out, |a| lane.lt(a, r) | lane.eq(a, r)),
-        CompareFunction::Greater => rows::<L>(row, out, |a| lane.lt(r, a)),
-        CompareFunction::NotEqual => rows::<L>(row, out, |a| !lane.eq(a, r)),
-        CompareFunction::GreaterEqual => rows::<L>(row, out, |a| lane.lt(r, a) | lane.eq(a, r)),
-        CompareFunction::Always => out.fill(TRUE),
+        CompareFunction::Never => rows::<L>(row, alive, |_| false),
+        CompareFunction::Less => rows::<L>(row, alive, |a| lane.lt(a, r)),
+        CompareFunction::Equal => rows::<L>(row, alive, |a| lane.eq(a, r)),
+        CompareFunction::LessEqual => rows::<L>(row, alive, |a| lane.lt(a, r) | lane.eq(a, r)),
+        CompareFunction::Greater => rows::<L>(row, alive, |a| lane.lt(r, a)),
+        CompareFunction::NotEqual => rows::<L>(row, alive, |a| !lane.eq(a, r)),
+        CompareFunction::GreaterEqual => rows::<L>(row, alive, |a| lane.lt(r, a) | lane.eq(a, r)),
+        CompareFunction::Always => rows::<L>(row, alive, |_| true),
     }
 }
 

@@ -58,8 +58,9 @@ pub(crate) struct PackedLanes {
 pub(crate) fn packable(surfaces: &Surfaces, order: &[u32], region: Region, given: &[Vec<u32>]) -> usize {
     let Some(&first) = order.first() else { return 0 };
     let shares = |&triangle: &u32| {
-        let same = given.iter().all(|values| values[triangle as usize] == values[first as usize]);
-        same && setup(surfaces, triangle).is_some_and(|(_, setup)| is_small(region.intersect(setup.bounds)))
+        // Most draws of large triangles end here, before their values are compared.
+        setup(surfaces, triangle).is_some_and(|(_, setup)| is_small(region.intersect(setup.bounds)))
+            && given.iter().all(|values| values[triangle as usize] == values[first as usize])
     };
     let count = order.iter().take_while(|triangle| shares(triangle)).count();
     if count < MIN_TRIANGLES { 0 } else { count }

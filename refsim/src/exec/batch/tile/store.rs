@@ -19,6 +19,13 @@ impl Survivors {
     pub(crate) fn new() -> Self {
         Self { alive: [0; LANES], count: 0, depth: [0; LANES] }
     }
+
+    /// Sets the number of surviving lanes; returns how many fewer that is.
+    pub(crate) fn keep(&mut self, left: u32) -> u64 {
+        let gone = self.count - left;
+        self.count = left;
+        gone.into()
+    }
 }
 
 /// Number of fragments up to which writing them one by one is faster than encoding whole rows.

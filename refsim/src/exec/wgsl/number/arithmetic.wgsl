@@ -29,45 +29,36 @@ fn n_sum(f: Format, x: Number, y: Number, z: Number) -> Real {
     return Real(known, raw, negative, top - 94, total);
 }
 
+// What is left of a long division, and its digits, one digit further.
+fn n_digit(state: vec2<u32>, divisor: u32) -> vec2<u32> {
+    let rest = state.x << 1u;
+    let one = (state.x >> 31u) == 1u || (divisor != 0u && rest >= divisor);
+    return vec2<u32>(rest - select(0u, divisor, one), (state.y << 1u) | select(0u, 1u, one));
+}
+
 // x / y, sqrt x, 1 / sqrt x: digits of a long division, two at a time, of which roots extract a digit each.
 fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
-    let inverse = op == N_RSQ;
-    let root = inverse || op == N_SQRT;
-    var sign = 0u;
-    if x.kind == 2u || (!root && y.kind == 2u) {
-        return n_known(n_nan(f));
+    var inverse = false;
+    var root = false;
+    if (HAS_ROOTS) {
+        inverse = op == N_RSQ;
+        root = inverse || op == N_SQRT;
     }
+    // What is known without digits; of several, NaN counts first and zero last. No return before the end, since drivers
+    // make such text much longer.
     let empty = x.kind == 0u && x.sig == 0u;
-    if root {
-        let magnitude = inverse && f.special == 0u && n_is_float(f);
-        if empty && inverse {
-            return n_known(n_pole(f, select(x.sign, 0u, magnitude)));
-        }
-        if empty {
-            return n_known(n_zero(f, x.sign));
-        }
-        if x.sign == 1u && !magnitude {
-            return n_known(n_nan(f));
-        }
-        if x.kind == 1u {
-            return n_known(select(n_infinite(f, 0u), n_zero(f, 0u), inverse));
-        }
-    } else {
-        sign = x.sign ^ y.sign;
-        let by_zero = y.kind == 0u && y.sig == 0u;
-        if (x.kind == 1u && y.kind == 1u) || (empty && by_zero) {
-            return n_known(n_nan(f));
-        }
-        if x.kind == 1u {
-            return n_known(n_infinite(f, sign));
-        }
-        if by_zero {
-            return n_known(n_pole(f, sign));
-        }
-        if y.kind == 1u || empty {
-            return n_known(n_zero(f, sign));
-        }
-    }
+    let by_zero = y.kind == 0u && y.sig == 0u;
+    let magnitude = inverse && f.special == 0u && n_is_float(f);
+    let sign = select(x.sign ^ y.sign, select(0u, x.sign, empty && !magnitude), root);
+    let undefined = y.kind == 2u || (x.kind == 1u && y.kind == 1u) || (empty && by_zero);
+    let nan = x.kind == 2u || select(undefined, x.sign == 1u && !magnitude && !empty, root);
+    let infinite = x.kind == 1u && !inverse;
+    let pole = select(by_zero, empty && inverse, root) && !infinite;
+    let zero = select(empty || y.kind == 1u, select(empty, x.kind == 1u, inverse), root);
+    let unbounded = n_is_float(f) && (infinite || f.overflow != 0u);
+    var raw = select(n_extreme(f, sign), (sign << 31u) | N_INFINITY, unbounded);
+    raw = select(n_zero(f, sign), raw, infinite || pole);
+    raw = select(raw, n_nan(f), nan);
     // rest / divisor is less than one, except that divisor 0 stands for 2^32: then the digits are those of rest.
     var rest = x.sig;
     var divisor = 0u;
@@ -97,13 +88,10 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
     var result = vec2<u32>();
     var left = vec2<u32>();
     for (var i = 0u; i < steps; i++) {
-        for (var k = skip; k < 2u; k++) {
-            let carry = rest >> 31u;
-            rest <<= 1u;
-            let one = carry == 1u || (divisor != 0u && rest >= divisor);
-            rest -= select(0u, divisor, one);
-            digits = (digits << 1u) | select(0u, 1u, one);
-        }
+        let begun = vec2<u32>(rest, digits);
+        let pair = n_digit(select(n_digit(begun, divisor), begun, skip == 1u), divisor);
+        rest = pair.x;
+        digits = pair.y;
         skip = 0u;
         let quadruple = vec2<u32>((result.x << 2u) | (result.y >> 30u), result.y << 2u);
         if root {
@@ -120,7 +108,7 @@ fn n_quotient(op: u32, f: Format, x: Number, y: Number) -> Real {
         digits = 0u;
     }
     let sticky = select(0u, 1u, (rest | left.x | left.y) != 0u);
-    return Real(false, 0u, sign, exp - 32, vec3<u32>(result.x, result.y, sticky));
+    return Real(nan || infinite || pole || zero, raw, sign, exp - 32, vec3<u32>(result.x, result.y, sticky));
 }
 
 // The upper half of a product, less 4 units at most.

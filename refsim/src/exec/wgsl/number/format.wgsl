@@ -63,12 +63,10 @@ fn n_zero(f: Format, sign: u32) -> u32 {
 
 // The finite end of the range on a side.
 fn n_extreme(f: Format, sign: u32) -> u32 {
-    if n_is_float(f) {
-        let exponent = (1u << (f.upper - 1u)) + 126u;
-        return (sign << 31u) | (exponent << 23u) | (((1u << f.frac) - 1u) << (23u - f.frac));
-    }
+    let exponent = (1u << ((f.upper - 1u) & 31u)) + 126u;
+    let float = (sign << 31u) | (exponent << 23u) | (((1u << f.frac) - 1u) << ((23u - f.frac) & 31u));
     let most = (1u << (f.upper + f.frac)) - 1u;
-    return select(most, ~most, sign == 1u);
+    return select(select(most, ~most, sign == 1u), float, n_is_float(f));
 }
 
 // An infinite operand passed on.

@@ -13,9 +13,31 @@ var<private> vm_counter: u32;
 // Steps of each lane.
 var<private> vm_steps: vec4<u32>;
 
-// What long operations come to before their rounding, lane by lane, and whether the next operation finds it there.
-var<private> vm_exact: array<Real, 4>;
+// What long operations come to before their rounding, lane by lane, and whether the next operation finds it there. Rows
+// of words, not an array of structures, in which drivers of processors would reach for each word of each lane alone.
+var<private> vm_known: vec4<bool>;
+var<private> vm_raw: vec4<u32>;
+var<private> vm_sign: vec4<u32>;
+var<private> vm_exp: vec4<i32>;
+var<private> vm_high: vec4<u32>;
+var<private> vm_middle: vec4<u32>;
+var<private> vm_low: vec4<u32>;
 var<private> vm_prepared: bool;
+
+fn vm_keep(lane: u32, x: Real) {
+    vm_known[lane] = x.known;
+    vm_raw[lane] = x.raw;
+    vm_sign[lane] = x.sign;
+    vm_exp[lane] = x.exp;
+    vm_high[lane] = x.m.x;
+    vm_middle[lane] = x.m.y;
+    vm_low[lane] = x.m.z;
+}
+
+fn vm_kept(lane: u32) -> Real {
+    let m = vec3<u32>(vm_high[lane], vm_middle[lane], vm_low[lane]);
+    return Real(vm_known[lane], vm_raw[lane], vm_sign[lane], vm_exp[lane], m);
+}
 
 // The value of an operand in every lane. There are few calls, since each is a copy of the text for most drivers.
 fn vm_row(operand: u32) -> vec4<u32> {
@@ -300,7 +322,10 @@ fn vm_relative(word: u32, base: i32, address: i32) -> u32 {
 fn vm_prepare(op: u32, word: u32, at: u32) {
     let f = format((word >> 8u) & 15u);
     let operation = word >> 16u;
-    let terms = select(1u, operation, op == VM_DOT);
+    var terms = 1u;
+    if (HAS_DOTS) {
+        terms = select(1u, operation, op == VM_DOT);
+    }
     var left: array<vec4<u32>, 4>;
     var right: array<vec4<u32>, 4>;
     for (var k = 0u; k < terms; k += 1u) {
@@ -310,10 +335,12 @@ fn vm_prepare(op: u32, word: u32, at: u32) {
     for (var lane = 0u; lane < 4u; lane += 1u) {
         let a = vec4<u32>(left[0][lane], left[1][lane], left[2][lane], left[3][lane]);
         let b = vec4<u32>(right[0][lane], right[1][lane], right[2][lane], right[3][lane]);
+        var exact: Real;
         switch op {
-            case VM_DOT: { vm_exact[lane] = n_dot(f, operation, a, b); }
-            default: { vm_exact[lane] = n_long(operation, f, a.x, b.x); }
+            case VM_DOT: { exact = n_dot(f, operation, a, b); }
+            default: { exact = n_long(operation, f, a.x, b.x); }
         }
+        vm_keep(lane, exact);
     }
     vm_prepared = true;
 }
@@ -324,14 +351,18 @@ fn vm_compute(op: u32, word: u32, at: u32) {
     let operation = word >> 16u;
     // Differences within the quad: bit 1 right neighbour less left one, bit 2 lower less upper.
     let other = (word >> 12u) & 3u;
-    // One call in a loop, not three: compilers take half of the time.
-    var operands: array<vec4<u32>, 3>;
-    for (var k = 0u; k < select(3u, 1u, op == VM_RELATIVE); k += 1u) {
-        operands[k] = vm_row(vm_operand(at + 1u, k + 1u));
+    // One call in a loop, not three: compilers take half of the time. An array would cost them more than moving the
+    // rows.
+    var first: vec4<u32>;
+    var second: vec4<u32>;
+    var third: vec4<u32>;
+    for (var k = 1u; k < 4u; k += 1u) {
+        first = second;
+        second = third;
+        if (k == 1u || op != VM_RELATIVE) {
+            third = vm_row(vm_operand(at + 1u, k));
+        }
     }
-    let first = operands[0];
-    let second = operands[1];
-    let third = operands[2];
     var result = first;
     switch op {
         case VM_COPY: {}
@@ -346,7 +377,7 @@ fn vm_compute(op: u32, word: u32, at: u32) {
         }
         default: {
             for (var lane = 0u; lane < 4u; lane += 1u) {
-                var exact = vm_exact[lane];
+                var exact = vm_kept(lane);
                 if (!vm_prepared) {
                     exact = n_short(operation, f, first[lane | other], second[lane & ~other], third[lane]);
                 }

@@ -21,18 +21,17 @@ fn texture_negated(a: vec2<u32>) -> vec2<u32> {
 
 fn texture_left(a: vec2<u32>, shift: u32) -> vec2<u32> {
     let part = shift & 31u;
-    if (shift >= 64u) { return vec2<u32>(0u); }
-    if (shift >= 32u) { return vec2<u32>(0u, a.x << part); }
-    if (part == 0u) { return a; }
-    return vec2<u32>(a.x << part, (a.y << part) | (a.x >> (32u - part)));
+    // By 32 less the part in two steps, since no shift is by 32.
+    let near = vec2<u32>(a.x << part, (a.y << part) | ((a.x >> 1u) >> (31u - part)));
+    let moved = select(near, vec2<u32>(0u, near.x), shift >= 32u);
+    return select(moved, vec2<u32>(0u), shift >= 64u);
 }
 
 fn texture_right(a: vec2<u32>, shift: u32) -> vec2<u32> {
     let part = shift & 31u;
-    if (shift >= 64u) { return vec2<u32>(0u); }
-    if (shift >= 32u) { return vec2<u32>(a.y >> part, 0u); }
-    if (part == 0u) { return a; }
-    return vec2<u32>((a.x >> part) | (a.y << (32u - part)), a.y >> part);
+    let near = vec2<u32>((a.x >> part) | ((a.y << 1u) << (31u - part)), a.y >> part);
+    let moved = select(near, vec2<u32>(near.y, 0u), shift >= 32u);
+    return select(moved, vec2<u32>(0u), shift >= 64u);
 }
 
 // floor(coordinate * scale * 2^fraction) in two's complement; with `half_up`, halves up instead of down. NaN and
@@ -40,8 +39,7 @@ fn texture_right(a: vec2<u32>, shift: u32) -> vec2<u32> {
 // has at most 54 bits.
 fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_up: bool) -> vec2<u32> {
     let given = coordinate & 0x7fffffffu;
-    if (given >= 0x7f800000u) { return vec2<u32>(0u); }
-    let size = min(given, most);
+    let size = select(min(given, most), 0u, given >= 0x7f800000u);
     let field = size >> 23u;
     let significand = (size & 0x7fffffu) | select(0u, 0x800000u, field != 0u);
     let product = texture_wide(significand, scale);
@@ -67,23 +65,26 @@ fn texture_position(coordinate: u32, most: u32, scale: u32, fraction: u32, half_
 // The index that an address mode makes of a position in two's complement, or TEXTURE_BORDER.
 fn texture_resolved(mode: u32, position: vec2<u32>, size: u32) -> u32 {
     let below = (position.y >> 31u) == 1u;
-    if (mode > ADDRESS_MIRROR) {
-        if (position.y == 0u && position.x < size) { return position.x; }
-        if (mode == ADDRESS_BORDER) { return TEXTURE_BORDER; }
-        return select(size - 1u, 0u, below);
+    let inside = position.y == 0u && position.x < size;
+    let outside = select(select(size - 1u, 0u, below), TEXTURE_BORDER, mode == ADDRESS_BORDER);
+    var index = select(outside, position.x, inside);
+    if (HAS_PERIODS) {
+        if (mode <= ADDRESS_MIRROR) {
+            let period = size << mode; // mirrored images repeat every two sizes
+            var rest = position.x & (period - 1u);
+            if ((period & (period - 1u)) != 0u) {
+                var magnitude = position;
+                if (below) { magnitude = texture_negated(position); }
+                // The period has at most 16 bits: a remainder and sixteen more bits fit a word.
+                rest = magnitude.y % period;
+                rest = ((rest << 16u) | (magnitude.x >> 16u)) % period;
+                rest = ((rest << 16u) | (magnitude.x & 0xffffu)) % period;
+                if (below && rest != 0u) { rest = period - rest; }
+            }
+            index = select(rest, 2u * size - 1u - rest, rest >= size);
+        }
     }
-    let period = size << mode; // mirrored images repeat every two sizes
-    var rest = position.x & (period - 1u);
-    if ((period & (period - 1u)) != 0u) {
-        var magnitude = position;
-        if (below) { magnitude = texture_negated(position); }
-        // The period has at most 16 bits: a remainder and sixteen more bits fit a word.
-        rest = magnitude.y % period;
-        rest = ((rest << 16u) | (magnitude.x >> 16u)) % period;
-        rest = ((rest << 16u) | (magnitude.x & 0xffffu)) % period;
-        if (below && rest != 0u) { rest = period - rest; }
-    }
-    return select(rest, 2u * size - 1u - rest, rest >= size);
+    return index;
 }
 
 // The signed face axes and the signed major axis of a vector on a given face.

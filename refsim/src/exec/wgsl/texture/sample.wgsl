@@ -58,15 +58,17 @@ fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: 
 
 // The stored words of the texel at a column, row and slice of a level (`row` is the level's in the table).
 fn texture_words(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
+    var words = vec4<u32>(0u);
     if (max(max(at.x, at.y), at.z) == TEXTURE_BORDER) {
         let border = s.base + SAMPLER_BORDER;
-        return vec4<u32>(samplers[border], samplers[border + 1u], samplers[border + 2u], samplers[border + 3u]);
+        words = vec4<u32>(samplers[border], samplers[border + 1u], samplers[border + 2u], samplers[border + 3u]);
+    } else {
+        let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
+        let first = row[LEVEL_OFFSET] + ((at.z * row[LEVEL_HEIGHT] + at.y) * row[LEVEL_WIDTH] + at.x) * size;
+        words.x = video[first];
+        if (size > 1u) { words.y = video[first + 1u]; }
+        if (size > 2u) { words.z = video[first + 2u]; words.w = video[first + 3u]; }
     }
-    let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
-    let first = row[LEVEL_OFFSET] + ((at.z * row[LEVEL_HEIGHT] + at.y) * row[LEVEL_WIDTH] + at.x) * size;
-    var words = vec4<u32>(video[first], 0u, 0u, 0u);
-    if (size > 1u) { words.y = video[first + 1u]; }
-    if (size > 2u) { words.z = video[first + 2u]; words.w = video[first + 3u]; }
     return words;
 }
 
@@ -106,7 +108,13 @@ fn texture_blend(
 
 // One lane's texel: texels that are integers are summed exactly and rounded once, floats blended in single precision.
 fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
-    let levels = texture_levels(s, place.wanted);
+    var levels = TextureLevels(false, vec2<u32>(s.level_range & 0xffu), 0u);
+    if (HAS_FILTERS) {
+        levels.linear = texture_flag(s, FLAG_MAG, 1u) != 0u;
+    }
+    if (HAS_LEVELS) {
+        levels = texture_levels(s, place.wanted);
+    }
     let floats = texture_flag(s, FLAG_FLOAT, 1u) != 0u;
     let filter_bits = texture_flag(s, FLAG_FILTER_BITS, 4u);
     let lod_bits = texture_flag(s, FLAG_LOD_BITS, 4u);
@@ -115,6 +123,7 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     var sums = array<vec2<u32>, 4>();
     var texels: array<vec4<u32>, 16>;
     var weights = array<vec3<u32>, 2>();
+    var out = vec4<u32>(0u);
     let rows = select(1u, 2u, levels.weight != 0u);
     for (var r = 0u; r < rows; r++) {
         let at = s.base + SAMPLER_LEVELS + 4u * levels.level[r];
@@ -130,8 +139,11 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         }
         weights[r] = second;
         let part = select(levels.weight, (1u << lod_bits) - levels.weight, r == 0u);
-        let used = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), second != vec3<u32>(0u));
-        let mask = used.x | used.y | used.z;
+        var mask = 0u;
+        if (HAS_FILTERS) {
+            let used = select(vec3<u32>(0u), vec3<u32>(1u, 2u, 4u), second != vec3<u32>(0u));
+            mask = used.x | used.y | used.z;
+        }
         for (var corner = 0u; corner <= mask; corner++) {
             if ((corner & ~mask) != 0u) { continue; }
             let side = (vec3<u32>(corner) & vec3<u32>(1u, 2u, 4u)) != vec3<u32>(0u);
@@ -146,18 +158,23 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
                 }
                 if (HAS_RATIO_TEXELS) {
                     let numerator = texel_numerator(components[c], bits); // at most 2^16
-                    let size = u32(abs(numerator));
-                    var product = texture_wide(weight.x, size);
-                    product.y += weight.y * size;
-                    if (numerator < 0) { product = texture_negated(product); }
-                    sums[c] = texture_add(sums[c], product);
+                    if (HAS_FILTERS) {
+                        let size = u32(abs(numerator));
+                        var product = texture_wide(weight.x, size);
+                        product.y += weight.y * size;
+                        if (numerator < 0) { product = texture_negated(product); }
+                        sums[c] = texture_add(sums[c], product);
+                    }
+                    if (!floats) { single[c] = bitcast<u32>(numerator); }
                 }
             }
-            texels[8u * r + corner] = single;
+            out = single;
+            if (HAS_FLOAT_FILTERS) {
+                texels[8u * r + corner] = single;
+            }
         }
     }
     let f = format(MAIN);
-    var out = texels[0];
     if (HAS_FLOAT_FILTERS) {
         if (floats && (any((weights[0] | weights[1]) != vec3<u32>(0u)) || levels.weight != 0u)) {
             texture_blend(s, weights, levels.weight, &texels);
@@ -165,18 +182,25 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         }
     }
     // Single precision keeps what is single precision.
-    if (floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u) { return out; }
-    for (var c = 0u; c < 4u; c++) {
-        var parts: TexelParts;
-        if (HAS_FLOAT_TEXELS) {
-            parts = texel_parts_of_single(out[c]);
-        }
-        if (HAS_RATIO_TEXELS) {
-            if (!floats) {
-                parts = texel_parts_of_ratio(sums[c], texel_denominator(components[c]), 3u * filter_bits + lod_bits);
+    if (!(floats && f.kind == 1u && f.upper == 8u && f.frac == 23u && f.denormals == 0u)) {
+        for (var c = 0u; c < 4u; c++) {
+            var parts: TexelParts;
+            if (HAS_FLOAT_TEXELS) {
+                parts = texel_parts_of_single(out[c]);
             }
+            if (HAS_RATIO_TEXELS) {
+                if (!floats) {
+                    var sum = vec2<u32>(out[c], bitcast<u32>(bitcast<i32>(out[c]) >> 31u));
+                    var shift = 0u;
+                    if (HAS_FILTERS) {
+                        sum = sums[c];
+                        shift = 3u * filter_bits + lod_bits;
+                    }
+                    parts = texel_parts_of_ratio(sum, texel_denominator(components[c]), shift);
+                }
+            }
+            out[c] = texel_rounded(f, parts);
         }
-        out[c] = texel_rounded(f, parts);
     }
     return out;
 }

@@ -18,32 +18,34 @@ fn texel_is_float(component: u32) -> bool {
 fn texel_numerator(component: u32, bits: u32) -> i32 {
     let spare = 32u - (component >> 16u);
     let signed_bits = bitcast<i32>(bits << (spare & 31u)) >> (spare & 31u);
+    var numerator = signed_bits;
     switch component & 0xffu {
-        case TEXEL_ZERO: { return 0; }
-        case TEXEL_ONE: { return 1; }
-        case TEXEL_UNORM: { return bitcast<i32>(bits); }
-        case TEXEL_SNORM_CLAMPED: { return max(signed_bits, -bitcast<i32>(texel_denominator(component))); }
-        case TEXEL_SPLIT: { return signed_bits * select(16, 15, signed_bits < 0); }
-        default: { return signed_bits; }
+        case TEXEL_ZERO: { numerator = 0; }
+        case TEXEL_ONE: { numerator = 1; }
+        case TEXEL_UNORM: { numerator = bitcast<i32>(bits); }
+        case TEXEL_SNORM_CLAMPED: { numerator = max(signed_bits, -bitcast<i32>(texel_denominator(component))); }
+        case TEXEL_SPLIT: { numerator = signed_bits * select(16, 15, signed_bits < 0); }
+        default: { }
     }
+    return numerator;
 }
 
 // The denominator of a component that is a ratio, at most 65535.
 fn texel_denominator(component: u32) -> u32 {
     let width = component >> 16u;
+    var denominator = 1u;
     switch component & 0xffu {
-        case TEXEL_UNORM: { return (1u << width) - 1u; }
-        case TEXEL_SNORM, TEXEL_SNORM_CLAMPED: { return max((1u << (width - 1u)) - 1u, 1u); }
-        case TEXEL_SPLIT: { return 240u; }
-        default: { return 1u; }
+        case TEXEL_UNORM: { denominator = (1u << width) - 1u; }
+        case TEXEL_SNORM, TEXEL_SNORM_CLAMPED: { denominator = max((1u << (width - 1u)) - 1u, 1u); }
+        case TEXEL_SPLIT: { denominator = 240u; }
+        default: { }
     }
+    return denominator;
 }
 
 // A component of a floating-point texel as FP32 bits, exactly; NaN is the canonical one.
 fn texel_single(component: u32, bits: u32) -> u32 {
     let kind = component & 0xffu;
-    if (kind == TEXEL_ONE) { return 0x3f800000u; }
-    if (kind < TEXEL_FP16) { return 0u; }
     var fraction_bits = 23u;
     var exponent_bits = 8u;
     if (kind == TEXEL_FP16) { fraction_bits = 10u; exponent_bits = 5u; }
@@ -52,18 +54,18 @@ fn texel_single(component: u32, bits: u32) -> u32 {
     let top_field = (1u << exponent_bits) - 1u;
     let field = (bits >> fraction_bits) & top_field;
     let fraction = bits & ((1u << fraction_bits) - 1u);
-    if (field == top_field) {
-        return select(0x7fc00000u, sign | 0x7f800000u, fraction == 0u);
-    }
     // The bias is half the largest field, cut.
     let rebias = 127u - (top_field >> 1u);
-    if (field != 0u) {
-        return sign | ((field + rebias) << 23u) | (fraction << (23u - fraction_bits));
-    }
-    if (fraction == 0u || kind == TEXEL_FP32) { return sign | fraction; }
+    let above = 23u - fraction_bits;
     let left = countLeadingZeros(fraction) - (31u - fraction_bits); // places up to the hidden bit
-    let normal = (fraction << left) & ((1u << fraction_bits) - 1u);
-    return sign | ((rebias + 1u - left) << 23u) | (normal << (23u - fraction_bits));
+    let hidden = (fraction << left) & ((1u << fraction_bits) - 1u);
+    let kept = fraction == 0u || kind == TEXEL_FP32;
+    let small = select(((rebias + 1u - left) << 23u) | (hidden << above), fraction, kept);
+    var size = select(((field + rebias) << 23u) | (fraction << above), small, field == 0u);
+    size = select(size, 0x7f800000u, field == top_field);
+    var single = select(sign | size, 0x7fc00000u, field == top_field && fraction != 0u);
+    single = select(single, 0u, kind < TEXEL_FP16);
+    return select(single, 0x3f800000u, kind == TEXEL_ONE);
 }
 
 // What one rounding makes a number of: (-1)^negative * significand * 2^exponent, a little more with `sticky`.
@@ -94,9 +96,6 @@ fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> T
     let negative = (numerator.y >> 31u) == 1u;
     var magnitude = numerator;
     if (negative) { magnitude = texture_negated(numerator); }
-    if (all(magnitude == vec2<u32>(0u))) {
-        return TexelParts(vec2<u32>(0u), 0, false, false, false, false);
-    }
     var left = countLeadingZeros(magnitude.y);
     if (magnitude.y == 0u) { left = 32u + countLeadingZeros(magnitude.x); }
     magnitude = texture_left(magnitude, left);
@@ -115,9 +114,10 @@ fn texel_parts_of_ratio(numerator: vec2<u32>, denominator: u32, shift: u32) -> T
 
 // The number rounded once into a format, raw.
 fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
-    if (parts.nan) { return n_nan(f); }
-    if (parts.infinite) { return n_infinite(f, select(0u, 1u, parts.negative)); }
-    return n_round(f, parts.negative, parts.significand, parts.exponent, parts.sticky);
+    let sign = select(0u, 1u, parts.negative);
+    let raw = select(n_infinite(f, sign), n_nan(f), parts.nan);
+    let m = vec3<u32>(parts.significand.y, parts.significand.x, select(0u, 1u, parts.sticky));
+    return n_finish(f, Real(parts.nan || parts.infinite, raw, sign, parts.exponent - 32, m));
 }
 
 // A component of a stored texel in a format, raw: what a nearest read gives. (Reading back a target; `texture_read` has

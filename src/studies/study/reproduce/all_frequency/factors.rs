@@ -73,7 +73,7 @@ pub(in crate::study::reproduce) fn findings(_: &Shared) -> Result<EntryFindings,
         rows,
         questions: vec![QUESTION],
         tables,
-        pictures: swept.pictures,
+        pictures: vec![swept.pictures],
         ..EntryFindings::default()
     })
 }

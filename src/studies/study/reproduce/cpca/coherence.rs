@@ -10,7 +10,7 @@ use super::{
     Contradiction, EntryFindings, PaperRow, Prose, REGISTERS, Shared, StudyError, number, printed, printed_value,
     solved,
 };
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::HarmonicLight;
 
 /// Signal, its name, and the same in the names of its figures.
@@ -29,7 +29,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "Triangles drawn per triangle of the mesh",
         "model original_printed original rec_printed rec sc_printed sc sc+rec_printed sc+rec added_error_% superclusters",
     );
-    let (mut rows, mut originals, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut originals) = (Vec::new(), Vec::new());
+    let mut grid = PictureGrid::new("Figure 5", COLUMNS);
     let light = HarmonicLight::red_and_blue(5);
     for (at, name, id) in MODELS {
         let computed = shared.get::<ComputedSignal>(at)?;
@@ -46,11 +47,16 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         }
         originals.push(found.overdraw[0]);
         let view = ModelView::new(computed, &light, EYE)?;
-        for (how, of_vertex) in COLUMNS.into_iter().zip(&found.groups) {
-            let drawn = if how.starts_with("sc") { "superclusters" } else { "clusters" };
-            let caption = format!("{name}, {how}: {drawn}, each in a color of its own");
-            pictures.push(view.groups(of_vertex, (format!("cpca-figure-5-{name}-{}", how.replace('+', "-")), caption)));
+        let mut pictures = Vec::new();
+        for (at, how) in COLUMNS.into_iter().enumerate() {
+            // What is drawn together, and its clusters: before reclassification or after it.
+            let (groups, clusters) = (&found.groups[at], &found.groups[at % 2]);
+            let drawn = if at < 2 { "clusters" } else { "superclusters, their clusters in shades," };
+            let caption = format!("{name}, {how}: {drawn} each in a color of its own");
+            let file = format!("cpca-figure-5-{name}-{}", how.replace('+', "-"));
+            pictures.push(view.groups((groups, clusters), (file, caption)));
         }
+        grid = grid.row(name, pictures);
     }
     rows.push(solved("overdraw-bumpy-over-smooth", originals[0] / originals[1])?);
     let size = super::signals::SIGNALS[BIRD].size;
@@ -64,7 +70,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows,
         questions: vec![QUESTION, ORDER],
         tables: vec![table, frames],
-        pictures,
+        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

@@ -11,7 +11,7 @@ use super::signals::BIRD;
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryFindings, Prose, Shared, StudyError, number, printed, solved};
 use crate::cpca::on_card::model::TransferSize;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::HarmonicLight;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
@@ -70,7 +70,9 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         pictures.push(view.picture(Some(clustering), format!("cpca-figure-10-{name}"), (*name).to_owned())?);
     }
     pictures.push(view.picture(None, "cpca-figure-10-uncompressed".to_owned(), "uncompressed".to_owned())?);
-    pictures.push(view.light("cpca-figure-10", RED_AND_BLUE)?);
+    let columns = ["PCA, m_c = 1, n' = 20", "VQ, m_c = 1792, n' = 0", "CPCA, m_c = 256, n' = 8", "uncompressed"];
+    let light = view.light("cpca-figure-10", RED_AND_BLUE)?;
+    let grid = PictureGrid::new("Figure 10", columns).row("", pictures).row("", [light]);
     let stored = ENCODINGS.map(|(_, clusters, vectors, _)| {
         let size = TransferSize { clusters, vectors, ..computed.paper.size };
         number(size.stored_numbers() as f64 / 1e6, 2)
@@ -81,7 +83,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows,
         questions: vec![QUESTION],
         tables: vec![table],
-        pictures,
+        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

@@ -11,7 +11,7 @@ use super::signals::{BIRD, BUDDHA, ComputedSignal};
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{Contradiction, EntryFindings, PaperRow, Prose, Shared, StudyError, number, printed, solved};
 use crate::cpca::on_card::model::TransferSize;
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::sphere::HarmonicLight;
 use crate::transfer::clustering::{Clustering, CpcaMethod};
 
@@ -27,7 +27,9 @@ const QUESTION: &str = "the models, the BRDF and the scale of the squared error.
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut table = Table::of("Squared errors", "model vectors printed ours share_of_squares_% Hz_printed Hz");
-    let (mut rows, mut timed, mut pictures, mut all) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut timed, mut all, mut lights) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let columns = VECTORS.map(|vectors| format!("n' = {vectors}")).into_iter().chain(["uncompressed".to_owned()]);
+    let mut grid = PictureGrid::new("Figure 11", columns);
     let light = HarmonicLight::red_and_blue(5);
     let card = Profile::named(CARD)?;
     let mut eight_vectors = Vec::new();
@@ -35,7 +37,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         let (computed, eight) = iterative(shared, at)?;
         let energy = computed.energy();
         let view = ModelView::new(computed, &light, EYE)?;
-        let mut errors = Vec::new();
+        let (mut errors, mut pictures) = (Vec::new(), Vec::new());
         for vectors in VECTORS {
             let (error, picture, drawn) = with(computed, &view, (vectors, eight), name)?;
             let sizes = (computed.paper.model, TransferSize { vectors, ..computed.paper.size });
@@ -63,7 +65,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             pictures.push(picture);
         }
         pictures.push(view.picture(None, format!("cpca-figure-11-{name}"), format!("{name}, uncompressed"))?);
-        pictures.push(view.light(&format!("cpca-figure-11-{name}"), RED_AND_BLUE)?);
+        grid = grid.row(name, pictures);
+        lights.push(view.light(&format!("cpca-figure-11-{name}"), RED_AND_BLUE)?);
         for (pair, vectors) in errors.windows(2).zip(VECTORS) {
             rows.push(solved(&format!("falls-{id}-{vectors}"), pair[0] / pair[1])?);
         }
@@ -83,7 +86,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows,
         questions: vec![QUESTION],
         tables: vec![table],
-        pictures,
+        // Both models have the same light.
+        pictures: vec![grid.row("", lights.pop())],
         ..EntryFindings::default()
     })
 }

@@ -4,7 +4,7 @@ use super::signals::{ComputedSignal, DIFFUSE_BIRD};
 use super::views::{ModelView, RED_AND_BLUE};
 use super::{EntryChart, EntryFindings, PaperRow, Prose, Shared, StudyError, number, solved};
 use crate::elementary::ln;
-use crate::report::{Cell, Chart, NamedPicture, Scale, Series, Table};
+use crate::report::{Cell, Chart, PictureGrid, Scale, Series, Table};
 use crate::sphere::HarmonicLight;
 use crate::transfer::clustering::CpcaMethod;
 
@@ -64,7 +64,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         questions: vec![QUESTION],
         tables: vec![table],
         charts: vec![chart(&still, &iterative, &adaptive)],
-        pictures: error_maps(computed, clusters)?,
+        pictures: vec![error_maps(computed, clusters)?],
         ..EntryFindings::default()
     })
 }
@@ -109,7 +109,7 @@ fn chart(still: &[f64], iterative: &[f64], adaptive: &[f64]) -> EntryChart {
 
 /// Figure 4: the error of each vertex, relative to the largest of the static clustering, and in a second row the
 /// pictures.
-fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPicture>, StudyError> {
+fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<PictureGrid, StudyError> {
     let light = HarmonicLight::red_and_blue(5);
     let view = ModelView::new(computed, &light, EYE)?;
     let plain = view.colors(None)?;
@@ -131,10 +131,11 @@ fn error_maps(computed: &ComputedSignal, clusters: usize) -> Result<Vec<NamedPic
         let caption = format!("{name}: squared error [{squared}], of the picture {} %", number(error, 2));
         rendered.push(view.picture(Some(&clustering), format!("cpca-figure-4-{name}-rendered"), caption)?);
     }
-    rendered.push(view.picture(None, "cpca-figure-4-uncompressed".to_owned(), "uncompressed".to_owned())?);
-    rendered.push(view.light("cpca-figure-4", RED_AND_BLUE)?);
-    pictures.extend(rendered);
-    Ok(pictures)
+    let plain = view.picture(None, "cpca-figure-4-uncompressed".to_owned(), "uncompressed".to_owned())?;
+    Ok(PictureGrid::new("Figure 4", ["static PCA", "iterative PCA", "adaptive PCA"])
+        .row("error per point", pictures)
+        .row("rendered", rendered)
+        .row("", [plain, view.light("cpca-figure-4", RED_AND_BLUE)?]))
 }
 
 #[cfg(test)]

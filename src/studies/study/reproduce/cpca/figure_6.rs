@@ -4,7 +4,7 @@ use super::figure_3::over_readings;
 use super::signals::{ComputedSignal, POLYGONS};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, Prose, Shared, StudyError, failed, number};
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::{HarmonicLight, function_count};
 use crate::transfer::clustering::CpcaMethod;
 
@@ -44,19 +44,23 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             ratios.push(ratio);
         }
     }
-    pictures.push(view.light("cpca-figure-6", "a small disk at order 10")?);
     let low = low_order(&light)?;
+    let mut plain = Vec::new();
     for (order, light) in ORDERS.into_iter().zip([&light, &low]) {
         let view = ModelView::new(computed, light, EYE)?;
         let caption = format!("order {order}, uncompressed");
-        pictures.push(view.picture(None, format!("cpca-figure-6-order-{order}"), caption)?);
+        plain.push(view.picture(None, format!("cpca-figure-6-order-{order}"), caption)?);
     }
+    pictures.extend(plain.pop());
+    plain.push(view.light("cpca-figure-6", "a small disk at order 10")?);
+    let columns = ["static, n' = 1", "iterative, n' = 1", "n' = 2", "n' = 4", "N = 25, uncompressed"];
+    let grid = PictureGrid::new("Figure 6: N = 100", columns).row("", pictures).row("N = 100, uncompressed", plain);
     let figures = [computed.signal.points(), ORDERS[0], CLUSTERS[0], CLUSTERS[1]].map(|count| number(count as f64, 0));
     Ok(EntryFindings {
         text: vec![Prose::new(HOW, figures)],
         rows: vec![over_readings("figure-6", &ratios)?],
         tables: vec![table],
-        pictures,
+        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

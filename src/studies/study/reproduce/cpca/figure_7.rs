@@ -12,7 +12,7 @@ use super::{
 use crate::cpca::transfer::{Incident, TracedRays};
 use crate::geom::exact::Sides;
 use crate::geom::vector::wide;
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::sphere::{DirectionRule, HarmonicLight};
 use crate::study::prt::ExitRadiance;
 use crate::tracer::HostTracer;
@@ -60,8 +60,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         text: vec![Prose::new(HOW, figures.into_iter().chain([number(RIM, 2)])), Prose::new(FRESNEL, ends)],
         rows,
         questions: vec![QUESTION],
+        pictures: vec![stated.grid()],
         tables: vec![stated.table, swept],
-        pictures: stated.pictures,
         ..EntryFindings::default()
     })
 }
@@ -118,6 +118,17 @@ impl ProjectedPictures {
             found.points = computed.signal.points();
         }
         Ok(found)
+    }
+
+    /// Pictures as in the figure, then what they are held against.
+    fn grid(&self) -> PictureGrid {
+        let found = |name: &str| self.pictures.iter().find(|picture| picture.name.ends_with(name)).cloned();
+        let columns = ["(a) zero hemisphere, 16 rows", "(b) least squares, 16 rows", "(c) zero hemisphere, 25 rows"];
+        let printed = ["zero-hemisphere-16", "least-squares-16", "zero-hemisphere-25"].map(found);
+        let others = ["exact", "least-squares-25", "light"].map(found);
+        PictureGrid::new("Figure 7", columns)
+            .sparse_row("", printed)
+            .sparse_row("no projection; least squares, 25 rows; the light", others)
     }
 
     /// Values of the rows.

@@ -14,7 +14,7 @@ use super::{
     printed_value,
 };
 use crate::cpca::on_card::model::TransferSize;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::HarmonicLight;
 
 /// Signal, its name, the same in the names of its figures, and the figure of its frames per second in Table 1.
@@ -47,7 +47,8 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         "Compressed and uncompressed",
         "model error_of_picture_% silhouettes_% overdraw Hz_printed Hz host_ms constants_ms draws_ms",
     );
-    let (mut rows, mut gains, mut pictures, mut shown_light) = (Vec::new(), Vec::new(), Vec::new(), None);
+    let (mut rows, mut gains, mut shown_light) = (Vec::new(), Vec::new(), None);
+    let mut grid = PictureGrid::new("Figure 8", ["compressed", "uncompressed"]);
     let mut plain_gains = Vec::new();
     for (at, name, id, rate) in MODELS {
         let (computed, clustering) = iterative(shared, at)?;
@@ -89,11 +90,13 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             gain_by_clocks.push(100.0 * (on(&new?)?.per_second() / on(&old?)?.per_second() - 1.0));
         }
         gains.push(gain_by_clocks);
+        let mut pictures = Vec::new();
         for (clustering, how) in [(Some(clustering), "compressed"), (None, "uncompressed")] {
             pictures.push(view.picture(clustering, format!("cpca-figure-8-{name}-{how}"), format!("{name}, {how}"))?);
         }
+        grid = grid.row(name, pictures);
     }
-    pictures.extend(shown_light);
+    let grid = grid.row("", shown_light);
     let uncompressed_gain = (plain_gains[0], Standing::Predicted { from: OWN_INPUTS });
     let row = paper_row("cpca/newer-card-uncompressed", (NEWER, Method::Pipeline), uncompressed_gain)?;
     rows.push(row.with_readings(plain_gains[1..].iter().copied()));
@@ -109,7 +112,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         rows,
         questions: vec![QUESTION],
         tables: vec![table, swept],
-        pictures,
+        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

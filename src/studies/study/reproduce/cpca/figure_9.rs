@@ -7,7 +7,7 @@ use super::shared::iterative;
 use super::signals::{ComputedSignal, GLOSS_OF_FIGURE_9, TRANSLUCENT_BUDDHA};
 use super::views::ModelView;
 use super::{EntryFindings, HOST, Prose, Shared, StudyError, failed, number};
-use crate::report::{Cell, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::sphere::{ClearSky, HarmonicLight};
 
 /// Sky with the sun to the side of the model.
@@ -27,17 +27,23 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     let (computed, clustering) = iterative(shared, TRANSLUCENT_BUDDHA)?;
     let gloss = ComputedSignal::new(&GLOSS_OF_FIGURE_9, shared.models)?;
     let mut table = Table::of("The sum and its parts", "light share_below_the_surface_% error_of_picture_%");
-    let mut pictures = Vec::new();
+    let mut columns: Vec<Vec<NamedPicture>> = Vec::new();
     for (name, light) in lights()? {
         let sum = ModelView::new(computed, &light, EYE)?;
         let glossy = ModelView::new(&gloss, &light, EYE)?.exposed_as(&sum);
         let [below, error] = [glossy.missing(&sum)?, sum.difference(Some(clustering), &sum.colors(None)?, |_| true)?];
         table.push([Cell::from(name), Cell::percent(100.0 * below), Cell::percent(100.0 * error)]);
         let file = |what: &str| format!("cpca-figure-9-{}-{what}", name.replace(' ', "-"));
-        pictures.push(glossy.picture(None, file("gloss"), format!("{name}: the glossy part"))?);
-        pictures.push(sum.picture(None, file("sum"), format!("{name}: the sum"))?);
-        pictures.push(sum.picture(Some(clustering), file("compressed"), format!("{name}: the sum, compressed"))?);
-        pictures.push(sum.light(&format!("cpca-figure-9-{}", name.replace(' ', "-")), name)?);
+        columns.push(vec![
+            sum.picture(Some(clustering), file("compressed"), format!("{name}: the sum, compressed"))?,
+            sum.picture(None, file("sum"), format!("{name}: the sum"))?,
+            glossy.picture(None, file("gloss"), format!("{name}: the glossy part"))?,
+            sum.light(&format!("cpca-figure-9-{}", name.replace(' ', "-")), name)?,
+        ]);
+    }
+    let mut grid = PictureGrid::new("Figure 9", ["red and blue", "sky"]);
+    for (at, label) in ["compressed", "the sum", "its glossy part", ""].into_iter().enumerate() {
+        grid = grid.row(label, columns.iter().map(|column| column[at].clone()));
     }
     let vectors = computed.paper.size.vectors;
     let figures = [computed.signal.points(), clustering.subspaces().len(), vectors].map(|n| number(n as f64, 0));
@@ -45,7 +51,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         text: vec![Prose::new(HOW, figures)],
         questions: vec![QUESTION],
         tables: vec![table],
-        pictures,
+        pictures: vec![grid],
         ..EntryFindings::default()
     })
 }

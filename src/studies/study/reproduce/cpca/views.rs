@@ -15,6 +15,9 @@ use crate::transfer::clustering::Clustering;
 /// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
 
+/// Shades of a group's color, down to about half of it.
+const SHADES: u32 = 5;
+
 /// Caption of the light of most figures.
 pub(super) const RED_AND_BLUE: &str = "a red and a blue disk at order 5";
 
@@ -98,9 +101,19 @@ impl<'a> ModelView<'a> {
         self
     }
 
-    /// Picture of the group of each pixel's nearest vertex, each in a color of its own.
-    pub(super) fn groups(&self, of_vertex: &[u32], (name, caption): (String, String)) -> NamedPicture {
-        let colors = self.fine.nearest(|vertex| cluster_color(of_vertex[vertex as usize]));
+    /// Picture of the group of each pixel's nearest vertex, each in a color of its own; where groups are of several
+    /// clusters, these are shades of it.
+    pub(super) fn groups(
+        &self,
+        (groups, clusters): (&[u32], &[u32]),
+        (name, caption): (String, String),
+    ) -> NamedPicture {
+        let color = |vertex: u32| {
+            let [group, cluster] = [groups, clusters].map(|of_vertex| of_vertex[vertex as usize]);
+            let shade = if groups == clusters { 0 } else { cluster % SHADES };
+            cluster_color(group).map(|channel| (u32::from(channel) * (2 * SHADES - shade) / (2 * SHADES)) as u8)
+        };
+        let colors = self.fine.nearest(color);
         NamedPicture::new(name, rgb8(self.fine.side(), self.fine.side(), colors), caption)
     }
 

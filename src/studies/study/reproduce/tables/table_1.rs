@@ -13,7 +13,7 @@ use super::shares::{self, Share};
 use super::teapot::{TeapotRoom, Variant};
 use super::workload::{CLASSICAL_TEAPOT, Job, JobRenderer, TIMES};
 use super::{QUESTION, RATE, commands};
-use crate::report::{Cell, Chart, NamedPicture, Series, Table};
+use crate::report::{Cell, Chart, NamedPicture, PictureGrid, Series, Table};
 
 /// Line of both tables, with the names of its printed figures.
 struct PrintedScene {
@@ -118,8 +118,13 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Study
     let ticks = SCENES.each_ref().map(|scene| scene.tick);
     let pictures = (1..).zip(&SCENES).map(|(row, scene)| picture(row, scene, shared.models));
     let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+    // The table has the floor's view from the top before that from the side.
+    let in_figure = [0, 1, 2, 4, 3].map(|at| pictures[at].clone());
+    let columns =
+        ["(a) teapot, ray traced", "(b) teapot, Monte Carlo", "(c) office", "(d) floor, side", "(e) floor, top"];
+    let pictures = PictureGrid::new("Figure 6", columns).row("", in_figure);
     Ok(EntryFindings {
-        pictures,
+        pictures: vec![pictures],
         text: vec![HOW.into(), READINGS.into()],
         rows,
         questions: vec![QUESTION],

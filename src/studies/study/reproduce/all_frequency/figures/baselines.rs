@@ -9,7 +9,7 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView, HarmonicTransfer};
 use crate::all_frequency::compressed::SegmentOptions;
 use crate::all_frequency::factor::ProductFunction;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::transfer::brdf::Brdf;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::{CubeLight, HaarLight, TruncationPriority};
@@ -43,6 +43,9 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let lambert = Brdf::Lambert { albedo: 1.0 };
     let ground = methods.colors((&scene.of_ground, &lambert, &Reflectance::Diffuse), COLORS[1])?;
     let mut parts = FigureParts::default();
+    let columns = ["exact".to_owned(), "ours".to_owned(), format!("harmonics, order {ORDER}")];
+    let fixed = KEPT.map(|kept| format!("fixed view, {kept} wavelets"));
+    let mut grid = PictureGrid::new("Figure 1", columns.into_iter().chain(fixed));
     let mut table = Table::of("Figure 1: off the exact picture", "form method rms_% flip");
     let mut ratios = Vec::new();
     for (form, lobe) in models::schlick() {
@@ -52,7 +55,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
         let exposure = scene.exposure(&found.exact);
         let name = |what: &str| format!("figure-1-{what}{}", models::ending(form));
         let caption = format!("exact: no factors, no compression, the whole light; {form}");
-        parts.pictures.push(scene.picture(&found.exact, exposure, (name("exact"), caption))?);
+        let mut pictures = vec![scene.picture(&found.exact, exposure, (name("exact"), caption))?];
         let mut errors: Vec<PictureDifference> = Vec::new();
         for (at, (method, colors)) in found.others.iter().enumerate() {
             let error = scene.error(colors, &found.exact, exposure)?;
@@ -63,11 +66,13 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
                 Cell::measured(error.flip),
             ]);
             let shown = (name(&at.to_string()), format!("{method}; {form}"));
-            parts.pictures.push(scene.picture(colors, exposure, shown)?);
+            pictures.push(scene.picture(colors, exposure, shown)?);
             errors.push(error);
         }
+        grid = grid.row(format!("Schlick's model, {form}"), pictures);
         ratios.push(errors[1].rms / errors[0].rms);
     }
+    parts.pictures = vec![grid];
     let sizes = [scene.of_model.len(), scene.of_ground.len(), TERMS, VECTORS, models::points_per_cluster(size), ORDER];
     // The paper does not compare with a fixed view: its differences stand in the table alone.
     parts.rows = vec![solved("harmonics-over-ours", ratios[0])?.with_readings(ratios[1..].iter().copied())];

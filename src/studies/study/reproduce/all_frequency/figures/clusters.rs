@@ -9,7 +9,7 @@ use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::code::CodedTransfer;
 use crate::picture::rgb8;
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::study::prt::cluster_color;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::HaarLight;
@@ -52,7 +52,11 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let caption = "without compression".to_owned();
     pictures.push(scene.picture(&exact, exposure, ("figure-5-exact".to_owned(), caption))?);
     let coded = last.as_ref();
-    pictures.extend(coded.into_iter().flat_map(|coded| of_segments(&scene, coded)));
+    let columns = VECTORS.map(|vectors| format!("n = {vectors}")).into_iter().chain(["without compression".to_owned()]);
+    let figure_5 = PictureGrid::new("Figure 5", columns).row("", pictures);
+    let segments = coded.map(|coded| of_segments(&scene, coded)).unwrap_or_default();
+    let labels = segments.iter().map(|picture| picture.name.replace("figure-4-", "segment "));
+    let pictures = vec![PictureGrid::new("Figure 4", labels.collect::<Vec<_>>()).row("", segments), figure_5];
     let row = solved("one-representative-over-16", errors[0] / errors[3])?;
     let [clusters, segments] = coded.map_or([0, 0], |coded| [coded.clusters(), coded.segments.len()]);
     let text = vec![Prose::new(

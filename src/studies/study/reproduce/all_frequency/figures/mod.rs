@@ -14,6 +14,7 @@ use super::{
     EntryFindings, HOST, Method, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row, solved,
 };
 use crate::all_frequency::compressed::SegmentOptions;
+use crate::report::PictureGrid;
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::ModelSize;
 use parts::FigureParts;
@@ -43,6 +44,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
     }
     let light = scene::stand_in()?;
     let light = light_picture("all-frequency-light", "a clear sky with a small sun", of_texels(light.texels()));
-    found.pictures.push(light.map_err(|e| failed(HOST)(&e))?);
+    let light = light.map_err(|e| failed(HOST)(&e))?;
+    found.pictures.push(PictureGrid::new("The light of Figures 1, 2, 5 and 7", ["light"]).row("", [light]));
     Ok(found)
 }

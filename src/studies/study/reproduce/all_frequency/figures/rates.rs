@@ -16,7 +16,7 @@ use crate::all_frequency::on_card::{ProductPlace, VertexColors};
 use crate::all_frequency::shade::Multiplies;
 use crate::card::frame_time::frame_time;
 use crate::geom::Mesh;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::scene::built::ground::GROUND_SIDE;
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::HaarLight;
@@ -117,7 +117,7 @@ fn pictures(
     mesh: &Mesh,
     size: ModelSize,
     all: &[GroundedModel],
-) -> Result<(FigureScene, Vec<crate::report::NamedPicture>), StudyError> {
+) -> Result<(FigureScene, Vec<NamedPicture>), StudyError> {
     let scene = FigureScene::new(mesh, models::ground(size), DVec3::new(1.0, -2.4, 1.2), size)?;
     let mut found = Vec::new();
     for GroundedModel { name, caption, lobe, light } in all {
@@ -150,13 +150,18 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let glossy = models::cook_torrance().map(|lobe| drawn("glossy", "glossy Buddha", Some(lobe), &whole));
     let buddhas: Vec<GroundedModel> =
         [drawn("diffuse", "diffuse Buddha", None, &whole)].into_iter().chain(glossy).collect();
-    let (buddha, mut all) = pictures(&models::buddha(size), size, &buddhas)?;
+    let (buddha, of_buddha) = pictures(&models::buddha(size), size, &buddhas)?;
     let teapots = models::schlick().into_iter().flat_map(|lobe| {
         let lights = [("low", "low frequency", &smooth), ("all", "all frequencies", &whole)];
         lights.map(|(name, of, light)| drawn(name, &format!("teapot, light of {of}"), Some(lobe), light))
     });
     let (teapot, of_teapot) = pictures(&models::teapot_of(size)?, size, &teapots.collect::<Vec<_>>())?;
-    all.extend(of_teapot);
+    let [low, all, low_of_form, all_of_form] = [0, 1, 2, 3].map(|at| of_teapot.get(at).cloned());
+    let [diffuse, glossy, glossy_of_form] = [0, 1, 2].map(|at| of_buddha.get(at).cloned());
+    let columns = ["Buddha, diffuse", "Buddha, glossy", "teapot, low frequencies", "teapot, all frequencies"];
+    let grid = PictureGrid::new("Figure 7", columns)
+        .sparse_row("reflectances in the textbooks' form", [diffuse, glossy, low, all])
+        .sparse_row("in the form nearest to section 3", [None, glossy_of_form, low_of_form, all_of_form]);
     let census = SegmentCensus::new(&teapot.vertices, &teapot.of_ground, &teapot.hats);
     let omega = census.omega();
     let mut table = Table::of("Figure 7: frames a second", "model printed modelled on_an_open_ground without_ground");
@@ -186,5 +191,5 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
         number(buddha.of_model.len() as f64, 0),
         number(teapot.of_model.len() as f64, 0),
     ];
-    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: all })
+    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: vec![grid] })
 }

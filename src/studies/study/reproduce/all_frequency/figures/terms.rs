@@ -8,7 +8,7 @@ use super::scene::{FigureScene, stand_in};
 use super::{FigureParts, ModelSize, Prose, StudyError, models, number, solved};
 use crate::all_frequency::Reflectance;
 use crate::all_frequency::baselines::{BaselineSubject, FixedView};
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::transfer::grid::Segmentation;
 use crate::transfer::light::{CubeLight, HaarLight};
 
@@ -29,14 +29,17 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
     let scene = FigureScene::new(&models::teapot_of(size)?, GROUND, DVec3::new(0.9, -1.9, 1.1), size)?;
     let light = stand_in()?;
     let mut parts = FigureParts::default();
+    let columns = std::iter::once("the reflectance itself".to_owned()).chain(TERMS.map(|terms| format!("m = {terms}")));
+    let mut grid = PictureGrid::new("Figure 2", columns);
     let mut table = Table::of("Figure 2: terms", "form terms relative_squared_error rms_% flip");
     let mut falls = Vec::new();
     for form in models::cook_torrance() {
         let (errors, pictures) = of_form(&scene, &light, form, &mut table)?;
         let at = |terms: usize| TERMS.iter().position(|&other| other == terms).map_or(f64::NAN, |at| errors[at]);
         falls.push(at(1) / at(10));
-        parts.pictures.extend(pictures);
+        grid = grid.row(format!("Cook and Torrance's model, {}", form.0), pictures);
     }
+    parts.pictures = vec![grid];
     parts.rows = vec![solved("one-term-over-ten", falls[0])?.with_readings(falls[1..].iter().copied())];
     parts.text = vec![Prose::new(HOW, [number(scene.of_model.len() as f64, 0)])];
     parts.tables = vec![table];

@@ -9,8 +9,9 @@ use crate::all_frequency::Reflectance;
 use crate::all_frequency::transfer::{TransferSegment, transfer_of};
 use crate::elementary::on_circle;
 use crate::geom::random::CounterRng;
-use crate::report::{Cell, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::sphere::turn_around_z;
+use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::{Setting, Sweep};
 use crate::transfer::grid::{LIGHT_TEXELS, Segmentation};
 use crate::transfer::light::{CubeLight, Decimation, DiskSource, HaarLight, TruncationPriority};
@@ -45,10 +46,14 @@ fn sources(degrees: f64) -> Vec<DiskSource> {
     (0..SOURCES).map(source).collect()
 }
 
+/// Light of the sources.
+fn cube_of(degrees: f64, turn: &DMat3) -> Result<CubeLight, StudyError> {
+    CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle).map_err(|e| failed(HOST)(&e))
+}
+
 /// Projects the sources to coefficients on six faces.
 fn on_faces(degrees: f64, turn: &DMat3) -> Result<HaarLight, StudyError> {
-    let cube = CubeLight::from_disks(&sources(degrees), turn, Decimation::SolidAngle);
-    Ok(HaarLight::new(&cube.map_err(|e| failed(HOST)(&e))?, Segmentation::Faces))
+    Ok(HaarLight::new(&cube_of(degrees, turn)?, Segmentation::Faces))
 }
 
 fn cut(light: &HaarLight, keep: usize) -> Result<HaarLight, StudyError> {
@@ -145,7 +150,12 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
         )?);
     }
     let all = "all coefficients".to_owned();
+    let columns = KEPT.map(|keep| format!("|L| = {keep}")).into_iter().chain(["all".to_owned()]);
+    let disks = cube_of(RADII[RADIUS], &DMat3::IDENTITY)?;
+    let light = of_texels(disks.texels());
+    let light = light_picture("figure-6-light", "disks of random colors", light).map_err(|e| failed(HOST)(&e))?;
     pictures.push(scene.picture(&frames.whole[0], exposure, ("figure-6-all".to_owned(), all))?);
+    let grid = PictureGrid::new("Figure 6", columns).row("", pictures).row("", [light]);
     let rows = rows(nonzero, &flicker)?;
     let figures = [
         number(scene.of_model.len() as f64, 0),
@@ -153,7 +163,7 @@ pub(super) fn figure(size: ModelSize) -> Result<FigureParts, StudyError> {
         number(RADII[RADIUS], 0),
         number(f64::from(FRAMES - 1), 0),
     ];
-    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures })
+    Ok(FigureParts { text: vec![Prose::new(HOW, figures)], rows, tables: vec![table], pictures: vec![grid] })
 }
 
 fn rows(nonzero: usize, flicker: &[f64]) -> Result<Vec<PaperRow>, StudyError> {

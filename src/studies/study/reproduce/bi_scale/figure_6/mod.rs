@@ -76,7 +76,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
             chair_sizes()?,
             differences,
         ],
-        pictures: shown,
+        pictures: vec![shown],
         ..EntryFindings::default()
     })
 }

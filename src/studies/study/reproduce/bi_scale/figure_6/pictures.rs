@@ -7,7 +7,7 @@ use super::{HOST, StudyError, failed};
 use crate::bi_scale::product::by_rows;
 use crate::geom::vector::{unit, wide};
 use crate::picture::metrics::{ScreenPicture, flip};
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, NamedPicture, PictureGrid, Table};
 use crate::scene::Camera;
 use crate::study::prt::{FineView, LightChannels, SeenSurface, auto_exposure, linear_picture};
 use crate::transfer::brdf::Brdf;
@@ -15,6 +15,8 @@ use crate::transfer::grid::texel_center;
 
 /// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
+/// Pictures side by side, as in the figure.
+const ABREAST: usize = 4;
 /// Pixels per degree of the observer, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 /// Glossy plastic, with a lobe broad enough to be resolved by 8 x 8 directions.
@@ -96,7 +98,7 @@ impl<'a> VertexPictures<'a> {
     }
 
     /// Returns all pictures with the same exposure, and a table of their differences from that of the matrix.
-    pub(super) fn finish(self) -> Result<(Vec<NamedPicture>, Table), StudyError> {
+    pub(super) fn finish(self) -> Result<(PictureGrid, Table), StudyError> {
         let pixels = |of_vertex: &[[f64; 3]]| self.seen.colors(of_vertex, [0.0; 3]);
         let exact = pixels(&self.found[1].1);
         let exposure = auto_exposure(&exact);
@@ -116,6 +118,13 @@ impl<'a> VertexPictures<'a> {
             let image = self.fine.picture(of_vertex).display(exposure).map_err(|e| failed(HOST)(&e))?;
             pictures.push(NamedPicture::new(format!("bi-scale-figure-6-{at}"), image, name.clone()));
         }
-        Ok((pictures, table))
+        let abreast = self.found.iter().take(ABREAST).map(|(name, _)| name.as_str());
+        let mut grid = PictureGrid::new("Figure 6", abreast);
+        let mut names = self.found.iter().map(|(name, _)| name.as_str());
+        for (at, row) in pictures.chunks(ABREAST).enumerate() {
+            let label: Vec<&str> = names.by_ref().take(ABREAST).collect();
+            grid = grid.row(if at == 0 { String::new() } else { label.join("; ") }, row.to_vec());
+        }
+        Ok((grid, table))
     }
 }

@@ -9,7 +9,7 @@ use crate::bi_scale::directions::LocalDirections;
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::bi_scale::transfer::{light_vectors, side_by_side};
 use crate::picture::Picture;
-use crate::report::NamedPicture;
+use crate::report::{NamedPicture, PictureGrid};
 use crate::study::prt::{BiScaleDrawing, BiScaleRendering, CausePictures, auto_exposure, filtered, linear_picture};
 
 /// Order of the harmonics of low-frequency bi-scale transfer.
@@ -20,8 +20,8 @@ pub(super) struct DrawnFigure {
     pub(super) causes: CausePictures,
     /// Picture by low-frequency light.
     pub(super) smooth: Option<Vec<[f64; 3]>>,
-    /// Larger picture by biclusters, which the model fills.
-    fine: Picture,
+    /// Larger pictures that the model fills: by biclusters, and by low-frequency light.
+    fine: Vec<Picture>,
     /// Rendering of the model.
     pub(super) rendering: BiScaleRendering,
 }
@@ -41,17 +41,15 @@ impl DrawnFigure {
         let local = drawing.local(&cube).map_err(|e| fail(&e))?;
         let drawn = drawing.shade(&local.rows);
         let causes = drawing.causes(&cube, &drawn, &mut |_, _, _| ()).map_err(|e| fail(&e))?;
+        let mut fine = vec![fine_picture(&drawing, model, size, &local.rows)?];
         let smooth = match &rendering.file.matrix {
             Some(matrix) if has_smooth => {
-                let channels = light_vectors(&cube);
-                Some(drawing.shade(&low_frequency(&rendering, matrix, side, &channels)?))
+                let low = low_frequency(&rendering, matrix, side, &light_vectors(&cube))?;
+                fine.push(fine_picture(&drawing, model, size, &low)?);
+                Some(drawing.shade(&low))
             }
             _ => None,
         };
-        let samples = drawing.shade_from(&model.fine_camera(size)?, &local.rows);
-        let colors = filtered(&samples, size.shown, SAMPLES);
-        let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
-        let fine = Picture::rgb(size.shown[0], size.shown[1], &single);
         Ok(Self { causes, smooth, fine, rendering })
     }
 
@@ -60,39 +58,81 @@ impl DrawnFigure {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
 
-    /// Returns the pictures with the same exposure; `name` is the prefix of their file names.
-    pub(super) fn pictures(&self, name: &str) -> Result<Vec<NamedPicture>, StudyError> {
+    /// Returns the pictures with the same exposure; `name` is the prefix of their file names. First the larger ones,
+    /// then those that are compared, the one by rays last.
+    pub(super) fn grid(&self, title: &str, name: &str) -> Result<PictureGrid, StudyError> {
         let model = &self.rendering.view.model;
-        let (exact, drawn) = (self.causes.exact(), self.causes.drawn());
-        let fine = self.fine.display(auto_exposure(exact)).map_err(|e| failed(HOST)(&e))?;
-        let mut shown = vec![
-            NamedPicture::new(format!("bi-scale-{name}"), fine, format!("{model}, by biclusters")),
-            self.picture(&format!("{name}-rays"), exact, format!("{model}, by rays"))?,
-            self.picture(&format!("{name}-transfer"), drawn, format!("{model}, by biclusters, as compared"))?,
-        ];
-        if let Some(smooth) = &self.smooth {
-            let caption = format!("{model}, harmonics of order {ORDER} on both sides");
-            shown.push(self.picture(&format!("{name}-smooth"), smooth, caption)?);
+        let ways = ["by biclusters".to_owned(), format!("harmonics of order {ORDER} on both sides")];
+        let mut fine = Vec::new();
+        for ((picture, how), ending) in self.fine.iter().zip(&ways).zip(["", "-low"]) {
+            fine.push(self.fine_picture(&format!("{name}{ending}"), picture, format!("{model}, {how}"))?);
         }
-        Ok(shown)
+        let mut compared = vec![self.compared(&format!("{name}-transfer"), self.causes.drawn(), &ways[0])?];
+        if let Some(smooth) = &self.smooth {
+            compared.push(self.compared(&format!("{name}-smooth"), smooth, &ways[1])?);
+        }
+        compared.push(self.by_rays(name)?);
+        let columns = ways.into_iter().take(self.fine.len()).chain(["by rays".to_owned()]);
+        let [width, height] = [self.rendering.view.camera.width(), self.rendering.view.camera.height()];
+        let label = format!("as compared, {width} x {height} pixels");
+        Ok(PictureGrid::new(title, columns).row("", fine).row(label, compared))
     }
 
-    /// Creates a picture with the exposure of that by rays.
-    pub(super) fn picture(&self, name: &str, colors: &[[f64; 3]], caption: String) -> Result<NamedPicture, StudyError> {
-        let exposure = auto_exposure(self.causes.exact());
-        let image =
-            linear_picture(&self.rendering.view.camera, colors).display(exposure).map_err(|e| failed(HOST)(&e))?;
+    /// The picture by rays.
+    pub(super) fn by_rays(&self, name: &str) -> Result<NamedPicture, StudyError> {
+        self.compared(&format!("{name}-rays"), self.causes.exact(), "by rays")
+    }
+
+    fn compared(&self, name: &str, colors: &[[f64; 3]], how: &str) -> Result<NamedPicture, StudyError> {
+        self.fine_picture(
+            name,
+            &linear_picture(&self.rendering.view.camera, colors),
+            format!("{}, {how}", self.rendering.view.model),
+        )
+    }
+
+    /// Shows a picture with the exposure of that by rays.
+    pub(super) fn fine_picture(
+        &self,
+        name: &str,
+        picture: &Picture,
+        caption: String,
+    ) -> Result<NamedPicture, StudyError> {
+        let image = picture.display(auto_exposure(self.causes.exact())).map_err(|e| failed(HOST)(&e))?;
         Ok(NamedPicture::new(format!("bi-scale-{name}"), image, caption))
+    }
+
+    /// Larger picture by biclusters.
+    pub(super) fn fine(&self) -> &Picture {
+        &self.fine[0]
     }
 }
 
-/// Renders a model by biclusters alone.
-pub(super) fn by_transfer(model: &TexturedModel, side: usize, size: FigureSize) -> Result<Vec<[f64; 3]>, StudyError> {
+/// Larger picture of light at vertices, which the model fills.
+fn fine_picture(
+    drawing: &BiScaleDrawing<'_>,
+    model: &TexturedModel,
+    size: FigureSize,
+    local: &[[f64; 3]],
+) -> Result<Picture, StudyError> {
+    let samples = drawing.shade_from(&model.fine_camera(size)?, local);
+    let colors = filtered(&samples, size.shown, SAMPLES);
+    let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
+    Ok(Picture::rgb(size.shown[0], size.shown[1], &single))
+}
+
+/// Renders a model by biclusters alone: as compared, and the larger picture.
+pub(super) fn by_transfer(
+    model: &TexturedModel,
+    side: usize,
+    size: FigureSize,
+) -> Result<(Vec<[f64; 3]>, Picture), StudyError> {
     let fail = failed(HOST);
     let rendering = model.rendering(side, size)?;
     let drawing = BiScaleDrawing::new(&rendering).map_err(|e| fail(&e))?;
     let cube = drawing.cube(&DMat3::IDENTITY).map_err(|e| fail(&e))?;
-    Ok(drawing.shade(&drawing.local(&cube).map_err(|e| fail(&e))?.rows))
+    let local = drawing.local(&cube).map_err(|e| fail(&e))?;
+    Ok((drawing.shade(&local.rows), fine_picture(&drawing, model, size, &local.rows)?))
 }
 
 /// Computes L~ by low-frequency bi-scale transfer: harmonics on both sides.

@@ -4,7 +4,7 @@ use super::super::models::ModelVisibility;
 use super::{PaperRow, Prose, StudyError, number, solved};
 use crate::bi_scale::matrix::SparseMatrix;
 use crate::picture::rgb8;
-use crate::report::NamedPicture;
+use crate::report::{NamedPicture, PictureGrid};
 use crate::scene::built::transfer_models::TransferModel;
 use crate::transfer::grid::{LIGHT_SIDE, LIGHT_TEXELS};
 use crate::transfer::visibility::Horizon;
@@ -20,7 +20,7 @@ const SCALE: usize = 3;
 pub(super) struct MatrixFigure {
     pub(super) text: Prose,
     pub(super) row: PaperRow,
-    pub(super) pictures: Vec<NamedPicture>,
+    pub(super) pictures: PictureGrid,
 }
 
 pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, StudyError> {
@@ -36,7 +36,8 @@ pub(super) fn figure(coarser: u32, side: usize) -> Result<MatrixFigure, StudyErr
     let row = solved("nonzero-share", share)?;
     let sizes = [seen.vertices.len(), lights, most, LIGHT_TEXELS].map(|size| number(size as f64, 0));
     let rows = Rows { matrix: &matrix, first: vertex * lights, count: lights, marked: vertex * lights + direction };
-    Ok(MatrixFigure { text: Prose::new(HOW, sizes), row, pictures: vec![rows.cube(), rows.picture()] })
+    let pictures = PictureGrid::new("Figure 3", ["(a) light", "(b) rows of T"]).row("", [rows.cube(), rows.picture()]);
+    Ok(MatrixFigure { text: Prose::new(HOW, sizes), row, pictures })
 }
 
 /// Rows of a vertex, one of them marked.

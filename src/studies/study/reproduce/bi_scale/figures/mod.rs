@@ -7,7 +7,7 @@ mod scene;
 
 use super::figure_6::SAMPLED_ROWS;
 use super::{EntryFindings, HOST, ModelSize, PaperRow, Prose, Shared, StudyError, failed, number, solved};
-use crate::report::{Cell, NamedPicture, Table};
+use crate::report::{Cell, PictureGrid, Table};
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::sky::HARD_SUN;
 use crate::transfer::light::{Decimation, DistantLight};
@@ -54,7 +54,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         ("figure-7", "figure 7", models::temple(size), SIDE),
     ] {
         let drawn = DrawnFigure::new(&model, side, size, true)?;
-        found.pictures.extend(drawn.pictures(figure)?);
+        found.pictures.push(drawn.grid(&format!("{}: {}", place.replacen('f', "F", 1), model.name), figure)?);
         found.tables.push(drawn.causes.table(&format!("Error by cause, {place}: {}", model.name)));
         let ours = drawn.errors(drawn.causes.drawn());
         let low = drawn.smooth.as_deref().map_or([0.0; 2], |picture| drawn.errors(picture));
@@ -65,30 +65,31 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         }
     }
     found.tables.insert(0, smooth);
-    found.pictures.extend(figure_3.pictures);
-    let (table, pictures) = more_directions(&models::rough_bunny(size), size)?;
+    found.pictures.insert(1, figure_3.pictures);
+    let (table, grid) = more_directions(&models::rough_bunny(size), size)?;
     found.tables.push(table);
-    found.pictures.extend(pictures);
+    found.pictures.push(grid);
     let light = DistantLight::Sky(HARD_SUN).cube(&DMat3::IDENTITY, Decimation::SolidAngle);
     let light = light.map_err(|e| failed(HOST)(&e))?;
     let light = light_picture("bi-scale-light", "a clear sky with a small sun", of_texels(light.texels()));
-    found.pictures.push(light.map_err(|e| failed(HOST)(&e))?);
+    let light = light.map_err(|e| failed(HOST)(&e))?;
+    found.pictures.push(PictureGrid::new("The light of these figures", ["light"]).row("", [light]));
     Ok(found)
 }
 
 /// Figure 8: effect of more local directions on the picture.
-fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Vec<NamedPicture>), StudyError> {
+fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, PictureGrid), StudyError> {
     let mut table =
         Table::of("Figure 8: off the picture by rays, and off that of most directions", "along_an_edge rays_% most_%");
     // Textures of many directions are large.
     let size = FigureSize { texels: [size.texels[1]; 2], ..size };
     let first = DrawnFigure::new(model, SIDES[0], size, false)?;
-    let mut pictures = first.pictures("figure-8-8")?;
+    let caption = |side: usize| format!("{}, {side} x {side} local directions", model.name);
+    let mut pictures = vec![first.fine_picture("figure-8-8", first.fine(), caption(SIDES[0]))?];
     let mut drawn = vec![first.causes.drawn().to_vec()];
     for side in &SIDES[1..] {
-        let colors = by_transfer(model, *side, size)?;
-        let caption = format!("{}, {side} x {side} local directions", model.name);
-        pictures.push(first.picture(&format!("figure-8-{side}"), &colors, caption)?);
+        let (colors, fine) = by_transfer(model, *side, size)?;
+        pictures.push(first.fine_picture(&format!("figure-8-{side}"), &fine, caption(*side))?);
         drawn.push(colors);
     }
     let most = &drawn[SIDES.len() - 1];
@@ -96,5 +97,7 @@ fn more_directions(model: &TexturedModel, size: FigureSize) -> Result<(Table, Ve
         let of_most = first.causes.apart(most, colors);
         table.push([side.into(), Cell::measured(first.errors(colors)[0]), Cell::measured(of_most)]);
     }
-    Ok((table, pictures))
+    pictures.push(first.by_rays("figure-8")?);
+    let columns = SIDES.map(|side| format!("{side} x {side} directions")).into_iter().chain(["by rays".to_owned()]);
+    Ok((table, PictureGrid::new("Figure 8", columns).row("", pictures)))
 }
