@@ -118,7 +118,7 @@ fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> 
     }
     // Before the long work, so that a folder that cannot be written is found out at once.
     drop(FileSet::new(folder).map_err(Problem::from)?);
-    let bar = ProgressBar::new("", 1);
+    let bar = ProgressBar::new("", 1).quicker("names of single entries; interrupted, it goes on");
     let mut table = Table::of("Records", "entry rows processor_s wall_s record");
     for (done, entry) in (0..).zip(&entries) {
         bar.show(entry.id.to_owned(), done, entries.len() as u64);

@@ -29,12 +29,12 @@ use super::{EntryFindings, ModelSize, ReproduceEntry, StudyError};
 /// Names of the entries with a record, and the files.
 macro_rules! records {
     ($($id:literal),* $(,)?) => {
-        &[$(($id, include_str!(concat!("../../../../records/", $id, ".toml")))),*]
+        &[$(($id, include_str!(concat!("../../../records/", $id, ".toml")))),*]
     };
 }
 
 /// Recorded entries with their files.
-pub(super) const RECORDS: &[(&str, &str)] = records![];
+pub(super) const RECORDS: &[(&str, &str)] = records!["cpca-figure-2", "cpca-figure-6", "cpca-figures-3-4"];
 
 /// Returns the record of an entry that the program contains.
 ///

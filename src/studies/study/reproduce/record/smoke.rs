@@ -174,8 +174,8 @@ mod tests {
     /// Findings whose rows are 1 and 2 times `value`, the second explained by a sweep that reaches what is printed.
     fn found(value: f64, points: &str) -> EntryFindings {
         let second = crate::study::reproduce::PaperFigure { id: "p/second".to_owned(), ..target(15.6, 1) };
-        let mut rows =
-            vec![row(value).with_readings([value, value / 3.0]), PaperRow { target: second, ..row(value * 2.0) }];
+        let mut rows = vec![row(value).with_readings([value, value / 3.0]), row(value * 2.0)];
+        rows[1].target = second;
         let settings = vec![Setting { at: points.to_owned(), values: vec![15.0, value / 2.0] }];
         Sweep { name: "sizes", parameter: "size", settings }.explain(&mut rows);
         let mut table = Table::of("Points", "points error");

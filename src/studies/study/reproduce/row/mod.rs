@@ -228,7 +228,7 @@ impl PaperRow {
 pub(super) mod tests {
     use super::*;
 
-    pub(super) fn target(value: f64, decimals: u8) -> PaperFigure {
+    pub(in crate::study::reproduce) fn target(value: f64, decimals: u8) -> PaperFigure {
         PaperFigure {
             id: "ray-engine/tests".to_owned(),
             what: "tests".to_owned(),
