@@ -1,12 +1,16 @@
 //! `crossbar reproduce`: the papers' tables and figures, ours beside theirs.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use super::Out;
 use super::memory::MemoryNeed;
 use super::study::{self, StudyArgs};
-use crate::report::{Table, Verdict};
-use crate::study::reproduce::{ENTRIES, ModelSize, Parameters, choose};
+use super::version::COMMIT;
+use super::{Out, Problem, ProgressBar};
+use crate::io::atomic::{FileSet, write_file};
+use crate::report::{Cell, Findings, FoundTable, Table, Verdict};
+use crate::study::reproduce::{ENTRIES, EntryRecord, ModelSize, Parameters, RecordMade, SmokeRun, choose, sized};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -16,6 +20,8 @@ Examples:
       two of them, as JSON on standard output
   crossbar reproduce cpca-table-1 --full-size
       on models of the paper's size
+  crossbar reproduce --record out/records
+      the runs at full size that judge rows, entry by entry
   crossbar reproduce --list
       the entries
 
@@ -26,8 +32,12 @@ Each printed figure has one row, with a bound that was stated beforehand, and a 
 run), calibrated (within its bound, but no evidence), explained (a sweep of the same run over
 something that the paper leaves open reaches the value), missed, contradictory (the paper
 contradicts itself: the computation is shown), or too vague to judge.
+Where the size of models decides, rows are those of recorded runs at full size, which the program
+contains; what is quick of them is computed anew and held against the record. The source of each row
+says which. Pictures, and rows without a record, are of reduced models: these are not judged.
 Interrupted, it leaves nothing half-written; the next run starts from the beginning, or from the
-entries that are named.
+entries that are named. --record goes on: what it has recorded stays, unless it is of another
+program.
 Exits with 1 if a figure is missed. Some are: docs/papers lists them with the open questions.";
 
 /// Reproduce printed tables and figures: the papers' values beside ours, judged by stated bounds
@@ -42,9 +52,13 @@ pub(super) struct Args {
     #[arg(long)]
     list: bool,
 
-    /// Models as large as the papers', where an entry has smaller ones by default: minutes to hours
+    /// Compute anew on models as large as the papers', where rows are recorded by default: an hour or two
     #[arg(long)]
     full_size: bool,
+
+    /// Run entries at full size, and keep the rows of each in FOLDER/ID.toml
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["list", "full_size", "out"])]
+    record: Option<PathBuf>,
 
     /// Where to write the page, the tables and the drawings
     #[arg(long, value_name = "DIR", default_value = "out/reproduce")]
@@ -52,7 +66,11 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args, command_line: &str, out: &mut Out) -> miette::Result<Verdict> {
-    if args.list { list(out) } else { study::run(args, command_line, out) }
+    match &args.record {
+        Some(folder) => record(args, folder, out),
+        None if args.list => list(out),
+        None => study::run(args, command_line, out),
+    }
 }
 
 impl StudyArgs for Args {
@@ -89,4 +107,86 @@ fn list(out: &mut Out) -> miette::Result<Verdict> {
         out.table(&table)?;
     }
     Ok(Verdict::Done)
+}
+
+/// Records the entries that are asked for, but for those whose record in the folder is of this program.
+fn record(args: &Args, folder: &Path, out: &mut Out) -> miette::Result<Verdict> {
+    let entries = sized(&choose(&args.entries)?);
+    if entries.is_empty() {
+        let help = "without names, `--record` records every entry whose rows depend on the size of models";
+        return Err(Problem::usage("the entries have no choice of model size: there is nothing to record", help).into());
+    }
+    // Before the long work, so that a folder that cannot be written is found out at once.
+    drop(FileSet::new(folder).map_err(Problem::from)?);
+    let bar = ProgressBar::new("", 1);
+    let mut table = Table::of("Records", "entry rows processor_s wall_s record");
+    for (done, entry) in (0..).zip(&entries) {
+        bar.show(entry.id.to_owned(), done, entries.len() as u64);
+        let path = folder.join(format!("{}.toml", entry.id));
+        let Some(smoke) = SmokeRun::of(entry)? else { continue };
+        let kept = kept(&smoke, entry.id, &path);
+        let (record, state) = match kept {
+            Ok(record) => (record, "kept".to_owned()),
+            Err(why) => (made(&smoke, entry.id, &path)?, why),
+        };
+        let made = record.made();
+        let times = [made.processor_s, Some(made.wall_s)].map(|time| time.map_or(Cell::Empty, Cell::measured));
+        let [processor, wall] = times;
+        table.push([entry.id.into(), record.len().into(), processor, wall, state.into()]);
+    }
+    drop(bar);
+    let mut found = Findings::new("Records");
+    found.table(FoundTable::from(table).field("records"));
+    study::written(&mut found, [("folder", Some(folder))]);
+    study::show(&found, out)
+}
+
+/// The record in a file, or in words why it is made anew.
+fn kept(smoke: &SmokeRun, entry: &str, path: &Path) -> Result<EntryRecord, String> {
+    let text = fs::read_to_string(path).map_err(|_| "new".to_owned())?;
+    let record = EntryRecord::parse(entry, &text).map_err(|error| format!("anew: {error}"))?;
+    match smoke.stale(&record) {
+        Some(stale) => Err(format!("anew: {stale}")),
+        None => Ok(record),
+    }
+}
+
+/// Runs an entry at full size, and writes its record.
+fn made(smoke: &SmokeRun, entry: &str, path: &Path) -> miette::Result<EntryRecord> {
+    let (clock, processor) = (Instant::now(), processor_time());
+    let run = smoke.record()?;
+    let record = run.made_by(RecordMade {
+        command: format!("crossbar reproduce {entry} --full-size"),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: COMMIT.to_owned(),
+        processor_s: processor_time().zip(processor).map(|(end, start)| hundredths(end - start)),
+        wall_s: hundredths(clock.elapsed().as_secs_f64()),
+    });
+    let text = record.text().map_err(crate::study::StudyError::from)?;
+    write_file(path, |file| file.write_all(text.as_bytes())).map_err(Problem::from)?;
+    Ok(record)
+}
+
+/// Rounds to hundredths.
+fn hundredths(seconds: f64) -> f64 {
+    (100.0 * seconds).round() / 100.0
+}
+
+/// Processor time of all threads so far, in seconds; `None` where the system does not say it.
+fn processor_time() -> Option<f64> {
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // Behind the name, which may have blanks: state, ten numbers, then ticks in the program and in the system.
+    let (_, rest) = stat.rsplit_once(')')?;
+    let ticks = |at: usize| rest.split_whitespace().nth(at)?.parse::<u64>().ok();
+    Some((ticks(11)? + ticks(12)?) as f64 / ticks_per_second() as f64)
+}
+
+#[cfg(unix)]
+fn ticks_per_second() -> u64 {
+    rustix::param::clock_ticks_per_second()
+}
+
+#[cfg(not(unix))]
+const fn ticks_per_second() -> u64 {
+    1
 }

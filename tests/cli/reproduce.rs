@@ -45,3 +45,54 @@ fn nothing_missed_is_success() {
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     insta::assert_snapshot!(ran.stdout);
 }
+
+/// A file of the records, in the source.
+fn record(id: &str) -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/studies/records/{id}.toml"))
+}
+
+/// Recording goes on where it was broken off: a record that the reduced models confirm stays as it is.
+#[test]
+fn what_is_recorded_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = folder.path().join("cpca-figure-2.toml");
+    std::fs::copy(record("cpca-figure-2"), &kept).expect("a copy");
+    let ran = crossbar_in(folder.path(), &["reproduce", "cpca-figure-2", "equation-11", "--record", ".", "--json"], "");
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let records = document["records"].as_array().expect("records");
+    assert_eq!(records.len(), 1, "an entry without a choice of size has no record");
+    assert_eq!((&records[0]["entry"], &records[0]["record"]), (&"cpca-figure-2".into(), &"kept".into()));
+    let text = |path: &std::path::Path| std::fs::read_to_string(path).expect("a record");
+    assert_eq!(text(&kept), text(&record("cpca-figure-2")));
+}
+
+#[test]
+fn nothing_to_record_is_bad_usage() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = crossbar_in(folder.path(), &["reproduce", "equation-11", "--record", "records"], "");
+    assert_eq!(ran.code, Some(2));
+    assert!(ran.stderr.contains("nothing to record"), "{}", ran.stderr);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("it is there").count(), 0);
+}
+
+/// Each row says which run it is from: recorded ones in the table, in CSV and in JSON, and the page how they were made.
+#[test]
+fn recorded_rows_say_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran =
+        crossbar_in(folder.path(), &["reproduce", "cpca-figure-6", "equation-11", "--json", "--out", "found"], "");
+    let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let rows = document["rows"].as_array().expect("rows");
+    for row in rows {
+        let is_recorded = row["entry"] == "cpca-figure-6";
+        assert_eq!(row["source"], if is_recorded { "recorded" } else { "computed" }, "{row}");
+        assert_eq!(row["ours_on_reduced_models"].is_number(), is_recorded, "{row}");
+    }
+    let commit = document["entries"].as_array().expect("entries").iter().find_map(|it| it["record"]["commit"].as_str());
+    let page = std::fs::read_to_string(folder.path().join("found/index.html")).expect("a page");
+    assert!(page.contains("Rows and tables are recorded: ") && page.contains(commit.expect("a commit")));
+    assert!(page.contains("1 are recorded at full size, 0 of them computed anew"), "the conclusion counts them");
+    let csv = std::fs::read_to_string(folder.path().join("found/rows.csv")).expect("rows");
+    assert_eq!(csv.lines().filter(|line| line.contains(",recorded,")).count(), 1);
+}

@@ -52,7 +52,8 @@ const NOT_RUN: &[(&str, &str)] = &[
     ),
     ("cpca precompute transfer-bird", "takes minutes; the other examples compute the same of a small model"),
     ("reproduce", "takes minutes; tests/papers runs every entry"),
-    ("reproduce cpca-table-1 --full-size", "takes hours; tests/papers runs the entry on reduced models"),
+    ("reproduce cpca-table-1 --full-size", "takes minutes; tests/papers runs the entry on reduced models"),
+    ("reproduce --record", "takes an hour or two; tests/cli holds that what is recorded stays"),
 ];
 
 /// A temporary copy of the folders that commands read.

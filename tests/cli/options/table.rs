@@ -130,7 +130,7 @@ pub(super) const TABLE: &[Tried] = &[
             eye!()
         ),
     },
-    Tried { bases: &["reproduce equation-11 --out OUT"], options: "--list --full-size --out=other" },
+    Tried { bases: &["reproduce equation-11 --out OUT"], options: "--list --full-size --out=other --record=other" },
     Tried {
         bases: &["run docs/examples/product.toml --out OUT"],
         options: "--out=other same:--executor=batch --adapter=x --step-budget=1 --trace=0,0",

@@ -1,7 +1,7 @@
 //! Entries of the reproduction, and their findings.
 
 use super::shared::Shared;
-use super::{PaperRow, Prose, StudyError};
+use super::{PaperRow, Prose, RecordStatus, RowVerdict, StudyError};
 use crate::report::{Chart, PictureGrid, Table};
 
 /// Chart with its file name and caption.
@@ -30,6 +30,15 @@ pub struct EntryFindings {
     pub charts: Vec<EntryChart>,
     /// Pictures, a grid per figure.
     pub pictures: Vec<PictureGrid>,
+    /// Relation to the record, where the size of models decides the rows.
+    pub record: Option<RecordStatus>,
+}
+
+impl EntryFindings {
+    /// Rows that tallies count: not those of reduced models.
+    pub fn counted(&self) -> impl Iterator<Item = &PaperRow> {
+        self.rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced)
+    }
 }
 
 /// Table or figure of a paper.

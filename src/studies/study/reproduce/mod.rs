@@ -4,6 +4,8 @@
 //! Every row has one of them, and ours with the printed values that it depends on, which determine the verdict. A row
 //! outside its bound counts as missed unless a sweep of the same run over something that the paper leaves open reaches
 //! the printed value ([`Sweep`]), or the paper contradicts itself ([`Contradiction`]).
+//!
+//! Rows that depend on the size of models are those of recorded runs at full size ([`EntryRecord`]).
 
 mod all_frequency;
 mod bi_scale;
@@ -22,6 +24,7 @@ mod prose;
 mod quick_rows;
 mod radeon_8500;
 mod radiosity;
+mod record;
 pub mod report;
 mod row;
 mod shared;
@@ -42,15 +45,20 @@ pub use paper::{Paper, papers, printed};
 use paper::{row as paper_row, value as printed_value};
 pub use pipeline::{DUAL_TEXTURED, screen_quad};
 pub use prose::{Prose, number};
+pub use record::{EntryRecord, RecordError, RecordMade, RecordStatus, SmokeRun, StaleRecord, recorded, sized};
 pub use row::{
-    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperFigure, PaperRow, RowVerdict,
-    Setting, Standing, Sweep,
+    Bound, Contradiction, Explanation, Judgement, Method, MissClass, Origin, PaperFigure, PaperRow, RowSource,
+    RowVerdict, Setting, Standing, Sweep,
 };
 use shared::Shared;
 pub use summary::ReproducedPaper;
 
 /// Computes entries in order, with models of the given size where they have a choice. Renderings and runs needed by
-/// several entries are made once. `progress` is called with the name of each.
+/// several entries are made once. With reduced models, rows that depend on the size are those of the record
+/// ([`recorded`]), if there is one. `progress` is called with the name of each.
+///
+/// # Errors
+/// Those of the entries, and of a record that is malformed or was changed by hand.
 pub fn reproduce(
     entries: &[ReproduceEntry],
     models: ModelSize,
@@ -59,7 +67,7 @@ pub fn reproduce(
     let shared = Shared::new(models);
     let work = |(done, entry): (u64, &ReproduceEntry)| {
         progress(entry.id, done, entries.len() as u64);
-        Ok((*entry, (entry.work)(&shared)?))
+        Ok((*entry, record::findings(entry, &shared)?))
     };
     (0..).zip(entries).map(work).collect()
 }

@@ -3,10 +3,10 @@
 /// Size of the stand-ins for a paper's models, where an entry has a choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ModelSize {
-    /// Reduced: seconds per entry.
+    /// Reduced: seconds per entry. Rows are then those of a recorded run at full size, where there is one.
     #[default]
     Reduced,
-    /// As printed: minutes to hours per entry.
+    /// As printed: half a minute to an hour per entry.
     Printed,
 }
 

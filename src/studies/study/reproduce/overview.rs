@@ -2,7 +2,7 @@
 
 use strum::VariantArray as _;
 
-use super::{EntryChart, MissClass, PaperRow, Prose, Reproduced, RowVerdict, Standing, number};
+use super::{EntryChart, MissClass, PaperRow, Prose, Reproduced, RowSource, RowVerdict, Standing, number};
 use crate::report::{Chart, Findings, NamedChart, Scale, Series, TallyEntry, Tone};
 
 const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted within bounds in numbers, {} are met in order only, and {} are \
@@ -10,14 +10,24 @@ const JUDGED: &str = "Of {} figures that chose no constant, {} are predicted wit
 const ROUNDED: &str = "{} of those that are met need the rounding of the printed value.";
 const MISSED: &str = "Missed for what is in the way: {}.";
 const CALIBRATED: &str = "{} more chose a constant of a model and are no evidence; missed all the same: {}.";
+const SOURCES: &str = "{} are recorded at full size, {} of them computed anew with the same bits; {} more have reduced models alone and are not judged.";
+const DIFFER: &str = "Not as recorded: {}.";
 const FARTHEST: &str = "Farthest from print: {} ({}, {}), {} times the paper's.";
 
 /// Adds conclusion and tally to the findings.
 pub(super) fn overview(all: &mut Findings, found: &Reproduced) {
-    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
-    for sentence in
-        [judged(&rows), classes(&rows), rounded(&rows), calibrated(&rows), farthest(&rows)].into_iter().flatten()
-    {
+    let all_rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| &found.rows).collect();
+    let rows: Vec<&PaperRow> = found.iter().flat_map(|(_, found)| found.counted()).collect();
+    let sentences = [
+        judged(&rows),
+        differ(&rows),
+        classes(&rows),
+        sources(&all_rows),
+        rounded(&rows),
+        calibrated(&rows),
+        farthest(&rows),
+    ];
+    for sentence in sentences.into_iter().flatten() {
         all.conclusion(sentence.to_string());
     }
     for entry in tally(&rows) {
@@ -32,7 +42,7 @@ pub(super) fn tally(rows: &[&PaperRow]) -> Vec<TallyEntry> {
         what: verdict.to_string(),
         tone: tone(*verdict),
     };
-    RowVerdict::VARIANTS.iter().map(entry).collect()
+    RowVerdict::counted().map(|verdict| entry(&verdict)).collect()
 }
 
 /// Adds the chart of all rows to the findings.
@@ -52,7 +62,8 @@ const fn tone(verdict: RowVerdict) -> Tone {
         | RowVerdict::Calibrated
         | RowVerdict::Explained
         | RowVerdict::Contradictory
-        | RowVerdict::TooVague => Tone::Neutral,
+        | RowVerdict::TooVague
+        | RowVerdict::Reduced => Tone::Neutral,
     }
 }
 
@@ -85,6 +96,22 @@ fn classes(rows: &[&PaperRow]) -> Option<Prose> {
     let counts = MissClass::VARIANTS.iter().copied().map(of).filter(|(count, _)| *count > 0);
     let counts: Vec<String> = counts.map(|(count, class)| format!("{class} {count}")).collect();
     (!counts.is_empty()).then(|| Prose::new(MISSED, [counts.join(", ")]))
+}
+
+/// Numbers of rows by the run that they are from, where one is not this run.
+fn sources(rows: &[&PaperRow]) -> Option<Prose> {
+    let confirmed = count(rows, |row| row.source == RowSource::Confirmed);
+    let recorded = count(rows, |row| matches!(row.source, RowSource::Recorded { .. } | RowSource::Differs { .. }));
+    let reduced = count(rows, |row| row.verdict() == RowVerdict::Reduced);
+    let counts = [confirmed + recorded, confirmed, reduced];
+    (counts != [0; 3]).then(|| Prose::new(SOURCES, counts.map(|count| count.to_string())))
+}
+
+/// Names of the rows that are not as recorded.
+fn differ(rows: &[&PaperRow]) -> Option<Prose> {
+    let differ = rows.iter().filter(|row| matches!(row.source, RowSource::Differs { .. }));
+    let names: Vec<&str> = differ.map(|row| row.target.id.as_str()).collect();
+    (!names.is_empty()).then(|| Prose::new(DIFFER, [names.join(", ")]))
 }
 
 fn rounded(rows: &[&PaperRow]) -> Option<Prose> {
@@ -136,7 +163,7 @@ fn chart(rows: &[&PaperRow]) -> Option<EntryChart> {
         label: verdict.to_string(),
         points: rows.iter().enumerate().filter(|(_, row)| row.verdict() == verdict).map(point).collect(),
     };
-    let drawn = rows.iter().filter(|row| distance(row).is_some()).count();
+    let drawn = rows.iter().filter(|row| row.verdict() != RowVerdict::Reduced && distance(row).is_some()).count();
     (drawn > 1).then(|| EntryChart {
         name: "overview",
         chart: Chart {

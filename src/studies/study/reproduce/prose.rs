@@ -27,6 +27,11 @@ impl Prose {
         self.template
     }
 
+    /// Numbers, formatted, in the order of their places.
+    pub(super) fn figures(&self) -> &[String] {
+        &self.figures
+    }
+
     /// Returns `true` if there are as many numbers as placeholders.
     pub fn is_whole(&self) -> bool {
         self.template.matches("{}").count() == self.figures.len()

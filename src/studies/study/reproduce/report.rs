@@ -1,15 +1,14 @@
 //! Findings of the study from those of the entries.
 
 use serde_json::json;
-use strum::VariantArray as _;
 
 use super::overview::{overview, overview_chart, tally as counts};
 use super::summary::summary_lines;
-use super::{EntryChart, Judgement, Paper, PaperRow, Reproduced, RowVerdict, StudyError, papers};
+use super::{EntryChart, Judgement, Paper, PaperRow, Reproduced, RowSource, RowVerdict, StudyError, papers};
 use crate::report::{Cell, Findings, FoundTable, NamedChart, Table, Verdict};
 
-const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% standing \
-     printed_inputs bound low high by_rounding verdict missed_for explanation contradiction";
+const COLUMNS: &str = "entry figure what device method place origin unit paper ours least_reading most_reading difference_% source \
+     ours_on_reduced_models standing printed_inputs bound low high by_rounding verdict missed_for explanation contradiction";
 
 fn all(found: &Reproduced) -> impl Iterator<Item = (&'static str, &PaperRow)> {
     found.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (entry.id, row)))
@@ -36,6 +35,8 @@ fn rows(found: &Reproduced) -> Table {
             least,
             most,
             Cell::percent(100.0 * row.difference()),
+            row.source.to_string().into(),
+            on_reduced_models(row).into(),
             row.standing.to_string().into(),
             row.standing.inputs().into(),
             row.bound.text().into(),
@@ -51,12 +52,20 @@ fn rows(found: &Reproduced) -> Table {
     table
 }
 
+fn on_reduced_models(row: &PaperRow) -> Option<f64> {
+    match row.source {
+        RowSource::Recorded { reduced } => Some(reduced),
+        RowSource::Reduced => Some(row.ours),
+        RowSource::Computed | RowSource::Confirmed | RowSource::Differs { .. } => None,
+    }
+}
+
 fn ends(interval: Option<[f64; 2]>) -> [Cell; 2] {
     let end = |value: Option<f64>| value.into();
     [end(interval.map(|[low, _]| low)), end(interval.map(|[_, high]| high))]
 }
 
-const SHOWN: [&str; 12] = [
+const SHOWN: [&str; 13] = [
     "what",
     "place",
     "unit",
@@ -67,11 +76,12 @@ const SHOWN: [&str; 12] = [
     "verdict",
     "missed_for",
     "bound",
+    "source",
     "device",
     "method",
 ];
 
-fn shown(row: &PaperRow) -> [Cell; 12] {
+fn shown(row: &PaperRow) -> [Cell; 13] {
     let target = &row.target;
     let readings = row.range().map(|range| range.map(|end| target.beside(end).text()).join(" to "));
     let rounded = if row.holds_by_rounding() { ", by the rounding of the print" } else { "" };
@@ -86,6 +96,7 @@ fn shown(row: &PaperRow) -> [Cell; 12] {
         row.verdict().to_string().into(),
         row.missed().map(|class| class.to_string()).into(),
         format!("{}{rounded}", row.bound.text()).into(),
+        row.source.to_string().into(),
         row.device.into(),
         row.method.to_string().into(),
     ]
@@ -158,11 +169,11 @@ fn unjudged(found: &Reproduced) -> Result<Table, StudyError> {
     Ok(table)
 }
 
-/// Table of the number of rows per verdict.
+/// Table of the number of rows per verdict; rows of reduced models have none that counts.
 fn tally(found: &Reproduced) -> Table {
     let mut table = Table::of("Tally", "verdict rows");
-    for verdict in RowVerdict::VARIANTS {
-        table.push([verdict.to_string().into(), count(found, *verdict).into()]);
+    for verdict in RowVerdict::counted() {
+        table.push([verdict.to_string().into(), count(found, verdict).into()]);
     }
     table
 }
@@ -174,11 +185,15 @@ fn count(found: &Reproduced, verdict: RowVerdict) -> usize {
 /// Formats the tally in one line: explained rows do not count as met, and what is met is told apart by its evidence.
 pub fn tally_line(found: &Reproduced) -> String {
     let of = |verdict| count(found, verdict);
+    let reduced = match of(RowVerdict::Reduced) {
+        0 => String::new(),
+        reduced => format!("; {reduced} more are of reduced models, a smoke test, and are not counted"),
+    };
     let [explained, missed] = [of(RowVerdict::Explained), of(RowVerdict::Missed)];
     format!(
         "{} figures: {} predicted, {} in order only, {} consistent in print; {} outside their bounds, {explained} of them \
-         explained and {missed} missed; {} contradicted by their own paper; {} calibrated, no evidence; {} too vague to judge",
-        all(found).count(),
+         explained and {missed} missed; {} contradicted by their own paper; {} calibrated, no evidence; {} too vague to judge{reduced}",
+        found.iter().flat_map(|(_, found)| found.counted()).count(),
         of(RowVerdict::Predicted),
         of(RowVerdict::OrderOnly),
         of(RowVerdict::Consistent),
@@ -200,9 +215,10 @@ fn questions(found: &Reproduced) -> Vec<(&'static str, &'static str)> {
     all
 }
 
-/// Returns `true` if no value is missed.
+/// Returns `true` if no value is missed, and none is another one than its record has.
 pub fn held(found: &Reproduced) -> bool {
-    count(found, RowVerdict::Missed) == 0
+    let differs = |(_, row): (_, &PaperRow)| matches!(row.source, RowSource::Differs { .. });
+    count(found, RowVerdict::Missed) == 0 && !all(found).any(differs)
 }
 
 const HOW: &str = "The papers' figures beside ours, each figure in one row. A figure is printed, implied by printed ones, or inferred by us; its bound is \
@@ -211,7 +227,8 @@ const HOW: &str = "The papers' figures beside ours, each figure in one row. A fi
     is which of two values is larger; and consistent in print if nothing is run and the paper's values are set against each other. Calibrated rows chose a constant of \
     the model: they stand apart and are no evidence. Where the text allows several readings, all must lie within the bound. Outside it a row is missed, unless a sweep of this \
     run over something that the papers leave open reaches the value without losing another row that holds: then it is explained, with the setting. \
-    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value.";
+    Missed rows have the class of what is in the way, as far as it is known. Where the paper contradicts itself, the row is contradictory, with the computation. Differences are shares of the paper's value. \
+    The source of a row is this run (computed), a recorded run at full size (recorded), both with the same bits, or this run on reduced models, which is not judged.";
 
 pub(super) fn findings(found: &Reproduced) -> Findings {
     let mut all = Findings::new("The papers' figures, reproduced");
@@ -230,7 +247,9 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
     }
     let mut entries = Vec::new();
     for (entry, found) in found {
-        all.counted_heading(entry.title, counts(&found.rows.iter().collect::<Vec<_>>()));
+        all.counted_heading(entry.title, counts(&found.counted().collect::<Vec<_>>()));
+        let status = found.record.as_ref().and_then(super::RecordStatus::sentence);
+        status.iter().for_each(|sentence| all.paragraph(sentence.to_string()));
         found.text.iter().for_each(|paragraph| all.paragraph(paragraph.to_string()));
         found.questions.iter().for_each(|question| all.paragraph(format!("Open: {question}")));
         for EntryChart { name, chart, caption } in &found.charts {
@@ -242,7 +261,7 @@ pub(super) fn findings(found: &Reproduced) -> Findings {
         let tables = found.tables.iter().map(|table| json!({ "title": table.title(), "rows": table.json() }));
         entries.push(json!({
             "id": entry.id, "title": entry.title, "open_questions": found.questions,
-            "tables": tables.collect::<Vec<_>>(),
+            "record": found.record.as_ref().map(super::RecordStatus::json), "tables": tables.collect::<Vec<_>>(),
         }));
     }
     all.field("entries", json!(entries));

@@ -52,7 +52,7 @@ pub(super) fn summary_lines(found: &Reproduced) -> Vec<SummaryLine> {
     let line = |paper: &ReproducedPaper| {
         let parts: Vec<&Part> = found.iter().filter(|(entry, _)| entry.paper() == Some(*paper)).collect();
         let (first, _) = parts.first()?;
-        let rows: Vec<&PaperRow> = parts.iter().flat_map(|(_, found)| &found.rows).collect();
+        let rows: Vec<&PaperRow> = parts.iter().flat_map(|(_, found)| found.counted()).collect();
         Some(SummaryLine {
             title: capital(&paper.to_string()),
             heading: first.title.to_owned(),
@@ -70,7 +70,7 @@ fn missed(found: &EntryFindings) -> usize {
 
 /// Entries without a missed row, and those with the most.
 fn text(parts: &[&Part]) -> String {
-    let judged = || parts.iter().filter(|(_, found)| !found.rows.is_empty());
+    let judged = || parts.iter().filter(|(_, found)| found.counted().next().is_some());
     let whole = judged().filter(|(_, found)| missed(found) == 0).count();
     let mut text = match (whole, judged().count()) {
         (_, 0) => return String::new(),
@@ -79,7 +79,7 @@ fn text(parts: &[&Part]) -> String {
         (whole, count) => format!("No row is missed in {whole} of {count} entries"),
     };
     let mut worst: Vec<(usize, usize, &str)> = judged()
-        .map(|(entry, found)| (missed(found), found.rows.len(), entry.id))
+        .map(|(entry, found)| (missed(found), found.counted().count(), entry.id))
         .filter(|(missed, ..)| *missed > 0)
         .collect();
     worst.sort_by_key(|(missed, ..)| std::cmp::Reverse(*missed));

@@ -11,7 +11,7 @@ mod table_1;
 
 pub(super) use counts::findings as counts;
 pub(super) use factors::findings as factors;
-pub(super) use figures::findings as figures;
+pub(super) use figures::{findings as figures, full_size};
 pub(super) use table_1::findings as table_1;
 
 use super::pipeline::failed;

@@ -14,7 +14,7 @@ mod table_2;
 pub(super) use counts::findings as counts;
 pub(super) use figure_6::findings as figure_6;
 pub(super) use figure_8::findings as figure_8;
-pub(super) use figures::findings as figures;
+pub(super) use figures::{findings as figures, full_size};
 pub(super) use frames::findings as frames;
 pub(super) use table_1::findings as table_1;
 pub(super) use table_2::findings as table_2;

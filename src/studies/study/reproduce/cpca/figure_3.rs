@@ -65,6 +65,7 @@ pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFind
         tables: vec![table],
         charts: vec![chart(&still, &iterative, &adaptive)],
         pictures: vec![error_maps(computed, clusters)?],
+        ..EntryFindings::default()
     })
 }
 

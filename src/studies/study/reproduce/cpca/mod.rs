@@ -34,6 +34,7 @@ pub(super) use figure_9::findings as figure_9;
 pub(super) use figure_10::findings as figure_10;
 pub(super) use figure_11::findings as figure_11;
 pub(super) use section_6::findings as section_6;
+pub(super) use signals::full_size;
 pub(super) use table_1::findings as table_1;
 
 use mesh_cost::REGISTERS;

@@ -119,6 +119,12 @@ impl PaperSignal {
     }
 }
 
+/// Parameters of runs at full size.
+pub(in crate::study::reproduce) fn full_size() -> String {
+    let degrees = SIGNALS.map(|signal| signal.degree(ModelSize::Printed));
+    format!("{SIGNALS:?} {GLOSS_OF_FIGURE_9:?} {degrees:?} {ITERATIONS} {VQ_ITERATIONS}")
+}
+
 /// Computed signal.
 pub(super) struct ComputedSignal {
     pub(super) paper: &'static PaperSignal,

@@ -7,13 +7,23 @@ mod bound;
 mod contradiction;
 mod explanation;
 mod figure;
+mod setting;
+mod source;
 mod sweep;
+mod verdict;
 
 pub use bound::Bound;
 pub use contradiction::Contradiction;
 pub use explanation::Explanation;
 pub use figure::{Judgement, MissClass, Origin, PaperFigure};
-pub use sweep::{Setting, Sweep};
+pub use setting::Setting;
+pub use source::RowSource;
+pub use sweep::Sweep;
+pub use verdict::RowVerdict;
+
+use std::sync::Arc;
+
+use setting::AppliedSweep;
 
 /// Method by which our value was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, strum::Display)]
@@ -61,31 +71,6 @@ impl Standing {
     }
 }
 
-/// Verdict on a row; tallies list the variants in this order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
-#[strum(serialize_all = "lowercase")]
-pub enum RowVerdict {
-    /// Measured on our side (drawn, solved, counted or timed), and within a bound in numbers.
-    Predicted,
-    /// Measured on our side; the bound is only which of two values is larger.
-    #[strum(to_string = "order only")]
-    OrderOnly,
-    /// Nothing is run: the paper's printed values agree with each other.
-    #[strum(to_string = "consistency of print")]
-    Consistent,
-    /// Within the bound, but the value determined a constant of the model: no evidence.
-    Calibrated,
-    /// Outside the bound, and a sweep of this run reaches it.
-    Explained,
-    /// Outside the bound.
-    Missed,
-    /// The paper contradicts itself, so that no value of ours can be judged.
-    Contradictory,
-    /// The text is too vague to be tested; not a success either.
-    #[strum(to_string = "too vague to judge")]
-    TooVague,
-}
-
 /// Row: a value of a paper with ours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperRow {
@@ -103,6 +88,10 @@ pub struct PaperRow {
     pub standing: Standing,
     /// Tolerance, stated beforehand.
     pub bound: Bound,
+    /// Run that our value is from.
+    pub source: RowSource,
+    /// Sweeps that the row takes part in.
+    swept: Vec<Arc<AppliedSweep>>,
     /// Set by [`Sweep::explain`] alone.
     explanation: Option<Explanation>,
     contradiction: Option<Contradiction>,
@@ -117,7 +106,19 @@ impl PaperRow {
     ) -> Option<Self> {
         let Judgement::Within(bound) = target.judgement else { return None };
         let (target, readings) = (target.clone(), Vec::new());
-        Some(Self { device, method, target, ours, readings, standing, bound, explanation: None, contradiction: None })
+        Some(Self {
+            device,
+            method,
+            target,
+            ours,
+            readings,
+            standing,
+            bound,
+            source: RowSource::Computed,
+            swept: Vec::new(),
+            explanation: None,
+            contradiction: None,
+        })
     }
 
     /// Adds the values of the other readings and models that the text allows: all of them must lie within the bound.
@@ -130,6 +131,17 @@ impl PaperRow {
     #[must_use]
     pub fn contradicted(self, contradiction: Option<Contradiction>) -> Self {
         Self { contradiction, ..self }
+    }
+
+    /// Replaces our values by those of a recorded run. Explanations go with the old values: [`Sweep::explain`] finds
+    /// those of the new ones.
+    pub(super) fn with_values(self, ours: f64, readings: Vec<f64>, source: RowSource) -> Self {
+        Self { ours, readings, source, swept: Vec::new(), explanation: None, ..self }
+    }
+
+    /// Sweeps that the row takes part in.
+    pub(super) fn swept(&self) -> &[Arc<AppliedSweep>] {
+        &self.swept
     }
 
     /// Smallest and largest value within the bound; `None` where the text is too vague.
@@ -159,7 +171,8 @@ impl PaperRow {
         (!self.readings.is_empty()).then_some(range)
     }
 
-    fn values(&self) -> impl Iterator<Item = f64> {
+    /// Our values: ours, then the other readings.
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
         std::iter::once(self.ours).chain(self.readings.iter().copied())
     }
 
@@ -174,6 +187,8 @@ impl PaperRow {
             RowVerdict::Contradictory
         } else if matches!(self.bound, Bound::TooVague) {
             RowVerdict::TooVague
+        } else if self.source == RowSource::Reduced && self.method != Method::Equation {
+            RowVerdict::Reduced
         } else if self.holds() {
             self.class()
         } else if self.explanation.is_some() {
@@ -200,7 +215,7 @@ impl PaperRow {
 
     /// Explanation of the row by a sweep, if it is outside its bound.
     pub fn explanation(&self) -> Option<&Explanation> {
-        self.explanation.as_ref()
+        self.explanation.as_ref().filter(|_| self.verdict() == RowVerdict::Explained)
     }
 
     /// Computation that shows how the paper contradicts itself.
@@ -282,6 +297,17 @@ pub(super) mod tests {
     #[test]
     fn vague_text_is_no_success() {
         assert_eq!(PaperRow { bound: Bound::TooVague, ..row(15.6) }.verdict(), RowVerdict::TooVague);
+    }
+
+    /// Reduced models judge nothing; what follows from print alone is judged whatever the models.
+    #[test]
+    fn rows_of_reduced_models_are_not_judged() {
+        let reduced = |row: PaperRow| PaperRow { source: RowSource::Reduced, ..row }.verdict();
+        assert_eq!([15.6, 30.0].map(|ours| reduced(row(ours))), [RowVerdict::Reduced; 2]);
+        assert_eq!(reduced(PaperRow { method: Method::Equation, ..row(15.6) }), RowVerdict::Consistent);
+        let contradiction = Contradiction::between(&target(15.6, 1), 33.2, "the other table");
+        assert_eq!(reduced(row(15.6).contradicted(contradiction)), RowVerdict::Contradictory);
+        assert!(!RowVerdict::counted().any(|verdict| verdict == RowVerdict::Reduced));
     }
 
     #[test]

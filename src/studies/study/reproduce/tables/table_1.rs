@@ -141,6 +141,7 @@ pub(in super::super) fn findings(shared: &Shared) -> Result<EntryFindings, Study
                 caption: "Table 2, and both readings of our runs.".into(),
             },
         ],
+        ..EntryFindings::default()
     })
 }
 

@@ -13,6 +13,7 @@ mod truncation;
 use super::{
     EntryFindings, HOST, Method, PaperRow, Prose, Shared, Standing, StudyError, failed, number, paper_row, solved,
 };
+use crate::all_frequency::compressed::SegmentOptions;
 use crate::report::PictureGrid;
 use crate::study::prt::{light_picture, of_texels};
 use crate::study::reproduce::ModelSize;
@@ -20,6 +21,12 @@ use parts::FigureParts;
 
 const QUESTION: &str = "the models, the light of St. Peter's, the cameras and the sources of Figure 6 with their sizes, and the frame rates printed under \
     it, which the scan has lost.";
+
+/// Parameters of runs at full size, of Table 1 too.
+pub(in crate::study::reproduce) fn full_size() -> String {
+    let size = ModelSize::Printed;
+    format!("{:?} {}", models::options(size, SegmentOptions::default().vectors), models::ground(size))
+}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let mut found = EntryFindings { questions: vec![QUESTION], ..EntryFindings::default() };

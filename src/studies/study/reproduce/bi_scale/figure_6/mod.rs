@@ -24,6 +24,8 @@ use chair::ChairModel;
 use pictures::VertexPictures;
 use sizes::chair_sizes;
 
+/// Rows from which clusters are found first, on the chair of full size.
+pub(super) const SAMPLED_ROWS: usize = 8192;
 /// Order of the harmonics of low-frequency bi-scale transfer.
 const ORDER: usize = 5;
 
@@ -39,7 +41,7 @@ const QUESTION: &str = "the chair, its light and camera; whether clusters had me
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let (mesh, sample) = match shared.models {
         ModelSize::Reduced => (FlatModel::Chair.model(4).mesh, 1024),
-        ModelSize::Printed => (FlatModel::Chair.model(1).mesh, 8192),
+        ModelSize::Printed => (FlatModel::Chair.model(1).mesh, SAMPLED_ROWS),
     };
     let scene = ChairModel::new(&mesh)?;
     let biclusters =

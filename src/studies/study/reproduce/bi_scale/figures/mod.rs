@@ -5,6 +5,7 @@ mod matrix;
 mod models;
 mod scene;
 
+use super::figure_6::SAMPLED_ROWS;
 use super::{EntryFindings, HOST, ModelSize, PaperRow, Prose, Shared, StudyError, failed, number, solved};
 use crate::report::{Cell, PictureGrid, Table};
 use crate::study::prt::{light_picture, of_texels};
@@ -24,6 +25,11 @@ const SIDE: usize = 8;
 const ARMOR_SIDE: usize = 12;
 /// Local directions along an edge in Figure 8.
 const SIDES: [usize; 4] = [8, 12, 16, 32];
+
+/// Parameters of runs at full size, of all entries on the paper.
+pub(in crate::study::reproduce) fn full_size() -> String {
+    format!("{:?} {SAMPLED_ROWS}", FigureSize::of(ModelSize::Printed))
+}
 
 pub(in crate::study::reproduce) fn findings(shared: &Shared) -> Result<EntryFindings, StudyError> {
     let size = FigureSize::of(shared.models);

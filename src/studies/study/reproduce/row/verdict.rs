@@ -1,0 +1,37 @@
+//! Verdicts on rows.
+
+use strum::VariantArray as _;
+
+/// Verdict on a row; tallies list the variants in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "lowercase")]
+pub enum RowVerdict {
+    /// Measured on our side (drawn, solved, counted or timed), and within a bound in numbers.
+    Predicted,
+    /// Measured on our side; the bound is only which of two values is larger.
+    #[strum(to_string = "order only")]
+    OrderOnly,
+    /// Nothing is run: the paper's printed values agree with each other.
+    #[strum(to_string = "consistency of print")]
+    Consistent,
+    /// Within the bound, but the value determined a constant of the model: no evidence.
+    Calibrated,
+    /// Outside the bound, and a sweep of this run reaches it.
+    Explained,
+    /// Outside the bound.
+    Missed,
+    /// The paper contradicts itself, so that no value of ours can be judged.
+    Contradictory,
+    /// The text is too vague to be tested; not a success either.
+    #[strum(to_string = "too vague to judge")]
+    TooVague,
+    /// Computed on reduced models, and no run at full size is recorded: a smoke test, neither judged nor counted.
+    Reduced,
+}
+
+impl RowVerdict {
+    /// Verdicts that tallies count, in their order: all but [`Self::Reduced`].
+    pub fn counted() -> impl Iterator<Item = Self> {
+        Self::VARIANTS.iter().copied().filter(|verdict| *verdict != Self::Reduced)
+    }
+}
