@@ -15,8 +15,13 @@ use crate::transfer::grid::texel_center;
 
 /// Side of the pictures whose differences are measured, in pixels.
 const SIDE: u32 = 160;
-/// Pictures side by side, as in the figure.
-const ABREAST: usize = 4;
+/// Pictures of the figure by its captions, with their names here.
+const PRINTED: [(&str, &str); 4] = [
+    ("(a) ours", "biclusters"),
+    ("(b) reference", "the matrix"),
+    ("(c) CPCA", "32 clusters of rows, 8 vectors each"),
+    ("(d) Haar", "12 wavelets a row by area"),
+];
 /// Pixels per degree of the observer, FLIP's usual value.
 const PIXELS_PER_DEGREE: f64 = 67.0;
 /// Glossy plastic, with a lobe broad enough to be resolved by 8 x 8 directions.
@@ -118,12 +123,13 @@ impl<'a> VertexPictures<'a> {
             let image = self.fine.picture(of_vertex).display(exposure).map_err(|e| failed(HOST)(&e))?;
             pictures.push(NamedPicture::new(format!("bi-scale-figure-6-{at}"), image, name.clone()));
         }
-        let abreast = self.found.iter().take(ABREAST).map(|(name, _)| name.as_str());
-        let mut grid = PictureGrid::new("Figure 6", abreast);
-        let mut names = self.found.iter().map(|(name, _)| name.as_str());
-        for (at, row) in pictures.chunks(ABREAST).enumerate() {
-            let label: Vec<&str> = names.by_ref().take(ABREAST).collect();
-            grid = grid.row(if at == 0 { String::new() } else { label.join("; ") }, row.to_vec());
+        let printed = PRINTED.map(|(_, name)| pictures.iter().position(|picture| picture.caption == name));
+        let first = printed.map(|at| at.map(|at| pictures[at].clone()));
+        let others = pictures.iter().enumerate().filter(|(at, _)| !printed.contains(&Some(*at)));
+        let others: Vec<NamedPicture> = others.map(|(_, picture)| picture.clone()).collect();
+        let mut grid = PictureGrid::new("Figure 6", PRINTED.map(|(label, _)| label)).sparse_row("", first);
+        for (at, row) in others.chunks(PRINTED.len()).enumerate() {
+            grid = grid.row(if at == 0 { "other ways" } else { "" }, row.to_vec());
         }
         Ok((grid, table))
     }

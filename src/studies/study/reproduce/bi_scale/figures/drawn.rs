@@ -58,8 +58,8 @@ impl DrawnFigure {
         [self.causes.exact(), self.causes.textured()].map(|other| self.causes.apart(other, picture))
     }
 
-    /// Returns the pictures with the same exposure; `name` is the prefix of their file names. First the larger ones,
-    /// then those that are compared, the one by rays last.
+    /// Returns the pictures with the same exposure; `name` is the prefix of their file names. First the larger ones
+    /// and the one by rays, of which every pixel takes many rays, then those that are compared with it.
     pub(super) fn grid(&self, title: &str, name: &str) -> Result<PictureGrid, StudyError> {
         let model = &self.rendering.view.model;
         let ways = ["by biclusters".to_owned(), format!("harmonics of order {ORDER} on both sides")];
@@ -71,8 +71,8 @@ impl DrawnFigure {
         if let Some(smooth) = &self.smooth {
             compared.push(self.compared(&format!("{name}-smooth"), smooth, &ways[1])?);
         }
-        compared.push(self.by_rays(name)?);
-        let columns = ways.into_iter().take(self.fine.len()).chain(["by rays".to_owned()]);
+        fine.push(self.by_rays(name)?);
+        let columns = ways.into_iter().take(self.fine.len()).chain(["by rays, of few pixels".to_owned()]);
         let [width, height] = [self.rendering.view.camera.width(), self.rendering.view.camera.height()];
         let label = format!("as compared, {width} x {height} pixels");
         Ok(PictureGrid::new(title, columns).row("", fine).row(label, compared))
