@@ -7,7 +7,8 @@
 use proptest::{collection::vec, option, prelude::*, sample::select};
 use refsim::isa::{
     Comparison, ConstantDef, ConstantValue, Declaration, Destination, DestinationRule, FragmentPart, Instruction, Mask,
-    Modifier, Opcode, Predicate, Program, Register, RegisterFile, Relative, Source, Span, Swizzle, Usage, Version,
+    Modifier, Opcode, Predicate, Program, ProgramText, Register, RegisterFile, Relative, Source, Span, Swizzle, Usage,
+    Version,
 };
 
 fn nowhere() -> Span {
@@ -164,6 +165,7 @@ pub(crate) fn program_of(version: Version) -> impl Strategy<Value = Program> {
                 instructions,
                 parameters: Vec::new(),
                 fog: None,
+                text: ProgramText::default(),
             }
         })
 }

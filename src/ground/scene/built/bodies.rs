@@ -69,12 +69,11 @@ pub(super) fn buddha(vertices: usize) -> ClosedSurface {
     turned(&body, vertices)
 }
 
-/// A bird with folded wings, tail, crest, legs and toes.
+/// A bird, smooth as the paper's (section 7, Figure 11), with folded wings, tail, crest, legs and toes.
 pub(super) fn bird(vertices: usize) -> ClosedSurface {
     let mut body = RoundedBody::default();
     body.add(Ball([0.0, 0.1, -0.15], [0.52, 0.66, 0.58]), 0.0);
     body.add(Ball([0.0, -0.12, 0.02], [0.46, 0.5, 0.55]), 0.2);
-    body.fold(Folds { count: 26.0, depth: 0.03, twist: 0.0, heights: [-0.8, 0.55] });
     body.add(Ball([0.0, -0.42, 0.68], [0.38, 0.4, 0.38]), 0.18);
     // Beak and eyes.
     body.add(Limb([0.0, -0.76, 0.66], [0.0, -1.08, 0.54], [0.12, 0.025]), 0.03);

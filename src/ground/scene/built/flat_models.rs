@@ -8,6 +8,8 @@
 //! have the same position, normal and tangent and count once. Units are those of the models: the chair is 1 high, the
 //! temple 2.4 wide.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::super::Material;
@@ -58,7 +60,7 @@ impl FlatModel {
         };
         let wanted = (vertices / (coarser * coarser)) as usize;
         let mut parts = FlatParts::finest(wanted, build);
-        parts.divide_largest(wanted.saturating_sub(parts.vertices()));
+        parts.divide_largest(wanted.saturating_sub(parts.distinct_vertices()));
         let FlatParts { positions, normals, texture, triangles, material_of, .. } = parts;
         let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals));
         let mesh = mesh.and_then(|mesh| mesh.with_texcoords(texture)).expect("finite numbers, as many as vertices");
@@ -80,17 +82,23 @@ struct FlatParts {
     texture: Vec<[f32; 2]>,
     triangles: Vec<[u32; 3]>,
     material_of: Vec<u32>,
-    /// Number of vertices that repeat others.
+    /// Number of vertices that repeat others where tubes close.
     repeated: usize,
 }
 
 impl FlatParts {
-    fn vertices(&self) -> usize {
-        self.positions.len() - self.repeated
+    /// Number of vertices that differ in position, normal or material.
+    fn distinct_vertices(&self) -> usize {
+        let key = |at: u32, material: u32| {
+            let of = |vectors: &[[f32; 3]]| vectors[at as usize].map(|component| (component + 0.0).to_bits());
+            (of(&self.positions), of(&self.normals), material)
+        };
+        let corners = self.triangles.iter().zip(&self.material_of);
+        corners.flat_map(|(corners, &material)| corners.map(|at| key(at, material))).collect::<BTreeSet<_>>().len()
     }
 
-    /// Builds the parts with the shortest edges that give at most this many vertices; edge lengths are tried in steps
-    /// of a hundredth, from the longest.
+    /// Builds the parts with the shortest edges that give at most this many vertices, of which some at the corners of
+    /// frames are the same; edge lengths are tried in steps of a hundredth, from the longest.
     fn finest(vertices: usize, build: fn(&mut Self)) -> Self {
         let of = |edge: f64| {
             let mut parts = Self { edge, ..Self::default() };
@@ -100,7 +108,7 @@ impl FlatParts {
         let mut best = of(1.0);
         loop {
             let next = of(best.edge / 1.01);
-            if next.vertices() > vertices {
+            if next.positions.len() - next.repeated > vertices {
                 return best;
             }
             best = next;
