@@ -55,16 +55,16 @@ fn record(id: &str) -> std::path::PathBuf {
 #[test]
 fn what_is_recorded_stays() {
     let folder = tempfile::tempdir().expect("a folder");
-    let kept = folder.path().join("cpca-figure-2.toml");
-    std::fs::copy(record("cpca-figure-2"), &kept).expect("a copy");
-    let ran = crossbar_in(folder.path(), &["reproduce", "cpca-figure-2", "equation-11", "--record", ".", "--json"], "");
+    let kept = folder.path().join("cpca-figure-6.toml");
+    std::fs::copy(record("cpca-figure-6"), &kept).expect("a copy");
+    let ran = crossbar_in(folder.path(), &["reproduce", "cpca-figure-6", "equation-11", "--record", ".", "--json"], "");
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let document: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
     let records = document["records"].as_array().expect("records");
     assert_eq!(records.len(), 1, "an entry without a choice of size has no record");
-    assert_eq!((&records[0]["entry"], &records[0]["record"]), (&"cpca-figure-2".into(), &"kept".into()));
+    assert_eq!((&records[0]["entry"], &records[0]["record"]), (&"cpca-figure-6".into(), &"kept".into()));
     let text = |path: &std::path::Path| std::fs::read_to_string(path).expect("a record");
-    assert_eq!(text(&kept), text(&record("cpca-figure-2")));
+    assert_eq!(text(&kept), text(&record("cpca-figure-6")));
 }
 
 #[test]
