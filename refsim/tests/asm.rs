@@ -96,15 +96,8 @@ fn error_messages() {
     let mut met = BTreeSet::new();
     for (name, text) in texts("asm/bad") {
         let errors = assemble(&text).expect_err(&name);
-        writeln!(out, "== {name}: {errors}").expect("a string takes all");
-        for e in &errors.errors {
-            met.insert(e.kind.code());
-            let before = &text[..e.span.start as usize];
-            let line = before.matches('\n').count() + 1;
-            let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-            let at = slice(&text, e.span).chars().take(40).collect::<String>();
-            writeln!(out, "{line}:{column} {at:?}\n    {e}\n    help: {}", e.help).expect("a string takes all");
-        }
+        writeln!(out, "== {name}: {errors}\n").expect("a string takes all");
+        met.extend(errors.errors.iter().map(|e| e.kind.code()));
     }
     assert!(met.len() >= 25, "only {met:?}");
     insta::assert_snapshot!(out);

@@ -5,8 +5,8 @@
 
 use std::ffi::OsStr;
 use std::io::Write as _;
-use std::process::ExitCode;
 
+use clap::builder::{Resettable, Str};
 use clap_complete::Shell;
 use clap_complete::engine::{ArgValueCompleter, CompletionCandidate, PathCompleter, ValueCompleter as _};
 use clap_complete::env::{CompleteEnv, Shells};
@@ -14,7 +14,7 @@ use serde_json::json;
 
 use refsim::device::Profile;
 
-use super::{BAD_INPUT, Out, OutputError, Problem, Verdict, program};
+use super::{Out, OutputError, Problem, Verdict};
 use crate::scene::built::{self, meshes};
 use crate::study::reproduce::ENTRIES;
 use crate::subsurface::materials::MATERIALS;
@@ -58,18 +58,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> miette::Result<Verdict> {
     Ok(Verdict::Done)
 }
 
-/// Answers the script, if it is the one that asks: the exit code, or `None` on any other run.
-pub(super) fn answer() -> Option<ExitCode> {
+/// Answers the script, if it is the one that asks; returns `false` on any other run.
+pub(super) fn answer(program: fn() -> clap::Command) -> Result<bool, clap::Error> {
     let program = CompleteEnv::with_factory(|| with_names(program(), "")).var(VARIABLE).bin("crossbar");
-    match program.try_complete(std::env::args_os(), std::env::current_dir().ok().as_deref()) {
-        Ok(false) => None,
-        Ok(true) => Some(ExitCode::SUCCESS),
-        Err(error) => {
-            // Nothing is to be done if nobody reads this.
-            error.print().ok();
-            Some(ExitCode::from(BAD_INPUT))
-        }
-    }
+    program.try_complete(std::env::args_os(), std::env::current_dir().ok().as_deref())
 }
 
 /// The command named `path`, its verbs and their options with completions of the names that values have.
@@ -80,8 +72,15 @@ fn with_names(command: clap::Command, path: &str) -> clap::Command {
     });
     command.mut_subcommands(|verb| {
         let path = format!("{path} {}", verb.get_name()).trim_start().to_owned();
-        with_names(verb, &path)
+        with_names(without_visible_aliases(verb), &path)
     })
+}
+
+/// The same command, whose aliases are understood and not offered in place of its name.
+fn without_visible_aliases(command: clap::Command) -> clap::Command {
+    // Clap takes names that live as long as the program, which ends after its answer.
+    let aliases: Vec<&'static str> = command.get_all_aliases().map(|alias| &*alias.to_owned().leak()).collect();
+    command.visible_alias(Resettable::<Str>::Reset).aliases(aliases)
 }
 
 /// Completions of a value of the option or argument `id` of a command.
@@ -152,7 +151,7 @@ fn switches() -> Vec<CompletionCandidate> {
 }
 
 fn media() -> Vec<CompletionCandidate> {
-    MATERIALS.iter().map(|medium| candidate(medium.name, None)).collect()
+    MATERIALS.iter().map(|medium| candidate(medium.name.to_lowercase(), None)).collect()
 }
 
 fn scenes() -> Vec<CompletionCandidate> {
@@ -171,45 +170,6 @@ fn entries() -> Vec<CompletionCandidate> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn visit(command: &clap::Command, path: &str, see: &mut dyn FnMut(&str, &clap::Arg)) {
-        command.get_arguments().for_each(|arg| see(path, arg));
-        for verb in command.get_subcommands() {
-            visit(verb, format!("{path} {}", verb.get_name()).trim_start(), see);
-        }
-    }
-
-    /// A name in the table above that no option has would be completed nowhere.
-    #[test]
-    fn every_kind_of_name_belongs_to_an_option() {
-        let mut completed = Vec::new();
-        visit(&program(), "", &mut |path, arg| {
-            if completer(path, arg.get_id().as_str()).is_some() {
-                completed.push(format!("{path} {}", arg.get_id()));
-            }
-        });
-        for expected in [
-            "check device",
-            "check switch",
-            "compare left_device",
-            "compare right_format",
-            "cpca precompute material",
-            "cpca precompute model",
-            "devices name",
-            "leaky-teapot device",
-            "leaky-teapot format",
-            "leaky-teapot mesh",
-            "materials name",
-            "radiosity scene",
-            "render scene",
-            "reproduce entries",
-            "scene name",
-            "subsurface material",
-            "subsurface model",
-        ] {
-            assert!(completed.iter().any(|found| found == expected), "{expected}: {completed:?}");
-        }
-    }
 
     #[test]
     fn every_name_offered_is_one_that_is_taken() {

@@ -167,8 +167,14 @@ fn parse(arguments: &[std::ffi::OsString]) -> Result<Parsed, clap::Error> {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
-    if let Some(code) = completions::answer() {
-        return code;
+    match completions::answer(program) {
+        Ok(false) => {}
+        Ok(true) => return ExitCode::SUCCESS,
+        Err(error) => {
+            // Nothing is to be done if nobody reads this.
+            error.print().ok();
+            return ExitCode::from(BAD_INPUT);
+        }
     }
     let arguments: Vec<_> = std::env::args_os().collect();
     if arguments.len() < 2 {

@@ -1,5 +1,5 @@
-//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Work that will
-//! take long says so once, with what makes it quicker.
+//! Progress of long work, on standard error: a bar on a terminal, a plain line now and then anywhere else. Work that
+//! will take long says so once, with what makes it quicker.
 
 use std::io::{self, IsTerminal as _, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -129,7 +129,7 @@ impl Pace {
         Self { start, stage: (start, 0, total), done: 0, is_announced: false }
     }
 
-    /// The time that the rest of a stage takes at its pace, once there is one; and whether it is long for the first time.
+    /// The time that the rest of a stage takes at its pace, once there is one; and if it is long for the first time.
     fn left(&mut self, now: Instant, done: u64, total: u64) -> (Option<Duration>, bool) {
         if total != self.stage.2 || done < self.done {
             self.stage = (now, done, total);

@@ -37,8 +37,8 @@ pub(super) fn bad_format(error: FormatError) -> miette::Report {
 /// Where a camera stands, what it looks at, and what is up.
 pub(super) type Placement = (Option<[f32; 3]>, Option<[f32; 3]>, [f32; 3]);
 
-/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh. Without a target too,
-/// the mesh fills the picture.
+/// A camera; without an eye, one that looks down a little from the front and sees all of the mesh. Without a target
+/// too, the mesh fills the picture.
 pub(super) fn framing(
     mesh: &Mesh,
     size: Size,
@@ -89,8 +89,8 @@ struct Frame {
 impl Frame {
     /// The nearest eye that sees every vertex; `None` without such a picture, where up is along the line of sight.
     ///
-    /// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at (e, d).
-    /// So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
+    /// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at
+    /// (e, d). So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
     fn filled(mesh: &Mesh, up: [f64; 3], tangents: [f64; 2], radius: f64) -> Option<Self> {
         let toward = DVec3::from(FRONT).normalize();
         let right = DVec3::from(up).cross(toward).try_normalize()?;

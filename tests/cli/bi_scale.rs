@@ -288,7 +288,7 @@ fn errors_are_told_apart() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let out = place(folder.path(), "p");
     let causes = |texture: &str| {
-        let options = format!("--texture bumps {texture} --reference --size 8x6 --light constant --out {out}");
+        let options = format!("--texture bumps {texture} --reference --size 16x12 --light constant --out {out}");
         let document = document(&format!("bi-scale render {COURT_BICLUSTERS} --model {COURT} {options}"));
         document["causes"].as_array().expect("a table").clone()
     };

@@ -6,7 +6,7 @@ use std::process::Command;
 use crate::crossbar;
 use crate::help::COMMANDS;
 
-/// What completes the last of some words after `crossbar`, a line each.
+/// Completions of the last of some words after `crossbar`, a line each.
 pub(crate) fn completed(words: &[&str]) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_crossbar"))
         .env("CROSSBAR_COMPLETE", "bash")

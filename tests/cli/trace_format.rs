@@ -189,7 +189,7 @@ fn what_is_no_trace_is_refused() {
         r#",{"ph":"X","name":"no duration","cat":"c","ts":4.0,"pid":1,"tid":1}"#,
         r#",{"ph":"X","name":"too early","cat":"c","ts":0.5,"dur":0.1,"pid":1,"tid":1,"args":{"command":1,"start_ps":500000,"duration_ps":100000}}"#,
         r#",{"ph":"X","name":"overlaps","cat":"c","ts":2.0,"dur":2.0,"pid":1,"tid":1,"args":{"command":1,"start_ps":2000000,"duration_ps":2000000}}"#,
-        r#",{"ph":"X","name":"not in whole nanoseconds","cat":"c","ts":3.0004,"dur":2.0,"pid":1,"tid":1,
+        r#",{"ph":"X","name":"not in whole nanoseconds","cat":"c","ts":3.0006,"dur":2.0,"pid":1,"tid":1,
             "args":{"command":1,"start_ps":3000600,"duration_ps":2000000}}"#,
         r#",{"ph":"X","name":"other process","cat":"c","ts":4.0,"dur":2.0,"pid":2,"tid":1,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,
         r#",{"ph":"X","name":"unnamed thread","cat":"c","ts":4.0,"dur":2.0,"pid":1,"tid":2,"args":{"command":1,"start_ps":4000000,"duration_ps":2000000}}"#,

@@ -164,8 +164,9 @@ impl Diagnostic for SyntaxError {
 
 /// All syntax errors of a text; never empty.
 ///
-/// Displayed, and returned from `main`, it quotes the line of each error and gives advice. For colours and labels, render
-/// the single errors with the text (`miette::Report::new(error).with_source_code(NamedSource::new(name, text))`).
+/// Displayed, and returned from `main`, it quotes the line of each error and gives advice. For colours and labels,
+/// render the single errors with the text
+/// (`miette::Report::new(error).with_source_code(NamedSource::new(name, text))`).
 #[derive(Clone, PartialEq, Eq, thiserror::Error, Diagnostic)]
 #[diagnostic(code("asm::syntax"))]
 pub struct AssembleErrors {

@@ -105,7 +105,7 @@ pub(super) const TABLE: &[Tried] = &[
         ],
         options: concat!(
             "--patches=12 --per-side=1 --factors=unoccluded --strata=2 --hemicube=16 --seed=2 --require-closed=1e-6 \
-             --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv35 \
+             --enforce=closure --solver=gauss-seidel --packing=luminance --storage=fp16 --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --tolerance=0.5 --iterations=2 \
              --emit=white=1,0,0 --paint=white=0.1,0.2,0.3 --frames=1,2 --atlas=32 --sweep=12,30 --view=front \
              --exposure=0.3 --out=other --model-up=y --strict@1",
@@ -147,7 +147,7 @@ pub(super) const TABLE: &[Tried] = &[
             "--material=skin1 --sigma-s=2 --sigma-a=0.2 --eta=1.4 --mm-per-unit=20 --atlas=16 --links=16 \
              --choice=adaptive --channels=scalar --link-format=fp32 --map=8bit --half --tolerance=0.5 \
              --light=sky:1,1,1 --irradiance=faces.csv --pass-1=fragment --direct=vertex --fresnel=mean \
-             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv35 \
+             --combine=modulated --diffuse=0.5 --probe=0.5,0.5,0 --all-pairs=no --walk=64 --link-table --roundings --device=nv30 \
              --switch=rounding=rtz same:--executor=scalar --adapter=x --frames=2 --exposure=0.3 --out=other \
              --model-up=y --strict@1",
             eye!()

@@ -478,7 +478,7 @@ mod tests {
         near.chain(spread).filter(|x| (-end..end).contains(x)).collect()
     }
 
-    /// What the conformance tests prove of `sum` and `div` holds for the fused ones.
+    /// The conformance tests prove `sum` and `div`; the fused ones give the same.
     #[test]
     fn fused_sums_and_quotients_are_those_in_integers() {
         for text in ["s3.12", "s0.15", "s15.0", "s1.10", "s7.8", "s0.4", "s2.3", "s7.0"] {
