@@ -2,6 +2,7 @@
 //! times.
 //!
 //! `cargo run -p refsim --example textured`
+#![expect(clippy::print_stdout, reason = "an example shows what it found")]
 
 use refsim::asm::assemble;
 use refsim::check::check;

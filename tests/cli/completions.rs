@@ -61,6 +61,7 @@ fn names_do_not_hide_files() {
 }
 
 /// Runs a text in a shell that finds the program; `None` if the shell is not installed, which CI does not allow.
+#[expect(clippy::print_stderr, reason = "says that a test does not run")]
 fn in_shell(shell: &str, options: &[&str], text: &str) -> Option<String> {
     let program = Path::new(env!("CARGO_BIN_EXE_crossbar")).parent().expect("the program lies in a folder");
     let path = std::env::var("PATH").unwrap_or_default();

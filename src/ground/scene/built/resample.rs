@@ -183,6 +183,9 @@ impl Refinement {
     }
 }
 
+/// Bits of the length of an edge, its ends, and how often the edges of both had changed when it had this length.
+type RankedEdge = (u64, [u32; 2], [u32; 2]);
+
 /// Drawing together of the shortest edges.
 struct Coarsening {
     vertices: Curved,
@@ -193,7 +196,7 @@ struct Coarsening {
     /// How often the edges of a vertex have changed.
     changes: Vec<u32>,
     /// Edges by length, with the changes of both ends at which this was theirs.
-    shortest: BinaryHeap<Reverse<(u64, [u32; 2], [u32; 2])>>,
+    shortest: BinaryHeap<Reverse<RankedEdge>>,
 }
 
 impl Coarsening {
