@@ -374,8 +374,7 @@ fn reflectance_factors_have_the_printed_rows() {
 }
 
 /// Figure 11: each additional vector helps, and more on the smooth model. Pictures stand beside the rows. Which of the
-/// two models has the larger errors is for the run at full size: reduced, the Buddha's folds and the bird's feathers are
-/// of few vertices each.
+/// two models has the larger errors is for the run at full size: reduced, folds and feathers are of few vertices each.
 #[test]
 fn smooth_transfer_compresses_better() {
     let figure = findings("cpca-figure-11");
