@@ -59,8 +59,7 @@ pub(super) fn framing(
     let camera = |eye, target| Camera::new(eye, target, up, tan_half_height, size.width, size.height).into_diagnostic();
     if eye.is_none() && target.is_none() {
         let aspect = f64::from(size.width) / f64::from(size.height);
-        if let Some(frame) = Frame::filled(mesh, up.map(f64::from), [tangent * aspect, tangent], radius) {
-            let (eye, target) = frame.line_of_sight(middle.map(f64::from));
+        if let Some((eye, target)) = filling(mesh, up, [tangent * aspect, tangent], (middle, radius)) {
             return camera(eye, target);
         }
     }
@@ -80,40 +79,35 @@ const FRONT: [f64; 3] = [0.3, -0.8, 0.52];
 /// The part of half a picture's width or height that a model fills.
 const FILLED: f64 = 0.92;
 
-/// An eye that looks along [`FRONT`]: its coordinates along the picture's right, along its up, and towards the eye.
-struct Frame {
-    axes: [DVec3; 3],
-    eye: [f64; 3],
-}
-
-impl Frame {
-    /// The nearest eye that sees every vertex; `None` without such a picture, where up is along the line of sight.
-    ///
-    /// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at
-    /// (e, d). So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
-    fn filled(mesh: &Mesh, up: [f64; 3], tangents: [f64; 2], radius: f64) -> Option<Self> {
-        let toward = DVec3::from(FRONT).normalize();
-        let right = DVec3::from(up).cross(toward).try_normalize()?;
-        let axes = [right, toward.cross(right), toward];
-        let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(DVec3::from(v.map(f64::from)))));
-        let mut eye = [0.0, 0.0, points().map(|[.., w]| w).fold(f64::NEG_INFINITY, f64::max) + 0.1 * radius];
-        for (side, tangent) in tangents.into_iter().enumerate() {
-            let t = FILLED * tangent;
-            let most = points().map(|at| at[side] + t * at[2]).fold(f64::NEG_INFINITY, f64::max);
-            let least = points().map(|at| at[side] - t * at[2]).fold(f64::INFINITY, f64::min);
-            eye[side] = f64::midpoint(most, least);
-            eye[2] = eye[2].max((most - least) / (2.0 * t));
-        }
-        Some(Self { axes, eye })
+/// The nearest eye that looks along [`FRONT`] and sees every vertex, and a target beside `middle`; `None` without such
+/// a picture, where up is along the line of sight.
+///
+/// A vertex (x, w) lies within a picture of half width `t` at distance 1 if |x - e| <= t (d - w), for an eye at
+/// (e, d). So e lies between max(x + t w) - t d and min(x - t w) + t d, and the least d has the two equal.
+fn filling(
+    mesh: &Mesh,
+    up: [f32; 3],
+    tangents: [f64; 2],
+    (middle, radius): ([f32; 3], f64),
+) -> Option<([f32; 3], [f32; 3])> {
+    let exact = |point: [f32; 3]| DVec3::from(point.map(f64::from));
+    let toward = DVec3::from(FRONT).normalize();
+    let right = exact(up).cross(toward).try_normalize()?;
+    // Along the picture's right, along its up, and towards the eye.
+    let axes = [right, toward.cross(right), toward];
+    // Computed again for each extreme: a list would be memory that nobody counted.
+    let points = || mesh.iter_corners().flatten().map(|v| axes.map(|axis| axis.dot(exact(v))));
+    let extreme = |of: &dyn Fn([f64; 3]) -> f64| points().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let mut eye = [0.0, 0.0, extreme(&|at| at[2]) + 0.1 * radius];
+    for (side, tangent) in tangents.into_iter().enumerate() {
+        let t = FILLED * tangent;
+        let [most, least] = [extreme(&|at| at[side] + t * at[2]), -extreme(&|at| t * at[2] - at[side])];
+        eye[side] = f64::midpoint(most, least);
+        eye[2] = eye[2].max((most - least) / (2.0 * t));
     }
-
-    /// The eye, and a target beside `middle`.
-    fn line_of_sight(&self, middle: [f64; 3]) -> ([f32; 3], [f32; 3]) {
-        let [right, up, toward] = self.axes;
-        let [x, y, w] = self.eye;
-        let point = |w: f64| (right * x + up * y + toward * w).to_array().map(|c| c as f32);
-        (point(w), point(toward.dot(DVec3::from(middle)).min(w - w.abs() * 1e-3)))
-    }
+    let [x, y, w] = eye;
+    let point = |w: f64| (axes[0] * x + axes[1] * y + axes[2] * w).to_array().map(|c| c as f32);
+    Some((point(w), point(toward.dot(exact(middle)).min(w - w.abs() * 1e-3))))
 }
 
 /// First hits by exact arithmetic, triangle and t; the exact numbers behind them are dropped some rays at a time.

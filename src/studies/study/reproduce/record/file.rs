@@ -50,14 +50,7 @@ pub(super) struct RecordedRow {
 pub(super) struct RecordedSweep {
     pub(super) name: String,
     pub(super) figures: Vec<String>,
-    pub(super) setting: Vec<RecordedSetting>,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RecordedSetting {
-    pub(super) at: String,
-    pub(super) values: Vec<f64>,
+    pub(super) setting: Vec<Setting>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -164,13 +157,6 @@ impl EntryRecord {
     }
 }
 
-impl RecordedSweep {
-    pub(super) fn settings(&self) -> Vec<Setting> {
-        let setting = |setting: &RecordedSetting| Setting { at: setting.at.clone(), values: setting.values.clone() };
-        self.setting.iter().map(setting).collect()
-    }
-}
-
 impl RecordedTable {
     fn of(table: &Table) -> Self {
         let cells = |row: &Vec<_>| RecordedCells { cells: row.iter().map(coded).collect() };
@@ -201,12 +187,10 @@ fn sweeps(rows: &[PaperRow]) -> Vec<RecordedSweep> {
     let mut found: Vec<RecordedSweep> = Vec::new();
     for applied in rows.iter().flat_map(PaperRow::swept) {
         if found.iter().all(|known| known.name != applied.name || known.figures != applied.figures) {
-            let setting =
-                |setting: &Setting| RecordedSetting { at: setting.at.clone(), values: setting.values.clone() };
             found.push(RecordedSweep {
                 name: applied.name.to_owned(),
                 figures: applied.figures.clone(),
-                setting: applied.settings.iter().map(setting).collect(),
+                setting: applied.settings.clone(),
             });
         }
     }

@@ -117,7 +117,7 @@ fn rows(record: &EntryRecord, smaller: &[PaperRow]) -> Result<Vec<PaperRow>, Sta
         if applied.figures != recorded.figures {
             return Err(structure(&applied.figures.join(", ")));
         }
-        let sweep = Sweep { name: applied.name, parameter: applied.parameter, settings: recorded.settings() };
+        let sweep = Sweep { name: applied.name, parameter: applied.parameter, settings: recorded.setting.clone() };
         sweep.explain(rows.iter_mut().filter(|row| applied.figures.contains(&row.target.id)));
     }
     Ok(rows)

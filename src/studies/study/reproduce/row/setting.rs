@@ -1,7 +1,10 @@
 //! Settings of sweeps, and sweeps with the rows that they were applied to.
 
+use serde::{Deserialize, Serialize};
+
 /// Setting of the swept parameter, and the rows' values at it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Setting {
     /// Setting, as in "2" of a factor.
     pub at: String,
