@@ -24,6 +24,7 @@ mod intersect;
 mod leaky_teapot;
 mod man;
 mod materials;
+mod measure;
 mod memory;
 mod model_file;
 mod model_name;
@@ -139,6 +140,7 @@ enum Command {
     LeakyTeapot(leaky_teapot::Args),
     Man(man::Args),
     Materials(materials::Args),
+    Measure(measure::Args),
     Radiosity(radiosity::Args),
     Render(render::Args),
     Reproduce(reproduce::Args),
@@ -241,6 +243,7 @@ fn obey(command: Command, command_line: &str, out: &mut Out) -> miette::Result<V
         Command::LeakyTeapot(args) => study::run(&args, command_line, out),
         Command::Man(args) => man::run(&args, program(), out),
         Command::Materials(args) => materials::run(&args, out),
+        Command::Measure(args) => study::run(&args, command_line, out),
         Command::Radiosity(args) => study::run(&args, command_line, out),
         Command::Subsurface(args) => study::run(&args, command_line, out),
         Command::Render(args) => render::run(&args, command_line, out),

@@ -8,6 +8,7 @@ mod compare;
 mod cpca;
 mod files;
 mod geom;
+mod measuring;
 mod oracle;
 mod radiosity;
 mod ray_engine;

@@ -7,6 +7,7 @@ pub mod configuration;
 mod error;
 pub mod framing;
 pub mod leaky_teapot;
+pub mod measure;
 pub mod picture_difference;
 pub mod prt;
 pub mod radiosity;

@@ -22,10 +22,10 @@ use crate::transfer::linear_basis::{BasisWidth, LinearBasis};
 use crate::transfer::visibility::{SegmentCensus, VisibilityMaps};
 use crate::transfer::{Signal, Tangents, Vertices};
 
-/// Segments compressed for reduced models: a quarter of each face.
-const SOME_SEGMENTS: [usize; 6] = [0, 5, 10, 15, 16, 21];
+/// Segments compressed for reduced models: a quarter of three faces.
+const SOME_SEGMENTS: [usize; 3] = [0, 10, 21];
 /// Iterations for each number of representatives on reduced models.
-pub(super) const REDUCED_ITERATIONS: usize = 4;
+pub(super) const REDUCED_ITERATIONS: usize = 2;
 /// Bits per number in the coding of Haar coefficients alone: those of the earlier work first.
 pub(super) const HAAR_BITS: [u32; 3] = [8, 12, 16];
 

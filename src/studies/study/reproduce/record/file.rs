@@ -70,7 +70,7 @@ struct RecordedCells {
 
 impl EntryRecord {
     /// Most processor time of a run that is computed again beside its record, in seconds.
-    pub const QUICK: f64 = 65.0;
+    pub const QUICK: f64 = 50.0;
 
     /// Creates the record of a run at full size, with the run of the same program on reduced models.
     pub(super) fn new(entry: &str, inputs: RecordInputs, (full, reduced): (&EntryFindings, &EntryFindings)) -> Self {

@@ -115,7 +115,7 @@ fn fine_picture(
     size: FigureSize,
     local: &[[f64; 3]],
 ) -> Result<Picture, StudyError> {
-    let samples = drawing.shade_from(&model.fine_camera(size)?, local);
+    let samples = drawing.shade_from(&model.camera(size.shown.map(|side| side * SAMPLES))?, local);
     let colors = filtered(&samples, size.shown, SAMPLES);
     let single: Vec<[f32; 3]> = colors.iter().map(|color| color.map(|channel| channel as f32)).collect();
     Ok(Picture::rgb(size.shown[0], size.shown[1], &single))

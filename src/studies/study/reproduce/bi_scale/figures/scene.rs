@@ -42,7 +42,7 @@ impl FigureSize {
     pub(super) fn of(models: ModelSize) -> Self {
         match models {
             ModelSize::Reduced => {
-                Self { coarser: 3, picture: [40, 30], shown: [320, 240], texels: [20, 10], views: 12, repeat: 2.0 }
+                Self { coarser: 3, picture: [40, 30], shown: [320, 240], texels: [16, 8], views: 12, repeat: 2.0 }
             }
             ModelSize::Printed => {
                 Self { coarser: 1, picture: [160, 120], shown: [640, 480], texels: [64, 32], views: 12, repeat: 5.0 }
@@ -105,26 +105,12 @@ impl TexturedModel {
         self.patches.iter().map(texture).collect()
     }
 
-    /// Camera of the samples of a picture by transfer alone, which the model fills.
-    pub(super) fn fine_camera(&self, size: FigureSize) -> Result<Camera, StudyError> {
-        let [_, eye] = self.middle_and_eye();
-        let points: Vec<DVec3> = self.model.mesh.positions().iter().map(|&at| wide(at)).collect();
-        let [width, height] = size.shown.map(|side| side * SAMPLES);
-        let view = framed(eye, &points, f64::from(width) / f64::from(height));
-        view.camera(width, height).map_err(|e| failed(HOST)(&e))
-    }
-
-    /// Center of the model, and the eye.
-    fn middle_and_eye(&self) -> [DVec3; 2] {
+    /// Camera of a picture that the model fills; `size` in pixels, or samples.
+    pub(super) fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
         let [low, high] = self.model.mesh.bounds().unwrap_or_default().map(wide);
         let (middle, size) = ((low + high) / 2.0, (high - low).max_element());
-        [middle, middle + size * self.eye]
-    }
-
-    fn camera(&self, [width, height]: [u32; 2]) -> Result<Camera, StudyError> {
-        let [middle, eye] = self.middle_and_eye();
-        let eye = eye.as_vec3().to_array();
-        Camera::new(eye, middle.as_vec3().to_array(), [0.0, 0.0, 1.0], 0.17, width, height)
-            .map_err(|e| failed(HOST)(&e))
+        let points: Vec<DVec3> = self.model.mesh.positions().iter().map(|&at| wide(at)).collect();
+        let view = framed(middle + size * self.eye, &points, f64::from(width) / f64::from(height));
+        view.camera(width, height).map_err(|e| failed(HOST)(&e))
     }
 }

@@ -1,0 +1,66 @@
+//! `crossbar measure`: what a card drew, against every setting of a device's switches.
+
+use std::path::{Path, PathBuf};
+
+use super::memory::MemoryNeed;
+use super::study::StudyArgs;
+use super::switch;
+use crate::study::measure::{Measure, load_measurement};
+
+const EXAMPLES: &str = "\
+Examples:
+  crossbar measure docs/examples/measured.csv --device nv25
+      pixels that a card drew, against all settings of the switches of a GeForce4 Ti that they depend on
+  crossbar measure docs/examples/measured.csv --device nv25 --switch mad=fused --json
+      the same where one answer is known, as JSON
+
+The table has the header `case,column,row,red,green,blue,alpha,depth`: a case file, a pixel of it, and the codes that the \
+card stored there. docs/measuring.md describes it, and has for each open switch of the cards a small case that tells its \
+values apart.
+
+Exit codes: 0 some setting draws every measured code, 1 none does, 2 the table or a case cannot be used.";
+
+/// Hold what a real card drew against every setting of a device's switches: which survive
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// The measured pixels, a CSV file
+    #[arg(value_name = "FILE.csv")]
+    file: PathBuf,
+
+    /// The card that drew them, in place of what the cases say
+    #[arg(long, value_name = "D")]
+    device: String,
+
+    /// A switch whose value is known; may be given several times
+    #[arg(long, value_name = "NAME=VALUE", value_parser = switch::parse)]
+    switch: Vec<(String, String)>,
+}
+
+impl StudyArgs for Args {
+    type Study = Measure;
+    const COMMAND: &'static str = "measure";
+    const QUICKER: &'static str = "`--switch NAME=VALUE` for what is known";
+
+    fn folder(&self) -> Option<&Path> {
+        None
+    }
+
+    fn inputs(&self) -> Vec<&Path> {
+        vec![&self.file]
+    }
+
+    fn memory(&self) -> miette::Result<Option<MemoryNeed>> {
+        // Cases are small, and drawn one after the other.
+        Ok(None)
+    }
+
+    fn study(&self) -> miette::Result<Measure> {
+        Ok(Measure {
+            name: self.file.display().to_string(),
+            cases: load_measurement(&self.file)?,
+            profile: switch::device(&self.device, &self.switch)?,
+            known: self.switch.clone(),
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! Files of measured pixels: comma-separated tables.
+//!
+//! The header names the columns, in any order: `case`, `column` and `row` are required, `red`, `green`, `blue`, `alpha`
+//! and `depth` can be left out, as can be single values. A case is a path relative to the folder of the table. Codes are
+//! the stored integers: `red` to `alpha` are the first to fourth stored channel of target 0, as in a probe's `raw`.
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::io::read_limited;
+use crate::study::StudyError;
+
+/// Longest file that is read, in bytes (64 MiB).
+const MAX_BYTES: u64 = 1 << 26;
+const HELP: &str = "the header is `case,column,row,red,green,blue,alpha,depth`; docs/measuring.md describes the table";
+
+/// Pixel that a card drew.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeasuredPixel {
+    /// Line of the table, from 1.
+    pub line: u64,
+    /// Column and row, from the top left, from 0.
+    pub place: [u32; 2],
+    /// Stored codes of the channels of target 0, as far as they were measured.
+    pub codes: [Option<u32>; 4],
+    /// Stored code of the depth buffer, if it was measured.
+    pub depth: Option<u32>,
+}
+
+/// Measured pixels of a case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeasuredCase {
+    /// Case that the card drew.
+    pub path: PathBuf,
+    /// Pixels, in the order of the table; never empty.
+    pub pixels: Vec<MeasuredPixel>,
+}
+
+/// Line of the table.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    case: PathBuf,
+    column: u32,
+    row: u32,
+    red: Option<u32>,
+    green: Option<u32>,
+    blue: Option<u32>,
+    alpha: Option<u32>,
+    depth: Option<u32>,
+}
+
+/// Reads measured pixels from a file.
+///
+/// # Errors
+/// If the file cannot be read, is too long or is no such table: the message has the path and the line.
+pub fn load_measurement(path: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
+    let unreadable = |source| {
+        StudyError::new("crossbar::measure::file", format!("cannot read the measured pixels {}", path.display()))
+            .with_help("check the path, and that you may read the file")
+            .with_source(source)
+    };
+    let Some(bytes) = read_limited(path, MAX_BYTES).map_err(unreadable)? else {
+        let found = format!("{}: expected a table of at most {MAX_BYTES} bytes, found more", path.display());
+        return Err(
+            StudyError::new("crossbar::measure::file", found).with_help("share the pixels out to several files")
+        );
+    };
+    parse_measurement(&bytes, path)
+}
+
+/// Reads measured pixels from bytes; `name` is the path of the file, to which paths of cases are relative.
+///
+/// # Errors
+/// If it is no such table, or has no pixels.
+pub fn parse_measurement(bytes: &[u8], name: &Path) -> Result<Vec<MeasuredCase>, StudyError> {
+    let wrong = |line: u64, found: String| {
+        StudyError::new("crossbar::measure::table", format!("{}:{line}: {found}", name.display())).with_help(HELP)
+    };
+    let broken = |error: &csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        wrong(line, format!("expected a line of measured pixels: {error}"))
+    };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes);
+    let headers = reader.headers().map_err(|error| broken(&error))?.clone();
+    let folder = name.parent().unwrap_or_else(|| Path::new(""));
+    let mut cases: Vec<MeasuredCase> = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| broken(&error))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let row: Row = record.deserialize(Some(&headers)).map_err(|error| broken(&error))?;
+        let codes = [row.red, row.green, row.blue, row.alpha];
+        if codes.iter().chain([&row.depth]).all(Option::is_none) {
+            return Err(wrong(line, "expected a measured code, found none".to_owned()));
+        }
+        let pixel = MeasuredPixel { line, place: [row.column, row.row], codes, depth: row.depth };
+        let path = folder.join(row.case);
+        match cases.iter_mut().find(|case| case.path == path) {
+            Some(case) => case.pixels.push(pixel),
+            None => cases.push(MeasuredCase { path, pixels: vec![pixel] }),
+        }
+    }
+    if cases.is_empty() {
+        return Err(wrong(1, "expected measured pixels, found a table without lines".to_owned()));
+    }
+    Ok(cases)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Vec<MeasuredCase>, StudyError> {
+        parse_measurement(text.as_bytes(), Path::new("cards/m.csv"))
+    }
+
+    #[test]
+    fn pixels_are_sorted_by_case() {
+        let text = "case,row,column,red,alpha\na.toml,1,2,255,\nb.toml,0,0,,3\n# text\na.toml, 0, 0, 7, 8\n";
+        let cases = parse(text).expect("a table");
+        let pixel =
+            |line, place, red, alpha| MeasuredPixel { line, place, codes: [red, None, None, alpha], depth: None };
+        let a = vec![pixel(2, [2, 1], Some(255), None), pixel(5, [0, 0], Some(7), Some(8))];
+        let b = vec![pixel(3, [0, 0], None, Some(3))];
+        let expected = [("cards/a.toml", a), ("cards/b.toml", b)];
+        assert_eq!(cases, expected.map(|(path, pixels)| MeasuredCase { path: path.into(), pixels }));
+    }
+
+    #[test]
+    fn errors_say_where_and_what() {
+        let message = |text: &str| parse(text).expect_err("no table").to_string();
+        insta::assert_snapshot!(
+            [
+                "",
+                "case,column,row,red\n",
+                "case,column,row,red\na.toml,0,0,\n",
+                "case,column,row,red\na.toml,0,0,f\n",
+                "case,column,row,red\na.toml,0\n",
+                "case,column,row,hue\na.toml,0,0,1\n",
+                "case,column,red\na.toml,0,1\n"
+            ]
+            .map(message)
+            .join("\n")
+        );
+    }
+
+    proptest::proptest! {
+        /// Any text is a table or an error.
+        #[test]
+        fn no_text_panics(text in "(case,column,row,red\n)?[a-z0-9,\n#\" ]{0,60}") {
+            let _ = parse(&text);
+        }
+    }
+}

@@ -1,0 +1,249 @@
+//! Settings of a device's switches that draw what was measured.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use refsim::device::{Profile, Switch};
+use refsim::machine::ExecutorKind;
+
+use super::Measure;
+use super::file::{MeasuredCase, MeasuredPixel};
+use crate::case::{CaseError, Loaded, Overrides, Setup};
+use crate::study::{ProgressFn, StudyError};
+
+/// Settings of one case that are drawn, and settings of all cases that are counted, at most.
+const MOST: [usize; 2] = [4096, 1 << 20];
+
+/// Switch with its values; a setting has an index into the values of each.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Question {
+    pub(super) name: String,
+    pub(super) values: Vec<String>,
+    pub(super) default: usize,
+}
+
+/// Setting of some switches: by the switch's index, the index of its value. Others have their defaults.
+pub(super) type Setting = BTreeMap<usize, usize>;
+
+/// Counts of measured codes that each setting draws.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Survey {
+    pub(super) questions: Vec<Question>,
+    /// Switches that some measured code depends on, by index.
+    pub(super) relevant: BTreeSet<usize>,
+    /// Settings of the relevant switches with the codes that each draws right, the best first.
+    pub(super) settings: Vec<(Setting, u64)>,
+    /// Number of measured codes.
+    pub(super) codes: u64,
+    /// Codes that the best setting draws otherwise.
+    pub(super) wrong: Vec<WrongCode>,
+}
+
+/// Measured code that a setting draws otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct WrongCode {
+    pub(super) line: u64,
+    /// Index into the columns of codes.
+    pub(super) column: usize,
+    pub(super) measured: u32,
+    pub(super) drawn: u32,
+}
+
+/// One case: the switches that matter to it, and the codes that each of their settings draws right.
+struct CaseCounts {
+    relevant: BTreeSet<usize>,
+    right: BTreeMap<Setting, u64>,
+}
+
+impl Survey {
+    /// Draws every case under all settings of the switches that its measured pixels depend on.
+    ///
+    /// # Errors
+    /// If a case cannot be drawn on the device as it is, a pixel lies outside its target, or there are too many settings.
+    pub(super) fn new(measure: &Measure, progress: &mut ProgressFn<'_>) -> Result<Self, StudyError> {
+        let Measure { profile, cases, .. } = measure;
+        let questions = questions(measure);
+        let mut counts = Vec::new();
+        for (done, case) in (0..).zip(cases) {
+            progress(&case.path.display().to_string(), done, cases.len() as u64);
+            counts.push(MeasuredDraws { profile, questions: &questions, case }.counts()?);
+        }
+        let relevant: BTreeSet<usize> = counts.iter().flat_map(|case| &case.relevant).copied().collect();
+        let all = product(&questions, &relevant, MOST[1])?;
+        let total = |setting: Setting| {
+            let of = |case: &CaseCounts| {
+                let own = setting.iter().filter(|(question, _)| case.relevant.contains(question));
+                case.right.get(&own.map(|(&question, &value)| (question, value)).collect()).copied().unwrap_or(0)
+            };
+            let right = counts.iter().map(of).sum();
+            (setting, right)
+        };
+        let mut settings: Vec<(Setting, u64)> = all.into_iter().map(total).collect();
+        settings.sort_by_key(|(_, right)| std::cmp::Reverse(*right));
+        let codes = cases.iter().flat_map(|case| &case.pixels).map(|pixel| measured(pixel).count() as u64).sum();
+        let mut wrong = Vec::new();
+        for case in cases {
+            wrong.extend(MeasuredDraws { profile, questions: &questions, case }.wrong(&settings[0].0)?);
+        }
+        Ok(Self { questions, relevant, settings, codes, wrong })
+    }
+
+    /// Settings that draw every measured code.
+    pub(super) fn fitting(&self) -> impl Iterator<Item = &Setting> {
+        self.settings.iter().filter(|(_, right)| *right == self.codes).map(|(setting, _)| setting)
+    }
+
+    /// Most codes that a setting with this value of a switch draws right.
+    pub(super) fn best_with(&self, question: usize, value: usize) -> u64 {
+        let with = self.settings.iter().filter(|(setting, _)| setting.get(&question) == Some(&value));
+        with.map(|(_, right)| *right).max().unwrap_or(0)
+    }
+}
+
+/// Switches of a device. One that is known has its current value alone.
+fn questions(measure: &Measure) -> Vec<Question> {
+    let of = |switch: &Switch| {
+        let is_known = measure.known.iter().any(|(name, _)| *name == switch.name);
+        let values = if is_known { vec![switch.current.clone()] } else { switch.values.clone() };
+        let default = values.iter().position(|value| *value == switch.current).unwrap_or(0);
+        Question { name: switch.name.clone(), values, default }
+    };
+    measure.profile.switches().iter().map(of).collect()
+}
+
+/// All settings of some switches.
+fn product(questions: &[Question], some: &BTreeSet<usize>, most: usize) -> Result<Vec<Setting>, StudyError> {
+    let count = some.iter().fold(1_usize, |count, &at| count.saturating_mul(questions[at].values.len()));
+    if count > most {
+        let names: Vec<&str> = some.iter().map(|&at| questions[at].name.as_str()).collect();
+        let found = format!(
+            "expected at most {most} settings of the switches that the pixels depend on, found {count} of {}",
+            names.join(", ")
+        );
+        let help = "set switches that are known (`--switch NAME=VALUE`), or measure smaller cases";
+        return Err(StudyError::new("crossbar::measure::settings", found).with_help(help));
+    }
+    let mut all = vec![Setting::new()];
+    for &at in some {
+        let values = 0..questions[at].values.len();
+        let with = |setting: &Setting| {
+            values.clone().map(|value| setting.iter().map(|(&a, &b)| (a, b)).chain([(at, value)]).collect()).collect()
+        };
+        all = all.iter().flat_map(|setting| -> Vec<Setting> { with(setting) }).collect();
+    }
+    Ok(all)
+}
+
+/// Draws of a case under settings.
+struct MeasuredDraws<'a> {
+    profile: &'a Profile,
+    questions: &'a [Question],
+    case: &'a MeasuredCase,
+}
+
+impl MeasuredDraws<'_> {
+    fn counts(&self) -> Result<CaseCounts, StudyError> {
+        let expected: Vec<u32> = self.case.pixels.iter().flat_map(measured).map(|(_, code)| code).collect();
+        let relevant = self.relevant()?;
+        let mut right = BTreeMap::new();
+        for setting in product(self.questions, &relevant, MOST[0])? {
+            // A card that drew the case does not have a setting that cannot draw it.
+            let drawn = self.draw(&setting).unwrap_or_default();
+            let equal = drawn.iter().zip(&expected).filter(|(drawn, expected)| drawn == expected).count();
+            right.insert(setting, equal as u64);
+        }
+        Ok(CaseCounts { relevant, right })
+    }
+
+    /// Switches that a measured code depends on: alone, or beside another value of one that matters alone.
+    fn relevant(&self) -> Result<BTreeSet<usize>, StudyError> {
+        let base = self.draw(&Setting::new())?;
+        let draw = |setting: Setting| self.draw(&setting).ok();
+        let others: Vec<(usize, usize)> = self.questions.iter().enumerate().flat_map(others).collect();
+        let alone: Vec<_> = others.iter().map(|&one| draw(Setting::from([one]))).collect();
+        let differs = || others.iter().zip(&alone).filter(|(_, drawn)| drawn.as_ref() != Some(&base));
+        let mut relevant: BTreeSet<usize> = differs().map(|(one, _)| one.0).collect();
+        let hidden = others.iter().filter(|one| !relevant.contains(&one.0));
+        let shows = |one: (usize, usize)| differs().any(|(&two, drawn)| draw(Setting::from([one, two])) != *drawn);
+        let shown: Vec<usize> = hidden.filter(|&&one| shows(one)).map(|one| one.0).collect();
+        relevant.extend(shown);
+        Ok(relevant)
+    }
+
+    /// Measured codes that a setting draws otherwise.
+    fn wrong(&self, setting: &Setting) -> Result<Vec<WrongCode>, StudyError> {
+        let drawn = self.draw(setting)?;
+        let all = self.case.pixels.iter().flat_map(|pixel| measured(pixel).map(|code| (pixel.line, code)));
+        let pairs = all.zip(drawn).filter(|((_, (_, measured)), drawn)| measured != drawn);
+        Ok(pairs.map(|((line, (column, measured)), drawn)| WrongCode { line, column, measured, drawn }).collect())
+    }
+
+    /// Codes of the measured pixels under a setting.
+    fn draw(&self, setting: &Setting) -> Result<Vec<u32>, StudyError> {
+        let value = |(&at, &value): (&usize, &usize)| {
+            let question = &self.questions[at];
+            (question.name.clone(), question.values[value].clone())
+        };
+        let overrides = Overrides {
+            device: Some(self.profile.clone()),
+            switches: setting.iter().map(value).collect(),
+            ..Overrides::default()
+        };
+        let setup = Setup::read_with(&self.case.path, &overrides)?;
+        self.require_places(&setup)?;
+        Ok(codes(&setup, &self.case.pixels)?)
+    }
+
+    /// Refuses pixels and channels that the case does not draw.
+    fn require_places(&self, setup: &Setup) -> Result<(), StudyError> {
+        let channels = setup.targets[0].record().stored().len();
+        let found = |pixel: &MeasuredPixel| {
+            let [x, y] = pixel.place;
+            let [width, height] = setup.size;
+            let missing = |(at, _): (usize, u32)| if at < 4 { at >= channels } else { setup.depth.is_none() };
+            if x >= width || y >= height {
+                Some(format!("a pixel of the {width}x{height} target, found column {x}, row {y}"))
+            } else {
+                let at = measured(pixel).find(|&code| missing(code))?.0;
+                Some(format!("a code that the case stores, found one for {}", super::CODES[at]))
+            }
+        };
+        match self.case.pixels.iter().find_map(|pixel| Some((pixel.line, found(pixel)?))) {
+            None => Ok(()),
+            Some((line, found)) => {
+                let found = format!("line {line}, {}: expected {found}", self.case.path.display());
+                Err(StudyError::new("crossbar::measure::place", found).with_help(
+                    "columns and rows count from 0 at the top left; a code is a channel that the case's target 0 stores, \
+                     or its depth",
+                ))
+            }
+        }
+    }
+}
+
+/// Values of a switch but for its default, each with the switch's index.
+fn others((at, question): (usize, &Question)) -> Vec<(usize, usize)> {
+    (0..question.values.len()).filter(|value| *value != question.default).map(|value| (at, value)).collect()
+}
+
+/// Measured codes of a pixel: the place among red to alpha and depth, and the code.
+pub(super) fn measured(pixel: &MeasuredPixel) -> impl Iterator<Item = (usize, u32)> {
+    let [red, green, blue, alpha] = pixel.codes;
+    let all = [red, green, blue, alpha, pixel.depth];
+    all.into_iter().enumerate().filter_map(|(at, code)| Some((at, code?)))
+}
+
+/// Draws a case and returns what is stored where something was measured.
+fn codes(setup: &Setup, pixels: &[MeasuredPixel]) -> Result<Vec<u32>, CaseError> {
+    let mut loaded = Loaded::new(setup, ExecutorKind::Scalar)?;
+    loaded.draw()?;
+    let (targets, depth) = (loaded.targets()?, loaded.depth()?);
+    let channels = targets[0].format().record().stored();
+    let code = |[x, y]: [u32; 2], at: usize| match channels.get(at) {
+        Some(channel) if at < 4 => {
+            (targets[0].raw(0, 0, y, x) >> channel.shift) as u32
+                & (u32::MAX >> (32 - u32::from(channel.bits.clamp(1, 32))))
+        }
+        _ => depth.and_then(|surface| surface.get(x, y)).unwrap_or_default(),
+    };
+    Ok(pixels.iter().flat_map(|pixel| measured(pixel).map(|(at, _)| code(pixel.place, at))).collect())
+}

@@ -1,0 +1,115 @@
+//! fixtures/probes/open: for each open switch of a card the smallest case that tells its values apart, for whoever has
+//! the card. docs/measuring.md lists them.
+
+mod draft;
+mod search;
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+use crossbar::case::Setup;
+use refsim::device::{Profile, Switch};
+use refsim::machine::ExecutorKind;
+
+/// The cards, without those that are one of these at another clock.
+const CARDS: [&str; 6] = ["nv20", "nv25", "r200", "r300", "nv30", "nv35"];
+/// Switches that no drawing decides, and why.
+const UNDRAWN: [(&str, &str); 1] =
+    [("ray-textures", "chooses the texel format of a system's textures: the card has it, or refuses it")];
+
+fn file(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn place(device: &str, switch: &str) -> String {
+    format!("fixtures/probes/open/{device}/{switch}.toml")
+}
+
+/// Open switches that a drawing decides.
+fn drawn(profile: &Profile) -> impl Iterator<Item = &Switch> {
+    search::open(profile).filter(|switch| UNDRAWN.iter().all(|(name, _)| *name != switch.name))
+}
+
+fn is_blessed() -> bool {
+    env::var_os("CROSSBAR_BLESS").is_some()
+}
+
+/// Values of a switch draw other codes, and the batch executor has the bits of the reference. `CROSSBAR_BLESS=1`
+/// searches cases that are missing.
+#[test]
+fn each_open_switch_has_a_probe() {
+    let mut missing = Vec::new();
+    for device in CARDS {
+        let profile = Profile::named(device).expect("a card");
+        for switch in drawn(&profile) {
+            let path = place(device, &switch.name);
+            let there = fs::read_to_string(file(&path)).ok().filter(|text| search::tells_apart(text, switch));
+            let text = match there {
+                None if is_blessed() => search::smallest(&profile, switch).map(|draft| draft.text(device)),
+                there => there,
+            };
+            let Some(text) = text else {
+                missing.push(path);
+                continue;
+            };
+            if is_blessed() {
+                fs::create_dir_all(file(&path).parent().expect("a folder")).expect("it can be made");
+                fs::write(file(&path), &text).expect("it can be written");
+            }
+            for value in &switch.values {
+                let [scalar, batch] = [ExecutorKind::Scalar, ExecutorKind::Batch]
+                    .map(|kind| search::codes(&text, (&switch.name, value), kind));
+                assert!(scalar.is_some() && scalar == batch, "{path}, {value}");
+            }
+        }
+    }
+    assert!(missing.is_empty(), "no case tells the values apart: run with CROSSBAR_BLESS=1 to search {missing:?}");
+}
+
+/// The folder has no other files, so that a switch that was settled leaves no probe behind.
+#[test]
+fn there_are_no_other_probes() {
+    let mut expected: Vec<String> = Vec::new();
+    for device in CARDS {
+        let profile = Profile::named(device).expect("a card");
+        expected.extend(drawn(&profile).map(|switch| place(device, &switch.name)));
+    }
+    for device in fs::read_dir(file("fixtures/probes/open")).expect("the folder").map(|entry| entry.expect("a folder")) {
+        for probe in fs::read_dir(device.path()).expect("a folder").map(|entry| entry.expect("a file")) {
+            let name = [device.file_name(), probe.file_name()].map(|name| name.to_string_lossy().into_owned()).join("/");
+            assert!(expected.contains(&format!("fixtures/probes/open/{name}")), "{name} belongs to no open switch");
+        }
+    }
+}
+
+/// The page's table is that of the folder.
+#[test]
+fn the_page_lists_the_probes() {
+    let mut table = "| card | switch | values, the default first | probe | measured |\n|---|---|---|---|---|\n".to_owned();
+    for device in CARDS {
+        let profile = Profile::named(device).expect("a card");
+        for switch in search::open(&profile) {
+            let others = switch.values.iter().filter(|value| **value != switch.default);
+            let values: Vec<&str> = [&switch.default].into_iter().chain(others).map(String::as_str).collect();
+            let probe = match UNDRAWN.iter().find(|(name, _)| *name == switch.name) {
+                Some((_, why)) => format!("none: {why} | "),
+                None => {
+                    let path = place(device, &switch.name);
+                    let setup = Setup::read(&file(&path)).expect("a case");
+                    let depth = if setup.depth.is_some() { ", depth" } else { "" };
+                    let [width, height] = setup.size;
+                    format!("[{device}/{}.toml](../{path}) | {width} x {height} pixels{depth}", switch.name)
+                }
+            };
+            table += &format!("| `{device}` | `{}` | {} | {probe} |\n", switch.name, values.join(", "));
+        }
+    }
+    let page = fs::read_to_string(file("docs/measuring.md")).expect("the page");
+    let (before, rest) = page.split_once("<!-- probes -->\n").expect("the mark");
+    let (_, after) = rest.split_once("<!-- /probes -->").expect("the end mark");
+    let expected = format!("{before}<!-- probes -->\n\n{table}\n<!-- /probes -->{after}");
+    if is_blessed() {
+        fs::write(file("docs/measuring.md"), &expected).expect("it can be written");
+    }
+    assert!(is_blessed() || page == expected, "docs/measuring.md is out of date: CROSSBAR_BLESS=1 writes it");
+}

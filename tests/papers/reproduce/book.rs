@@ -1,0 +1,192 @@
+//! What the book says of the figures: `docs/papers` and `docs/status.md` are the program's own text.
+
+use std::collections::BTreeSet;
+
+use crossbar::report::Table;
+use crossbar::study::reproduce::report::tables;
+use crossbar::study::reproduce::{Prose, Reproduced, RowSource, RowVerdict, Standing, number};
+
+use super::{FOUND, all, file, findings};
+
+/// Figures in sentences are the run's: what is written by hand has digits in names alone.
+#[test]
+fn no_figure_is_written_by_hand() {
+    let prose = |text: &Prose| {
+        assert!(text.is_whole(), "{}", text.template());
+        figures_in(text.template())
+    };
+    for (entry, found) in FOUND.iter() {
+        let captions = found.charts.iter().map(|chart| &chart.caption);
+        let mut figures: Vec<String> = found.text.iter().chain(captions).flat_map(prose).collect();
+        figures.extend(found.questions.iter().flat_map(|question| figures_in(question)));
+        assert_eq!(figures, Vec::<String>::new(), "{}", entry.id);
+    }
+}
+
+/// Numbers of a text that name nothing: not part of a word (`GeForce3`), and not behind `Table`, `equation` and the
+/// like.
+fn figures_in(text: &str) -> Vec<String> {
+    const BEFORE: [&str; 7] = ["table", "figure", "equation", "section", "radeon", "step", "tables"];
+    let words: Vec<&str> =
+        text.split_whitespace().map(|word| word.trim_matches(|c: char| !c.is_alphanumeric())).collect();
+    let is_figure = |(i, word): (usize, &&str)| {
+        let bare = word.split("'").next().unwrap_or_default();
+        let number = bare.starts_with(|c: char| c.is_ascii_digit()) && !bare.contains(char::is_alphabetic);
+        let named = i > 0 && BEFORE.contains(&words[i - 1].to_lowercase().as_str());
+        (number && !named).then(|| (*word).to_owned())
+    };
+    words.iter().enumerate().filter_map(is_figure).collect()
+}
+
+#[test]
+fn figures_are_told_from_names() {
+    assert_eq!(figures_in("a GeForce3's Table 3, equation 11, section 6.1's entry in fp32"), Vec::<String>::new());
+    assert_eq!(figures_in("within 15 % of 29, or 2.5 times"), ["15", "29", "2.5"]);
+}
+
+/// Holds a file against what it should be, or writes it: as snapshots do, by `INSTA_UPDATE=always`.
+fn hold(path: &str, expected: &str) {
+    if std::env::var("INSTA_UPDATE").is_ok_and(|update| update == "always") {
+        std::fs::write(file(path), expected).expect("it can be written");
+    }
+    let found = std::fs::read_to_string(file(path)).unwrap_or_default();
+    assert!(found == expected, "{path} is out of date: INSTA_UPDATE=always cargo test --test papers writes it");
+}
+
+/// The text with what stands between `<!-- reproduce: NAME -->` and `<!-- /reproduce -->` replaced by what `of` says.
+fn filled(text: &str, of: impl Fn(&str) -> String) -> String {
+    const END: &str = "<!-- /reproduce -->";
+    let mut parts = text.split("<!-- reproduce: ");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once(" -->").expect("the mark's end");
+        let (_, rest) = rest.split_once(END).expect("an end mark for each mark");
+        out.push_str(&format!("<!-- reproduce: {name} -->{}{END}{rest}", of(name)));
+    }
+    out
+}
+
+fn markdown(table: &Table) -> String {
+    let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let rule = row(table.headings().iter().map(|_| "---".to_owned()).collect());
+    let body = table.rows().iter().map(|cells| row(cells.iter().map(|cell| cell.text()).collect()));
+    [row(table.shown_headings()), rule].into_iter().chain(body).collect()
+}
+
+/// Where figures are missed, calibrated ones among them: `Table 1 (2 of 6)`.
+fn missed_by_place() -> String {
+    let mut places: Vec<(&str, &str, [usize; 2])> = Vec::new();
+    for (paper, row) in FOUND.iter().flat_map(|(entry, found)| found.rows.iter().map(|row| (paper_of(entry.id), row))) {
+        let found = places.iter().position(|(p, place, _)| (*p, *place) == (paper, row.target.place.as_str()));
+        let at = found.unwrap_or_else(|| {
+            places.push((paper, &row.target.place, [0, 0]));
+            places.len() - 1
+        });
+        places[at].2[0] += usize::from(row.verdict() == RowVerdict::Missed);
+        places[at].2[1] += usize::from(row.verdict() != RowVerdict::Reduced);
+    }
+    let missed = places.iter().filter(|(.., [missed, _])| *missed > 0);
+    let text = missed.map(|(paper, place, [missed, all])| format!("{paper}, {place} ({missed} of {all})"));
+    text.collect::<Vec<_>>().join("; ")
+}
+
+fn paper_of(id: &str) -> &'static str {
+    const PAPERS: [(&str, &str); 5] = [
+        ("radiosity", "radiosity"),
+        ("subsurface", "subsurface"),
+        ("cpca", "CPCA"),
+        ("all-frequency", "all-frequency transfer"),
+        ("bi-scale", "bi-scale transfer"),
+    ];
+    PAPERS.iter().find(|(begin, _)| id.starts_with(begin)).map_or("Ray Engine", |(_, paper)| paper)
+}
+
+/// Text of the book for a name: `rows ID...`, `calibrated ID...`, `table ID PLACE`, `tally`, `missed`.
+fn said(name: &str) -> String {
+    let words: Vec<&str> = name.split(' ').collect();
+    let of =
+        |ids: &[&str]| -> Reproduced { FOUND.iter().filter(|(entry, _)| ids.contains(&entry.id)).cloned().collect() };
+    let table = match words[..] {
+        ["tally"] => {
+            let counted = || all().filter(|row| row.verdict() != RowVerdict::Reduced);
+            let judged = || counted().filter(|row| !matches!(row.standing, Standing::Calibrated { .. }));
+            let recorded = || counted().filter(|row| row.source != RowSource::Computed);
+            let confirmed = recorded().filter(|row| row.source == RowSource::Confirmed).count();
+            let count = |verdict| judged().filter(|row| row.verdict() == verdict).count();
+            return format!(
+                "of {} figures {} are predicted within bounds in numbers, {} are met in order only, and {} are the papers' \
+                 own values set against each other; {} are explained and {} missed, outside their bounds; {} are contradicted \
+                 by their own paper; {} are too vague to judge. {} are recorded at full size, {confirmed} of them computed anew with \
+                 the same bits; {} more have reduced models alone and are not judged",
+                judged().count(),
+                count(RowVerdict::Predicted),
+                count(RowVerdict::OrderOnly),
+                count(RowVerdict::Consistent),
+                count(RowVerdict::Explained),
+                count(RowVerdict::Missed),
+                count(RowVerdict::Contradictory),
+                count(RowVerdict::TooVague),
+                recorded().filter(|row| row.source != RowSource::Reduced).count(),
+                all().count() - counted().count(),
+            );
+        }
+        ["missed"] => return missed_by_place(),
+        ["rows", ref ids @ ..] => tables(&of(ids))[0].clone(),
+        ["calibrated", ref ids @ ..] => tables(&of(ids))[1].clone(),
+        ["table", id, place] => findings(id).tables[place.parse::<usize>().expect("a place from 0")].clone(),
+        _ => panic!("unknown block `{name}`"),
+    };
+    format!("\n\n{}\n", markdown(&table))
+}
+
+/// The page of what works and those of the papers.
+fn pages() -> Vec<String> {
+    let folder = std::fs::read_dir(file("docs/papers")).expect("the papers' pages");
+    let names = folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name in ASCII"));
+    let mut pages: Vec<String> =
+        names.filter(|name| name.ends_with(".md")).map(|name| format!("docs/papers/{name}")).collect();
+    pages.sort();
+    pages.insert(0, "docs/status.md".to_owned());
+    pages
+}
+
+/// The book's figures are the program's.
+#[test]
+fn the_book_says_what_the_program_says() {
+    for path in pages() {
+        let text = std::fs::read_to_string(file(&path)).expect("a page");
+        assert!(text.contains("<!-- reproduce: "), "{path} has figures of the program");
+        hold(&path, &filled(&text, said));
+    }
+}
+
+/// No entry that judges figures is left out of the book.
+#[test]
+fn every_row_stands_in_the_book() {
+    let texts = pages().iter().map(|path| std::fs::read_to_string(file(path)).expect("a page")).collect::<String>();
+    let blocks = texts.split("<!-- reproduce: rows ").skip(1).filter_map(|rest| rest.split_once(" -->"));
+    let shown: BTreeSet<&str> = blocks.flat_map(|(ids, _)| ids.split(' ')).collect();
+    for (entry, found) in FOUND.iter() {
+        assert!(found.rows.is_empty() || shown.contains(entry.id), "{} has rows that no page shows", entry.id);
+    }
+}
+
+/// The book's charts are the program's.
+#[test]
+fn the_book_draws_what_the_program_draws() {
+    for (id, name) in [
+        ("ray-engine-tables-1-2", "ray-engine-table-2"),
+        ("ray-engine-table-3", "ray-engine-host-octree"),
+        ("ray-engine-table-5", "ray-engine-table-5"),
+    ] {
+        let chart = findings(id).charts.iter().find(|chart| chart.name == name).expect("a chart");
+        hold(&format!("docs/papers/{}.svg", name.replace('-', "_")), &chart.chart.svg().expect("a drawing"));
+    }
+}
+
+#[test]
+fn blocks_are_filled() {
+    let text = "a <!-- reproduce: tally -->old<!-- /reproduce --> b";
+    assert_eq!(filled(text, |name| name.to_uppercase()), text.replace("old", "TALLY"));
+    assert_eq!(number(2.5, 1), "2.5");
+}

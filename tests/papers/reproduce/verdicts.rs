@@ -1,0 +1,221 @@
+//! What a row's verdict rests on: its source, its bound, its class, its explanation.
+
+use crossbar::report::{Cell, Table};
+use crossbar::study::reproduce::report::{held, notes, tables, tally_line};
+use crossbar::study::reproduce::{
+    Bound, ENTRIES, EntryRecord, Judgement, Method, Origin, PaperFigure, PaperRow, RecordStatus, RowSource, RowVerdict,
+    Standing, papers, recorded,
+};
+
+use super::{FOUND, all, file, findings};
+
+/// The rows: whoever changes the engine, a scene, a card or a weight sees here what it does to them.
+#[test]
+fn the_rows_are_these() {
+    let line = |row: &PaperRow| {
+        let PaperRow { device, method, target, ours, .. } = row;
+        let PaperFigure { id, what, unit, .. } = target;
+        let range = row.range().map(|[low, high]| format!(" ({low:.3} to {high:.3})")).unwrap_or_default();
+        let rounded = if row.holds_by_rounding() { " by the rounding of the print" } else { "" };
+        let source = if row.source == RowSource::Computed { String::new() } else { format!("{}: ", row.source) };
+        let explained = row.explanation().map(|e| format!(" [{}]", e.text())).unwrap_or_default();
+        let against = row.contradiction().map(|found| format!(" [{}]", found.text())).unwrap_or_default();
+        let (paper, bound, verdict) = (target.text(), row.bound.text(), row.verdict());
+        format!(
+            "{id}: {what}, {device}, {method}: {paper} {unit}, ours {ours:.3}{range}, {bound}: \
+             {source}{verdict}{rounded}{explained}{against}"
+        )
+    };
+    let lines: Vec<String> = all().map(line).chain([tally_line(&FOUND)]).collect();
+    insta::assert_snapshot!(lines.join("\n"));
+}
+
+/// Records are of this program, and what is quick to compute has their bits. A change of a model, a printed figure or a
+/// computation that makes a record stale shows here: `crossbar reproduce --record src/studies/records` makes it anew.
+#[test]
+fn records_are_of_this_program() {
+    let mut quick = 0;
+    for (entry, found) in FOUND.iter() {
+        let record = recorded(entry).expect("a whole record");
+        let is_quick = record.as_ref().is_some_and(EntryRecord::is_quick);
+        match (&record, &found.record) {
+            (None, None | Some(RecordStatus::Reduced(None))) => {}
+            (Some(record), Some(RecordStatus::Recorded(made))) => assert!(record.made() == made && !is_quick),
+            (Some(_), Some(RecordStatus::Computed { differ: 0, .. })) => assert!(is_quick, "{}", entry.id),
+            (_, Some(status)) => panic!("{}: {}", entry.id, status.sentence().expect("a sentence")),
+            (Some(_), None) => panic!("{} has a record and no choice of size", entry.id),
+        }
+        let confirmed = found.rows.iter().filter(|row| row.source == RowSource::Confirmed).count();
+        assert_eq!(confirmed, if is_quick { found.rows.len() } else { 0 }, "{}", entry.id);
+        quick += confirmed;
+    }
+    assert!(quick > 0, "no recorded row is computed anew");
+    let files = std::fs::read_dir(file("src/studies/records")).expect("the records");
+    let names = files.map(|file| file.expect("a file").file_name().into_string().expect("a name in ASCII"));
+    let mut names: Vec<String> = names.filter_map(|name| Some(name.strip_suffix(".toml")?.to_owned())).collect();
+    names.sort();
+    let mut known: Vec<&str> =
+        ENTRIES.iter().filter(|entry| recorded(entry).is_ok_and(|found| found.is_some())).map(|it| it.id).collect();
+    known.sort_unstable();
+    assert_eq!(names, known, "every file of the folder is a record of the program");
+}
+
+/// Recorded rows and those of this run are counted; rows of reduced models have no verdict, and no tally has them.
+#[test]
+fn reduced_rows_are_not_counted() {
+    for (entry, found) in FOUND.iter() {
+        let reduced = matches!(found.record, Some(RecordStatus::Reduced(_)));
+        assert!(found.rows.iter().all(|row| (row.source == RowSource::Reduced) == reduced), "{}", entry.id);
+    }
+    let reduced = all().filter(|row| row.verdict() == RowVerdict::Reduced).count();
+    let counted: usize =
+        RowVerdict::counted().map(|verdict| all().filter(|row| row.verdict() == verdict).count()).sum();
+    assert_eq!(counted + reduced, all().count());
+    assert!(tally_line(&FOUND).starts_with(&format!("{counted} figures: ")), "{}", tally_line(&FOUND));
+}
+
+/// A printed figure has one row, and a judged one has a row: what is not judged is listed with its reason.
+#[test]
+fn every_judged_figure_has_one_row() {
+    let figures = papers().expect("the data").iter().flat_map(|paper| &paper.figures);
+    let judged = figures.filter(|figure| matches!(figure.judgement, Judgement::Within(_)));
+    let mut judged: Vec<&str> = judged.map(|figure| figure.id.as_str()).collect();
+    let mut rows: Vec<&str> = all().map(|row| row.target.id.as_str()).collect();
+    judged.sort_unstable();
+    rows.sort_unstable();
+    assert_eq!(rows, judged);
+}
+
+/// A contradiction is computed from print, and stands in the notes; our values do not decide it.
+#[test]
+fn contradictions_come_with_their_computations() {
+    let found: Vec<&PaperRow> = all().filter(|row| row.verdict() == RowVerdict::Contradictory).collect();
+    let of = |paper: &str| found.iter().filter(|row| row.target.id.starts_with(paper)).count();
+    assert_eq!(["ray-engine", "subsurface", "cpca", "all-frequency", "bi-scale"].map(of), [0, 15, 4, 0, 5]);
+    let notes = notes(&FOUND);
+    for row in &found {
+        let text = row.contradiction().expect("a computation").text();
+        assert!(text.contains(|c: char| c.is_ascii_digit()), "{text}");
+        assert!(notes.rows().iter().any(|note| note[1].text() == "contradictory" && note[2].text() == text), "{text}");
+    }
+}
+
+/// Evidence tells apart what is met: an order and print against print are no predictions.
+#[test]
+fn classes_of_evidence_follow_from_the_rows() {
+    for row in all() {
+        let numbers = !matches!(row.bound, Bound::Order | Bound::AtLeast | Bound::TooVague);
+        let calibrated = matches!(row.standing, Standing::Calibrated { .. });
+        let measured = row.method != Method::Equation;
+        match row.verdict() {
+            RowVerdict::Predicted => assert!(numbers && measured && !calibrated, "{}", row.target.id),
+            RowVerdict::OrderOnly => assert!(!numbers && measured && !calibrated, "{}", row.target.id),
+            RowVerdict::Consistent => assert!(!measured && !calibrated, "{}", row.target.id),
+            _ => {}
+        }
+        // Rates are judged as rates.
+        let rate = ["Hz", "fps", "frames/s"].contains(&row.target.unit.as_str());
+        assert!(!rate || row.bound == Bound::Relative(Bound::SHARE), "{}", row.target.id);
+    }
+}
+
+/// Numbers that are neither printed nor read off our own model can be told apart.
+#[test]
+fn origins_are_said() {
+    let row = |id: &str| all().find(|row| row.target.id == id).expect("a row");
+    let implied = &row("subsurface/lookups-fixed").target;
+    assert_eq!((implied.text(), &implied.origin), ("20 (implied)".to_owned(), &Origin::Implied("1.25 L".to_owned())));
+    assert!(matches!(row("cpca/figure-6").target.origin, Origin::Inferred(_)));
+    for id in ["radiosity/jacobi-operations", "radiosity/gauss-seidel-operations"] {
+        assert!(matches!(row(id).standing, Standing::Calibrated { .. }), "N was chosen from {id}");
+    }
+}
+
+/// A calibrated row is no success, and being calibrated does not save it.
+#[test]
+fn calibration_hides_no_miss() {
+    let radeon: Vec<_> =
+        findings("radeon-8500").rows.iter().map(|row| (row.standing.to_string(), row.verdict())).collect();
+    let calibrated = || "calibrated".to_owned();
+    assert_eq!(radeon, [(calibrated(), RowVerdict::Missed)]);
+    let mut calibrated = all().filter(|row| matches!(row.standing, Standing::Calibrated { .. }));
+    let verdicts = [RowVerdict::Calibrated, RowVerdict::Missed, RowVerdict::Contradictory, RowVerdict::Reduced];
+    assert!(calibrated.all(|row| verdicts.contains(&row.verdict())));
+    assert!(!held(&FOUND), "whoever misses no figure any more says so, and the program then ends with 0");
+}
+
+/// A bound that a card worth nothing would meet says nothing.
+#[test]
+fn no_row_of_tables_3_to_5_is_met_by_the_host_alone() {
+    let alone = &findings("ray-engine-table-3").rows[0];
+    assert_eq!((alone.target.id.as_str(), alone.verdict()), ("ray-engine/host-alone", RowVerdict::Calibrated));
+    let entries = ["ray-engine-table-3", "ray-engine-table-4", "ray-engine-table-5"];
+    let rows = entries.iter().flat_map(|id| &findings(id).rows).filter(|row| row.target.unit == "rays/s");
+    let others: Vec<&PaperRow> = rows.filter(|row| row.target.id != alone.target.id).collect();
+    assert_eq!(others.len(), 8);
+    assert!(others.iter().all(|row| !row.admits(alone.ours)));
+}
+
+/// An explanation of a row lies within its bound, and is a setting of a table of the same entry or its neighbours.
+#[test]
+fn explanations_reach_what_they_explain() {
+    let explained: Vec<_> = all().filter_map(|row| Some((row, row.explanation()?))).collect();
+    for (row, explanation) in &explained {
+        assert!(row.admits(explanation.value()) && !row.holds(), "{}", row.target.id);
+    }
+    assert_eq!(explained.len(), all().filter(|row| row.verdict() == RowVerdict::Explained).count());
+}
+
+/// Differences are shares of what the paper has, in rows and wherever else a table has them.
+#[test]
+fn differences_are_against_the_paper() {
+    for row in all() {
+        let (ours, paper) = (row.ours, row.target.value);
+        assert_eq!(row.difference(), (ours - paper) / paper, "{}", row.target.id);
+    }
+    let [predicted, calibrated] = tables(&FOUND);
+    let column = |table: &Table, name: &str| table.headings().iter().position(|heading| heading == name);
+    for table in [predicted, calibrated] {
+        let place = column(&table, "difference_%").expect("a column");
+        for shown in table.rows() {
+            let is_it = |row: &&PaperRow| row.target.what == shown[0].text() && row.target.place == shown[1].text();
+            let differences: Vec<_> =
+                all().filter(is_it).map(|row| Cell::decimals(100.0 * row.difference(), 1)).collect();
+            assert!(differences.contains(&shown[place]), "{}: {}", shown[0].text(), shown[place].text());
+        }
+    }
+}
+
+/// A reason stands once, with all its rows; what is explained is counted, and not as reproduced.
+#[test]
+fn every_explanation_is_said_once() {
+    let notes = notes(&FOUND);
+    let mut reasons: Vec<String> = notes.rows().iter().map(|row| row[1].text() + &row[2].text()).collect();
+    let said = reasons.len();
+    reasons.sort();
+    reasons.dedup();
+    assert_eq!(reasons.len(), said);
+    let explained = all().filter(|row| row.verdict() == RowVerdict::Explained).count();
+    let rows = notes.rows().iter().filter(|row| row[1].text() == "explained").map(|row| row[3].text());
+    assert_eq!(rows.flat_map(|rows| rows.split("; ").map(str::to_owned).collect::<Vec<_>>()).count(), explained);
+    assert!(tally_line(&FOUND).contains(&format!("outside their bounds, {explained} of them explained")));
+}
+
+/// The class of a miss is data of the figure: every missed row has one, and no other figure.
+#[test]
+fn missed_rows_have_their_class() {
+    let judged = all().filter(|row| row.verdict() != RowVerdict::Reduced);
+    let wrong = judged.filter(|row| (row.verdict() == RowVerdict::Missed) != row.target.missed.is_some());
+    assert_eq!(wrong.map(|row| row.target.id.as_str()).collect::<Vec<_>>(), Vec::<&str>::new());
+    let figures = papers().expect("the data").iter().flat_map(|paper| &paper.figures);
+    let idle = figures.filter(|figure| figure.missed.is_some() && matches!(figure.judgement, Judgement::Not(_)));
+    assert_eq!(idle.map(|figure| figure.id.as_str()).collect::<Vec<_>>(), Vec::<&str>::new());
+}
+
+#[test]
+fn a_miss_comes_with_an_open_question() {
+    for (entry, found) in FOUND.iter() {
+        let missed = found.rows.iter().any(|row| row.verdict() == RowVerdict::Missed);
+        assert!(!missed || !found.questions.is_empty(), "{}", entry.id);
+    }
+}
