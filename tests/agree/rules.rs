@@ -2,8 +2,9 @@
 
 use crate::random::Random;
 use refsim::device::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    BorderStorage, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels, Profile,
+    SignedTexelMinimum, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues, TexkillComponents,
+    WeightRounding,
 };
 use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
@@ -123,6 +124,11 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.signed_texel_minimum = r.choose(SignedTexelMinimum::ALL);
         rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8, 12]);
         rules.lod_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
+        rules.filter_weight_rounding = r.choose(WeightRounding::ALL);
+        rules.filter_arithmetic = r.choose(FilterArithmetic::ALL);
+        rules.texel_values = r.choose(TexelValues::ALL);
+        rules.missing_channels = r.choose(MissingChannels::ALL);
+        rules.border_storage = r.choose(BorderStorage::ALL);
     }
     if group.has(Group::Pipeline) {
         if r.one_in(4) {

@@ -19,7 +19,8 @@ pub use figure::{Confidence, FigureRow};
 pub use limits::{Bus, DEFAULT_STEP_BUDGET, Limits, Rates};
 pub use profile::Profile;
 pub use rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    BorderStorage, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels, ResultRange,
+    Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues, TexkillComponents,
+    WeightRounding,
 };
 pub use switch::Switch;

@@ -8,8 +8,9 @@ use super::DeviceError;
 use super::figure::{FigureRow, RawFigure, Section};
 use super::limits::{Bus, Limits, Rates};
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    BorderStorage, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels, ResultRange,
+    Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues, TexkillComponents,
+    WeightRounding,
 };
 use super::switch::{FORMAT_RULES, RULES, Switch, apply, denormals_name, overflow_name, rounding_name};
 use crate::isa::Version;
@@ -356,6 +357,11 @@ fn read_rules(figures: &BTreeMap<String, RawFigure>) -> Result<Rules, String> {
         subpixel_bits: 8,
         filter_fraction_bits: 8,
         lod_fraction_bits: 8,
+        filter_weight_rounding: WeightRounding::Nearest,
+        filter_arithmetic: FilterArithmetic::Exact,
+        texel_values: TexelValues::Fractions,
+        missing_channels: MissingChannels::Direct3d,
+        border_storage: BorderStorage::Texel,
     };
     for name in RULES {
         let figure = figures.get(name).ok_or_else(|| format!("rules.{name} is missing"))?;

@@ -87,6 +87,57 @@ named_choice! {
 }
 
 named_choice! {
+    /// Values of a sampled texel's channels of at most 8 bits. Wider channels are fractions on every device.
+    TexelValues {
+        /// The fractions of Direct3D: `k / (2^n - 1)`, signed ones `k / (2^(n-1) - 1)`.
+        Fractions = "fractions",
+        /// The bits are repeated until they fill a byte. An unsigned byte k is `k / 255`, a signed one `2k / 255`.
+        Bytes = "bytes",
+    }
+}
+
+named_choice! {
+    /// Arithmetic of a filter on bytes: 8-bit channels, and narrower ones under [`TexelValues::Bytes`].
+    FilterArithmetic {
+        /// The exact weighted sum, rounded once into the register format.
+        Exact = "exact",
+        /// Interpolation along x, y, z and between levels, each result rounded to a byte, halves up.
+        ByteLerps = "byte-lerps",
+    }
+}
+
+named_choice! {
+    /// Rounding of the position that gives a linear filter its weights.
+    WeightRounding {
+        /// To the nearest step, halves up.
+        Nearest = "nearest",
+        /// Down to a step.
+        Cut = "cut",
+    }
+}
+
+named_choice! {
+    /// Storage of a sampler's border color.
+    BorderStorage {
+        /// A texel of the image's format.
+        Texel = "texel",
+        /// Four bytes, red to alpha, for all components of unsigned formats that are bytes or not stored.
+        Bytes = "8888",
+    }
+}
+
+named_choice! {
+    /// Components delivered by a sampler that the format does not store.
+    MissingChannels {
+        /// The defaults of Direct3D 9: black for alpha alone, 1 elsewhere.
+        Direct3d = "direct3d",
+        /// As an Xbox reads its formats: white for alpha alone; of two 8-bit channels (r, g, r, g), of two 16-bit
+        /// ones (r, g, g, r).
+        Xbox = "xbox",
+    }
+}
+
+named_choice! {
     /// Rounding into a fixed-point target, generated mip level or depth buffer.
     TargetRounding {
         /// To the nearest step, halves away from zero.
@@ -192,4 +243,14 @@ pub struct Rules {
     pub filter_fraction_bits: u8,
     /// Fraction bits of a level of detail, 0 to 8.
     pub lod_fraction_bits: u8,
+    /// Rounding of the weights of a linear filter.
+    pub filter_weight_rounding: WeightRounding,
+    /// Arithmetic of filters on bytes.
+    pub filter_arithmetic: FilterArithmetic,
+    /// Values of narrow channels of texels.
+    pub texel_values: TexelValues,
+    /// Components that a texel does not store.
+    pub missing_channels: MissingChannels,
+    /// Storage of border colors.
+    pub border_storage: BorderStorage,
 }

@@ -2,8 +2,9 @@
 
 use super::figure::Confidence;
 use super::rules::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, ResultRange, Rules, SignedTexelMinimum, TargetRounding,
-    TexcrdOverflow, TexdepthDenominator, TexkillComponents,
+    BorderStorage, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels, ResultRange,
+    Rules, SignedTexelMinimum, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues, TexkillComponents,
+    WeightRounding,
 };
 use crate::num::{Denormals, DotOrder, Format, Overflow, Rounding};
 
@@ -28,7 +29,7 @@ pub struct Switch {
 
 /// Names of the rules that every profile must state, in the order in which they are applied: `format` first, then those
 /// that modify it.
-pub(super) const RULES: [&str; 21] = [
+pub(super) const RULES: [&str; 26] = [
     "format",
     "result-range",
     "partial",
@@ -50,6 +51,11 @@ pub(super) const RULES: [&str; 21] = [
     "subpixel-bits",
     "filter-fraction-bits",
     "lod-fraction-bits",
+    "filter-weight-rounding",
+    "filter-arithmetic",
+    "texel-values",
+    "missing-channels",
+    "border-storage",
 ];
 
 /// Names of optional rules: they modify `format` (and `partial`).
@@ -151,6 +157,11 @@ pub(super) fn apply(rules: &mut Rules, name: &str, value: &str) -> Option<()> {
         "subpixel-bits" => rules.subpixel_bits = parse_bits(value)?,
         "filter-fraction-bits" => rules.filter_fraction_bits = parse_bits(value)?,
         "lod-fraction-bits" => rules.lod_fraction_bits = parse_bits(value)?,
+        "filter-weight-rounding" => rules.filter_weight_rounding = WeightRounding::from_name(value)?,
+        "filter-arithmetic" => rules.filter_arithmetic = FilterArithmetic::from_name(value)?,
+        "texel-values" => rules.texel_values = TexelValues::from_name(value)?,
+        "missing-channels" => rules.missing_channels = MissingChannels::from_name(value)?,
+        "border-storage" => rules.border_storage = BorderStorage::from_name(value)?,
         "rounding" | "overflow" | "denormals" => {
             set_format_rule(&mut rules.format, name, value)?;
             if let Some(partial) = &mut rules.partial {
