@@ -135,7 +135,7 @@ fn unknown_names_get_an_error_that_lists_the_known() {
     insta::assert_snapshot!(text(Profile::named("radeon")), @"unknown device `radeon`; expected one of nv20 r200 nv25 r300 nv30 r350 nv35 gt200 fx5800 fx5900 ideal-<format>");
     insta::assert_snapshot!(text(Profile::named("ideal-q7")), @"device `ideal-q7`: expected a number format after `ideal-`");
     let mut nv20 = Profile::named("nv20").unwrap();
-    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of color-iterator constants depth-rounding dot filter-fraction-bits lod-fraction-bits lrp mad mipmap-rounding rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow");
+    insta::assert_snapshot!(nv20.set_switch("texdepth", "x").unwrap_err(), @"device `nv20` has no switch `texdepth`; expected one of border-storage color-iterator constants depth-rounding dot filter-arithmetic filter-fraction-bits filter-weight-rounding lod-fraction-bits lrp mad mipmap-rounding missing-channels rounding signed-texel-minimum subpixel-bits target-rounding texcrd-overflow texel-values");
     insta::assert_snapshot!(nv20.set_switch("mad", "x").unwrap_err(), @"switch `mad` of device `nv20`: expected one of two-roundings fused, found `x`");
     assert_eq!(nv20, Profile::named("nv20").unwrap());
 }

@@ -8,11 +8,13 @@
 mod adapter;
 mod blending;
 mod draws;
+mod filters;
 mod page;
 mod rule;
 #[path = "../common/running.rs"]
 mod running;
 mod table;
+mod texels;
 
 use rule::Rule;
 
@@ -21,7 +23,7 @@ const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.
 fn topics() -> Vec<Rule> {
-    [blending::rules()].concat()
+    [blending::rules(), texels::rules(), filters::rules()].concat()
 }
 
 fn main() -> std::process::ExitCode {
