@@ -86,7 +86,17 @@ pub(crate) fn rules() -> Vec<Rule> {
         settled: true,
         open: "",
     };
-    vec![product, subnormals, clamp, iterated, near, alpha]
+    let dither = Rule {
+        name: "Nothing is dithered: pixels of a row with the same exact color have the same code",
+        hypotheses: Hypotheses::Options(&[("none", |_| ())]),
+        redraw: undithered,
+        unexplained: 11,
+        settled: true,
+        open: "Dithering as a state of Direct3D, which the pictures do not set. The values that differ are whole numbers of \
+               256ths, where the error of the plane decides.",
+        ..iterated.clone()
+    };
+    vec![product, subnormals, clamp, iterated, near, dither, alpha]
 }
 
 /// Constant colors of `mov oD0, v1` and `mul oD0, v1, c0`, a cell each.
@@ -142,6 +152,24 @@ fn gradients(profile: &Profile, executor: &Executor, right: fn(u8, &Row) -> bool
         let ends = if is_falling(&rows[0]) { [ONE, 0] } else { [0, ONE] };
         for (found, row) in drawn(profile, executor, ends, rows).into_iter().zip(rows) {
             count.add(right(found, row));
+        }
+    }
+    count
+}
+
+/// Pixels of the vertical gradient: those of a row are alike in the file, and alike as drawn.
+fn undithered(profile: &Profile, executor: &Executor) -> Count {
+    let rows: Vec<Row> = table(GRADIENTS).into_iter().filter(|row| row.text("picture") == "0_1").collect();
+    let found = drawn(profile, executor, [0, ONE], &rows);
+    let numbered: Vec<(&Row, u8)> = rows.iter().zip(found).collect();
+    let mut count = Count::default();
+    let same = |(a, _): &(&Row, u8), (b, _): &(&Row, u8)| {
+        ["triangle", "row", "exact_256ths"].into_iter().all(|column| a.text(column) == b.text(column))
+    };
+    for alike in numbered.chunk_by(same) {
+        let (first, code) = alike[0];
+        for (row, found) in alike {
+            count.add(row.text("code") == first.text("code") && *found == code);
         }
     }
     count
