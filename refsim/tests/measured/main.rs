@@ -7,6 +7,9 @@
 #[path = "../common/adapter.rs"]
 mod adapter;
 mod blending;
+mod colors;
+mod coverage;
+mod depth;
 mod draws;
 mod filters;
 mod page;
@@ -23,7 +26,7 @@ const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.
 fn topics() -> Vec<Rule> {
-    [blending::rules(), texels::rules(), filters::rules()].concat()
+    [coverage::rules(), depth::rules(), colors::rules(), blending::rules(), texels::rules(), filters::rules()].concat()
 }
 
 fn main() -> std::process::ExitCode {

@@ -8,7 +8,7 @@ use refsim::device::Profile;
 use refsim::exec::Constants;
 use refsim::machine::{Executor, VertexSource};
 use refsim::raster::Vertex;
-use refsim::texture::{AddressMode, Image, SamplerState, TexelFormat};
+use refsim::texture::{AddressMode, Image, SamplerState, TexelFormat, TexelValues};
 
 pub(crate) fn rules() -> Vec<Rule> {
     let bytes = Rule {
@@ -24,6 +24,10 @@ pub(crate) fn rules() -> Vec<Rule> {
     let signed = Rule {
         name: "Signed bytes k: 2k / 255",
         data: "nv2a/b_signed_texel.csv",
+        hypotheses: Hypotheses::Options(&[
+            ("2k / 255", |_| {}),
+            ("k / 127", |rules| rules.texel_values = TexelValues::Fractions),
+        ]),
         redraw: signed_bytes,
         open: "Whether a register gets -1 or -256/255 from the code -128 (`signed-texel-minimum`); narrower signed \
                channels that are not filtered.",
