@@ -13,7 +13,7 @@ use refsim::exec::{BumpStage, CheckedProgram, Constants, NoObserver, PixelBindin
 use refsim::isa::{Opcode, Stage, Version};
 use refsim::num::Format;
 use refsim::raster::FragmentInput;
-use refsim::texture::{Image, SamplerState, TexelFormat, TextureKind};
+use refsim::texture::{Filter, Image, SamplerState, TexelFormat, TextureKind};
 
 /// The cards, and some ideal devices with unusual formats.
 fn profiles() -> Vec<Profile> {
@@ -38,7 +38,9 @@ fn vectors(count: usize) -> impl Strategy<Value = Vec<[u32; 4]>> {
 }
 
 fn image(seed: u32) -> Image {
-    let mut image = Image::new(TexelFormat::Rgba16, TextureKind::D2, [4, 4, 1], 1).unwrap();
+    // Wide channels, narrow ones, signed bytes, and one that is alone.
+    let formats = [TexelFormat::Rgba16, TexelFormat::Bgr565, TexelFormat::Rg8Snorm, TexelFormat::A8];
+    let mut image = Image::new(formats[seed as usize % 4], TextureKind::D2, [4, 4, 1], 1).unwrap();
     for (i, byte) in image.bytes_mut().iter_mut().enumerate() {
         *byte = (i as u32).wrapping_mul(seed | 1).to_le_bytes()[1];
     }
@@ -70,7 +72,9 @@ fn run_pixel(
 ) -> Result<(), TestCaseError> {
     let image = image(data[0][0]);
     let mut bindings = PixelBindings::new(host);
-    bindings.samplers[0] = Some(SamplerBinding { image: &image, state: SamplerState::default() });
+    let linear = SamplerState { min: Filter::Linear, mag: Filter::Linear, ..SamplerState::default() };
+    let state = if data[0][1] & 1 == 0 { SamplerState::default() } else { linear };
+    bindings.samplers[0] = Some(SamplerBinding { image: &image, state });
     bindings.bump = [BumpStage { matrix: data[1], luminance_scale: data[2][0], luminance_offset: data[2][1] }; 8];
     let prepared = PixelProgram::new(program, &profile.rules, &bindings);
     let inputs = inputs(data);

@@ -2,6 +2,9 @@
 //! executor: every texel format, kind of texture, address mode, number of weight bits and register format, at arbitrary
 //! coordinates and derivatives. Also tests reads at coordinates that are constant over a draw or a triangle.
 
+#[path = "common/sampling.rs"]
+mod sampling;
+
 use proptest::prelude::*;
 use proptest::sample::select;
 use refsim::asm::assemble;
@@ -13,6 +16,7 @@ use refsim::machine::{DrawCall, ExecutorKind, Machine, VertexSource};
 use refsim::num::Format;
 use refsim::raster::{PixelCenter, Primitive, Vertex};
 use refsim::texture::{AddressMode, Filter, Image, MipFilter, SamplerState, TargetRounding, TexelFormat, TextureKind};
+use sampling::switched;
 
 /// Width and height in pixels: a tile and a few more.
 const SIDE: u32 = 18;
@@ -64,6 +68,8 @@ struct Read {
     weight_bits: u8,
     lod_bits: u8,
     minimum: SignedTexelMinimum,
+    /// Further rules, as [`switched`] numbers them.
+    switches: u32,
 }
 
 /// Coordinates between texels, far outside, and non-finite.
@@ -121,8 +127,9 @@ fn read() -> impl Strategy<Value = Read> {
         let place = [coordinate(), coordinate(), coordinate()].prop_map(|[x, y, z]| [x, y, z, ONE]);
         let coordinates = proptest::collection::vec(place, pixels);
         let minimum = select(SignedTexelMinimum::ALL.to_vec());
-        (texture(kind), state, coordinates, select(FORMATS.to_vec()), 0u8..=12, minimum).prop_map(
-            |(texture, (modes, filter, border, level), coordinates, register, weight_bits, minimum)| {
+        let weight_bits = prop_oneof![Just(8), 0u8..=12];
+        (texture(kind), state, coordinates, select(FORMATS.to_vec()), weight_bits, minimum, 0u32..32).prop_map(
+            |(texture, (modes, filter, border, level), coordinates, register, weight_bits, minimum, switches)| {
                 let state = SamplerState {
                     min: filter,
                     mag: filter,
@@ -135,7 +142,19 @@ fn read() -> impl Strategy<Value = Read> {
                     max_mip_level: level,
                 };
                 let (derivatives, lookup) = (vec![[0; 4]; coordinates.len()], Lookup::Implicit);
-                Read { texture, state, lookup, coordinates, derivatives, register, weight_bits, lod_bits: 8, minimum }
+                let lod_bits = 8;
+                Read {
+                    texture,
+                    state,
+                    lookup,
+                    coordinates,
+                    derivatives,
+                    register,
+                    weight_bits,
+                    lod_bits,
+                    minimum,
+                    switches,
+                }
             },
         )
     })
@@ -225,6 +244,14 @@ fn drawn(read: &Read, (kind, level): (ExecutorKind, Option<SimdLevel>)) -> Vec<u
     profile.rules.filter_fraction_bits = read.weight_bits;
     profile.rules.lod_fraction_bits = read.lod_bits;
     profile.rules.signed_texel_minimum = read.minimum;
+    let rules = &mut profile.rules;
+    (
+        rules.filter_weight_rounding,
+        rules.filter_arithmetic,
+        rules.texel_values,
+        rules.missing_channels,
+        rules.border_storage,
+    ) = switched(read.switches);
     let program = check(assemble(&text(read)).unwrap(), &profile).unwrap();
     let mut machine = Machine::new(profile, kind);
     machine.set_simd_level(level);
@@ -288,7 +315,8 @@ fn textures_without_a_table_are_filtered_alike() {
         (state >> 32) as u32
     };
     let formats = [TexelFormat::Rgba32f, TexelFormat::Rgba16f, TexelFormat::Rgba16Snorm, TexelFormat::Bgra5551];
-    for (format, mode) in formats.into_iter().zip(MODES) {
+    // Exact fractions, then bytes.
+    for ((format, mode), switches) in formats.into_iter().zip(MODES).flat_map(|case| [(case, 0), (case, 31)]) {
         let mut texture = Image::new_2d(format, 601, 600).unwrap();
         texture.bytes_mut().iter_mut().for_each(|byte| *byte = next() as u8);
         let filter = Filter::Linear;
@@ -300,8 +328,18 @@ fn textures_without_a_table_are_filtered_alike() {
         let (minimum, lookup) = (SignedTexelMinimum::Clamp, Lookup::Implicit);
         let derivatives = vec![[0; 4]; coordinates.len()];
         let register = "fp32";
-        let read =
-            Read { texture, state, lookup, coordinates, derivatives, register, weight_bits: 8, lod_bits: 8, minimum };
+        let read = Read {
+            texture,
+            state,
+            lookup,
+            coordinates,
+            derivatives,
+            register,
+            weight_bits: 8,
+            lod_bits: 8,
+            minimum,
+            switches,
+        };
         agrees(&read);
         // Nearest texels, which have their own decoding in rows.
         let nearest = SamplerState { min: Filter::Nearest, mag: Filter::Nearest, ..read.state };

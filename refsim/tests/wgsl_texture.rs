@@ -3,6 +3,8 @@
 
 #[path = "common/adapter.rs"]
 mod adapter;
+#[path = "common/sampling.rs"]
+mod sampling;
 
 mod wgsl_texture {
     pub(crate) mod cases;

@@ -2,8 +2,9 @@
 
 use crate::random::Random;
 use refsim::device::{
-    ColorIterator, ConstantStorage, LrpMode, MadMode, Profile, SignedTexelMinimum, TargetRounding, TexcrdOverflow,
-    TexdepthDenominator, TexkillComponents,
+    BorderStorage, ColorClamp, ColorIterator, ConstantStorage, FilterArithmetic, LrpMode, MadMode, MissingChannels,
+    Profile, SignedTexelMinimum, SubpixelRounding, TargetRounding, TexcrdOverflow, TexdepthDenominator, TexelValues,
+    TexkillComponents, WeightRounding,
 };
 use refsim::num::{DotOrder, Format};
 use std::collections::BTreeMap;
@@ -116,6 +117,7 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.dot = r.choose(&[DotOrder::Sequential, DotOrder::Tree, DotOrder::Exact]);
         rules.lrp = r.choose(LrpMode::ALL);
         rules.zero_times_anything = r.one_in(3);
+        rules.vertex_zero_times_anything = r.one_in(3);
     }
     if group.has(Group::Sampling) {
         rules.texcrd_overflow = r.choose(TexcrdOverflow::ALL);
@@ -123,6 +125,11 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.signed_texel_minimum = r.choose(SignedTexelMinimum::ALL);
         rules.filter_fraction_bits = r.choose(&[0, 4, 5, 6, 8, 12]);
         rules.lod_fraction_bits = r.choose(&[0, 4, 5, 6, 8]);
+        rules.filter_weight_rounding = r.choose(WeightRounding::ALL);
+        rules.filter_arithmetic = r.choose(FilterArithmetic::ALL);
+        rules.texel_values = r.choose(TexelValues::ALL);
+        rules.missing_channels = r.choose(MissingChannels::ALL);
+        rules.border_storage = r.choose(BorderStorage::ALL);
     }
     if group.has(Group::Pipeline) {
         if r.one_in(4) {
@@ -134,6 +141,8 @@ pub(crate) fn ideal(family: Family, group: Group, seed: u64, r: &mut Random) -> 
         rules.target_rounding = r.choose(TargetRounding::ALL);
         rules.depth_rounding = r.choose(TargetRounding::ALL);
         rules.subpixel_bits = r.choose(&[0, 4, 8]);
+        rules.subpixel_rounding = r.choose(SubpixelRounding::ALL);
+        rules.color_clamp = r.choose(ColorClamp::ALL);
     }
     profile
 }

@@ -87,12 +87,86 @@ named_choice! {
 }
 
 named_choice! {
+    /// Values of a sampled texel's channels of at most 8 bits. Wider channels are fractions on every device.
+    TexelValues {
+        /// The fractions of Direct3D: `k / (2^n - 1)`, signed ones `k / (2^(n-1) - 1)`.
+        Fractions = "fractions",
+        /// The bits are repeated until they fill a byte. An unsigned byte k is `k / 255`, a signed one `2k / 255`.
+        Bytes = "bytes",
+    }
+}
+
+named_choice! {
+    /// Arithmetic of a filter on bytes: 8-bit channels, and narrower ones under [`TexelValues::Bytes`].
+    FilterArithmetic {
+        /// The exact weighted sum, rounded once into the register format.
+        Exact = "exact",
+        /// Interpolation along x, y, z and between levels, each result rounded to a byte, halves up.
+        ByteLerps = "byte-lerps",
+    }
+}
+
+named_choice! {
+    /// Rounding of the position that gives a linear filter its weights.
+    WeightRounding {
+        /// To the nearest step, halves up.
+        Nearest = "nearest",
+        /// Down to a step.
+        Cut = "cut",
+    }
+}
+
+named_choice! {
+    /// Storage of a sampler's border color.
+    BorderStorage {
+        /// A texel of the image's format.
+        Texel = "texel",
+        /// Four bytes, red to alpha, for all components of unsigned formats that are bytes or not stored.
+        Bytes = "8888",
+    }
+}
+
+named_choice! {
+    /// Components delivered by a sampler that the format does not store.
+    MissingChannels {
+        /// The defaults of Direct3D 9: black for alpha alone, 1 elsewhere.
+        Direct3d = "direct3d",
+        /// As an Xbox reads its formats: white for alpha alone; of two 8-bit channels (r, g, r, g), of two 16-bit
+        /// ones (r, g, g, r).
+        Xbox = "xbox",
+    }
+}
+
+named_choice! {
     /// Rounding into a fixed-point target, generated mip level or depth buffer.
     TargetRounding {
         /// To the nearest step, halves away from zero.
         Nearest = "nearest",
         /// To the next step towards zero.
         Truncate = "truncate",
+    }
+}
+
+named_choice! {
+    /// Rounding of window positions to the grid of `subpixel_bits`.
+    SubpixelRounding {
+        /// To the nearest grid line, halves toward larger columns and rows.
+        Nearest = "nearest",
+        /// Toward the corner of the first pixel: (0, 0) where pixel centres lie at one half, (-1/2, -1/2) where they
+        /// lie at integers.
+        Cut = "cut",
+    }
+}
+
+named_choice! {
+    /// Where the vertex colours are clamped to [0, 1] first. Interpolated colours are clamped in any case.
+    ColorClamp {
+        /// At every vertex, before interpolation. +NaN gives 1, and -NaN 0.
+        Vertex = "vertex",
+        /// At the vertex if a vertex program wrote them, where NaN gives 0; those of transformed vertices at the pixel.
+        Program = "program",
+        /// At the pixel, where NaN gives 0.
+        Pixel = "pixel",
     }
 }
 
@@ -186,10 +260,26 @@ pub struct Rules {
     pub mipmap_rounding: TargetRounding,
     /// Rounding into integer depth buffers.
     pub depth_rounding: TargetRounding,
+    /// `true` if 0 times anything, including infinity and NaN, is 0 in vertex arithmetic.
+    pub vertex_zero_times_anything: bool,
+    /// Clamp of vertex colours.
+    pub color_clamp: ColorClamp,
+    /// Rounding of a window position at set-up.
+    pub subpixel_rounding: SubpixelRounding,
     /// Fraction bits of a window position at set-up, 0 to 8.
     pub subpixel_bits: u8,
     /// Fraction bits of the weights of a linear filter, 0 to 8.
     pub filter_fraction_bits: u8,
     /// Fraction bits of a level of detail, 0 to 8.
     pub lod_fraction_bits: u8,
+    /// Rounding of the weights of a linear filter.
+    pub filter_weight_rounding: WeightRounding,
+    /// Arithmetic of filters on bytes.
+    pub filter_arithmetic: FilterArithmetic,
+    /// Values of narrow channels of texels.
+    pub texel_values: TexelValues,
+    /// Components that a texel does not store.
+    pub missing_channels: MissingChannels,
+    /// Storage of border colors.
+    pub border_storage: BorderStorage,
 }

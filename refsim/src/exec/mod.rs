@@ -59,10 +59,5 @@ pub(crate) fn program(checked: &CheckedProgram) -> &Program {
 
 /// The device's sampling rules.
 pub fn sample_rules(rules: &Rules) -> SampleRules {
-    SampleRules {
-        format: rules.format,
-        filter_fraction_bits: rules.filter_fraction_bits,
-        lod_fraction_bits: rules.lod_fraction_bits,
-        signed_texel_minimum: rules.signed_texel_minimum,
-    }
+    rules.into()
 }

@@ -1,7 +1,7 @@
 //! Exact texture addressing from coordinates to texel indices; a floating-point `floor(u * n)` would be wrong near
 //! texel edges.
 
-use super::value;
+use super::{WeightRounding, value};
 
 /// Addressing of coordinates outside 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, strum::EnumString)]
@@ -71,21 +71,23 @@ pub fn nearest_index(mode: AddressMode, coordinate: u32, size: u32, scale: u32) 
 
 /// The two texels of linear filtering, and the weight of the second in units of `2^-fraction_bits`.
 ///
-/// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest, halves up); `None` is
-/// the border. With a weight of 0 the second texel does not contribute.
+/// The position `coordinate * scale - 1/2` is rounded to `fraction_bits` (at most 12; nearest with halves up, or down);
+/// `None` is the border. With a weight of 0 the second texel does not contribute. Without fraction bits the first texel
+/// is the nearest one, whatever the rounding.
 pub fn linear_taps(
     mode: AddressMode,
     coordinate: u32,
     size: u32,
     scale: u32,
     fraction_bits: u8,
+    rounding: WeightRounding,
 ) -> ([Option<u32>; 2], u32) {
     let bits = u32::from(fraction_bits.min(12));
     let bounded = bounded(coordinate);
     // Without fraction bits, `position - 1/2` rounded with halves up is the floor of the position.
     let position = match bits {
         0 => value::scaled_floor(bounded, scale, 0, false),
-        _ => value::scaled_floor(bounded, scale, bits, true) - (1 << (bits - 1)),
+        _ => value::scaled_floor(bounded, scale, bits, rounding == WeightRounding::Nearest) - (1 << (bits - 1)),
     };
     let whole = position >> bits;
     let weight = (position - (whole << bits)) as u32;
@@ -146,10 +148,16 @@ mod tests {
     fn texel_centres_have_no_second_tap() {
         for i in 0..8u32 {
             let centre = ((i as f32 + 0.5) / 8.0).to_bits();
-            let (taps, weight) = linear_taps(AddressMode::Clamp, centre, 8, 8, 8);
-            assert_eq!((taps[0], weight), (Some(i), 0));
+            for rounding in [WeightRounding::Nearest, WeightRounding::Cut] {
+                let (taps, weight) = linear_taps(AddressMode::Clamp, centre, 8, 8, 8, rounding);
+                assert_eq!((taps[0], weight), (Some(i), 0));
+            }
         }
-        let (taps, weight) = linear_taps(AddressMode::Wrap, value::ZERO, 8, 8, 8);
+        let (taps, weight) = linear_taps(AddressMode::Wrap, value::ZERO, 8, 8, 8, WeightRounding::Nearest);
         assert_eq!((taps, weight), ([Some(7), Some(0)], 128));
+        // Half a step beyond a centre.
+        let beyond = (1.5f32 / 8.0 + 1.0 / 4096.0).to_bits();
+        let weight = |rounding| linear_taps(AddressMode::Clamp, beyond, 8, 8, 8, rounding).1;
+        assert_eq!([WeightRounding::Nearest, WeightRounding::Cut].map(weight), [1, 0]);
     }
 }

@@ -1,6 +1,6 @@
 //! Texel formats as records: position and meaning of each channel, and the values of channels that are not stored.
 
-use super::TextureError;
+use super::{MissingChannels, TextureError};
 use crate::num::Format;
 
 /// Meaning of the bits of a stored channel.
@@ -55,7 +55,7 @@ pub struct FormatRecord {
     pub channel_count: u8,
     /// The stored channels; entries from `channel_count` on are unused.
     pub channels: [Channel; 4],
-    /// Sources of red, green, blue and alpha delivered by a sampler.
+    /// Sources of red, green, blue and alpha delivered by a sampler that follows Direct3D.
     pub components: [ComponentSource; 4],
 }
 
@@ -243,6 +243,20 @@ impl TexelFormat {
     /// Bytes per texel.
     pub fn bytes(self) -> usize {
         usize::from(self.record().bytes)
+    }
+
+    /// Sources of red, green, blue and alpha delivered by a sampler, under a device's rule.
+    pub(crate) fn components(self, missing: MissingChannels) -> [ComponentSource; 4] {
+        let record = self.record();
+        if missing == MissingChannels::Direct3d || record.is_float() {
+            return record.components;
+        }
+        match record.components {
+            ALPHA => [ONE, ONE, ONE, C0],
+            RG if record.channels[0].bits == 8 => [C0, C1, C0, C1],
+            RG => [C0, C1, C1, C0],
+            components => components,
+        }
     }
 }
 

@@ -14,10 +14,13 @@ mod lod;
 mod mipmap;
 mod pixels;
 mod sample;
+mod sampled;
 mod texel;
 pub(crate) mod value;
 
-pub use crate::device::{SignedTexelMinimum, TargetRounding};
+pub use crate::device::{
+    BorderStorage, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelValues, WeightRounding,
+};
 pub use address::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_index, project};
 pub use error::TextureError;
 pub use format::{Channel, ChannelClass, ComponentSource, FormatRecord, TexelFormat};
@@ -28,8 +31,8 @@ pub use lod::{Lod, lod_from_derivatives};
 pub use mipmap::MipmapRules;
 pub(crate) use mipmap::texels_under;
 pub use pixels::ImagePixel;
-pub use sample::{
-    Filter, MipFilter, SampleRules, SamplerState, fetch_nearest, nearest_texel, sample, touched, unbound,
-};
+pub use sample::{Filter, MipFilter, SamplerState, fetch_nearest, nearest_texel, sample, touched, unbound};
+pub use sampled::SampleRules;
+pub(crate) use sampled::{SampledComponent, SampledSource};
 pub(crate) use texel::denominator;
 pub use texel::{ChannelValue, Texel, decode, decode_channel, encode, encode_channel};

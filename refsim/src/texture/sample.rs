@@ -4,10 +4,8 @@ use serde::Deserialize;
 
 use super::address::{AddressMode, cube_coordinates, linear_taps, nearest_index};
 use super::lod::Lod;
-use super::texel::ChannelValue;
 use super::value;
-use super::{Image, SignedTexelMinimum, TargetRounding, Texel, TextureKind, decode, encode};
-use crate::device::Rules;
+use super::{ChannelValue, FilterArithmetic, Image, SampleRules, SampledComponent, TextureKind};
 use crate::num::{self, Format};
 
 /// Filter within a mip level.
@@ -49,7 +47,8 @@ pub struct SamplerState {
     pub address_v: AddressMode,
     /// Addressing along the third axis.
     pub address_w: AddressMode,
-    /// Border colour, FP32 bits; it is stored into a texel of the image's format (nearest) and read from there.
+    /// Border colour, FP32 bits; it is stored into a texel of the image's format, or into bytes (nearest), by the
+    /// device's [`super::BorderStorage`], and read from there.
     pub border: [u32; 4],
     /// Bias added to the level of detail, FP32 bits.
     pub lod_bias: u32,
@@ -72,30 +71,6 @@ impl SamplerState {
     };
 }
 
-/// A device's sampling rules.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SampleRules {
-    /// Format of the result.
-    pub format: Format,
-    /// Fraction bits of filter weights, at most 12.
-    pub filter_fraction_bits: u8,
-    /// Fraction bits of the level of detail, at most 8.
-    pub lod_fraction_bits: u8,
-    /// Value of the smallest signed texel.
-    pub signed_texel_minimum: SignedTexelMinimum,
-}
-
-impl From<&Rules> for SampleRules {
-    fn from(rules: &Rules) -> Self {
-        Self {
-            format: rules.format,
-            filter_fraction_bits: rules.filter_fraction_bits,
-            lod_fraction_bits: rules.lod_fraction_bits,
-            signed_texel_minimum: rules.signed_texel_minimum,
-        }
-    }
-}
-
 /// Value read from an unbound sampler: (0, 0, 0, 1).
 pub fn unbound(format: Format) -> [u32; 4] {
     let one = value::ratio(format, 1, 1);
@@ -104,9 +79,10 @@ pub fn unbound(format: Format) -> [u32; 4] {
 
 /// Samples an image; `None` is an unbound sampler. Coordinates are FP32 bits, the result is in `rules.format`.
 ///
-/// Fixed-point texels are summed exactly with weights of `filter_fraction_bits` and rounded once. Float texels are
-/// combined in FP32, `a + w * (b - a)` in two rounded steps, along x, then y, then z, then between levels; a weight of
-/// 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face coordinates are clamped whatever the
+/// Fixed-point texels are summed exactly with weights of `filter_fraction_bits` and rounded once; under
+/// [`FilterArithmetic::ByteLerps`] bytes are combined along x, then y, then z, then between levels, each result rounded
+/// to a byte with halves up. Float texels are combined in FP32 in the same order, `a + w * (b - a)` in two rounded
+/// steps; a weight of 0 gives `a` itself. NaN and infinite coordinates count as 0. On a cube face coordinates are clamped whatever the
 /// state; on a rectangle, wrap and mirror act as clamp.
 pub fn sample(
     image: Option<&Image>,
@@ -150,10 +126,9 @@ pub fn touched(
 ) {
     let place = SamplePlace::new(image, state, coordinates);
     let pick = place.pick_levels(rules, lod);
-    let bits = rules.filter_fraction_bits.min(12);
     let levels = if pick.weight == 0 { &pick.levels[..1] } else { &pick.levels[..] };
     for &level in levels {
-        let taps = place.taps(pick.filter, level, bits);
+        let taps = place.taps(rules, pick.filter, level);
         for corner in 0..8 {
             let index = |axis: usize| taps[axis].0[corner >> axis & 1];
             let weighs = (0..3).all(|axis| corner >> axis & 1 == 0 || taps[axis].1 != 0);
@@ -230,28 +205,32 @@ impl<'a> SamplePlace<'a> {
     /// Value of a nearest read of a level.
     fn nearest_value(&self, rules: &SampleRules, level: u32) -> [u32; 4] {
         let texel = match self.nearest(level) {
-            Some((slice, y, x)) => self.image.texel(level, slice, y, x, rules.signed_texel_minimum),
-            None => self.border_texel(rules),
+            Some(at) => self.texel(rules, level, at),
+            None => self.border(rules),
         };
-        texel.to_format(rules.format)
+        texel.map(|component| component.value(rules).to_format(rules.format))
     }
 
     /// Taps along each axis of a level. Unused axes have one tap of full weight.
-    fn taps(&self, filter: Filter, level: u32, bits: u8) -> Taps {
+    fn taps(&self, rules: &SampleRules, filter: Filter, level: u32) -> Taps {
+        let (bits, rounding) = (rules.filter_fraction_bits, rules.filter_weight_rounding);
         let mut taps = [([Some(0), None], 0), ([Some(0), None], 0), ([Some(self.face), None], 0)];
         for (axis, slot) in taps.iter_mut().enumerate().take(self.axes()) {
             let (mode, size, scale) = self.axis(level, axis);
             *slot = match filter {
                 Filter::Nearest => ([nearest_index(mode, self.coordinates[axis], size, scale), None], 0),
-                Filter::Linear => linear_taps(mode, self.coordinates[axis], size, scale, bits),
+                Filter::Linear => linear_taps(mode, self.coordinates[axis], size, scale, bits, rounding),
             };
         }
         taps
     }
 
-    fn border_texel(&self, rules: &SampleRules) -> Texel {
-        let raw = encode(self.image.format(), Format::FP32, self.state.border, TargetRounding::Nearest);
-        decode(self.image.format(), raw, rules.signed_texel_minimum)
+    fn texel(&self, rules: &SampleRules, level: u32, (slice, y, x): (u32, u32, u32)) -> [SampledComponent; 4] {
+        rules.texel(self.image.format(), self.image.raw(level, slice, y, x))
+    }
+
+    fn border(&self, rules: &SampleRules) -> [SampledComponent; 4] {
+        rules.border(self.image.format(), self.state.border)
     }
 
     fn pick_levels(&self, rules: &SampleRules, lod: Lod) -> Pick {
@@ -285,19 +264,36 @@ impl<'a> SamplePlace<'a> {
     }
 
     /// The texel of tap `corner` (bit 0 along x, bit 1 along y, bit 2 along z).
-    fn corner_texel(&self, rules: &SampleRules, level: u32, taps: &Taps, corner: usize, border: Texel) -> Texel {
+    fn corner_texel(&self, rules: &SampleRules, level: u32, taps: &Taps, corner: usize) -> [SampledComponent; 4] {
         let index = |axis: usize| taps[axis].0[corner >> axis & 1];
         match (index(2), index(1), index(0)) {
-            (Some(slice), Some(y), Some(x)) => self.image.texel(level, slice, y, x, rules.signed_texel_minimum),
-            _ => border,
+            (Some(slice), Some(y), Some(x)) => self.texel(rules, level, (slice, y, x)),
+            _ => self.border(rules),
         }
     }
 
-    /// Exact weighted sum, rounded once.
+    /// Filters fixed-point texels: bytes as the device does, other components as an exact sum.
     fn filter_integers(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
+        let sums = self.exact_sums(rules, pick);
+        if rules.filter_arithmetic == FilterArithmetic::Exact {
+            return sums;
+        }
+        let byte = |component| if let SampledComponent::Byte { byte, .. } = component { byte } else { 0 };
+        let bytes = self.interpolate(rules, pick, |texel| texel.map(byte), lerp_bytes);
+        // Every texel and the border have their bytes in the same components.
+        let border = self.border(rules);
+        [0, 1, 2, 3].map(|i: usize| match border[i] {
+            SampledComponent::Byte { signed, .. } => {
+                SampledComponent::Byte { byte: bytes[i], signed }.value(rules).to_format(rules.format)
+            }
+            SampledComponent::Value(_) => sums[i],
+        })
+    }
+
+    /// Exact weighted sums, rounded once.
+    fn exact_sums(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
         let bits = rules.filter_fraction_bits.min(12);
         let lod_bits = u32::from(rules.lod_fraction_bits.min(8));
-        let border = self.border_texel(rules);
         let mut sums = [0i64; 4];
         let mut denominators = [1u64; 4];
         let level_weights = [(1u64 << lod_bits) - u64::from(pick.weight), u64::from(pick.weight)];
@@ -305,7 +301,7 @@ impl<'a> SamplePlace<'a> {
             if level_weight == 0 {
                 continue;
             }
-            let taps = self.taps(pick.filter, level, bits);
+            let taps = self.taps(rules, pick.filter, level);
             for corner in 0..8 {
                 let weight = (0..3).fold(level_weight, |product, axis| {
                     let second = u64::from(taps[axis].1);
@@ -314,9 +310,9 @@ impl<'a> SamplePlace<'a> {
                 if weight == 0 {
                     continue;
                 }
-                let texel = self.corner_texel(rules, level, &taps, corner, border);
-                for (i, channel) in texel.0.into_iter().enumerate() {
-                    if let ChannelValue::Ratio { numerator, denominator } = channel {
+                let texel = self.corner_texel(rules, level, &taps, corner);
+                for (i, component) in texel.into_iter().enumerate() {
+                    if let ChannelValue::Ratio { numerator, denominator } = component.value(rules) {
                         sums[i] += weight.cast_signed() * numerator;
                         denominators[i] = u64::from(denominator);
                     }
@@ -328,17 +324,29 @@ impl<'a> SamplePlace<'a> {
         [0, 1, 2, 3].map(|i| value::ratio(rules.format, sums[i], denominators[i] << shift))
     }
 
-    /// Interpolates in FP32 steps along x, y, z and between the levels.
+    /// Interpolates float texels in FP32 steps.
     fn filter_floats(&self, rules: &SampleRules, pick: &Pick) -> [u32; 4] {
+        let single = |component: SampledComponent| component.value(rules).to_format(Format::FP32);
+        let result = self.interpolate(rules, pick, |texel| texel.map(single), lerp_singles);
+        result.map(|bits| num::ops::convert(&Format::FP32, rules.format, bits).bits)
+    }
+
+    /// Interpolates along x, y, z and between the levels. `lerp` takes a weight and its number of fraction bits.
+    fn interpolate<T: Copy + Default>(
+        &self,
+        rules: &SampleRules,
+        pick: &Pick,
+        texel: impl Fn([SampledComponent; 4]) -> T,
+        lerp: impl Fn(T, T, u32, u8) -> T,
+    ) -> T {
         let bits = rules.filter_fraction_bits.min(12);
-        let border = self.border_texel(rules);
         let at_level = |level: u32| {
-            let taps = self.taps(pick.filter, level, bits);
+            let taps = self.taps(rules, pick.filter, level);
             let weights = [0, 1, 2].map(|axis: usize| taps[axis].1);
-            let mut values = [[0; 4]; 8];
+            let mut values = [T::default(); 8];
             for (corner, out) in values.iter_mut().enumerate() {
                 if (0..3).all(|axis| corner >> axis & 1 == 0 || weights[axis] != 0) {
-                    *out = self.corner_texel(rules, level, &taps, corner, border).to_format(Format::FP32);
+                    *out = texel(self.corner_texel(rules, level, &taps, corner));
                 }
             }
             for (axis, &weight) in weights.iter().enumerate() {
@@ -349,20 +357,24 @@ impl<'a> SamplePlace<'a> {
             values[0]
         };
         let first = at_level(pick.levels[0]);
-        let result = if pick.weight == 0 {
-            first
-        } else {
-            lerp(first, at_level(pick.levels[1]), pick.weight, rules.lod_fraction_bits.min(8))
-        };
-        result.map(|bits| num::ops::convert(&Format::FP32, rules.format, bits).bits)
+        if pick.weight == 0 {
+            return first;
+        }
+        lerp(first, at_level(pick.levels[1]), pick.weight, rules.lod_fraction_bits.min(8))
     }
 }
 
 /// `a + w * (b - a)` for a weight in units of `2^-bits`; `a` itself for weight 0.
-fn lerp(a: [u32; 4], b: [u32; 4], weight: u32, bits: u8) -> [u32; 4] {
+fn lerp_singles(a: [u32; 4], b: [u32; 4], weight: u32, bits: u8) -> [u32; 4] {
     if weight == 0 {
         return a;
     }
     let w = value::from_fixed(i64::from(weight), bits);
     [0, 1, 2, 3].map(|i| value::add(a[i], value::mul(w, value::sub(b[i], a[i]))))
+}
+
+/// `a + w * (b - a)` of integers for a weight in units of `2^-bits`, rounded to the nearest integer, halves up.
+fn lerp_bytes(a: [i32; 4], b: [i32; 4], weight: u32, bits: u8) -> [i32; 4] {
+    let half = (1 << bits) >> 1;
+    [0, 1, 2, 3].map(|i| a[i] + (((b[i] - a[i]) * weight.cast_signed() + half) >> bits))
 }

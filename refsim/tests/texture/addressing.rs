@@ -3,7 +3,7 @@
 use super::rational::Rational;
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use refsim::texture::{AddressMode, CubeFace, cube_coordinates, linear_taps, nearest_index, project};
+use refsim::texture::{AddressMode, CubeFace, WeightRounding, cube_coordinates, linear_taps, nearest_index, project};
 
 pub(crate) const MODES: [AddressMode; 4] =
     [AddressMode::Wrap, AddressMode::Mirror, AddressMode::Clamp, AddressMode::Border];
@@ -68,14 +68,15 @@ proptest! {
     }
 
     #[test]
-    fn linear_taps_match_the_naive_model(u in coordinate(), n in 1u32..3000, bits in 0u8..=12) {
+    fn linear_taps_match_the_naive_model(u in coordinate(), n in 1u32..3000, bits in 0u8..=12, cut in any::<bool>()) {
         // round(x) with halves up is floor(x + 1/2) in units of the grid.
         let one = 1i64 << bits;
-        let doubled: BigInt = position(u, n, 2 * one, -1) + 1;
+        let doubled: BigInt = position(u, n, 2 * one, -1) + i32::from(!cut || bits == 0);
         let p = i64::try_from(doubled).unwrap().div_euclid(2);
+        let rounding = WeightRounding::ALL[usize::from(cut)];
         let whole = p.div_euclid(one);
         for mode in MODES {
-            let (taps, weight) = linear_taps(mode, u.to_bits(), n, n, bits);
+            let (taps, weight) = linear_taps(mode, u.to_bits(), n, n, bits, rounding);
             prop_assert_eq!(weight, p.rem_euclid(one) as u32);
             prop_assert_eq!(taps, [naive(mode, whole, i64::from(n)), naive(mode, whole + 1, i64::from(n))]);
         }

@@ -10,12 +10,7 @@ use refsim::texture::{
 };
 
 fn rules(format: Format) -> SampleRules {
-    SampleRules {
-        format,
-        filter_fraction_bits: 8,
-        lod_fraction_bits: 8,
-        signed_texel_minimum: SignedTexelMinimum::BelowMinusOne,
-    }
+    SampleRules { signed_texel_minimum: SignedTexelMinimum::BelowMinusOne, ..SampleRules::exact(format) }
 }
 
 fn linear(mode: AddressMode) -> SamplerState {

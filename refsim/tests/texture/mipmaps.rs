@@ -135,12 +135,7 @@ fn every_format_and_long_thin_images() {
 fn float_levels_are_linear_reads() {
     let minimum = SignedTexelMinimum::Clamp;
     let rules = MipmapRules { rounding: TargetRounding::Truncate, signed_texel_minimum: minimum };
-    let reads = SampleRules {
-        format: Format::FP32,
-        filter_fraction_bits: 8,
-        lod_fraction_bits: 8,
-        signed_texel_minimum: minimum,
-    };
+    let reads = SampleRules::exact(Format::FP32);
     let linear = SamplerState {
         min: Filter::Linear,
         mag: Filter::Linear,

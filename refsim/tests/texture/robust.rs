@@ -1,5 +1,6 @@
 //! Any bits and any state have a defined result, without panics.
 
+use crate::sampling::switched;
 use proptest::prelude::*;
 use refsim::num::Format;
 use refsim::texture::{
@@ -36,6 +37,7 @@ proptest! {
         ddx in any::<[u32; 4]>(), ddy in any::<[u32; 4]>(),
         kind in 0usize..5, format in 0usize..TexelFormat::ALL.len(), to in 0usize..4,
         filter_fraction_bits in any::<u8>(), lod_fraction_bits in any::<u8>(), fill in any::<[u8; 16]>(),
+        switches in 0u32..32,
     ) {
         let (kind, extents, levels) = [
             (TextureKind::D1, [9, 1, 1], 4),
@@ -47,12 +49,15 @@ proptest! {
         let mut image = Image::new(TexelFormat::ALL[format], kind, extents, levels).unwrap();
         image.bytes_mut().iter_mut().zip(fill.iter().cycle()).for_each(|(b, f)| *b = *f);
         let to = [Format::S3_12, Format::FP16, Format::FP24, Format::FP32][to];
-        let rules = SampleRules {
-            format: to,
-            filter_fraction_bits,
-            lod_fraction_bits,
-            signed_texel_minimum: SignedTexelMinimum::BelowMinusOne,
-        };
+        let minimum = SignedTexelMinimum::BelowMinusOne;
+        let mut rules = SampleRules { filter_fraction_bits, lod_fraction_bits, signed_texel_minimum: minimum, ..SampleRules::exact(to) };
+        (
+            rules.filter_weight_rounding,
+            rules.filter_arithmetic,
+            rules.texel_values,
+            rules.missing_channels,
+            rules.border_storage,
+        ) = switched(switches);
         let computed = lod_from_derivatives(&image, coordinates, ddx, ddy, lod_fraction_bits);
         prop_assert!(f32::from_bits(computed).is_finite());
         for lod in [Lod::Base, Lod::Level(lod), Lod::Level(computed)] {

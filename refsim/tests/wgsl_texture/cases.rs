@@ -1,6 +1,7 @@
 //! Images, states and reads.
 
 use super::random::Random;
+use crate::sampling::switched;
 use refsim::exec::SamplerBinding;
 use refsim::num::Format;
 use refsim::texture::{
@@ -126,13 +127,21 @@ fn state(random: &mut Random, levels: u32) -> SamplerState {
     }
 }
 
-fn rules(random: &mut Random, format: Format) -> SampleRules {
-    SampleRules {
-        format,
+pub(crate) fn rules(random: &mut Random, format: Format) -> SampleRules {
+    let mut rules = SampleRules {
         filter_fraction_bits: if random.below(2) == 0 { 8 } else { random.below(13) as u8 },
         lod_fraction_bits: if random.below(2) == 0 { 8 } else { random.below(9) as u8 },
         signed_texel_minimum: random.of(&[SignedTexelMinimum::Clamp, SignedTexelMinimum::BelowMinusOne]),
-    }
+        ..SampleRules::exact(format)
+    };
+    (
+        rules.filter_weight_rounding,
+        rules.filter_arithmetic,
+        rules.texel_values,
+        rules.missing_channels,
+        rules.border_storage,
+    ) = switched(random.bits());
+    rules
 }
 
 /// A read of sampler `number`.

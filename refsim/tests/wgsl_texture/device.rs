@@ -7,7 +7,7 @@ use refsim::exec::gpu::Gpu;
 use refsim::exec::wgsl::number::format_words;
 use refsim::exec::wgsl::texture::{component_words, image_words, sampler_words};
 use refsim::num::Format;
-use refsim::texture::{SignedTexelMinimum, TexelFormat, decode};
+use refsim::texture::TexelFormat;
 use std::sync::Arc;
 
 const FORMATS: &str = "fp32 s3.12 fp16 fp24:rtz:ftz s1.10 s0.31 s3.12:rtz:wrap s0.7:rdn bf16:rna \
@@ -78,12 +78,12 @@ pub(crate) fn texels_decode_as_the_texture_room_has_it(gpu: &Arc<Gpu>) {
         let (mut words, mut expected) = (Vec::new(), Vec::new());
         for i in 0..64 * TexelFormat::ALL.len() {
             let format = TexelFormat::ALL[i % TexelFormat::ALL.len()];
-            let minimum = random.of(&[SignedTexelMinimum::Clamp, SignedTexelMinimum::BelowMinusOne]);
+            let rules = cases::rules(&mut random, main);
             let stored: [u32; 4] = [0; 4].map(|_: u32| random.bits());
             let raw = stored.iter().rev().fold(0, |raw, &w| raw << 32 | u128::from(w));
             words.extend(stored);
-            words.extend(component_words(format, minimum));
-            expected.extend(decode(format, raw, minimum).to_format(main).map(|x| reference::raw(main, x)));
+            words.extend(component_words(format, &rules));
+            expected.extend(reference::stored(format, raw, &rules).map(|x| reference::raw(main, x)));
         }
         let inputs: [&[u32]; 4] = [&format_words(&main), &[0], &[0], &words];
         let count = words.len() / 8;

@@ -2,7 +2,10 @@
 
 use super::cases::{Case, Read};
 use refsim::num::{Format, ops};
-use refsim::texture::{Lod, lod_from_derivatives, sample, unbound};
+use refsim::texture::{
+    Image, Lod, SampleRules, SamplerState, TexelFormat, TextureKind, fetch_nearest, lod_from_derivatives, sample,
+    unbound,
+};
 
 /// Components of one lane, raw.
 pub(crate) fn texel(case: &Case, read: &Read, lane: usize) -> [u32; 4] {
@@ -22,6 +25,13 @@ pub(crate) fn texel(case: &Case, read: &Read, lane: usize) -> [u32; 4] {
         Lod::Base
     };
     sample(Some(binding.image), &binding.state, &case.rules, own, lod).map(|x| raw(format, x))
+}
+
+/// Components of a stored texel, given as a little-endian integer.
+pub(crate) fn stored(format: TexelFormat, raw: u128, rules: &SampleRules) -> [u32; 4] {
+    let bytes = raw.to_le_bytes()[..format.bytes()].to_vec();
+    let image = Image::from_bytes(format, TextureKind::D2, [1, 1, 1], 1, bytes).expect("one texel");
+    fetch_nearest(&image, &SamplerState::NEAREST_CLAMP, rules, [0; 4])
 }
 
 /// Converts a pattern to a raw value.

@@ -10,7 +10,7 @@ use crate::num::NumberOperation;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Features of draws besides operations. In the text, each guards blocks with an `if`.
-const FEATURES: [&str; 21] = [
+const FEATURES: [&str; 23] = [
     // Numbers: fixed-point registers; formats other than single precision with default rules.
     "HAS_FIXED",
     "HAS_FORMATS",
@@ -21,7 +21,7 @@ const FEATURES: [&str; 21] = [
     "HAS_SUSPENSION",
     "HAS_STEP_BUDGET",
     // Textures: arithmetic before the read; cube maps; choice of a level; several texels weighed; images repeated or
-    // mirrored; fixed-point texels; float texels; filtered float texels.
+    // mirrored; fixed-point texels; float texels; filtered float texels; filtered bytes; either of the two.
     "HAS_TEXTURE_DETAIL",
     "HAS_CUBES",
     "HAS_LEVELS",
@@ -30,6 +30,8 @@ const FEATURES: [&str; 21] = [
     "HAS_RATIO_TEXELS",
     "HAS_FLOAT_TEXELS",
     "HAS_FLOAT_FILTERS",
+    "HAS_BYTE_FILTERS",
+    "HAS_INTERPOLATION",
     "HAS_ALPHA_TEST",
     "HAS_DEPTH_TEST",
     "HAS_FLOAT_DEPTH",

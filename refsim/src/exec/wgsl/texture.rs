@@ -11,8 +11,9 @@ use super::parts::Parts;
 use crate::exec::SamplerBinding;
 use crate::num::Format;
 use crate::texture::{
-    AddressMode, Channel, ChannelClass, ComponentSource, Filter, Image, MipFilter, SampleRules, SignedTexelMinimum,
-    TargetRounding, TexelFormat, TextureError, TextureKind, encode,
+    AddressMode, Channel, ChannelClass, ChannelValue, Filter, FilterArithmetic, Image, MipFilter, SampleRules,
+    SampledComponent, SampledSource, SamplerState, SignedTexelMinimum, TexelFormat, TexelValues, TextureError,
+    TextureKind, WeightRounding,
 };
 
 /// Defines constants shared by Rust and WGSL; they are written at the head of the text.
@@ -36,7 +37,7 @@ shared! {
     SAMPLER_SCALES = 4;
     /// The four components: class (`TEXEL_*`, bits 0 to 7), shift (8 to 15), width (from 16 on).
     SAMPLER_COMPONENTS = 8;
-    /// The encoded border texel, four words.
+    /// The four components of the border: codes of integers, FP32 bits of float texels.
     SAMPLER_BORDER = 12;
     /// The levels, four words each.
     SAMPLER_LEVELS = 16;
@@ -64,6 +65,10 @@ shared! {
     FLAG_FLOAT = 27;
     /// Coordinates are normalised (0 to 1); else they are in texels.
     FLAG_NORMALISED = 28;
+    /// Filter weights are cut; else they are rounded.
+    FLAG_CUT = 29;
+    /// Bytes are interpolated in steps that are rounded to bytes.
+    FLAG_BYTES = 30;
     /// Offset of a level in `video`, in words.
     LEVEL_OFFSET = 0;
     /// Texels per row.
@@ -98,7 +103,7 @@ shared! {
     ADDRESS_BORDER = 3;
     /// Always 0.
     TEXEL_ZERO = 0;
-    /// Always 1.
+    /// Always 1, as the byte 255.
     TEXEL_ONE = 1;
     /// `k / (2^n - 1)`
     TEXEL_UNORM = 2;
@@ -108,12 +113,18 @@ shared! {
     TEXEL_SNORM_CLAMPED = 4;
     /// `k / 15` above zero, `k / 16` below.
     TEXEL_SPLIT = 5;
+    /// Bits repeated to a byte k: `k / 255`.
+    TEXEL_BYTE = 6;
+    /// Bits repeated to a signed byte k: `2k / 255`.
+    TEXEL_SIGNED_BYTE = 7;
+    /// The same, with the smallest value clamped to -1.
+    TEXEL_SIGNED_BYTE_CLAMPED = 8;
     /// fp16
-    TEXEL_FP16 = 6;
+    TEXEL_FP16 = 9;
     /// fp24
-    TEXEL_FP24 = 7;
+    TEXEL_FP24 = 10;
     /// fp32
-    TEXEL_FP32 = 8;
+    TEXEL_FP32 = 11;
     /// Level of detail from differences across the quad.
     DETAIL_IMPLICIT = 0;
     /// The same, plus a bias.
@@ -153,7 +164,8 @@ pub fn sampler_words(
     let mut words = [0; SAMPLER_WORDS];
     let flag = |value: u32, at: usize| value << at;
     words[SAMPLER_FLAGS] = flag(u32::from(rules.filter_fraction_bits.min(12)), FLAG_FILTER_BITS)
-        | flag(u32::from(rules.lod_fraction_bits.min(8)), FLAG_LOD_BITS);
+        | flag(u32::from(rules.lod_fraction_bits.min(8)), FLAG_LOD_BITS)
+        | flag(u32::from(rules.filter_weight_rounding == WeightRounding::Cut), FLAG_CUT);
     words[SAMPLER_COMPONENTS + 3] = TEXEL_ONE as u32;
     let Some(binding) = binding else {
         words[SAMPLER_FLAGS] |= flag(1, FLAG_TEXEL_WORDS);
@@ -178,13 +190,13 @@ pub fn sampler_words(
         | flag(u32::from(state.mag == Filter::Linear), FLAG_MAG)
         | flag(u32::from(binding.needs_detail()), FLAG_DETAIL)
         | flag(u32::from(format.record().is_float()), FLAG_FLOAT)
+        | flag(u32::from(interpolates_bytes(format, rules)), FLAG_BYTES)
         | flag(u32::from(kind != TextureKind::Rectangle), FLAG_NORMALISED);
     words[SAMPLER_LEVEL_RANGE] = u32::from(state.max_mip_level).min(last) | last << 8;
     words[SAMPLER_LOD_BIAS] = state.lod_bias;
     words[SAMPLER_SCALES..][..3].copy_from_slice(&scales(image));
-    words[SAMPLER_COMPONENTS..][..4].copy_from_slice(&component_words(format, rules.signed_texel_minimum));
-    let border = encode(format, Format::FP32, state.border, TargetRounding::Nearest);
-    words[SAMPLER_BORDER..][..4].copy_from_slice(&split(border));
+    words[SAMPLER_COMPONENTS..][..4].copy_from_slice(&component_words(format, rules));
+    words[SAMPLER_BORDER..][..4].copy_from_slice(&border_words(format, state, rules));
     let size = texel_words(format);
     for (row, level) in words[SAMPLER_LEVELS..].chunks_exact_mut(4).zip(image.levels()) {
         let offset = level.offset / format.bytes() * size;
@@ -208,6 +220,9 @@ pub fn parts(sampler: &[u32], parts: &mut Parts) {
     parts.add_if((0..flag(FLAG_AXES) & 3).any(periodic), "HAS_PERIODS");
     parts.add(if floats { "HAS_FLOAT_TEXELS" } else { "HAS_RATIO_TEXELS" });
     parts.add_if(floats && linear, "HAS_FLOAT_FILTERS");
+    let bytes = linear && flag(FLAG_BYTES) & 1 == 1;
+    parts.add_if(bytes, "HAS_BYTE_FILTERS");
+    parts.add_if(bytes || floats && linear, "HAS_INTERPOLATION");
 }
 
 fn kind_word(kind: TextureKind) -> u32 {
@@ -251,23 +266,34 @@ fn scales(image: &Image) -> [u32; 3] {
     }
 }
 
-/// Encodes the sources of red, green, blue and alpha in a texel, for a sampler or for reading a target
-/// (`texel_decode`): the words at [`SAMPLER_COMPONENTS`].
-pub fn component_words(format: TexelFormat, minimum: SignedTexelMinimum) -> [u32; 4] {
-    let record = format.record();
-    record.components.map(|source| match source {
-        ComponentSource::Zero => TEXEL_ZERO as u32,
-        ComponentSource::One => TEXEL_ONE as u32,
-        ComponentSource::Channel(i) => channel_word(record.channels[usize::from(i)], minimum),
+/// Returns `true` if some component is a byte that is interpolated.
+fn interpolates_bytes(format: TexelFormat, rules: &SampleRules) -> bool {
+    let is_byte = |source: &SampledSource| matches!(source.read(rules, |_| 0), SampledComponent::Byte { .. });
+    rules.filter_arithmetic == FilterArithmetic::ByteLerps
+        && !format.record().is_float()
+        && rules.sources(format).iter().any(is_byte)
+}
+
+/// Encodes the sources of red, green, blue and alpha in a texel: the words at [`SAMPLER_COMPONENTS`].
+pub fn component_words(format: TexelFormat, rules: &SampleRules) -> [u32; 4] {
+    rules.sources(format).map(|source| match source {
+        SampledSource::Missing(0) => TEXEL_ZERO as u32,
+        SampledSource::Missing(_) => TEXEL_ONE as u32,
+        SampledSource::Stored(channel) => channel_word(channel, rules),
     })
 }
 
 /// Encodes a stored channel: class, shift and width. Fixed-point channels have at most 16 bits, and no channel crosses
 /// a word.
-pub fn channel_word(channel: Channel, minimum: SignedTexelMinimum) -> u32 {
+fn channel_word(channel: Channel, rules: &SampleRules) -> u32 {
+    let bytes = channel.bits <= 8 && rules.texel_values == TexelValues::Bytes;
+    let clamped = rules.signed_texel_minimum == SignedTexelMinimum::Clamp;
     let class = match channel.class {
+        ChannelClass::Unorm if bytes => TEXEL_BYTE,
         ChannelClass::Unorm => TEXEL_UNORM,
-        ChannelClass::Snorm if minimum == SignedTexelMinimum::Clamp => TEXEL_SNORM_CLAMPED,
+        ChannelClass::Snorm | ChannelClass::SplitSnorm if bytes && clamped => TEXEL_SIGNED_BYTE_CLAMPED,
+        ChannelClass::Snorm | ChannelClass::SplitSnorm if bytes => TEXEL_SIGNED_BYTE,
+        ChannelClass::Snorm if clamped => TEXEL_SNORM_CLAMPED,
         ChannelClass::Snorm => TEXEL_SNORM,
         ChannelClass::SplitSnorm => TEXEL_SPLIT,
         ChannelClass::Float(f) if f == Format::FP16 => TEXEL_FP16,
@@ -277,13 +303,19 @@ pub fn channel_word(channel: Channel, minimum: SignedTexelMinimum) -> u32 {
     class as u32 | u32::from(channel.shift) << 8 | u32::from(channel.bits) << 16
 }
 
+/// Encodes the border: what `texel_code`, or of float texels `texel_single`, makes of the bits of a texel.
+fn border_words(format: TexelFormat, state: &SamplerState, rules: &SampleRules) -> [u32; 4] {
+    let floats = format.record().is_float();
+    rules.border(format, state.border).map(|component| match component {
+        SampledComponent::Byte { byte, .. } if !floats => byte.cast_unsigned(),
+        SampledComponent::Value(ChannelValue::Ratio { numerator, .. }) => (numerator as i32).cast_unsigned(),
+        single => single.value(rules).to_format(Format::FP32),
+    })
+}
+
 /// Words per texel in `video`: 1, 2 or 4.
 pub fn texel_words(format: TexelFormat) -> usize {
     format.bytes().div_ceil(4)
-}
-
-fn split(raw: u128) -> [u32; 4] {
-    [0, 32, 64, 96].map(|shift| (raw >> shift) as u32)
 }
 
 /// Number of words of an encoded image.

@@ -2,7 +2,7 @@
 //! every step is exact.
 
 use crate::exec::batch::lanes::{LANES, LaneRow};
-use crate::texture::AddressMode;
+use crate::texture::{AddressMode, WeightRounding};
 
 /// Coordinates from here on are even integers that address alike, so they are clamped to it.
 const FAR: f64 = 16_777_216.0;
@@ -15,6 +15,13 @@ pub(crate) struct TexelAxis {
     /// Texels per unit of the coordinate.
     pub(crate) scale: f64,
     pub(crate) mode: AddressMode,
+}
+
+/// Fraction bits of filter weights, and their rounding.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights {
+    pub(crate) bits: u8,
+    pub(crate) rounding: WeightRounding,
 }
 
 /// The two texels of linear filtering along an axis (-1 for the border), and the weight of the second in units of the
@@ -48,8 +55,8 @@ pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LAN
 /// Texels and weight of linear filtering along an axis, with at most 12 fraction bits of the weight. Without fraction
 /// bits the first texel is the nearest one, and all weights are 0.
 ///
-/// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`. In double
-/// precision:
+/// The position in units of the filter is `floor(p + 1/2) - 2^(bits-1)`, `p = coordinate scale 2^bits`; without the 1/2
+/// if weights are cut. In double precision:
 ///
 /// - p has 24 + 15 bits and is at most 2^(24 + 14 + 12): the product is exact.
 /// - From 2^-13 on the last bit of p is at least 2^-52, and below 2^51 one half is no less than the last bit of the
@@ -57,13 +64,13 @@ pub(crate) fn nearest(coordinate: &LaneRow, axis: TexelAxis, out: &mut [i32; LAN
 ///   sum reaches 0 or 1, so that the floor is 0 in both.
 /// - The rest is made of integers of at most 2^51 and powers of two; [`nearest`] says why the address modes are exact.
 #[inline(always)]
-pub(crate) fn linear(coordinate: &LaneRow, axis: TexelAxis, bits: u8, out: &mut AxisTaps) {
+pub(crate) fn linear(coordinate: &LaneRow, axis: TexelAxis, weights: Weights, out: &mut AxisTaps) {
     let n = f64::from(axis.size);
     match axis.mode {
-        AddressMode::Wrap => each_tap(coordinate, axis.scale, bits, out, |p| wrap(p, n)),
-        AddressMode::Mirror => each_tap(coordinate, axis.scale, bits, out, |p| mirror(p, n)),
-        AddressMode::Clamp => each_tap(coordinate, axis.scale, bits, out, |p| clamp(p, n)),
-        AddressMode::Border => each_tap(coordinate, axis.scale, bits, out, |p| border(p, n)),
+        AddressMode::Wrap => each_tap(coordinate, axis.scale, weights, out, |p| wrap(p, n)),
+        AddressMode::Mirror => each_tap(coordinate, axis.scale, weights, out, |p| mirror(p, n)),
+        AddressMode::Clamp => each_tap(coordinate, axis.scale, weights, out, |p| clamp(p, n)),
+        AddressMode::Border => each_tap(coordinate, axis.scale, weights, out, |p| border(p, n)),
     }
 }
 
@@ -91,9 +98,10 @@ fn each(coordinate: &LaneRow, scale: f64, out: &mut [i32; LANES], number: impl F
 }
 
 #[inline(always)]
-fn each_tap(coordinate: &LaneRow, scale: f64, bits: u8, out: &mut AxisTaps, number: impl Fn(f64) -> f64) {
-    let one = f64::from(1u32 << bits);
-    let (up, back) = if bits == 0 { (0.0, 0.0) } else { (0.5, 0.5 * one) };
+fn each_tap(coordinate: &LaneRow, scale: f64, weights: Weights, out: &mut AxisTaps, number: impl Fn(f64) -> f64) {
+    let one = f64::from(1u32 << weights.bits);
+    let back = if weights.bits == 0 { 0.0 } else { 0.5 * one };
+    let up = if weights.bits == 0 || weights.rounding == WeightRounding::Cut { 0.0 } else { 0.5 };
     let (scale, share) = (scale * one, 1.0 / one);
     let AxisTaps { texels: [first, second], weight } = out;
     for i in 0..LANES {

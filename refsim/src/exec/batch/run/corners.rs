@@ -1,4 +1,4 @@
-//! Linear filtering: texels at the corners of a cell, their weights, and weighted sums.
+//! Linear filtering: texels at the corners of a cell, their weights, weighted sums and interpolation.
 
 use super::address::AxisTaps;
 use crate::exec::batch::lanes::{LANES, LaneRow};
@@ -83,4 +83,34 @@ pub(super) fn combine<const AXES: usize, const CORNERS: usize>(
     for (out, &value) in out.iter_mut().zip(&corners[0]) {
         *out = f64::from(f32::from_bits(value));
     }
+}
+
+/// Interpolates bytes at the corners along one axis after the other.
+#[inline(always)]
+pub(super) fn combine_bytes<const AXES: usize, const CORNERS: usize>(
+    corners: &mut [LaneRow; CORNERS],
+    taps: &[AxisTaps; AXES],
+    bits: u8,
+    out: &mut [f64; LANES],
+) {
+    let mut left = CORNERS;
+    for taps in taps.iter().take(if CORNERS == 1 { 0 } else { AXES }) {
+        left /= 2;
+        for pair in 0..left {
+            let (first, second) = (corners[2 * pair], corners[2 * pair + 1]);
+            for (i, into) in corners[pair].iter_mut().enumerate() {
+                let [a, b] = [first[i], second[i]].map(u32::cast_signed);
+                *into = byte_between(a, b, taps.weight[i], bits).cast_unsigned();
+            }
+        }
+    }
+    for (out, &value) in out.iter_mut().zip(&corners[0]) {
+        *out = f64::from(value.cast_signed());
+    }
+}
+
+/// The byte between two bytes, nearest with halves up, at a weight in units of `2^-bits`.
+#[inline(always)]
+pub(super) fn byte_between(a: i32, b: i32, weight: i32, bits: u8) -> i32 {
+    a + (((b - a) * weight + ((1 << bits) >> 1)) >> bits)
 }

@@ -1,28 +1,24 @@
 //! Filtered reads in rows, from one level of a texture of any kind, nearest or linear.
 //!
 //! First the texels and weights of every lane are computed (`address`), then, component by component, their
-//! combination: fixed-point texels as an exact sum that is rounded once, floats in the single-precision steps defined
-//! by [`crate::texture`].
+//! combination: fixed-point texels as an exact sum that is rounded once, or bytes in rounded steps, floats in the
+//! single-precision steps defined by [`crate::texture`].
 
 use std::sync::OnceLock;
 
-use super::address::{AxisTaps, TexelAxis, cube, linear};
-use super::channel::{channel_in_slot, channel_of, ratios};
-use super::corners::{BORDER, add_weighted, combine, corner_numbers, corner_weights};
+use super::address::{AxisTaps, TexelAxis, Weights, cube, linear};
+use super::channel::{channel_in_slot, ratios};
+use super::component::FilteredComponent;
+use super::corners::{BORDER, add_weighted, combine, combine_bytes, corner_numbers, corner_weights};
 use super::slots::Slots;
 use super::table::MAX_TABLE_TEXELS;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel, with_any_lane};
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
-use crate::num::Format;
 use crate::texture::{
-    AddressMode, Channel, ChannelClass, ChannelValue, ComponentSource, Filter, Image, MipFilter, SampleRules,
-    SamplerState, TargetRounding, TextureKind, decode_channel, encode,
+    AddressMode, ChannelClass, Filter, Image, MipFilter, SampleRules, SampledComponent, SamplerState, TextureKind,
 };
-
-/// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
-const WIDEST: u8 = 16;
 
 /// A level that is read in rows.
 #[derive(Debug)]
@@ -31,59 +27,21 @@ pub(crate) struct FilteredLevel {
     axes: [TexelAxis; 3],
     /// Texels per slice.
     slice: u32,
-    /// Fraction bits of linear filter weights.
-    bits: u8,
+    /// Linear filter weights.
+    weights: Weights,
     components: [FilteredComponent; 4],
-    /// By texel and component: the numerator, or the single-precision value. Built on first use; never for a large
+    /// By texel and component: the numerator, byte, or single-precision value. Built on first use; never for a large
     /// level.
     texels: OnceLock<Vec<[u32; 4]>>,
     border: [u32; 4],
+    /// Raw values of unsigned and signed bytes, by the byte's bits. Built on first use.
+    bytes: [OnceLock<Vec<u32>>; 2],
     /// Byte offset of the level, and its number of texels.
     start: usize,
     count: usize,
 }
 
-/// Source of a result component.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum FilteredComponent {
-    /// A raw constant.
-    Constant(u32),
-    /// A fixed-point channel and its denominator.
-    Ratio(Channel, f64),
-    Single(Channel),
-}
-
-impl FilteredComponent {
-    fn new(source: ComponentSource, binding: &SamplerBinding<'_>, rules: &SampleRules, lane: &AnyLane) -> Option<Self> {
-        let channel = match source {
-            ComponentSource::Zero => {
-                return Some(Self::Constant(channel_in_slot(ChannelValue::ZERO, rules.format, lane)));
-            }
-            ComponentSource::One => {
-                return Some(Self::Constant(channel_in_slot(ChannelValue::ONE, rules.format, lane)));
-            }
-            ComponentSource::Channel(i) => binding.image.format().record().channels[usize::from(i)],
-        };
-        match (channel.class, decode_channel(channel, 0, rules.signed_texel_minimum)) {
-            (ChannelClass::Float(_), _) => Some(Self::Single(channel)),
-            (_, ChannelValue::Ratio { denominator, .. }) if channel.bits <= WIDEST => {
-                Some(Self::Ratio(channel, denominator.into()))
-            }
-            _ => None,
-        }
-    }
-
-    /// Decodes a stored texel to its numerator or single-precision value.
-    fn decode(self, texel: &[u8], rules: &SampleRules) -> u32 {
-        let (Self::Ratio(channel, _) | Self::Single(channel)) = self else { return 0 };
-        match decode_channel(channel, channel_of(channel, texel), rules.signed_texel_minimum) {
-            ChannelValue::Ratio { numerator, .. } => (numerator as i32).cast_unsigned(),
-            float @ ChannelValue::Float { .. } => float.to_format(Format::FP32),
-        }
-    }
-}
-
-/// Unrounded results of all lanes, by component: sums of numerators, or single-precision values.
+/// Unrounded results of all lanes, by component: sums of numerators, bytes, or single-precision values.
 pub(super) type FilteredRows = [[f64; LANES]; 4];
 
 /// Image and rules of a read, and the lanes to be read from a large image.
@@ -116,9 +74,10 @@ impl FilteredLevel {
     ) -> Option<Self> {
         let SamplerBinding { image, state } = binding;
         let record = image.format().record();
+        let (sources, border) = (rules.sources(image.format()), rules.border(image.format(), state.border));
         let mut components = [FilteredComponent::Constant(0); 4];
-        for (component, source) in components.iter_mut().zip(record.components) {
-            *component = FilteredComponent::new(source, binding, rules, lane)?;
+        for (component, source) in components.iter_mut().zip(sources.into_iter().zip(border)) {
+            *component = FilteredComponent::new(source, state, rules, lane)?;
         }
         let mixed = record.stored().iter().any(|c| matches!(c.class, ChannelClass::Float(_))) != record.is_float();
         if mixed {
@@ -133,7 +92,6 @@ impl FilteredLevel {
             TextureKind::Rectangle => TexelAxis { size, scale: 1.0, mode: asked },
             _ => TexelAxis { size, scale: size.into(), mode: asked },
         };
-        let raw = encode(image.format(), Format::FP32, state.border, TargetRounding::Nearest).to_le_bytes();
         Some(Self {
             kind: image.kind(),
             axes: [
@@ -142,10 +100,11 @@ impl FilteredLevel {
                 axis(level.slices, state.address_w),
             ],
             slice: level.width * level.height,
-            bits: rules.filter_fraction_bits.min(12),
+            weights: Weights { bits: rules.filter_fraction_bits.min(12), rounding: rules.filter_weight_rounding },
             components,
             texels: OnceLock::new(),
-            border: components.map(|c| c.decode(&raw[..image.format().bytes()], rules)),
+            border: std::array::from_fn(|c| components[c].kept(border[c], rules)),
+            bytes: [OnceLock::new(), OnceLock::new()],
             start: level.offset,
             count: level.width as usize * level.height as usize * level.slices as usize,
         })
@@ -177,7 +136,7 @@ impl FilteredLevel {
     ) {
         let mut rows = [[0.0; LANES]; 4];
         self.add_up(state.min, TexelSource { image, rules, run }, step, (slots, formats.simd()), &mut rows);
-        self.round(&rows, step, formats, slots);
+        self.round(&rows, step, (rules, formats), slots);
     }
 
     /// Computes the unrounded results of a step, for the components that it needs.
@@ -189,7 +148,7 @@ impl FilteredLevel {
         from: (&Slots, SimdLevel),
         rows: &mut FilteredRows,
     ) {
-        let linear = filter == Filter::Linear && self.bits > 0;
+        let linear = filter == Filter::Linear && self.weights.bits > 0;
         match (linear, self.kind) {
             (false, TextureKind::D1) => self.read_axes::<1, 1>(source, step, from, rows),
             (false, TextureKind::Volume) => self.read_axes::<3, 1>(source, step, from, rows),
@@ -201,13 +160,26 @@ impl FilteredLevel {
     }
 
     /// Rounds results into the slots of the step.
-    pub(super) fn round(&self, rows: &FilteredRows, step: &FetchStep, formats: &LaneFormats, slots: &mut Slots) {
+    pub(super) fn round(
+        &self,
+        rows: &FilteredRows,
+        step: &FetchStep,
+        (rules, formats): (&SampleRules, &LaneFormats),
+        slots: &mut Slots,
+    ) {
         let (simd, lane) = (formats.simd(), formats.lane(Arith::Main));
         for (c, to) in step.to.iter().enumerate() {
             let Some(to) = *to else { continue };
             let divisor = match self.components[c] {
                 FilteredComponent::Constant(raw) => {
                     slots.row_mut(to).fill(raw);
+                    continue;
+                }
+                FilteredComponent::Byte(_, signed) => {
+                    let raw = self.raw_bytes(signed, rules, lane);
+                    for (out, &byte) in slots.row_mut(to).iter_mut().zip(&rows[c]) {
+                        *out = raw[usize::from(byte as i32 as u8)];
+                    }
                     continue;
                 }
                 FilteredComponent::Ratio(_, denominator) => denominator,
@@ -223,6 +195,15 @@ impl FilteredLevel {
         }
     }
 
+    /// Raw values of bytes, by the byte's bits.
+    fn raw_bytes(&self, signed: bool, rules: &SampleRules, lane: &AnyLane) -> &[u32] {
+        let raw = |bits: u8| {
+            let byte = if signed { bits.cast_signed().into() } else { bits.into() };
+            channel_in_slot(SampledComponent::Byte { byte, signed }.value(rules), rules.format, lane)
+        };
+        self.bytes[usize::from(signed)].get_or_init(|| (0..=u8::MAX).map(raw).collect())
+    }
+
     /// Source of a component.
     pub(super) fn component(&self, number: usize) -> FilteredComponent {
         self.components[number]
@@ -236,10 +217,11 @@ impl FilteredLevel {
         (slots, simd): (&Slots, SimdLevel),
         rows: &mut FilteredRows,
     ) {
-        let bits = if CORNERS == 1 { 0 } else { self.bits };
+        let bits = if CORNERS == 1 { 0 } else { self.weights.bits };
         let mut taps = [AxisTaps::ZERO; AXES];
         let mut numbers = [[0; LANES]; CORNERS];
-        self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, bits), &mut taps, &mut numbers);
+        let at = Weights { bits, ..self.weights };
+        self.place(step.coordinates.map(|slot| slots.row(slot)), (simd, at), &mut taps, &mut numbers);
         // Unit of the weights of all axes; a power of two, and so is its reciprocal.
         let unit = 1.0 / (1u64 << (usize::from(bits) * AXES)) as f64;
         let mut weights = [[1.0; LANES]; CORNERS];
@@ -265,14 +247,18 @@ impl FilteredLevel {
                         );
                     }
                 }
-                FilteredComponent::Single(_) => {
+                FilteredComponent::Byte(..) | FilteredComponent::Single(_) => {
                     let mut corners = [[0; LANES]; CORNERS];
                     for (corner, numbers) in corners.iter_mut().zip(&numbers) {
                         self.gather(c, (source, texels), numbers, corner);
                     }
+                    let bytes = matches!(self.components[c], FilteredComponent::Byte(..));
                     simd.run(
                         #[inline(always)]
-                        || combine(&mut corners, &taps, bits, result),
+                        || match bytes {
+                            true => combine_bytes(&mut corners, &taps, bits, result),
+                            false => combine(&mut corners, &taps, bits, result),
+                        },
                     );
                 }
             }
@@ -283,7 +269,7 @@ impl FilteredLevel {
     fn place<const AXES: usize, const CORNERS: usize>(
         &self,
         [x, y, z, _]: [&LaneRow; 4],
-        (simd, bits): (SimdLevel, u8),
+        (simd, weights): (SimdLevel, Weights),
         taps: &mut [AxisTaps; AXES],
         numbers: &mut [LaneRow; CORNERS],
     ) {
@@ -300,7 +286,7 @@ impl FilteredLevel {
             #[inline(always)]
             || {
                 for ((taps, axis), coordinate) in taps.iter_mut().zip(self.axes).zip(coordinates) {
-                    linear(coordinate, axis, bits, taps);
+                    linear(coordinate, axis, weights, taps);
                 }
                 let strides = [1, self.axes[0].size, self.slice];
                 corner_numbers(taps, strides, (&face, self.slice), numbers);

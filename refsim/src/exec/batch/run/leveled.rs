@@ -2,10 +2,12 @@
 //! and each lane selects its own.
 //!
 //! Most tiles need one level, or two adjacent ones. Values stay unrounded until levels are combined: exact sums for
-//! fixed point, singles for floats.
+//! fixed point, bytes where the device interpolates them, singles for floats.
 
+use super::component::FilteredComponent;
+use super::corners::byte_between;
 use super::detail::{LevelChoice, PickedLevels};
-use super::filter::{FilteredComponent, FilteredLevel, FilteredRows, TexelSource};
+use super::filter::{FilteredLevel, FilteredRows, TexelSource};
 use super::slots::Slots;
 use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneFormats, LaneRow, SimdLevel};
@@ -66,7 +68,7 @@ impl LeveledTexture {
         if sets.second != 0 {
             self.combine(&picked, sets.second, (source, step), (slots, simd), &mut rows);
         }
-        self.levels[0].round(&rows, step, formats, slots);
+        self.levels[0].round(&rows, step, (rules, formats), slots);
     }
 
     /// Adds the weighted difference to the second level, for lanes that have one.
@@ -97,6 +99,15 @@ impl LeveledTexture {
                             let weight = f64::from(picked.weight[i]) * share;
                             let between = first[i] + weight * (second[i] - first[i]);
                             first[i] = if picked.weight[i] == 0 { first[i] } else { between };
+                        }
+                    },
+                ),
+                FilteredComponent::Byte(..) => simd.run(
+                    #[inline(always)]
+                    || {
+                        for i in 0..LANES {
+                            let (a, b, weight) = (first[i] as i32, second[i] as i32, picked.weight[i].cast_signed());
+                            first[i] = f64::from(byte_between(a, b, weight, self.choice.bits()));
                         }
                     },
                 ),

@@ -3,12 +3,13 @@
 //! - `slots`: storage of values; `ops`, `loops`, `pack`: lane operations on rows; `guard`: recomputation of results
 //!   that fast arithmetics get wrong; `steps`: execution of blocks.
 //! - Texture reads: `fetch`: entry point; `table`, `stored`: nearest; `filter`: one level, nearest or linear; `detail`:
-//!   level selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums; `channel`:
-//!   texel values.
+//!   level selection; `leveled`: several levels; `address`: coordinates to texels; `corners`: weighted sums
+//!   and interpolation; `component`: sources of components; `channel`: texel values.
 //! - `flow`: programs with flow control.
 
 mod address;
 mod channel;
+mod component;
 mod corners;
 mod detail;
 mod fetch;

@@ -6,7 +6,7 @@ use crate::exec::batch::lanes::{LANES, LaneFormats, LaneRow, with_any_lane};
 use crate::exec::batch::schedule::FetchStep;
 use crate::exec::lower::Arith;
 use crate::num::Format;
-use crate::texture::{Channel, ChannelValue, ComponentSource, Image, SampleRules, decode_channel};
+use crate::texture::{Channel, ChannelValue, Image, SampleRules, SampledSource};
 
 /// The stored texels of level 0.
 pub(crate) struct Stored<'a> {
@@ -32,14 +32,11 @@ enum Component {
 }
 
 impl Component {
-    fn new(source: ComponentSource, image: &Image, rules: &SampleRules) -> Self {
-        let channel = match source {
-            ComponentSource::Zero => return Self::Constant(ChannelValue::ZERO),
-            ComponentSource::One => return Self::Constant(ChannelValue::ONE),
-            ComponentSource::Channel(i) => image.format().record().channels[usize::from(i)],
-        };
+    fn new(source: SampledSource, rules: &SampleRules) -> Self {
+        let value = source.read(rules, |_| 0).value(rules);
+        let SampledSource::Stored(channel) = source else { return Self::Constant(value) };
         let byte = usize::from(channel.shift / 8);
-        match decode_channel(channel, 0, rules.signed_texel_minimum) {
+        match value {
             ChannelValue::Float { format: Format::FP32, .. } if channel.shift.is_multiple_of(8) => Self::Single(byte),
             ChannelValue::Float { format: Format::FP16, .. } if channel.shift.is_multiple_of(8) => Self::Half(byte),
             ChannelValue::Ratio { denominator, .. } if channel.bits <= 24 => Self::Ratio(channel, denominator.into()),
@@ -56,20 +53,24 @@ impl Component {
                 let bits = texel.get(at..).and_then(|b| b.first_chunk()).map_or(0, |&b| u16::from_le_bytes(b));
                 half_to_single(bits.into())
             }
-            Self::Ratio(channel, _) => {
-                match decode_channel(channel, channel_of(channel, texel), rules.signed_texel_minimum) {
-                    ChannelValue::Ratio { numerator, .. } => (numerator as i32).cast_unsigned(),
-                    ChannelValue::Float { .. } => 0,
-                }
-            }
+            Self::Ratio(channel, _) => match stored_value(channel, texel, rules) {
+                ChannelValue::Ratio { numerator, .. } => (numerator as i32).cast_unsigned(),
+                ChannelValue::Float { .. } => 0,
+            },
             Self::Constant(_) | Self::Other(_) => 0,
         }
     }
 }
 
+/// The exact value of a channel of a stored texel.
+#[inline(always)]
+fn stored_value(channel: Channel, texel: &[u8], rules: &SampleRules) -> ChannelValue {
+    SampledSource::Stored(channel).read(rules, |channel| channel_of(channel, texel)).value(rules)
+}
+
 impl<'a> Stored<'a> {
     pub(crate) fn new(image: &'a Image, rules: &'a SampleRules) -> Self {
-        let components = image.format().record().components.map(|source| Component::new(source, image, rules));
+        let components = rules.sources(image.format()).map(|source| Component::new(source, rules));
         let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
         let bytes = image.bytes().get(start..).unwrap_or_default();
         let texels = image.width() as usize * image.height() as usize;
@@ -126,8 +127,7 @@ impl<'a> Stored<'a> {
                     out.fill(0);
                     for i in (0..LANES).filter(|&i| run[i] != 0) {
                         let Some(texel) = self.texel(index[i]) else { continue };
-                        let bits = channel_of(channel, texel);
-                        let value = decode_channel(channel, bits, self.rules.signed_texel_minimum);
+                        let value = stored_value(channel, texel, self.rules);
                         out[i] = channel_in_slot(value, self.rules.format, lane);
                     }
                 }

@@ -6,8 +6,7 @@ use crate::exec::SamplerBinding;
 use crate::exec::batch::lanes::{AnyLane, LANES, LaneRow, SimdLevel, with_any_lane};
 use crate::num::Format;
 use crate::texture::{
-    AddressMode, Channel, ChannelValue, ComponentSource, Image, SampleRules, SamplerState, TextureKind, decode_channel,
-    fetch_nearest,
+    AddressMode, Channel, ChannelValue, Image, SampleRules, SampledSource, SamplerState, TextureKind, fetch_nearest,
 };
 
 /// Maximum number of texels of an image with a table: 4 MiB. Texels of larger images are decoded on each read.
@@ -86,27 +85,22 @@ pub(crate) fn is_large(image: &Image) -> bool {
 /// Decodes all texels of level 0 to raw values in the register format, row by row.
 fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4]> {
     let (width, height) = (image.width() as usize, image.height() as usize);
-    let record = image.format().record();
     let mut texels = Vec::with_capacity(width * height + 1);
     texels.resize(width * height, [0; 4]);
-    for (c, source) in record.components.into_iter().enumerate() {
-        let channel = match source {
-            ComponentSource::Channel(i) => record.channels[usize::from(i)],
-            ComponentSource::Zero | ComponentSource::One => {
-                let value = if source == ComponentSource::One { ChannelValue::ONE } else { ChannelValue::ZERO };
-                let raw = channel_in_slot(value, rules.format, lane);
-                texels.iter_mut().for_each(|texel| texel[c] = raw);
-                continue;
-            }
+    for (c, source) in rules.sources(image.format()).into_iter().enumerate() {
+        let value = |bits| source.read(rules, |_| bits).value(rules);
+        let SampledSource::Stored(channel) = source else {
+            let raw = channel_in_slot(value(0), rules.format, lane);
+            texels.iter_mut().for_each(|texel| texel[c] = raw);
+            continue;
         };
         // Rows are contiguous.
         let size = image.format().bytes();
         let start = image.offset_of(0, 0, 0, 0).unwrap_or_default();
         let bytes = image.bytes().get(start..).unwrap_or_default();
         if channel.bits <= 8 && texels.len() > FEW_TEXELS {
-            let value =
-                |bits| channel_in_slot(decode_channel(channel, bits, rules.signed_texel_minimum), rules.format, lane);
-            let values: Vec<u32> = (0..1 << channel.bits).map(value).collect();
+            let raw = |bits| channel_in_slot(value(bits), rules.format, lane);
+            let values: Vec<u32> = (0..1 << channel.bits).map(raw).collect();
             for (texel, bytes) in texels.iter_mut().zip(bytes.chunks_exact(size)) {
                 let bits = channel_of(channel, bytes) as usize & (values.len() - 1);
                 texel[c] = values[bits];
@@ -114,7 +108,7 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
             continue;
         }
         for (texels, bytes) in texels.chunks_mut(LANES).zip(bytes.chunks(LANES * size)) {
-            decode_block(channel, bytes.chunks_exact(size), rules, lane, |i, raw| {
+            decode_block((channel, &value), bytes.chunks_exact(size), rules.format, lane, |i, raw| {
                 if let Some(texel) = texels.get_mut(i) {
                     texel[c] = raw;
                 }
@@ -127,9 +121,9 @@ fn all_texels(image: &Image, rules: &SampleRules, lane: &AnyLane) -> Vec<[u32; 4
 /// Decodes one channel of up to 256 texels: fixed point of up to 24 bits and single precision in rows, others one by
 /// one.
 fn decode_block<'t>(
-    channel: Channel,
+    (channel, value): (Channel, &impl Fn(u32) -> ChannelValue),
     texels: impl Iterator<Item = &'t [u8]>,
-    rules: &SampleRules,
+    format: Format,
     lane: &AnyLane,
     mut put: impl FnMut(usize, u32),
 ) {
@@ -138,15 +132,14 @@ fn decode_block<'t>(
     let mut divisor = 1.0;
     let narrow = channel.bits <= 24;
     for (i, texel) in texels.take(LANES).enumerate() {
-        let bits = channel_of(channel, texel);
-        match decode_channel(channel, bits, rules.signed_texel_minimum) {
+        match value(channel_of(channel, texel)) {
             ChannelValue::Ratio { numerator, denominator } if narrow => {
                 values[i] = numerator as f64;
                 divisor = f64::from(denominator);
             }
             ChannelValue::Float { format: Format::FP32, bits } => values[i] = f64::from(f32::from_bits(bits)),
             other => {
-                put(i, channel_in_slot(other, rules.format, lane));
+                put(i, channel_in_slot(other, format, lane));
                 continue;
             }
         }

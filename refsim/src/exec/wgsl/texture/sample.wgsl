@@ -37,10 +37,10 @@ fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: 
     let scale = select(1u, size, texture_flag(s, FLAG_NORMALISED, 1u) != 0u);
     let mode = texture_flag(s, FLAG_ADDRESS + 2u * axis, 2u);
     let fraction = select(0u, texture_flag(s, FLAG_FILTER_BITS, 4u), linear);
-    let half_up = fraction != 0u;
+    let half_up = fraction != 0u && texture_flag(s, FLAG_CUT, 1u) == 0u;
     // From 2^24 on every FP32 number is an even integer: all of one sign address alike.
     var position = texture_position(coordinate, 0x4b800000u, scale, fraction, half_up);
-    if (half_up) {
+    if (fraction != 0u) {
         position = texture_add(position, texture_negated(vec2<u32>(1u << (fraction - 1u), 0u)));
     }
     let weight = position.x & ((1u << fraction) - 1u);
@@ -59,24 +59,42 @@ fn texture_taps(s: TextureState, coordinate: u32, axis: u32, size: u32, linear: 
 // The stored words of the texel at a column, row and slice of a level (`row` is the level's in the table).
 fn texture_words(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
     var words = vec4<u32>(0u);
-    if (max(max(at.x, at.y), at.z) == TEXTURE_BORDER) {
-        let border = s.base + SAMPLER_BORDER;
-        words = vec4<u32>(samplers[border], samplers[border + 1u], samplers[border + 2u], samplers[border + 3u]);
-    } else {
-        let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
-        let first = row[LEVEL_OFFSET] + ((at.z * row[LEVEL_HEIGHT] + at.y) * row[LEVEL_WIDTH] + at.x) * size;
-        words.x = video[first];
-        if (size > 1u) { words.y = video[first + 1u]; }
-        if (size > 2u) { words.z = video[first + 2u]; words.w = video[first + 3u]; }
-    }
+    let size = texture_flag(s, FLAG_TEXEL_WORDS, 3u);
+    let first = row[LEVEL_OFFSET] + ((at.z * row[LEVEL_HEIGHT] + at.y) * row[LEVEL_WIDTH] + at.x) * size;
+    words.x = video[first];
+    if (size > 1u) { words.y = video[first + 1u]; }
+    if (size > 2u) { words.z = video[first + 2u]; words.w = video[first + 3u]; }
     return words;
 }
 
-// a + w (b - a) along each axis and between the levels, single precision; a weight of 0 gives a itself.
+// The components of the texel at a column, row and slice of a level, or of the border: codes, or single precision.
+fn texture_codes(s: TextureState, row: vec4<u32>, at: vec3<u32>) -> vec4<u32> {
+    var codes = vec4<u32>(0u);
+    if (max(max(at.x, at.y), at.z) == TEXTURE_BORDER) {
+        let border = s.base + SAMPLER_BORDER;
+        return vec4<u32>(samplers[border], samplers[border + 1u], samplers[border + 2u], samplers[border + 3u]);
+    }
+    let words = texture_words(s, row, at);
+    let components = s.components;
+    for (var c = 0u; c < 4u; c++) {
+        let bits = texel_bits(components[c], words);
+        if (HAS_FLOAT_TEXELS) {
+            codes[c] = texel_single(components[c], bits);
+        }
+        if (HAS_RATIO_TEXELS) {
+            if (texture_flag(s, FLAG_FLOAT, 1u) == 0u) { codes[c] = bitcast<u32>(texel_code(components[c], bits)); }
+        }
+    }
+    return codes;
+}
+
+// Floats: a + w (b - a) along each axis and between the levels, single precision; a weight of 0 gives a itself. Codes
+// of bytes: the same, each step rounded to an integer, halves up.
 fn texture_blend(
     s: TextureState, axis_weights: array<vec3<u32>, 2>, level_weight: u32, texels: ptr<function, array<vec4<u32>, 16>>,
 ) {
     var weights = axis_weights;
+    let floats = texture_flag(s, FLAG_FLOAT, 1u) != 0u;
     for (var axis = 0u; axis < 4u; axis++) {
         for (var pair = 0u; pair < (8u >> axis); pair++) {
             var weight = level_weight;
@@ -88,17 +106,28 @@ fn texture_blend(
             var a = (*texels)[2u * pair];
             if (weight != 0u) {
                 let b = (*texels)[2u * pair + 1u];
-                let single = texture_fixed(i32(weight), bits);
-                for (var c = 0u; c < 4u; c++) {
-                    var x = b[c];
-                    for (var k = 0u; k < 3u; k++) {
-                        var op = N_ADD;
-                        var other = a[c];
-                        if (k == 0u) { op = N_SUB; }
-                        if (k == 1u) { op = N_MUL; other = single; }
-                        x = s_alu(op, x, other);
+                if (HAS_BYTE_FILTERS) {
+                    if (!floats) {
+                        let first = bitcast<vec4<i32>>(a);
+                        let change = (bitcast<vec4<i32>>(b) - first) * i32(weight) + vec4<i32>((1 << bits) >> 1u);
+                        a = bitcast<vec4<u32>>(first + (change >> vec4<u32>(bits)));
                     }
-                    a[c] = x;
+                }
+                if (HAS_FLOAT_FILTERS) {
+                    if (floats) {
+                        let single = texture_fixed(i32(weight), bits);
+                        for (var c = 0u; c < 4u; c++) {
+                            var x = b[c];
+                            for (var k = 0u; k < 3u; k++) {
+                                var op = N_ADD;
+                                var other = a[c];
+                                if (k == 0u) { op = N_SUB; }
+                                if (k == 1u) { op = N_MUL; other = single; }
+                                x = s_alu(op, x, other);
+                            }
+                            a[c] = x;
+                        }
+                    }
                 }
             }
             (*texels)[pair] = a;
@@ -106,7 +135,8 @@ fn texture_blend(
     }
 }
 
-// One lane's texel: texels that are integers are summed exactly and rounded once, floats blended in single precision.
+// One lane's texel: texels that are integers are summed exactly and rounded once, or interpolated as bytes, floats
+// blended in single precision.
 fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
     var levels = TextureLevels(false, vec2<u32>(s.level_range & 0xffu), 0u);
     if (HAS_FILTERS) {
@@ -147,36 +177,30 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
         for (var corner = 0u; corner <= mask; corner++) {
             if ((corner & ~mask) != 0u) { continue; }
             let side = (vec3<u32>(corner) & vec3<u32>(1u, 2u, 4u)) != vec3<u32>(0u);
-            let words = texture_words(s, row, select(near, far, side));
+            out = texture_codes(s, row, select(near, far, side));
             let factors = select(vec3<u32>(1u << filter_bits) - second, second, side);
             let weight = texture_wide(factors.x * factors.y, factors.z * part); // at most 2^44
-            var single = vec4<u32>(0u);
-            for (var c = 0u; c < 4u; c++) {
-                let bits = texel_bits(components[c], words);
-                if (HAS_FLOAT_TEXELS) {
-                    single[c] = texel_single(components[c], bits);
-                }
-                if (HAS_RATIO_TEXELS) {
-                    let numerator = texel_numerator(components[c], bits); // at most 2^16
-                    if (HAS_FILTERS) {
+            if (HAS_RATIO_TEXELS) {
+                if (HAS_FILTERS) {
+                    for (var c = 0u; c < 4u; c++) {
+                        let numerator = texel_numerator(components[c], bitcast<i32>(out[c])); // at most 2^16
                         let size = u32(abs(numerator));
                         var product = texture_wide(weight.x, size);
                         product.y += weight.y * size;
                         if (numerator < 0) { product = texture_negated(product); }
                         sums[c] = texture_add(sums[c], product);
                     }
-                    if (!floats) { single[c] = bitcast<u32>(numerator); }
                 }
             }
-            out = single;
-            if (HAS_FLOAT_FILTERS) {
-                texels[8u * r + corner] = single;
+            if (HAS_INTERPOLATION) {
+                texels[8u * r + corner] = out;
             }
         }
     }
     let f = format(MAIN);
-    if (HAS_FLOAT_FILTERS) {
-        if (floats && (any((weights[0] | weights[1]) != vec3<u32>(0u)) || levels.weight != 0u)) {
+    let bytes = texture_flag(s, FLAG_BYTES, 1u) != 0u;
+    if (HAS_INTERPOLATION) {
+        if (floats || bytes) {
             texture_blend(s, weights, levels.weight, &texels);
             out = texels[0];
         }
@@ -190,11 +214,14 @@ fn texture_texel(s: TextureState, place: TexturePlace) -> vec4<u32> {
             }
             if (HAS_RATIO_TEXELS) {
                 if (!floats) {
-                    var sum = vec2<u32>(out[c], bitcast<u32>(bitcast<i32>(out[c]) >> 31u));
+                    let numerator = texel_numerator(components[c], bitcast<i32>(out[c]));
+                    var sum = vec2<u32>(bitcast<u32>(numerator), bitcast<u32>(numerator >> 31u));
                     var shift = 0u;
                     if (HAS_FILTERS) {
-                        sum = sums[c];
-                        shift = 3u * filter_bits + lod_bits;
+                        if (!(bytes && texel_is_byte(components[c]))) {
+                            sum = sums[c];
+                            shift = 3u * filter_bits + lod_bits;
+                        }
                     }
                     parts = texel_parts_of_ratio(sum, texel_denominator(components[c]), shift);
                 }

@@ -14,17 +14,43 @@ fn texel_is_float(component: u32) -> bool {
     return (component & 0xffu) >= TEXEL_FP16;
 }
 
-// The numerator of a component that is a ratio.
-fn texel_numerator(component: u32, bits: u32) -> i32 {
-    let spare = 32u - (component >> 16u);
+// Whether a component that is no float is a byte: 8 bits, or bits repeated to 8, or not stored.
+fn texel_is_byte(component: u32) -> bool {
+    let kind = component & 0xffu;
+    return kind <= TEXEL_ONE || kind >= TEXEL_BYTE || component >> 16u == 8u;
+}
+
+// The code of a component that is a ratio, as a filter of bytes takes it.
+fn texel_code(component: u32, bits: u32) -> i32 {
+    let width = component >> 16u;
+    let spare = 32u - width;
     let signed_bits = bitcast<i32>(bits << (spare & 31u)) >> (spare & 31u);
-    var numerator = signed_bits;
+    // Repeated; by 32 in the last step, which is by 0, if there are 8 bits already.
+    let top = (bits << (8u - min(width, 8u))) & 0xffu;
+    let two = top | (top >> (width & 31u));
+    let four = two | (two >> ((2u * width) & 31u));
+    let byte = four | (four >> ((4u * width) & 31u));
+    var code = signed_bits;
     switch component & 0xffu {
-        case TEXEL_ZERO: { numerator = 0; }
-        case TEXEL_ONE: { numerator = 1; }
-        case TEXEL_UNORM: { numerator = bitcast<i32>(bits); }
-        case TEXEL_SNORM_CLAMPED: { numerator = max(signed_bits, -bitcast<i32>(texel_denominator(component))); }
-        case TEXEL_SPLIT: { numerator = signed_bits * select(16, 15, signed_bits < 0); }
+        case TEXEL_ZERO: { code = 0; }
+        case TEXEL_ONE: { code = 255; }
+        case TEXEL_UNORM: { code = bitcast<i32>(bits); }
+        case TEXEL_SPLIT: { code = signed_bits * select(16, 15, signed_bits < 0); }
+        case TEXEL_BYTE: { code = bitcast<i32>(byte); }
+        case TEXEL_SIGNED_BYTE, TEXEL_SIGNED_BYTE_CLAMPED: { code = bitcast<i32>(byte << 24u) >> 24u; }
+        default: { }
+    }
+    return code;
+}
+
+// The numerator of a component that is a ratio, from its code.
+fn texel_numerator(component: u32, code: i32) -> i32 {
+    let least = -bitcast<i32>(texel_denominator(component));
+    var numerator = code;
+    switch component & 0xffu {
+        case TEXEL_SNORM_CLAMPED: { numerator = max(code, least); }
+        case TEXEL_SIGNED_BYTE: { numerator = 2 * code; }
+        case TEXEL_SIGNED_BYTE_CLAMPED: { numerator = max(2 * code, least); }
         default: { }
     }
     return numerator;
@@ -33,7 +59,7 @@ fn texel_numerator(component: u32, bits: u32) -> i32 {
 // The denominator of a component that is a ratio, at most 65535.
 fn texel_denominator(component: u32) -> u32 {
     let width = component >> 16u;
-    var denominator = 1u;
+    var denominator = 255u;
     switch component & 0xffu {
         case TEXEL_UNORM: { denominator = (1u << width) - 1u; }
         case TEXEL_SNORM, TEXEL_SNORM_CLAMPED: { denominator = max((1u << (width - 1u)) - 1u, 1u); }
@@ -120,7 +146,7 @@ fn texel_rounded(f: Format, parts: TexelParts) -> u32 {
     return n_finish(f, Real(parts.nan || parts.infinite, raw, sign, parts.exponent - 32, m));
 }
 
-// A component of a stored texel in a format, raw: what a nearest read gives. (Reading back a target; `texture_read` has
+// A component of a stored texel in a format, raw: what a nearest read gives. (`texture_read` has
 // its own way, because it weighs before it rounds.)
 fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
     let bits = texel_bits(component, words);
@@ -128,7 +154,7 @@ fn texel_decode(f: Format, component: u32, words: vec4<u32>) -> u32 {
     if (texel_is_float(component)) {
         parts = texel_parts_of_single(texel_single(component, bits));
     } else {
-        let numerator = texel_numerator(component, bits);
+        let numerator = texel_numerator(component, texel_code(component, bits));
         let wide = vec2<u32>(bitcast<u32>(numerator), bitcast<u32>(numerator >> 31u));
         parts = texel_parts_of_ratio(wide, texel_denominator(component), 0u);
     }

@@ -1,0 +1,72 @@
+//! Sources of the components of a filtered read, and their values before the filter.
+
+use super::channel::{channel_in_slot, channel_of};
+use crate::exec::batch::lanes::AnyLane;
+use crate::num::Format;
+use crate::texture::{
+    AddressMode, ChannelValue, FilterArithmetic, SampleRules, SampledComponent, SampledSource, SamplerState,
+};
+
+/// Maximum width of fixed-point channels whose sums are exact: weights of three axes have 36 bits, a double 53.
+const WIDEST: u8 = 16;
+
+/// Source of a result component.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum FilteredComponent {
+    /// A raw constant, of texels and border.
+    Constant(u32),
+    /// A sum of numerators, and their denominator.
+    Ratio(SampledSource, f64),
+    /// A byte that is interpolated; `true` if signed.
+    Byte(SampledSource, bool),
+    Single(SampledSource),
+}
+
+impl FilteredComponent {
+    pub(super) fn new(
+        (source, border): (SampledSource, SampledComponent),
+        state: &SamplerState,
+        rules: &SampleRules,
+        lane: &AnyLane,
+    ) -> Option<Self> {
+        let component = source.read(rules, |_| 0);
+        let value = component.value(rules);
+        let width = match source {
+            SampledSource::Stored(channel) => channel.bits,
+            SampledSource::Missing(_) => 8,
+        };
+        let bordered = [state.address_u, state.address_v, state.address_w].contains(&AddressMode::Border);
+        match (source, component, value) {
+            (SampledSource::Missing(_), ..) if !bordered || component == border => {
+                Some(Self::Constant(channel_in_slot(value, rules.format, lane)))
+            }
+            (_, SampledComponent::Byte { signed, .. }, _) if rules.filter_arithmetic == FilterArithmetic::ByteLerps => {
+                Some(Self::Byte(source, signed))
+            }
+            (.., ChannelValue::Ratio { denominator, .. }) if width <= WIDEST => {
+                Some(Self::Ratio(source, denominator.into()))
+            }
+            (.., ChannelValue::Float { .. }) => Some(Self::Single(source)),
+            _ => None,
+        }
+    }
+
+    /// Decodes a stored texel to its numerator, byte or single-precision value.
+    pub(super) fn decode(self, texel: &[u8], rules: &SampleRules) -> u32 {
+        match self {
+            Self::Constant(_) => 0,
+            Self::Ratio(source, _) | Self::Byte(source, _) | Self::Single(source) => {
+                self.kept(source.read(rules, |channel| channel_of(channel, texel)), rules)
+            }
+        }
+    }
+
+    /// Numerator, byte or single-precision value of a component.
+    pub(super) fn kept(self, component: SampledComponent, rules: &SampleRules) -> u32 {
+        match (self, component, component.value(rules)) {
+            (Self::Byte(..), SampledComponent::Byte { byte, .. }, _) => byte.cast_unsigned(),
+            (_, _, ChannelValue::Ratio { numerator, .. }) => (numerator as i32).cast_unsigned(),
+            (.., float) => float.to_format(Format::FP32),
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! The sampling rules of a device, and components as a sampler takes them from texels and borders: bytes, or exact values, by the device's rules.
+
+use super::format::{Channel, ChannelClass, ComponentSource};
+use super::texel::channel_bits;
+use super::{
+    BorderStorage, ChannelValue, FilterArithmetic, MissingChannels, SignedTexelMinimum, TargetRounding, TexelFormat,
+    TexelValues, WeightRounding, decode_channel, encode,
+};
+use crate::device::Rules;
+use crate::num::Format;
+
+/// A device's sampling rules.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SampleRules {
+    /// Format of the result.
+    pub format: Format,
+    /// Fraction bits of filter weights, at most 12.
+    pub filter_fraction_bits: u8,
+    /// Fraction bits of the level of detail, at most 8.
+    pub lod_fraction_bits: u8,
+    /// Value of the smallest signed texel.
+    pub signed_texel_minimum: SignedTexelMinimum,
+    /// Rounding of filter weights.
+    pub filter_weight_rounding: WeightRounding,
+    /// Arithmetic of filters on bytes.
+    pub filter_arithmetic: FilterArithmetic,
+    /// Values of narrow channels.
+    pub texel_values: TexelValues,
+    /// Components that a texel does not store.
+    pub missing_channels: MissingChannels,
+    /// Storage of the border colour.
+    pub border_storage: BorderStorage,
+}
+
+impl SampleRules {
+    /// Direct3D's values and exact filters with fractions of 8 bits, for registers of a format.
+    pub const fn exact(format: Format) -> Self {
+        Self {
+            format,
+            filter_fraction_bits: 8,
+            lod_fraction_bits: 8,
+            signed_texel_minimum: SignedTexelMinimum::Clamp,
+            filter_weight_rounding: WeightRounding::Nearest,
+            filter_arithmetic: FilterArithmetic::Exact,
+            texel_values: TexelValues::Fractions,
+            missing_channels: MissingChannels::Direct3d,
+            border_storage: BorderStorage::Texel,
+        }
+    }
+}
+
+impl From<&Rules> for SampleRules {
+    fn from(rules: &Rules) -> Self {
+        Self {
+            format: rules.format,
+            filter_fraction_bits: rules.filter_fraction_bits,
+            lod_fraction_bits: rules.lod_fraction_bits,
+            signed_texel_minimum: rules.signed_texel_minimum,
+            filter_weight_rounding: rules.filter_weight_rounding,
+            filter_arithmetic: rules.filter_arithmetic,
+            texel_values: rules.texel_values,
+            missing_channels: rules.missing_channels,
+            border_storage: rules.border_storage,
+        }
+    }
+}
+
+/// Source of a component that a sampler delivers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SampledSource {
+    /// A stored channel.
+    Stored(Channel),
+    /// Not stored: the byte 0 or 255, whatever the texel.
+    Missing(u8),
+}
+
+impl SampledSource {
+    /// Reads the component; `bits` extracts those of a channel.
+    pub(crate) fn read(self, rules: &SampleRules, bits: impl Fn(Channel) -> u32) -> SampledComponent {
+        match self {
+            Self::Stored(channel) => rules.component(channel, bits(channel)),
+            Self::Missing(byte) => SampledComponent::Byte { byte: byte.into(), signed: false },
+        }
+    }
+}
+
+/// A component before the filter. Components of one source are all bytes, or all values of one denominator or format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SampledComponent {
+    /// A byte.
+    Byte {
+        /// -128 to 127 if signed, else 0 to 255.
+        byte: i32,
+        /// The channel is signed.
+        signed: bool,
+    },
+    /// A channel that is no byte.
+    Value(ChannelValue),
+}
+
+impl SampledComponent {
+    /// Exact value on the way to a register. The smallest code of a signed byte is clamped here, not before a filter of
+    /// bytes.
+    pub(crate) fn value(self, rules: &SampleRules) -> ChannelValue {
+        let (byte, signed) = match self {
+            Self::Value(value) => return value,
+            Self::Byte { byte, signed } => (i64::from(byte), signed),
+        };
+        let (scale, denominator) = match (signed, rules.texel_values) {
+            (false, _) => (1, 255),
+            (true, TexelValues::Fractions) => (1, 127),
+            (true, TexelValues::Bytes) => (2, 255),
+        };
+        let least = match rules.signed_texel_minimum {
+            SignedTexelMinimum::Clamp => -i64::from(denominator),
+            SignedTexelMinimum::BelowMinusOne => i64::MIN,
+        };
+        ChannelValue::Ratio { numerator: (scale * byte).max(least), denominator }
+    }
+}
+
+impl SampleRules {
+    /// Sources of red, green, blue and alpha.
+    pub(crate) fn sources(&self, format: TexelFormat) -> [SampledSource; 4] {
+        format.components(self.missing_channels).map(|source| match source {
+            ComponentSource::Channel(i) => SampledSource::Stored(format.record().channels[usize::from(i)]),
+            ComponentSource::Zero => SampledSource::Missing(0),
+            ComponentSource::One => SampledSource::Missing(255),
+        })
+    }
+
+    /// Red, green, blue and alpha of a texel, given as a little-endian integer.
+    pub(crate) fn texel(&self, format: TexelFormat, raw: u128) -> [SampledComponent; 4] {
+        self.sources(format).map(|source| source.read(self, |channel| channel_bits(channel, raw)))
+    }
+
+    /// Red, green, blue and alpha outside an image, for a border color in FP32 bits.
+    pub(crate) fn border(&self, format: TexelFormat, color: [u32; 4]) -> [SampledComponent; 4] {
+        let stored = |format| encode(format, Format::FP32, color, TargetRounding::Nearest);
+        let texel = self.texel(format, stored(format));
+        if self.border_storage == BorderStorage::Texel || format.record().is_signed() {
+            return texel;
+        }
+        let bytes = self.texel(TexelFormat::Rgba8, stored(TexelFormat::Rgba8));
+        std::array::from_fn(|i| if matches!(texel[i], SampledComponent::Byte { .. }) { bytes[i] } else { texel[i] })
+    }
+
+    /// A component from the bits of its channel.
+    fn component(&self, channel: Channel, bits: u32) -> SampledComponent {
+        let narrow = channel.bits < 8 && self.texel_values == TexelValues::Bytes;
+        if matches!(channel.class, ChannelClass::Float(_)) || !(channel.bits == 8 || narrow) {
+            return SampledComponent::Value(decode_channel(channel, bits, self.signed_texel_minimum));
+        }
+        let byte = repeated(bits, channel.bits);
+        match channel.class {
+            ChannelClass::Unorm => SampledComponent::Byte { byte: byte.into(), signed: false },
+            _ => SampledComponent::Byte { byte: byte.cast_signed().into(), signed: true },
+        }
+    }
+}
+
+/// Repeats the lowest `width` bits, 1 to 8, until they fill a byte; the first bits come from the highest.
+fn repeated(bits: u32, width: u8) -> u8 {
+    let top = (bits << (8 - width)) as u8;
+    (0..8).step_by(usize::from(width)).fold(0, |byte, filled| byte | top >> filled)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bits_are_repeated_from_the_highest() {
+        assert_eq!([3, 7, 24, 28].map(|k| repeated(k, 5)), [24, 57, 198, 231]);
+        assert_eq!([11, 12, 63].map(|k| repeated(k, 6)), [44, 48, 255]);
+        assert_eq!([0, 1].map(|k| repeated(k, 1)), [0, 255]);
+        assert_eq!((repeated(0b101, 3), repeated(9, 4), repeated(0x1a5, 8)), (0b1011_0110, 0x99, 0xa5));
+        // Five bits become a signed byte.
+        assert_eq!([15, 16].map(|k| repeated(k, 5).cast_signed()), [123, -124]);
+    }
+}
