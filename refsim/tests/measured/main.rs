@@ -1,0 +1,33 @@
+//! What silicon drew, drawn again: rows of `fixtures/measured` as draws on the cards' profiles, on every executor, bit by
+//! bit, under every hypothesis that a rule offers. `docs/measured.md` and the counts of the profiles are held here;
+//! `INSTA_UPDATE=always cargo test -p refsim --test measured` writes the page.
+//!
+//! A topic is a file with a function `rules`, named in [`topics`].
+
+#[path = "../common/adapter.rs"]
+mod adapter;
+mod blending;
+mod draws;
+mod page;
+mod rule;
+#[path = "../common/running.rs"]
+mod running;
+mod table;
+
+use rule::Rule;
+
+/// The cards that NV2A is a sibling of. The first one tries the hypotheses.
+const CARDS: [&str; 2] = ["nv20", "nv25"];
+
+/// Rules of all topics, in the order of the page.
+fn topics() -> Vec<Rule> {
+    [blending::rules()].concat()
+}
+
+fn main() -> std::process::ExitCode {
+    #[cfg_attr(not(feature = "wgpu"), expect(unused_mut, reason = "adapters add to them"))]
+    let mut trials = adapter::trials![on_host: page::the_page_has_the_counts];
+    #[cfg(feature = "wgpu")]
+    trials.extend(adapter::trials![on_adapter: rule::an_adapter_draws_what_the_host_draws]);
+    adapter::run(trials)
+}
