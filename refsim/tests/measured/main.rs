@@ -7,6 +7,7 @@
 #[path = "../common/adapter.rs"]
 mod adapter;
 mod blending;
+mod combiners;
 mod draws;
 mod page;
 mod rule;
@@ -21,7 +22,7 @@ const CARDS: [&str; 2] = ["nv20", "nv25"];
 
 /// Rules of all topics, in the order of the page.
 fn topics() -> Vec<Rule> {
-    [blending::rules()].concat()
+    [blending::rules(), combiners::rules()].concat()
 }
 
 fn main() -> std::process::ExitCode {
