@@ -86,7 +86,7 @@ impl<const WRAP: bool> Lane for NormalizedLane<WRAP> {
 
     /// Twice the number of units is exact for doubles of up to 44 bits. Of a longer one (a quotient, rounded to odd or to
     /// nearest) it errs by less than one part in `2^51`, and what is that near to an integer is one. In 255ths, fractions
-    /// of texels lie at least one part in `2^48` from the next, whatever four weights of 8 bits they were multiplied by;
+    /// of texels lie at least one part in `2^49` from the next, whatever four weights of 8 bits they were multiplied by;
     /// in other units that holds of channels of up to 8 bits, and 16-bit ones come nearer only if chance is unkind by a
     /// factor of a billion.
     #[inline(always)]
